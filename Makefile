@@ -1,0 +1,117 @@
+# rotid. The usual targets:
+#   make            builds the program build/rotid and the library build/librotid.a
+#   make demo       identifies the paper's rotor from its measured frequencies and shows the result
+#   make test       builds and runs every test; ends with one line "N passed, N failed"
+#   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
+#   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
+#   make check-peers   against SciPy, pyuff and jsonschema, installed into build/venv
+#   make coverage   share of the lines of src that the tests run
+#   make lint, make format                  clang-tidy, clang-format
+#   make install, make uninstall            with PREFIX (/usr/local) and DESTDIR
+#   make clean
+# Options: CC, CFLAGS, BUILD (build), WITH_NLOPT=0 for a build without the NLopt baseline, WERROR=1.
+
+BUILD      ?= build
+PREFIX     ?= /usr/local
+CC         ?= cc
+CFLAGS     ?= -O2 -g
+WITH_NLOPT ?= 1
+PYTHON     ?= python3
+
+PACKAGES := lapacke openblas
+ifeq ($(WITH_NLOPT),1)
+PACKAGES += nlopt
+endif
+
+COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
+WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(filter 1,$(WERROR)),-Werror)
+ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L $(WARNINGS) -fvisibility=hidden -fPIC -Iinclude -Isrc \
+             -DWITH_NLOPT=$(WITH_NLOPT) $(shell pkg-config --cflags $(PACKAGES)) $(CFLAGS)
+LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm
+PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
+
+LIBRARY_ROOMS := base linalg beam modal fit run
+PROGRAM_ROOMS := io cli
+LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
+IO_SOURCES := $(wildcard src/io/*.c)
+CLI_SOURCES := $(wildcard src/cli/*.c)
+OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
+LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))
+IO_OBJECTS := $(call OBJECTS_OF,$(IO_SOURCES))
+
+TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c))
+TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
+
+.PHONY: all demo test bench bench-quick check-asan check-valgrind check-peers coverage lint format install uninstall clean
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+all: $(BUILD)/rotid $(BUILD)/librotid.a
+
+$(BUILD)/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(EXTRA_$(basename $(notdir $<))) -MMD -MP -c $< -o $@
+
+# The commit stands in every result, so the file that holds it follows it.
+EXTRA_build_info = -DROTID_COMMIT='"$(COMMIT)"'
+$(BUILD)/src/cli/build_info.o: $(BUILD)/commit
+$(BUILD)/commit: FORCE
+	@mkdir -p $(@D)
+	@echo '$(COMMIT)' | cmp -s - $@ || echo '$(COMMIT)' > $@
+FORCE:
+
+$(BUILD)/librotid.a: $(LIBRARY_OBJECTS)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+$(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(BUILD)/librotid.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+$(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"'
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(BUILD)/librotid.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
+
+demo: all
+	@sh tools/demo $(BUILD)/rotid
+
+test: all $(TEST_PROGRAMS)
+	@sh tools/run-tests $(TEST_PROGRAMS)
+
+bench bench-quick: all
+	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
+
+check-asan:
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
+	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' test
+
+check-valgrind: all $(TEST_PROGRAMS)
+	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
+	    sh tools/run-tests $(TEST_PROGRAMS)
+
+check-peers: all
+	@sh tests/peers/run $(BUILD) $(PYTHON)
+
+coverage:
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 -g --coverage' LDFLAGS=--coverage test
+	@sh tools/coverage $(BUILD)/coverage
+
+lint:
+	clang-tidy --quiet $(LIBRARY_SOURCES) $(IO_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
+
+format:
+	clang-format -i $(wildcard src/*/*.[ch] include/*.h tests/*.[ch] tools/*/*.[ch])
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include
+	install -m 755 $(BUILD)/rotid $(DESTDIR)$(PREFIX)/bin/rotid
+	install -m 644 $(BUILD)/librotid.a $(DESTDIR)$(PREFIX)/lib/librotid.a
+	install -m 644 include/rotid.h $(DESTDIR)$(PREFIX)/include/rotid.h
+
+uninstall:
+	rm -f $(DESTDIR)$(PREFIX)/bin/rotid $(DESTDIR)$(PREFIX)/lib/librotid.a $(DESTDIR)$(PREFIX)/include/rotid.h
+
+clean:
+	rm -rf $(BUILD)
+
+-include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

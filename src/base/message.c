@@ -1,0 +1,31 @@
+#include "base/message.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void message_open(struct message_list *list, struct pool *pool)
+{
+    *list = (struct message_list){.pool = pool};
+}
+
+void message_add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format, ...)
+{
+    char text[1024];
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+
+    list->errors += severity == SEVERITY_ERROR;
+    if (list->count >= MESSAGE_LIMIT)
+        return;
+    struct message *grown = pool_grow(list->pool, list->item, list->count, &list->capacity, sizeof *grown);
+    char *copy = grown ? pool_copy_text(list->pool, text) : NULL;
+    char *place = copy && file ? pool_copy_text(list->pool, file) : NULL;
+    if (!copy || (file && !place)) {
+        list->out_of_memory = 1;
+        return;
+    }
+    list->item = grown;
+    list->item[list->count++] = (struct message){severity, place, line, column, copy};
+}

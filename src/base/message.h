@@ -1,0 +1,31 @@
+/* What a job has to say about its input, kept until somebody prints it: each message names the place. */
+#ifndef ROTID_BASE_MESSAGE_H
+#define ROTID_BASE_MESSAGE_H
+
+#include "base/pool.h"
+
+enum severity { SEVERITY_NOTE, SEVERITY_WARNING, SEVERITY_ERROR };
+
+struct message {
+    enum severity severity;
+    const char *file; /* NULL where there is none */
+    int line, column; /* from 1; 0 where there is none */
+    const char *text; /* what is wrong, what was expected */
+};
+
+/* Errors past this many are counted and not kept: a binary file makes one a byte. */
+#define MESSAGE_LIMIT 200
+
+struct message_list {
+    struct pool *pool;
+    struct message *item;
+    size_t count, capacity;
+    int errors; /* of any number, also those not kept */
+    int out_of_memory;
+};
+
+void message_open(struct message_list *list, struct pool *pool);
+void message_add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
+
+#endif

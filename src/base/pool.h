@@ -1,0 +1,32 @@
+/* Memory of one job: everything a job allocates hangs on its pool and goes with it, so a routine that fails
+ * half-way has nothing to undo. Blocks are zeroed. Not shared between threads. */
+#ifndef ROTID_BASE_POOL_H
+#define ROTID_BASE_POOL_H
+
+#include <stddef.h>
+
+#include "rotid.h"
+
+struct pool {
+    const rotid_allocator *allocator; /* NULL: malloc and free */
+    void *last;                       /* newest block, each linked to the one before */
+};
+
+void pool_open(struct pool *pool, const rotid_allocator *allocator);
+void pool_close(struct pool *pool);
+
+/* count * size zeroed bytes aligned for any type; NULL when memory is out or the product overflows. Zero bytes give a
+ * valid pointer. */
+void *pool_get(struct pool *pool, size_t count, size_t size);
+
+#define POOL_NEW(pool, type) ((type *)pool_get((pool), 1, sizeof(type)))
+#define POOL_ARRAY(pool, type, count) ((type *)pool_get((pool), (size_t)(count), sizeof(type)))
+
+/* Room for one more element in a growing array of *capacity elements of which count are used: doubles it (copying) when
+ * full. Returns the array, or NULL when memory is out (the old one stays valid). */
+void *pool_grow(struct pool *pool, void *array, size_t count, size_t *capacity, size_t size);
+
+char *pool_copy_text(struct pool *pool, const char *text);
+char *pool_format(struct pool *pool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

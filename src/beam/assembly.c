@@ -1,0 +1,177 @@
+#include <math.h>
+#include <string.h>
+
+#include "beam/beam.h"
+#include "beam/quantities.h"
+#include "linalg/matrix.h"
+
+static void add_between(rotid_matrix *a, int first, int second, const double *e)
+{
+    const int dof[4] = {2 * first, 2 * first + 1, 2 * second, 2 * second + 1};
+    matrix_add_element(a, 4, dof, e);
+}
+
+static int chain_node(const struct chain *chain, int i)
+{
+    if (i == 0)
+        return chain->first_end;
+    return i <= chain->count ? chain->inner + i - 1 : chain->last_end;
+}
+
+static int chain_elements(const struct chain *chain)
+{
+    return chain->count + (chain->last_end >= 0);
+}
+
+static void add_chain(const struct chain *chain, const double *ek, const double *em, rotid_matrix *k, rotid_matrix *m)
+{
+    for (int i = 0; i < chain_elements(chain); i++) {
+        add_between(k, chain_node(chain, i), chain_node(chain, i + 1), ek);
+        add_between(m, chain_node(chain, i), chain_node(chain, i + 1), em);
+    }
+}
+
+/* axial displacement of the rods is linear between the rotations of the ends */
+static void add_stretch(const struct chain *chain, const struct stretch *stretch, rotid_matrix *k, rotid_matrix *m)
+{
+    int first = 2 * chain->first_end + 1, last = 2 * chain->last_end + 1;
+    matrix_add(k, first, first, stretch->stiffness);
+    matrix_add(k, last, last, stretch->stiffness);
+    matrix_add(k, first, last, -stretch->stiffness);
+    matrix_add(m, first, first, stretch->inertia / 3);
+    matrix_add(m, last, last, stretch->inertia / 3);
+    matrix_add(m, first, last, stretch->inertia / 6);
+}
+
+static double tierod_element_length(const struct beam *beam, int i)
+{
+    const struct chain *chain = &beam->mesh.tierod[i];
+    return (beam->mesh.z[chain->last_end] - beam->mesh.z[chain->first_end]) / chain_elements(chain);
+}
+
+void beam_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_matrix *m)
+{
+    const struct mesh *mesh = &beam->mesh;
+    struct element element;
+    struct stretch stretch;
+    double ek[16], em[16], inertia;
+    for (int p = 0; p < beam->nparameter; p++)
+        *parameter_value(&beam->rotor, beam->parameter[p]) = x[p];
+    for (int e = 0; e < mesh->nelement; e++) {
+        axis_quantities(beam, e, &element);
+        element_matrices(&element, ek, em);
+        add_between(k, e, e + 1, ek);
+        add_between(m, e, e + 1, em);
+    }
+    for (int i = 0; i < beam->rotor.ntierod; i++) {
+        tierod_quantities(beam, i, tierod_element_length(beam, i), &element, &stretch);
+        element_matrices(&element, ek, em);
+        add_chain(&mesh->tierod[i], ek, em, k, m);
+        add_stretch(&mesh->tierod[i], &stretch, k, m);
+    }
+    for (int i = 0; i < 2 * beam->rotor.nbars; i++) {
+        const struct chain *half = &mesh->bars[i];
+        bars_quantities(beam, i / 2, beam->rotor.bars[i / 2].length / 2 / chain_elements(half), &element, &inertia);
+        element_matrices(&element, ek, em);
+        if (i % 2 == 0) { /* drawn from the centre to the left: the sign of the rotation turns */
+            for (int c = 0; c < 4; c++)
+                for (int r = 0; r < 4; r++)
+                    if ((r + c) % 2) {
+                        ek[r + 4 * c] = -ek[r + 4 * c];
+                        em[r + 4 * c] = -em[r + 4 * c];
+                    }
+        }
+        add_chain(half, ek, em, k, m);
+        matrix_add(m, 2 * half->first_end + 1, 2 * half->first_end + 1, inertia / 2);
+    }
+    for (int i = 0; i < beam->rotor.ndisk; i++) {
+        int v = 2 * mesh->disk_node[i];
+        matrix_add(m, v, v, beam->rotor.disk[i].mass);
+        matrix_add(m, v + 1, v + 1, beam->rotor.disk[i].diametral);
+    }
+    for (int i = 0; i < beam->rotor.nspring && !beam->elastic_only; i++) {
+        int v = 2 * mesh->spring_node[i];
+        matrix_add(k, v, v, beam->rotor.spring[i].lateral);
+        matrix_add(k, v + 1, v + 1, beam->rotor.spring[i].rotational);
+    }
+}
+
+void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_matrix *dm)
+{
+    const struct mesh *mesh = &beam->mesh;
+    struct parameter parameter = beam->parameter[p];
+    struct element element, d;
+    struct stretch stretch, dstretch;
+    double ek[16], em[16];
+    for (int e = 0; e < mesh->nelement; e++)
+        if (axis_direction(beam, parameter, e, &d)) {
+            axis_quantities(beam, e, &element);
+            element_derivatives(&element, &d, ek, em);
+            add_between(dk, e, e + 1, ek);
+            add_between(dm, e, e + 1, em);
+        }
+    for (int i = 0; i < beam->rotor.ntierod; i++)
+        if (tierod_direction(beam, parameter, i, &d, &dstretch)) {
+            tierod_quantities(beam, i, tierod_element_length(beam, i), &element, &stretch);
+            element_derivatives(&element, &d, ek, em);
+            add_chain(&mesh->tierod[i], ek, em, dk, dm);
+            add_stretch(&mesh->tierod[i], &dstretch, dk, dm);
+        }
+    int spring = parameter.kind == PARAMETER_SPRING_K || parameter.kind == PARAMETER_SPRING_K_ROT;
+    int disk = parameter.kind == PARAMETER_DISK_MASS || parameter.kind == PARAMETER_DISK_INERTIA;
+    if (spring) {
+        int dof = 2 * mesh->spring_node[parameter.index] + (parameter.kind == PARAMETER_SPRING_K_ROT);
+        matrix_add(dk, dof, dof, 1);
+    } else if (disk) {
+        int dof = 2 * mesh->disk_node[parameter.index] + (parameter.kind == PARAMETER_DISK_INERTIA);
+        matrix_add(dm, dof, dof, 1);
+    }
+}
+
+struct moments { /* of mass about the left end: zeroth, first and second */
+    double m0, m1, m2;
+};
+
+static void add_rod_of_mass(struct moments *sum, double rhos, double rhoi, double from, double to)
+{
+    double l = to - from, middle = (from + to) / 2;
+    sum->m0 += rhos * l;
+    sum->m1 += rhos * l * middle;
+    sum->m2 += rhos * l * (middle * middle + l * l / 12) + rhoi * l;
+}
+
+void beam_mass_properties(const struct beam *beam, struct mass_properties *properties)
+{
+    const struct mesh *mesh = &beam->mesh;
+    const struct rotor *rotor = &beam->rotor;
+    struct element element;
+    struct stretch stretch;
+    struct moments sum = {0, 0, 0};
+    double inertia;
+    for (int e = 0; e < mesh->nelement; e++) {
+        axis_quantities(beam, e, &element);
+        add_rod_of_mass(&sum, element.rhos, element.rhoi, mesh->z[e], mesh->z[e + 1]);
+    }
+    for (int i = 0; i < rotor->ntierod; i++) {
+        const struct chain *chain = &mesh->tierod[i];
+        tierod_quantities(beam, i, 1, &element, &stretch);
+        add_rod_of_mass(&sum, element.rhos, element.rhoi, mesh->z[chain->first_end], mesh->z[chain->last_end]);
+        sum.m2 += stretch.inertia;
+    }
+    for (int i = 0; i < rotor->nbars; i++) {
+        double center = mesh->z[mesh->bars[2 * i].first_end], half = rotor->bars[i].length / 2;
+        bars_quantities(beam, i, 1, &element, &inertia);
+        add_rod_of_mass(&sum, element.rhos, element.rhoi, center - half, center + half);
+        sum.m2 += inertia;
+    }
+    for (int i = 0; i < rotor->ndisk; i++) {
+        const struct disk *disk = &rotor->disk[i];
+        double z = mesh->z[mesh->disk_node[i]];
+        sum.m0 += disk->mass;
+        sum.m1 += disk->mass * z;
+        sum.m2 += disk->mass * z * z + disk->diametral;
+    }
+    properties->mass = sum.m0;
+    properties->center = sum.m1 / sum.m0;
+    properties->inertia = sum.m2 - sum.m1 * sum.m1 / sum.m0;
+}

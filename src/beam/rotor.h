@@ -1,0 +1,86 @@
+/* A rotor as the deck describes it: groups of segments laid end to end, and what is attached to them. Positions are metres from the
+ * left end, resolved and inside [0, length]. */
+#ifndef ROTID_BEAM_ROTOR_H
+#define ROTID_BEAM_ROTOR_H
+
+struct material {
+    const char *name;
+    double e, g, nu, rho; /* Pa, Pa, -, kg/m3 */
+    int isotropic;        /* G = E/2(1+nu), whatever g holds */
+};
+
+struct segment {
+    int group, elements, rectangular;
+    double length;
+    double outer, inner, stiff_outer; /* round */
+    double height, width;             /* rectangular */
+};
+
+struct group {
+    const char *name;
+    struct material material; /* a copy: what is identified of one group leaves the others alone */
+    int holes;                /* 0 where there is no perforation */
+    double hole_diameter, hole_pitch;
+    double preload; /* N, tension positive */
+};
+
+enum bundle_model {
+    BUNDLE_RODS, /* slender rods: own bending, and stretch of the rods by the rotation of the ends */
+    BUNDLE_TUBE  /* the paper's equivalent cylinder */
+};
+
+struct tierod {
+    const char *name;
+    struct material material;
+    double from, to;
+    enum bundle_model model;
+    int self_equilibrated;
+    int number, elements;
+    double diameter, pitch, tension; /* tension N a rod */
+};
+
+struct bars { /* short-circuit bars: fixed to the core at their centre only */
+    const char *name;
+    struct material material;
+    double center, length;
+    enum bundle_model model;
+    int number, elements; /* elements: over the whole length, even */
+    double diameter, pitch;
+};
+
+struct disk {
+    const char *name;
+    double position, mass, diametral, polar; /* kg, kg.m2 */
+};
+
+struct spring {
+    const char *name;
+    double position, lateral, rotational; /* N/m, N.m/rad */
+};
+
+struct sensor {
+    int id;
+    double position;
+};
+
+struct rotor {
+    int ngroup, nsegment, ntierod, nbars, ndisk, nspring, nsensor;
+    struct group *group;
+    struct segment *segment; /* in order along the axis, those of a group together */
+    struct tierod *tierod;
+    struct bars *bars;
+    struct disk *disk;
+    struct spring *spring;
+    struct sensor *sensor; /* by increasing position */
+    double sling;          /* length, 0 where there is none */
+};
+
+double rotor_length(const struct rotor *rotor);
+
+/* First and last position of a group. */
+void rotor_group_span(const struct rotor *rotor, int group, double *from, double *to);
+
+/* G of a material: its own, or E/2(1+nu). */
+double material_shear_modulus(const struct material *material);
+
+#endif

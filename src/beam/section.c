@@ -1,0 +1,111 @@
+#include "beam/section.h"
+
+#include <math.h>
+
+#include "rotid.h"
+
+static const double pi = 3.14159265358979323846;
+
+static double disc_area(double d)
+{
+    return pi * d * d / 4;
+}
+
+static double disc_inertia(double d)
+{
+    return pi * d * d * d * d / 64;
+}
+
+void section_round(double outer, double inner, double stiff_outer, struct section *section)
+{
+    *section = (struct section){.stiff_area = disc_area(stiff_outer) - disc_area(inner),
+                                .stiff_inertia = disc_inertia(stiff_outer) - disc_inertia(inner),
+                                .mass_area = disc_area(outer) - disc_area(inner),
+                                .mass_inertia = disc_inertia(outer) - disc_inertia(inner),
+                                .ratio = inner / stiff_outer};
+}
+
+void section_rectangular(double height, double width, struct section *section)
+{
+    double area = height * width, inertia = width * height * height * height / 12;
+    *section = (struct section){area, inertia, area, inertia, 1, 0};
+}
+
+int rotid_equivalent_cylinder(double area, double inertia, double *outer, double *inner)
+{
+    if (!(area > 0 && inertia > 0 && isfinite(area) && isfinite(inertia)))
+        return ROTID_ERROR_ARGUMENT;
+    double sum = 8 * inertia / area, difference = 2 * area / pi;
+    if (sum < difference * (1 - 1e-14)) /* a solid disc has sum = difference and must not fail on rounding */
+        return ROTID_ERROR_SECTION;
+    *outer = sqrt(sum + difference);
+    *inner = sqrt(fmax(0, sum - difference));
+    return ROTID_OK;
+}
+
+int section_equivalent(double area, double inertia, struct section *section)
+{
+    double outer, inner;
+    int status = rotid_equivalent_cylinder(area, inertia, &outer, &inner);
+    if (!status)
+        *section = (struct section){area, inertia, area, inertia, 0, inner / outer};
+    return status;
+}
+
+int section_perforate(int number, double d, double e, double stiff_outer, struct section *section)
+{
+    double area, own, pitch;
+    section_rods(number, d, e, &area, &own, &pitch);
+    section->mass_area -= area;
+    section->mass_inertia -= own + pitch;
+    if (e < stiff_outer / 2) {
+        section->stiff_area -= area;
+        section->stiff_inertia -= own + pitch;
+    }
+    return section->stiff_area > 0 && section->stiff_inertia > 0 && section->mass_area > 0 && section->mass_inertia > 0
+               ? ROTID_OK
+               : ROTID_ERROR_SECTION;
+}
+
+void section_rods(int number, double d, double e, double *area, double *own, double *pitch)
+{
+    *area = number * disc_area(d);
+    *own = number * disc_inertia(d);
+    *pitch = *area * e * e / 2;
+}
+
+/* N/D and its derivative for N = n0 + n1 nu, D = d0 + d1 nu */
+static double ratio_of_lines(double nu, double n0, double n1, double d0, double d1, double *derivative)
+{
+    double numerator = n0 + n1 * nu, denominator = d0 + d1 * nu;
+    *derivative = (n1 * denominator - d1 * numerator) / (denominator * denominator);
+    return numerator / denominator;
+}
+
+static double annulus(double nu, double a, double *derivative)
+{
+    double p = (1 + a * a) * (1 + a * a), q = a * a;
+    return ratio_of_lines(nu, 6 * p, 6 * p, 7 * p + 20 * q, 6 * p + 12 * q, derivative);
+}
+
+static double rectangle(double nu, double *derivative)
+{
+    return ratio_of_lines(nu, 10, 10, 12, 11, derivative);
+}
+
+double section_shear_coefficient(const struct section *section, double nu, double *derivative)
+{
+    return section->rectangular ? rectangle(nu, derivative) : annulus(nu, section->ratio, derivative);
+}
+
+double rotid_shear_coefficient_annulus(double nu, double a)
+{
+    double unused;
+    return annulus(nu, a, &unused);
+}
+
+double rotid_shear_coefficient_rectangle(double nu)
+{
+    double unused;
+    return rectangle(nu, &unused);
+}

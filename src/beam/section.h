@@ -1,0 +1,32 @@
+/* Cross sections: what a section contributes to bending, shear and mass. */
+#ifndef ROTID_BEAM_SECTION_H
+#define ROTID_BEAM_SECTION_H
+
+struct section {
+    double stiff_area, stiff_inertia; /* m2, m4: what carries bending and shear */
+    double mass_area, mass_inertia;   /* what has mass */
+    int rectangular;                  /* chooses the shear coefficient */
+    double ratio;                     /* inner over outer diameter of a round section */
+};
+
+/* Round section; outer > inner >= 0 and stiff_outer > inner [m]. A stiffness diameter smaller than the outer one leaves the mass. */
+void section_round(double outer, double inner, double stiff_outer, struct section *section);
+/* height lies in the bending plane. */
+void section_rectangular(double height, double width, struct section *section);
+/* Cylinder of the given area and inertia (6). ROTID_OK or ROTID_ERROR_SECTION. */
+int section_equivalent(double area, double inertia, struct section *section);
+
+/* Takes `number` >= 3 evenly spaced holes of diameter d on the pitch radius e out of a round section: each hole has
+ * I = pi d^4/64 + S e^2/2 on average over the angle, exactly so for 3 or more. Holes outside the stiffness diameter cost mass only.
+ * The shear coefficient stays that of the section without holes: a section perforated near its rim has no equivalent annulus (its
+ * squared inner diameter by (6) would be negative). ROTID_OK or ROTID_ERROR_SECTION where less than nothing would be left. */
+int section_perforate(int number, double d, double e, double stiff_outer, struct section *section);
+
+/* Area and second moment of `number` round rods of diameter d at pitch radius e: S = N pi d^2/4, own = N pi d^4/64,
+ * pitch = S e^2/2; own + pitch is the inertia of (7), corrected. */
+void section_rods(int number, double d, double e, double *area, double *own, double *pitch);
+
+/* Shear coefficient and its derivative with respect to nu. */
+double section_shear_coefficient(const struct section *section, double nu, double *derivative);
+
+#endif

@@ -1,0 +1,176 @@
+#include "fit/baseline.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#ifndef WITH_NLOPT
+#define WITH_NLOPT 1
+#endif
+
+#if !WITH_NLOPT
+
+int baseline_count(int nparam)
+{
+    (void)nparam;
+    return 0;
+}
+
+int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter, const rotid_environment *environment,
+                 double *work, rotid_baseline *out)
+{
+    (void)keep, (void)functional, (void)parameter, (void)environment, (void)work, (void)out;
+    return ROTID_OK;
+}
+
+#else
+
+#include <nlopt.h>
+
+static const struct {
+    nlopt_algorithm algorithm;
+    const char *name;
+    int least; /* parameters */
+} table[] = {{NLOPT_LN_BOBYQA, "LN_BOBYQA", 2}, {NLOPT_LN_SBPLX, "LN_SBPLX", 1}, {NLOPT_LD_SLSQP, "LD_SLSQP", 1}};
+
+#define ALGORITHMS ((int)(sizeof table / sizeof *table))
+
+int baseline_count(int nparam)
+{
+    int count = 0;
+    for (int a = 0; a < ALGORITHMS; a++)
+        count += nparam >= table[a].least;
+    return count;
+}
+
+struct problem {
+    struct functional *functional;
+    const rotid_parameter *parameter;
+    const rotid_environment *environment;
+    nlopt_opt optimiser;
+    double *x, *r, *jacobian;
+    int evaluations, cancelled;
+};
+
+static double objective(unsigned n, const double *scaled, double *gradient, void *user)
+{
+    struct problem *problem = user;
+    struct functional *f = problem->functional;
+    const rotid_environment *environment = problem->environment;
+    if (environment && environment->cancelled && environment->cancelled(environment->context)) {
+        problem->cancelled = 1;
+        (void)nlopt_force_stop(problem->optimiser);
+    }
+    problem->evaluations++;
+    for (unsigned p = 0; p < n; p++)
+        problem->x[p] = scaled[p] * fabs(problem->parameter[p].start);
+    int status = functional_residual(f, problem->x, problem->r);
+    if (!status && gradient)
+        status = functional_jacobian(f, problem->x, problem->jacobian);
+    if (status)
+        return HUGE_VAL;
+    double sum = 0;
+    for (int i = 0; i < f->nresidual; i++)
+        sum += problem->r[i] * problem->r[i];
+    for (unsigned p = 0; gradient && p < n; p++) {
+        gradient[p] = 0;
+        for (int i = 0; i < f->nresidual; i++)
+            gradient[p] += problem->jacobian[i + (ptrdiff_t)p * f->nresidual] * problem->r[i];
+        gradient[p] *= fabs(problem->parameter[p].start);
+    }
+    return sum / 2;
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    (void)timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Sets up, runs and takes down one algorithm; NLopt's own codes are kept. */
+static int run_one(int a, int n, struct problem *problem, double *bounds, rotid_baseline *out)
+{
+    double *lower = bounds, *upper = bounds + n, value = NAN;
+    nlopt_opt optimiser = nlopt_create(table[a].algorithm, (unsigned)n);
+    if (!optimiser)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++) {
+        double unit = fabs(problem->parameter[p].start);
+        lower[p] = problem->parameter[p].lower / unit;
+        upper[p] = problem->parameter[p].upper / unit;
+        out->x[p] = problem->parameter[p].start / unit;
+    }
+    problem->optimiser = optimiser;
+    problem->evaluations = 0;
+    (void)nlopt_set_lower_bounds(optimiser, lower);
+    (void)nlopt_set_upper_bounds(optimiser, upper);
+    (void)nlopt_set_min_objective(optimiser, objective, problem);
+    /* A minimum of f is known to the square root of rounding in x, so x asks for 1e-8 and f for its last digits. */
+    (void)nlopt_set_xtol_rel(optimiser, 1e-8);
+    (void)nlopt_set_ftol_rel(optimiser, 1e-15);
+    (void)nlopt_set_maxeval(optimiser, 5000);
+    double begin = seconds_now();
+    nlopt_result result = nlopt_optimize(optimiser, out->x, &value);
+    out->seconds = seconds_now() - begin;
+    nlopt_destroy(optimiser);
+    for (int p = 0; p < n; p++)
+        out->x[p] *= fabs(problem->parameter[p].start);
+    out->algorithm = table[a].name;
+    out->result = nlopt_result_to_string(result);
+    out->code = result;
+    out->usable = (result > 0 && result != NLOPT_MAXEVAL_REACHED) || result == NLOPT_ROUNDOFF_LIMITED;
+    out->objective = value;
+    out->evaluations = problem->evaluations;
+    return ROTID_OK;
+}
+
+/* Value and gradient at the returned point, by us: a solver's own word is not enough. */
+static void judge(int n, struct problem *problem, rotid_baseline *out)
+{
+    struct functional *f = problem->functional;
+    out->gradient = NAN;
+    if (functional_residual(f, out->x, problem->r) || functional_jacobian(f, out->x, problem->jacobian)) {
+        out->usable = 0;
+        return;
+    }
+    double sum = 0;
+    out->gradient = 0;
+    for (int i = 0; i < f->nresidual; i++)
+        sum += problem->r[i] * problem->r[i];
+    for (int p = 0; p < n; p++) {
+        double g = 0;
+        for (int i = 0; i < f->nresidual; i++)
+            g += problem->jacobian[i + (ptrdiff_t)p * f->nresidual] * problem->r[i];
+        out->gradient = fmax(out->gradient, fabs(g * problem->parameter[p].start));
+    }
+    out->objective = sum / 2;
+}
+
+int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter, const rotid_environment *environment,
+                 double *work, rotid_baseline *out)
+{
+    int n = functional->prediction.model->nparam, status = ROTID_OK, count = 0;
+    double *space = POOL_ARRAY(keep, double, 3 * n);
+    if (!space)
+        return ROTID_ERROR_MEMORY;
+    struct problem problem = {.functional = functional,
+                              .parameter = parameter,
+                              .environment = environment,
+                              .x = space,
+                              .r = work,
+                              .jacobian = work + functional->nresidual};
+    for (int a = 0; a < ALGORITHMS && !status; a++) {
+        if (n < table[a].least)
+            continue;
+        out[count].x = POOL_ARRAY(keep, double, n);
+        status = out[count].x ? run_one(a, n, &problem, space + n, &out[count]) : ROTID_ERROR_MEMORY;
+        if (!status)
+            judge(n, &problem, &out[count++]);
+        if (problem.cancelled)
+            return ROTID_STOP_CANCELLED;
+    }
+    return status;
+}
+
+#endif

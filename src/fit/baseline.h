@@ -1,0 +1,17 @@
+/* The same problem given to NLopt: an independent minimiser from the same start to the same tolerance. */
+#ifndef ROTID_FIT_BASELINE_H
+#define ROTID_FIT_BASELINE_H
+
+#include "base/pool.h"
+#include "modal/functional.h"
+#include "rotid.h"
+
+/* Algorithms run: BOBYQA (from two parameters on), Sbplx, and SLSQP with the gradient. 0 where built without NLopt. */
+int baseline_count(int nparam);
+
+/* Minimises the functional with each algorithm in x/|start| within the bounds. out [baseline_count(n)], x of each on `keep`.
+ * work [nresidual * (n + 1)]. ROTID_OK, MEMORY, or CANCELLED as soon as the environment says so. */
+int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter, const rotid_environment *environment,
+                 double *work, rotid_baseline *out);
+
+#endif

@@ -1,0 +1,333 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/pool.h"
+#include "fit/baseline.h"
+#include "fit/bounds.h"
+#include "fit/covariance.h"
+#include "modal/functional.h"
+#include "rotid.h"
+
+struct fit {
+    const rotid_parameter *parameter;
+    const rotid_environment *environment;
+    struct functional functional;
+    rotid_fit_options options;
+    rotid_fit_result *result;
+    int n, callback_status;
+    double *x, *y, *r, *jacobian, *work;
+};
+
+void rotid_fit_defaults(rotid_fit_options *options)
+{
+    *options = (rotid_fit_options){.functional = ROTID_LIKELIHOOD,
+                                   .reduction = ROTID_REDUCTION_NONE,
+                                   .derivative = ROTID_NELSON,
+                                   .max_iterations = 100,
+                                   .gradient_tolerance = 1e-10,
+                                   .step_tolerance = 1e-12,
+                                   .bijection_chi = 0.05};
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    (void)timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* rotid_residual in the unbounded variables y */
+static int residual(void *user, int m, int n, const double *y, double *r, double *jacobian)
+{
+    struct fit *fit = user;
+    double chi = fit->options.bijection_chi;
+    for (int p = 0; p < n; p++)
+        fit->x[p] = bounds_to_x(&fit->parameter[p], chi, y[p]);
+    if (r) {
+        fit->callback_status = functional_residual(&fit->functional, fit->x, r);
+        return fit->callback_status;
+    }
+    fit->callback_status = functional_jacobian(&fit->functional, fit->x, jacobian);
+    for (int p = 0; p < n; p++) {
+        double slope = bounds_slope(&fit->parameter[p], chi, y[p]);
+        for (int i = 0; i < m; i++)
+            jacobian[i + (ptrdiff_t)p * m] *= slope;
+    }
+    return fit->callback_status;
+}
+
+/* Keeps the history in the variables x/|start|; polls the host. */
+static int trace(void *user, const rotid_lm_iteration *now)
+{
+    struct fit *fit = user;
+    rotid_fit_result *result = fit->result;
+    int n = fit->n, row = result->nhistory;
+    double *x = result->history_x + (ptrdiff_t)row * n, step = 0, gradient = 0;
+    for (int p = 0; p < n; p++) {
+        double unit = fabs(fit->parameter[p].start), slope = bounds_slope(&fit->parameter[p], fit->options.bijection_chi, now->x[p]);
+        x[p] = bounds_to_x(&fit->parameter[p], fit->options.bijection_chi, now->x[p]);
+        if (slope != 0)
+            gradient = fmax(gradient, fabs(now->gradient[p] / slope * unit));
+        if (row)
+            step += (x[p] - x[p - n]) * (x[p] - x[p - n]) / (unit * unit);
+    }
+    result->history[row] = (rotid_fit_iteration){now->iteration, now->objective, gradient, now->mu, now->gain_ratio, sqrt(step)};
+    result->nhistory++;
+    const rotid_environment *environment = fit->environment;
+    return environment && environment->cancelled && environment->cancelled(environment->context);
+}
+
+static int check_arguments(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
+                           const rotid_fit_options *options)
+{
+    if (!model || !parameter || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n || model->nfar < 0 ||
+        model->nparam < 1 || model->nrigid < 0 || model->nmaster < 0 || !model->matrices || measured->nmode < 1)
+        return ROTID_ERROR_ARGUMENT;
+    if (options->functional < ROTID_HYBRID || options->functional > ROTID_LIKELIHOOD || options->reduction < ROTID_REDUCTION_NONE ||
+        options->reduction > ROTID_IRS || options->derivative < ROTID_NELSON || options->derivative > ROTID_MODAL)
+        return ROTID_ERROR_ARGUMENT;
+    for (int s = 0; s < model->nmaster; s++)
+        if (model->master[s] < 0 || model->master[s] >= model->n || (s && model->master[s] <= model->master[s - 1]))
+            return ROTID_ERROR_ARGUMENT;
+    for (int f = 0; f < model->nfar; f++)
+        if (model->far[f] < 0 || model->far[f] >= model->n || (f && model->far[f] <= model->far[f - 1]))
+            return ROTID_ERROR_ARGUMENT;
+    for (int p = 0; p < model->nparam; p++) {
+        const rotid_parameter *q = &parameter[p];
+        if (!(isfinite(q->lower) && isfinite(q->upper) && q->lower < q->start && q->start < q->upper && q->start != 0))
+            return ROTID_ERROR_ARGUMENT;
+    }
+    return ROTID_OK;
+}
+
+static int new_result(struct pool *keep, int n, int m, int iterations, rotid_fit_result *result)
+{
+    size_t square = (size_t)n * (size_t)n, rows = (size_t)iterations + 2;
+    result->n = n;
+    result->m = m;
+    double **arrays[] = {&result->x, &result->std, &result->ci_lower, &result->ci_upper, &result->singular_value};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        if (!(*arrays[i] = POOL_ARRAY(keep, double, n)))
+            return ROTID_ERROR_MEMORY;
+    double **by_mode[] = {&result->predicted_hz, &result->mac, &result->residual};
+    for (size_t i = 0; i < sizeof by_mode / sizeof *by_mode; i++)
+        if (!(*by_mode[i] = POOL_ARRAY(keep, double, m)))
+            return ROTID_ERROR_MEMORY;
+    result->at_bound = POOL_ARRAY(keep, int, n);
+    result->identifiable = POOL_ARRAY(keep, int, n);
+    result->direction_undetermined = POOL_ARRAY(keep, int, n);
+    result->covariance = POOL_ARRAY(keep, double, square);
+    result->correlation = POOL_ARRAY(keep, double, square);
+    result->direction = POOL_ARRAY(keep, double, square);
+    result->history = POOL_ARRAY(keep, rotid_fit_iteration, rows);
+    result->history_x = POOL_ARRAY(keep, double, rows *(size_t)n);
+    result->baseline = POOL_ARRAY(keep, rotid_baseline, baseline_count(n));
+    return result->at_bound && result->identifiable && result->direction_undetermined && result->covariance && result->correlation &&
+                   result->direction && result->history && result->history_x && result->baseline
+               ? ROTID_OK
+               : ROTID_ERROR_MEMORY;
+}
+
+/* Standard deviations of the residuals: of the noise the user states, in the units of the functional. NULL where it is not known. */
+static const double *residual_noise(const struct fit *fit, double *std)
+{
+    const rotid_measured *measured = fit->functional.measured;
+    int row = 0;
+    if (!measured->frequency_std)
+        return NULL;
+    for (int i = 0; i < fit->functional.nresidual; i++)
+        std[i] = 1;
+    for (int k = 0; k < measured->nmode && fit->options.functional != ROTID_LIKELIHOOD; k++)
+        if (!measured->holdout || !measured->holdout[k]) /* r = 1 - lambda/w^2 moves by twice, 1 - w~/w^ by once the relative error of w^ */
+            std[row++] = (fit->options.functional == ROTID_HYBRID ? 2 : 1) * measured->frequency_std[k];
+    return std;
+}
+
+static int count_scales(const struct fit *fit)
+{
+    const rotid_measured *measured = fit->functional.measured;
+    int count = 0, nmaster = fit->functional.prediction.model->nmaster;
+    for (int k = 0; k < measured->nmode && fit->options.functional == ROTID_LIKELIHOOD && measured->shape; k++) {
+        int any = 0;
+        for (int s = 0; s < nmaster; s++)
+            any |= isfinite(measured->shape[s + (ptrdiff_t)k * nmaster]);
+        count += any && (!measured->holdout || !measured->holdout[k]);
+    }
+    return count;
+}
+
+/* Largest component of the Gauss-Newton step that is left, in relative parameters, fixed ones apart. */
+static double step_left(const struct fit *fit, const double *relative_gradient)
+{
+    const rotid_fit_result *result = fit->result;
+    int n = fit->n;
+    double worst = 0;
+    for (int p = 0; p < n; p++) {
+        double h = 0;
+        for (int j = 0; j < n; j++) {
+            double s = result->singular_value[j], c = 0;
+            for (int q = 0; q < n; q++)
+                c += result->direction[q + (ptrdiff_t)j * n] * (result->at_bound[q] ? 0 : relative_gradient[q]);
+            if (s > 1e-8 * result->singular_value[0])
+                h += result->direction[p + (ptrdiff_t)j * n] * c / (s * s);
+        }
+        worst = fmax(worst, fabs(h));
+    }
+    return worst;
+}
+
+/* Predicted frequencies, correlation and residual of every mode at the last evaluation. */
+static void compare_modes(struct fit *fit)
+{
+    struct functional *f = &fit->functional;
+    const rotid_measured *measured = f->measured;
+    int nmaster = f->prediction.model->nmaster;
+    for (int k = 0; k < measured->nmode; k++) {
+        fit->result->predicted_hz[k] = sqrt(f->prediction.lambda[f->pair[k]]) / 6.28318530717958647692;
+        fit->result->residual[k] = functional_frequency_residual(f, k);
+        fit->result->mac[k] = NAN;
+        if (!f->shape)
+            continue;
+        for (int s = 0; s < nmaster; s++)
+            f->work[s] = prediction_at_sensor(&f->prediction, f->pair[k], s);
+        fit->result->mac[k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
+    }
+}
+
+/* Everything about the best point, evaluated there once more. */
+static int conclude(struct fit *fit, const rotid_lm_result *lm)
+{
+    rotid_fit_result *result = fit->result;
+    struct functional *f = &fit->functional;
+    int n = fit->n, m = f->nresidual;
+    double *noise = fit->work, *gradient = noise + m, *rest = gradient + n;
+    for (int p = 0; p < n; p++)
+        result->x[p] = bounds_to_x(&fit->parameter[p], fit->options.bijection_chi, fit->y[p]);
+    int status = functional_residual(f, result->x, fit->r);
+    if (!status)
+        status = functional_jacobian(f, result->x, fit->jacobian);
+    if (status)
+        return status;
+    compare_modes(fit);
+    result->status = lm->status;
+    result->iterations = lm->iterations;
+    result->evaluations = lm->evaluations;
+    result->jacobians = lm->jacobians;
+    result->nresidual = m;
+    result->objective = 0;
+    for (int i = 0; i < m; i++)
+        result->objective += fit->r[i] * fit->r[i] / 2;
+    for (int p = 0; p < n; p++) {
+        double g = 0;
+        for (int i = 0; i < m; i++) {
+            fit->jacobian[i + (ptrdiff_t)p * m] *= fabs(result->x[p]);
+            g += fit->jacobian[i + (ptrdiff_t)p * m] * fit->r[i];
+        }
+        gradient[p] = g;
+        result->gradient = fmax(result->gradient, fabs(g * fit->parameter[p].start / result->x[p]));
+        int side = bounds_pressed(&fit->parameter[p], result->x[p]);
+        result->at_bound[p] = side != 0;
+        result->any_at_bound |= side != 0;
+    }
+    struct covariance_input input = {.m = m,
+                                     .n = n,
+                                     .jacobian = fit->jacobian,
+                                     .r = fit->r,
+                                     .noise_std = residual_noise(fit, noise),
+                                     .nscale = count_scales(fit),
+                                     .x = result->x,
+                                     .fixed = result->at_bound};
+    status = covariance_compute(&input, result, rest);
+    /* a stop on the limit, or where rounding left no step that lowers f, may still be at the minimum: the step that is left decides */
+    result->converged = result->status != ROTID_STOP_CANCELLED && (result->status == ROTID_STOP_GRADIENT || step_left(fit, gradient) < 1e-6);
+    return status;
+}
+
+static int run(struct pool *keep, struct pool *pool, struct fit *fit, const rotid_model *model, const rotid_measured *measured)
+{
+    const rotid_fit_options *options = &fit->options;
+    int n = model->nparam;
+    int status = functional_new(pool, options->functional, options->reduction, options->derivative, model, measured, &fit->functional);
+    if (!status)
+        status = new_result(keep, n, measured->nmode, options->max_iterations, fit->result);
+    if (status)
+        return status;
+    int m = fit->functional.nresidual;
+    size_t lm_work = rotid_lm_workspace(m, n), end_work = covariance_workspace(m, n) + (size_t)m + (size_t)n;
+    fit->x = POOL_ARRAY(pool, double, n);
+    fit->y = POOL_ARRAY(pool, double, n);
+    fit->r = POOL_ARRAY(pool, double, m);
+    fit->jacobian = POOL_ARRAY(pool, double, (size_t)m * (size_t)n);
+    fit->work = POOL_ARRAY(pool, double, lm_work > end_work ? lm_work : end_work);
+    if (!fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++)
+        fit->y[p] = bounds_to_y(&fit->parameter[p], options->bijection_chi, fit->parameter[p].start);
+
+    rotid_lm_options lm_options = {.max_iterations = options->max_iterations,
+                                   .gradient_tolerance = options->gradient_tolerance,
+                                   .step_tolerance = options->step_tolerance,
+                                   .trace = trace,
+                                   .trace_user = fit};
+    rotid_lm_result lm;
+    double begin = seconds_now();
+    status = rotid_lm(m, n, residual, fit, &lm_options, fit->y, fit->r, fit->jacobian, fit->work, &lm);
+    fit->result->seconds = seconds_now() - begin;
+    if (status < 0)
+        return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
+    status = conclude(fit, &lm);
+    if (!status && options->baseline && lm.status != ROTID_STOP_CANCELLED) {
+        status = baseline_run(keep, &fit->functional, fit->parameter, fit->environment, fit->work, fit->result->baseline);
+        if (status == ROTID_STOP_CANCELLED)
+            status = ROTID_OK;
+        else if (!status)
+            fit->result->nbaseline = baseline_count(n);
+    }
+    return status;
+}
+
+int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured, const rotid_fit_options *options,
+              const rotid_environment *environment, rotid_fit_result **result)
+{
+    if (!result)
+        return ROTID_ERROR_ARGUMENT;
+    *result = NULL;
+    int status = check_arguments(model, parameter, measured, options);
+    if (status)
+        return status;
+    const rotid_allocator *allocator = environment ? environment->allocator : NULL;
+    struct pool first, scratch, *keep;
+    pool_open(&first, allocator);
+    pool_open(&scratch, allocator);
+    rotid_fit_result *made = POOL_NEW(&first, rotid_fit_result);
+    keep = made ? POOL_NEW(&first, struct pool) : NULL;
+    status = ROTID_ERROR_MEMORY;
+    if (keep) {
+        struct fit fit = {.parameter = parameter, .environment = environment, .options = *options, .result = made, .n = model->nparam};
+        rotid_fit_options standard;
+        rotid_fit_defaults(&standard);
+        if (fit.options.max_iterations <= 0)
+            fit.options.max_iterations = standard.max_iterations;
+        if (!(fit.options.bijection_chi > 0))
+            fit.options.bijection_chi = standard.bijection_chi;
+        status = run(&first, &scratch, &fit, model, measured);
+        *keep = first; /* the result carries the pool that it lives on */
+        made->memory = keep;
+    }
+    pool_close(&scratch);
+    if (status)
+        pool_close(&first);
+    else
+        *result = made;
+    return status;
+}
+
+void rotid_fit_free(rotid_fit_result *result)
+{
+    if (!result)
+        return;
+    struct pool pool = *(struct pool *)result->memory;
+    pool_close(&pool);
+}

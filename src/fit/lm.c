@@ -1,0 +1,246 @@
+#include <math.h>
+#include <string.h>
+
+#include "linalg/least_squares.h"
+#include "rotid.h"
+
+#define MU_MOST 1e16 /* beyond it a step is below rounding */
+#define FLAT 1e-8    /* predicted decrease over objective below which the noise of a computed objective can hide the decrease */
+
+struct lm {
+    int m, n;
+    rotid_residual residual;
+    void *user;
+    rotid_lm_options options;
+    double *x, *r, *jacobian; /* the caller's: the best point */
+    double *trial, *trial_r, *step, *gradient, *norm, *scale, *old, *work;
+    rotid_lm_result *result;
+    double mu, nu, gain;
+};
+
+size_t rotid_lm_workspace(int m, int n)
+{
+    return 7 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
+}
+
+static double half_square(int m, const double *r)
+{
+    double sum = 0;
+    for (int i = 0; i < m; i++)
+        sum += r[i] * r[i];
+    return sum / 2;
+}
+
+static int all_finite(int n, const double *x)
+{
+    for (int i = 0; i < n; i++)
+        if (!isfinite(x[i]))
+            return 0;
+    return 1;
+}
+
+/* Jacobian at x, gradient J'r, scale D = largest column norms so far, cosine. */
+static int linearise(struct lm *lm)
+{
+    lm->result->jacobians++;
+    if (lm->residual(lm->user, lm->m, lm->n, lm->x, NULL, lm->jacobian))
+        return ROTID_ERROR_CALLBACK;
+    if (!all_finite(lm->m * lm->n, lm->jacobian))
+        return ROTID_ERROR_FINITE;
+    double length = sqrt(2 * lm->result->objective);
+    int usable = 0;
+    lm->result->cosine = 0;
+    for (int j = 0; j < lm->n; j++) {
+        const double *column = lm->jacobian + (ptrdiff_t)j * lm->m;
+        double square = 0;
+        lm->gradient[j] = 0;
+        for (int i = 0; i < lm->m; i++) {
+            square += column[i] * column[i];
+            lm->gradient[j] += column[i] * lm->r[i];
+        }
+        usable += square > 0;
+        if (sqrt(square) > lm->norm[j])
+            lm->norm[j] = sqrt(square);
+        lm->scale[j] = lm->norm[j] > 0 ? lm->norm[j] : 1; /* where a column has been zero so far any scale keeps the system regular */
+        if (length > 0)
+            lm->result->cosine = fmax(lm->result->cosine, fabs(lm->gradient[j]) / (lm->scale[j] * length));
+    }
+    return usable || length == 0 ? ROTID_OK : ROTID_ERROR_RANK;
+}
+
+/* h'(mu D^2 h - g)/2, the decrease that the linear model promises */
+static double predicted_decrease(const struct lm *lm)
+{
+    double sum = 0;
+    for (int j = 0; j < lm->n; j++)
+        sum += lm->step[j] * (lm->mu * lm->scale[j] * lm->scale[j] * lm->step[j] - lm->gradient[j]);
+    return sum / 2;
+}
+
+/* (r - r+)'(r + r+)/2: the difference of two nearly equal sums of squares without their cancellation */
+static double actual_decrease(const struct lm *lm)
+{
+    double sum = 0;
+    for (int i = 0; i < lm->m; i++)
+        sum += (lm->r[i] - lm->trial_r[i]) * (lm->r[i] + lm->trial_r[i]);
+    return sum / 2;
+}
+
+static int negligible(const struct lm *lm)
+{
+    double eps = lm->options.step_tolerance;
+    for (int j = 0; j < lm->n; j++)
+        if (!(fabs(lm->step[j]) <= eps * (fabs(lm->x[j]) + eps)))
+            return 0;
+    return 1;
+}
+
+/* A damped step from x. Returns 0 with the trial point and its residual in place, a stop reason, or an error. *refused: the trial has no
+ * residual. */
+static int try_step(struct lm *lm, double *predicted, int *refused)
+{
+    if (least_squares_damped_step(lm->m, lm->n, lm->jacobian, lm->r, lm->mu, lm->scale, lm->step, lm->work))
+        return ROTID_ERROR_LIBRARY;
+    *predicted = predicted_decrease(lm);
+    if (negligible(lm))
+        return ROTID_STOP_STEP;
+    if (!(*predicted > lm->options.objective_tolerance * lm->result->objective))
+        return ROTID_STOP_OBJECTIVE;
+    for (int j = 0; j < lm->n; j++)
+        lm->trial[j] = lm->x[j] + lm->step[j];
+    lm->result->evaluations++;
+    *refused = lm->residual(lm->user, lm->m, lm->n, lm->trial, lm->trial_r, NULL) || !all_finite(lm->m, lm->trial_r);
+    return ROTID_OK;
+}
+
+static void accept(struct lm *lm)
+{
+    memcpy(lm->x, lm->trial, (size_t)lm->n * sizeof *lm->x);
+    memcpy(lm->r, lm->trial_r, (size_t)lm->m * sizeof *lm->r);
+    lm->result->objective = half_square(lm->m, lm->r);
+}
+
+/* Near the minimum the decrease drowns in the rounding of r long before the gradient does (Hager and Zhang 2005 make the same point
+ * for line searches): the step is then judged by the gradient. Returns 0 with the trial accepted and linearised, STOP_OBJECTIVE with
+ * everything as it was, or an error. */
+static int accept_by_gradient(struct lm *lm)
+{
+    size_t m = (size_t)lm->m, n = (size_t)lm->n;
+    double *x = lm->old, *gradient = x + n, *r = gradient + n, *jacobian = r + m, cosine = lm->result->cosine, f = lm->result->objective;
+    memcpy(x, lm->x, n * sizeof *x);
+    memcpy(gradient, lm->gradient, n * sizeof *x);
+    memcpy(r, lm->r, m * sizeof *x);
+    memcpy(jacobian, lm->jacobian, m * n * sizeof *x);
+    accept(lm);
+    int status = linearise(lm);
+    if (status || lm->result->cosine < cosine)
+        return status;
+    memcpy(lm->x, x, n * sizeof *x);
+    memcpy(lm->gradient, gradient, n * sizeof *x);
+    memcpy(lm->r, r, m * sizeof *x);
+    memcpy(lm->jacobian, jacobian, m * n * sizeof *x);
+    lm->result->cosine = cosine;
+    lm->result->objective = f;
+    return ROTID_STOP_OBJECTIVE;
+}
+
+/* Steps of growing damping until one lowers the objective; the accepted point is linearised. */
+static int descend(struct lm *lm)
+{
+    for (;;) {
+        double predicted, actual;
+        int refused, status = try_step(lm, &predicted, &refused);
+        if (status)
+            return status;
+        actual = refused ? -1 : actual_decrease(lm);
+        lm->gain = refused ? -1 : actual / predicted;
+        double flat = FLAT * lm->result->objective;
+        if (lm->gain > 0.25 || (lm->gain > 0 && predicted > flat)) {
+            double t = 2 * lm->gain - 1;
+            accept(lm);
+            lm->mu = fmax(lm->mu * fmax(1.0 / 3, 1 - t * t * t), 1e-16);
+            lm->nu = 2;
+            return linearise(lm);
+        }
+        if (!refused && predicted < flat && fabs(actual) < flat) {
+            lm->mu = fmax(lm->mu / 3, 1e-16);
+            return accept_by_gradient(lm);
+        }
+        lm->mu *= lm->nu;
+        lm->nu *= 2;
+        if (lm->mu > MU_MOST)
+            return ROTID_STOP_STALLED;
+    }
+}
+
+static int report(struct lm *lm)
+{
+    if (!lm->options.trace)
+        return 0;
+    rotid_lm_iteration now = {.iteration = lm->result->iterations,
+                              .objective = lm->result->objective,
+                              .mu = lm->mu,
+                              .gain_ratio = lm->gain,
+                              .cosine = lm->result->cosine,
+                              .x = lm->x,
+                              .gradient = lm->gradient};
+    return lm->options.trace(lm->options.trace_user, &now);
+}
+
+static int minimise(struct lm *lm)
+{
+    lm->result->evaluations = 1;
+    if (lm->residual(lm->user, lm->m, lm->n, lm->x, lm->r, NULL))
+        return ROTID_ERROR_CALLBACK;
+    if (!all_finite(lm->m, lm->r))
+        return ROTID_ERROR_FINITE;
+    lm->result->objective = half_square(lm->m, lm->r);
+    int status = linearise(lm);
+    while (!status) {
+        if (report(lm))
+            return ROTID_STOP_CANCELLED;
+        if (lm->result->objective == 0 || lm->result->cosine <= lm->options.gradient_tolerance)
+            return ROTID_STOP_GRADIENT;
+        if (lm->result->iterations >= lm->options.max_iterations)
+            return ROTID_STOP_ITERATIONS;
+        status = descend(lm);
+        lm->result->iterations += status == ROTID_OK;
+    }
+    return status;
+}
+
+static double or_default(double value, double standard)
+{
+    return value > 0 ? value : standard;
+}
+
+int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r, double *jacobian,
+             double *work, rotid_lm_result *result)
+{
+    if (m < 1 || n < 1 || !residual || !x || !r || !jacobian || !work || !result || !all_finite(n, x))
+        return ROTID_ERROR_ARGUMENT;
+    *result = (rotid_lm_result){0};
+    struct lm lm = {.m = m, .n = n, .residual = residual, .user = user, .x = x, .r = r, .jacobian = jacobian, .result = result};
+    if (options)
+        lm.options = *options;
+    if (lm.options.max_iterations <= 0)
+        lm.options.max_iterations = 100;
+    lm.options.gradient_tolerance = or_default(lm.options.gradient_tolerance, 1e-10);
+    lm.options.step_tolerance = or_default(lm.options.step_tolerance, 1e-12);
+    lm.options.objective_tolerance = or_default(lm.options.objective_tolerance, 1e-16);
+    lm.mu = or_default(lm.options.initial_damping, 1e-3);
+    lm.nu = 2;
+    lm.gain = NAN;
+    lm.trial = work;
+    lm.step = lm.trial + n;
+    lm.gradient = lm.step + n;
+    lm.norm = lm.gradient + n;
+    lm.scale = lm.norm + n;
+    lm.trial_r = lm.scale + n;
+    lm.old = lm.trial_r + m;
+    lm.work = lm.old + 2 * (size_t)n + (size_t)m + (size_t)m * (size_t)n;
+    memset(lm.norm, 0, (size_t)n * sizeof *lm.norm);
+    result->status = minimise(&lm);
+    result->mu = lm.mu;
+    return result->status;
+}

@@ -1,0 +1,50 @@
+/* Eigenpairs of K phi = lambda M phi, phi' M phi = 1, lambda ascending. */
+#ifndef ROTID_LINALG_EIGEN_H
+#define ROTID_LINALG_EIGEN_H
+
+#include "base/pool.h"
+#include "linalg/factor.h"
+#include "rotid.h"
+
+/* ---- dense: the condensed problem (LAPACK dsygvx, dsygvd), solved as M phi = mu (K - s M) phi with a shift s < 0: rounding is then
+ * relative to the lowest eigenvalues, which are the ones that are wanted, instead of to the highest */
+
+struct eigen_dense {
+    int n, count;
+    double shift; /* of the size of the eigenvalues found last, 0 before */
+    double *a, *b, *values, *vectors, *work;
+    int *iwork, *ifail, lwork, liwork;
+};
+
+/* For the lowest `count` of n pairs. ROTID_OK or ROTID_ERROR_MEMORY. */
+int eigen_dense_new(struct pool *pool, int n, int count, struct eigen_dense *e);
+
+/* k, m [n * n] are kept. lambda [count], phi [n * count]. ROTID_OK, ROTID_ERROR_MASS, ROTID_ERROR_STIFFNESS or ROTID_ERROR_EIGEN. */
+int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi);
+
+/* ---- banded: the full chain, in O(n) */
+
+struct eigen_band {
+    int n, count, block, depth, started;
+    double shift;
+    struct factor factor, inertia;
+    int *all;           /* [n] 0 ... n - 1: no row is left out */
+    rotid_matrix shifted;
+    double *basis;      /* [n * block * depth], M-orthonormal */
+    double *mass_basis; /* M basis */
+    double *ritz;       /* [n * block] the current pairs, kept for the next call */
+    double *image;      /* [n * block] (K - shift M)^-1 M ritz */
+    double *value;      /* [block * depth] */
+    double *projected;  /* [(block * depth)^2] */
+    double *work;       /* [max(2 n, 3 block depth)] */
+};
+
+/* For the lowest `count` pairs of matrices structured as `structure`. ROTID_OK or ROTID_ERROR_MEMORY. */
+int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e);
+
+/* Block Krylov iteration on (K - s M)^-1 M with a shift s < 0, Rayleigh-Ritz on K, warm-started from the pairs of the call before;
+ * a Sturm count at the end proves that none was missed. K positive semidefinite, M positive definite.
+ * lambda [count], phi [n * count]. ROTID_OK, ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
+int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
+
+#endif

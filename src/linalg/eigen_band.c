@@ -1,0 +1,211 @@
+#include "linalg/eigen.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "linalg/matrix.h"
+
+#define TOLERANCE 1e-12  /* of the residual below: a vector is then as good as its arithmetic */
+#define ACCEPTABLE 1e-7  /* where rounding stops the iteration: eigenvalues are then good to its square */
+#define MOST_CYCLES 60
+#define GUARDS 5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
+#define DEPTH 3  /* Krylov blocks a cycle */
+
+int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e)
+{
+    int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
+    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH};
+    int width = block * DEPTH;
+    e->all = POOL_ARRAY(pool, int, n);
+    e->basis = POOL_ARRAY(pool, double, (size_t)n * (size_t)width);
+    e->mass_basis = POOL_ARRAY(pool, double, (size_t)n * (size_t)width);
+    e->ritz = POOL_ARRAY(pool, double, (size_t)n * (size_t)block);
+    e->image = POOL_ARRAY(pool, double, (size_t)n * (size_t)block);
+    e->value = POOL_ARRAY(pool, double, width);
+    e->projected = POOL_ARRAY(pool, double, (size_t)width * (size_t)width);
+    e->work = POOL_ARRAY(pool, double, 2 * n > 34 * width ? 2 * n : 34 * width);
+    if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->value || !e->projected || !e->work)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n; i++)
+        e->all[i] = i;
+    int status = matrix_new(pool, n, structure->kd, structure->nfar, structure->far, &e->shifted);
+    if (!status)
+        status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
+    return status ? status : factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->inertia);
+}
+
+/* Appends x [n] to the `size` M-orthonormal columns of the basis. Returns the new size; x is left out where it adds nothing, and
+ * ROTID_ERROR_MASS comes back where x' M x is not positive. Two passes: one leaves errors of the size of the cancellation. */
+static int append(struct eigen_band *e, const rotid_matrix *m, int size, const double *x)
+{
+    int n = e->n;
+    double *v = e->basis + (ptrdiff_t)size * n, *mv = e->mass_basis + (ptrdiff_t)size * n;
+    memcpy(v, x, (size_t)n * sizeof(double));
+    for (int pass = 0; pass < 3; pass++) {
+        if (size && pass) {
+            cblas_dgemv(CblasColMajor, CblasTrans, n, size, 1, e->mass_basis, n, v, 1, 0, e->work, 1);
+            cblas_dgemv(CblasColMajor, CblasNoTrans, n, size, -1, e->basis, n, e->work, 1, 1, v, 1);
+        }
+        matrix_multiply(m, 1, v, mv);
+        double square = cblas_ddot(n, v, 1, mv, 1);
+        if (!(square >= 0) && !pass)
+            return ROTID_ERROR_MASS;
+        if (!(square > 0))
+            return size;
+        double norm = sqrt(square); /* pass 0 scales, so that pass 1 shows how much of x is new */
+        cblas_dscal(n, 1 / norm, v, 1);
+        cblas_dscal(n, 1 / norm, mv, 1);
+        if (pass == 1 && norm < 1e-12)
+            return size;
+    }
+    return size + 1;
+}
+
+/* Rayleigh-Ritz on K in the basis: ritz and value get the lowest `block` pairs. */
+static int rayleigh_ritz(struct eigen_band *e, const rotid_matrix *k, int size)
+{
+    int n = e->n, count = size < e->block ? size : e->block;
+    for (int j = 0; j < size; j++) { /* K v, one column at a time, over the mass image that is not needed any more */
+        double *kv = e->mass_basis + (ptrdiff_t)j * n;
+        matrix_multiply(k, 1, e->basis + (ptrdiff_t)j * n, kv);
+    }
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, size, size, n, 1, e->basis, n, e->mass_basis, n, 0, e->projected, size);
+    if (LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'L', size, e->projected, size, e->value, e->work, 34 * size))
+        return ROTID_ERROR_EIGEN;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, count, size, 1, e->basis, n, e->projected, size, 0, e->ritz, n);
+    return count < e->count ? ROTID_ERROR_EIGEN : ROTID_OK;
+}
+
+static int refactor(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    matrix_combine(1, k, -e->shift, m, &e->shifted);
+    return factor_compute(&e->factor, &e->shifted) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
+}
+
+/* image := (K - s M)^-1 M ritz; returns the largest residual |ritz - (lambda - s) image|_M over the first `watched` pairs. */
+static double iterate(struct eigen_band *e, const rotid_matrix *m, int watched)
+{
+    int n = e->n;
+    double worst = 0, *difference = e->work, *image_of_it = e->work + n;
+    matrix_multiply(m, e->block, e->ritz, e->image);
+    factor_solve(&e->factor, e->block, e->image);
+    for (int j = 0; j < watched; j++) {
+        const double *x = e->ritz + (ptrdiff_t)j * n, *y = e->image + (ptrdiff_t)j * n;
+        for (int i = 0; i < n; i++)
+            difference[i] = x[i] - (e->value[j] - e->shift) * y[i];
+        matrix_multiply(m, 1, difference, image_of_it);
+        worst = fmax(worst, sqrt(fabs(cblas_ddot(n, difference, 1, image_of_it, 1))));
+    }
+    return worst;
+}
+
+/* One cycle: basis = [ritz, image, (K - s M)^-1 M image], new ritz. */
+static int cycle(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int n = e->n, size = 0;
+    for (int depth = 0; depth < e->depth && size < n; depth++) {
+        int begin = size;
+        const double *source = depth ? e->image : e->ritz;
+        for (int j = 0; j < e->block && size < n; j++) {
+            size = append(e, m, size, source + (ptrdiff_t)j * n);
+            if (size < 0)
+                return size;
+        }
+        if (depth && size > begin && depth + 1 < e->depth) {
+            memset(e->image, 0, (size_t)n * (size_t)e->block * sizeof(double));
+            memcpy(e->image, e->mass_basis + (ptrdiff_t)begin * n, (size_t)n * (size_t)(size - begin) * sizeof(double));
+            factor_solve(&e->factor, e->block, e->image);
+        }
+    }
+    return rayleigh_ritz(e, k, size);
+}
+
+static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, int watched, double tolerance)
+{
+    double previous = INFINITY;
+    for (int c = 0; c < MOST_CYCLES; c++) {
+        double worst = iterate(e, m, watched);
+        if (!isfinite(worst))
+            return ROTID_ERROR_EIGEN;
+        if (worst <= tolerance || (c > 1 && worst < ACCEPTABLE && worst > 0.3 * previous))
+            return ROTID_OK;
+        previous = worst;
+        int status = cycle(e, k, m);
+        if (status)
+            return status;
+    }
+    return ROTID_ERROR_EIGEN;
+}
+
+/* A first shift far below the first mode and yet well above rounding, then, knowing the third eigenvalue (the first two may be
+ * rigid-body modes at zero), one of its size: the iteration then converges about as fast as with none. */
+static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    struct random_stream stream = {20240229};
+    int n = e->n, stride = k->kd + 1;
+    double largest = 0;
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, k->band[(ptrdiff_t)i * stride] / m->band[(ptrdiff_t)i * stride]);
+    if (!isfinite(largest) || largest <= 0)
+        return ROTID_ERROR_STIFFNESS;
+    e->shift = -1e-10 * largest;
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)n * e->block; i++)
+        e->ritz[i] = random_normal(&stream);
+    for (int j = 0; j < e->block; j++)
+        e->value[j] = 0;
+    int watched = e->count < 3 ? e->count : 3, status = refactor(e, k, m);
+    if (!status)
+        status = converge(e, k, m, watched, 1e-3);
+    if (status)
+        return status;
+    e->shift = -0.1 * fabs(e->value[watched - 1]);
+    return e->shift < 0 ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
+}
+
+/* Are there exactly `count` eigenvalues below a shift just above the last one? Rounding limits how near it can be; a neighbour
+ * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. */
+static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
+    int expected = e->count;
+    while (expected < e->block && e->value[expected] <= shift)
+        expected++;
+    matrix_combine(1, k, -shift, m, &e->shifted);
+    return factor_negative_count(&e->inertia, &e->shifted) == expected;
+}
+
+int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
+{
+    for (int attempt = 0; attempt < 2; attempt++) {
+        int status = ROTID_OK;
+        if (e->started) { /* the old vectors with the new matrices: pairs first */
+            status = refactor(e, k, m);
+            memset(e->image, 0, (size_t)e->n * (size_t)e->block * sizeof(double));
+            int size = 0;
+            for (int j = 0; j < e->block && !status; j++) {
+                size = append(e, m, size, e->ritz + (ptrdiff_t)j * e->n);
+                status = size < 0 ? size : ROTID_OK;
+            }
+            if (!status)
+                status = rayleigh_ritz(e, k, size);
+        } else {
+            status = start(e, k, m);
+        }
+        if (!status)
+            status = converge(e, k, m, e->count, TOLERANCE);
+        if (!status && none_missed(e, k, m)) {
+            e->started = 1;
+            memcpy(lambda, e->value, (size_t)e->count * sizeof(double));
+            memcpy(phi, e->ritz, (size_t)e->n * (size_t)e->count * sizeof(double));
+            return ROTID_OK;
+        }
+        int was_warm = e->started;
+        e->started = 0;
+        if (!was_warm)
+            return status ? status : ROTID_ERROR_EIGEN;
+    }
+    return ROTID_ERROR_EIGEN;
+}

@@ -1,0 +1,91 @@
+#include "linalg/eigen.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+int eigen_dense_new(struct pool *pool, int n, int count, struct eigen_dense *e)
+{
+    *e = (struct eigen_dense){.n = n, .count = count};
+    size_t square = (size_t)n * (size_t)n;
+    double best = 0, none = 0;
+    lapack_int ibest = 0, found = 0;
+    if (count == n) {
+        (void)LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', n, &none, n, &none, n, &none, &best, -1, &ibest, -1);
+        e->liwork = (int)ibest;
+    } else {
+        (void)LAPACKE_dsygvx_work(LAPACK_COL_MAJOR, 1, 'V', 'I', 'L', n, &none, n, &none, n, 0, 0, 1, count, 0, &found, &none, &none,
+                                  n, &best, -1, &ibest, &ibest);
+        e->liwork = 5 * n;
+    }
+    e->lwork = (int)best;
+    e->a = POOL_ARRAY(pool, double, square);
+    e->b = POOL_ARRAY(pool, double, square);
+    e->values = POOL_ARRAY(pool, double, n);
+    e->vectors = POOL_ARRAY(pool, double, (size_t)n * (size_t)count);
+    e->work = POOL_ARRAY(pool, double, e->lwork);
+    e->iwork = POOL_ARRAY(pool, int, e->liwork);
+    e->ifail = POOL_ARRAY(pool, int, n);
+    return e->a && e->b && e->values && e->vectors && e->work && e->iwork && e->ifail ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* The `count` largest mu, ascending, and their vectors with phi' (K - s M) phi = 1. */
+static int solve_inverse(struct eigen_dense *e, const double *k, const double *m)
+{
+    int n = e->n;
+    size_t square = (size_t)n * (size_t)n;
+    memcpy(e->a, m, square * sizeof(double));
+    for (size_t i = 0; i < square; i++)
+        e->b[i] = k[i] - e->shift * m[i];
+    lapack_int info, found = e->count;
+    if (e->count == n) {
+        info = LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', n, e->a, n, e->b, n, e->values, e->work, e->lwork, e->iwork, e->liwork);
+        memcpy(e->vectors, e->a, square * sizeof(double));
+    } else {
+        double abstol = 2 * LAPACKE_dlamch_work('S'); /* eigenvalues to full accuracy want this (LAPACK Users' Guide, dsygvx) */
+        info = LAPACKE_dsygvx_work(LAPACK_COL_MAJOR, 1, 'V', 'I', 'L', n, e->a, n, e->b, n, 0, 0, n - e->count + 1, n, abstol, &found,
+                                   e->values, e->vectors, n, e->work, e->lwork, e->iwork, e->ifail);
+    }
+    if (info > n)
+        return ROTID_ERROR_STIFFNESS;
+    return info || found != e->count ? ROTID_ERROR_EIGEN : ROTID_OK;
+}
+
+/* Before any eigenvalue is known: a shift that keeps K - s M positive definite and is small beside every diagonal ratio. */
+static double first_shift(int n, const double *k, const double *m)
+{
+    double least = INFINITY;
+    for (int i = 0; i < n; i++)
+        least = fmin(least, k[i + (ptrdiff_t)i * n] / m[i + (ptrdiff_t)i * n]);
+    return -1e-4 * least;
+}
+
+int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi)
+{
+    int n = e->n, status, passes = e->shift < 0 ? 1 : 2;
+    for (int i = 0; i < n; i++)
+        if (!(m[i + (ptrdiff_t)i * n] > 0))
+            return ROTID_ERROR_MASS;
+    if (passes == 2)
+        e->shift = first_shift(n, k, m);
+    if (!(e->shift < 0) || !isfinite(e->shift))
+        return ROTID_ERROR_STIFFNESS;
+    for (int pass = 0; pass < passes; pass++) {
+        status = solve_inverse(e, k, m);
+        for (int j = 0; j < e->count && !status; j++) {
+            int source = e->count - 1 - j;
+            double mu = e->values[source], scale = 1 / sqrt(mu);
+            if (!(mu > 0))
+                status = ROTID_ERROR_MASS;
+            lambda[j] = 1 / mu + e->shift;
+            for (int i = 0; i < n; i++)
+                phi[i + (ptrdiff_t)j * n] = scale * e->vectors[i + (ptrdiff_t)source * n];
+        }
+        if (status)
+            return status;
+        double reference = lambda[e->count < 4 ? e->count - 1 : 3]; /* past two rigid modes, whose zeros would make no shift */
+        if (reference > 0)
+            e->shift = -reference;
+    }
+    return ROTID_OK;
+}

@@ -1,0 +1,250 @@
+#include "linalg/factor.h"
+
+#include <lapacke.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *structure, int n, const int *kept, struct factor *f)
+{
+    int nfar = structure->nfar, kd = structure->kd;
+    *f = (struct factor){.kind = kind, .kd = kd, .lda = kind == FACTOR_LU ? 3 * kd + 1 : kd + 1};
+    size_t outer = (size_t)nfar;
+    f->position = POOL_ARRAY(pool, int, structure->n);
+    f->inner = POOL_ARRAY(pool, int, n);
+    f->outer = POOL_ARRAY(pool, int, outer);
+    f->band = POOL_ARRAY(pool, double, (size_t)f->lda * (size_t)n);
+    f->coupling = POOL_ARRAY(pool, double, (size_t)n * outer);
+    f->x = POOL_ARRAY(pool, double, (size_t)n * outer);
+    f->schur = POOL_ARRAY(pool, double, outer * outer);
+    f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
+    f->work = POOL_ARRAY(pool, double, n);
+    f->band_pivot = POOL_ARRAY(pool, int, n);
+    f->schur_pivot = POOL_ARRAY(pool, int, outer);
+    if (!f->position || !f->inner || !f->outer || !f->band || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work || !f->band_pivot ||
+        !f->schur_pivot)
+        return ROTID_ERROR_MEMORY;
+    factor_keep(f, structure, n, kept);
+    return ROTID_OK;
+}
+
+void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const int *kept)
+{
+    f->n = n;
+    f->kept = kept;
+    f->nr = f->nf = 0;
+    for (int i = 0; i < structure->n; i++)
+        f->position[i] = INT_MIN;
+    for (int k = 0, next = 0; k < n; k++) {
+        while (next < structure->nfar && structure->far[next] < kept[k])
+            next++;
+        if (next < structure->nfar && structure->far[next] == kept[k]) {
+            f->position[kept[k]] = -1 - f->nf;
+            f->outer[f->nf++] = k;
+        } else {
+            f->position[kept[k]] = f->nr;
+            f->inner[f->nr++] = k;
+        }
+    }
+}
+
+/* Band storage of LAPACK: Cholesky keeps the lower triangle, LU both with kd rows of fill above. */
+static void put_inner(struct factor *f, int row, int column, double value)
+{
+    if (f->kind == FACTOR_CHOLESKY) {
+        f->band[(row - column) + (ptrdiff_t)column * f->lda] = value;
+        return;
+    }
+    f->band[2 * f->kd + (row - column) + (ptrdiff_t)column * f->lda] = value;
+    f->band[2 * f->kd + (column - row) + (ptrdiff_t)row * f->lda] = value;
+}
+
+static void gather(struct factor *f, const rotid_matrix *a)
+{
+    memset(f->band, 0, (size_t)f->lda * (size_t)f->nr * sizeof(double));
+    memset(f->coupling, 0, (size_t)f->nr * (size_t)f->nf * sizeof(double));
+    memset(f->schur, 0, (size_t)f->nf * (size_t)f->nf * sizeof(double));
+    for (int k = 0; k < f->n; k++) {
+        int j = f->kept[k], pj = f->position[j], reach = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
+        const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
+        for (int d = 0; d <= reach; d++) {
+            int pi = f->position[j + d];
+            if (pi == INT_MIN)
+                continue;
+            if (pi >= 0 && pj >= 0)
+                put_inner(f, pi, pj, column[d]);
+            else if (pi >= 0)
+                f->coupling[pi + (ptrdiff_t)(-1 - pj) * f->nr] = column[d];
+            else if (pj >= 0)
+                f->coupling[pj + (ptrdiff_t)(-1 - pi) * f->nr] = column[d];
+            else
+                f->schur[(-1 - pi) + (-1 - pj) * f->nf] = f->schur[(-1 - pj) + (-1 - pi) * f->nf] = column[d];
+        }
+    }
+    for (int q = 0; q < a->nfar; q++)
+        for (int p = 0; p < a->nfar; p++) {
+            int fp = f->position[a->far[p]], fq = f->position[a->far[q]];
+            if (fp != INT_MIN && fq != INT_MIN)
+                f->schur[(-1 - fp) + (-1 - fq) * f->nf] += a->block[p + q * a->nfar];
+        }
+}
+
+/* LL' x = b in place; a short band makes the substitution faster than a call per column. */
+static void cholesky_solve(const struct factor *f, double *b)
+{
+    for (int j = 0; j < f->nr; j++) {
+        const double *l = f->band + (ptrdiff_t)j * f->lda;
+        int reach = f->kd < f->nr - 1 - j ? f->kd : f->nr - 1 - j;
+        double t = b[j] /= l[0];
+        for (int d = 1; d <= reach; d++)
+            b[j + d] -= l[d] * t;
+    }
+    for (int j = f->nr - 1; j >= 0; j--) {
+        const double *l = f->band + (ptrdiff_t)j * f->lda;
+        int reach = f->kd < f->nr - 1 - j ? f->kd : f->nr - 1 - j;
+        double t = b[j];
+        for (int d = 1; d <= reach; d++)
+            t -= l[d] * b[j + d];
+        b[j] = t / l[0];
+    }
+}
+
+static void inner_solve(struct factor *f, int columns, double *b)
+{
+    if (f->kind == FACTOR_LU) {
+        if (f->nr)
+            (void)LAPACKE_dgbtrs_work(LAPACK_COL_MAJOR, 'N', f->nr, f->kd, f->kd, columns, f->band, f->lda, f->band_pivot, b, f->nr);
+        return;
+    }
+    for (int c = 0; c < columns; c++)
+        cholesky_solve(f, b + (ptrdiff_t)c * f->nr);
+}
+
+/* S := A_ff - A_fr X */
+static void form_schur(struct factor *f)
+{
+    for (int q = 0; q < f->nf; q++)
+        for (int p = 0; p < f->nf; p++) {
+            double sum = 0;
+            for (int i = 0; i < f->nr; i++)
+                sum += f->coupling[i + (ptrdiff_t)p * f->nr] * f->x[i + (ptrdiff_t)q * f->nr];
+            f->schur[p + q * f->nf] -= sum;
+        }
+}
+
+int factor_compute(struct factor *f, const rotid_matrix *a)
+{
+    gather(f, a);
+    lapack_int info = 0;
+    if (f->nr && f->kind == FACTOR_CHOLESKY)
+        info = LAPACKE_dpbtrf_work(LAPACK_COL_MAJOR, 'L', f->nr, f->kd, f->band, f->lda);
+    else if (f->nr)
+        info = LAPACKE_dgbtrf_work(LAPACK_COL_MAJOR, f->nr, f->nr, f->kd, f->kd, f->band, f->lda, f->band_pivot);
+    if (info)
+        return 1;
+    if (!f->nf)
+        return 0;
+    memcpy(f->x, f->coupling, (size_t)f->nr * (size_t)f->nf * sizeof(double));
+    inner_solve(f, f->nf, f->x);
+    form_schur(f);
+    if (f->kind == FACTOR_CHOLESKY)
+        info = LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', f->nf, f->schur, f->nf);
+    else
+        info = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, f->nf, f->nf, f->schur, f->nf, f->schur_pivot);
+    return info != 0;
+}
+
+static void outer_solve(struct factor *f, double *b)
+{
+    if (f->kind == FACTOR_CHOLESKY)
+        (void)LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', f->nf, 1, f->schur, f->nf, b, f->nf);
+    else
+        (void)LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', f->nf, 1, f->schur, f->nf, f->schur_pivot, b, f->nf);
+}
+
+void factor_solve(struct factor *f, int columns, double *b)
+{
+    double *inner = f->work, *outer = f->work + f->nr;
+    for (int c = 0; c < columns; c++, b += f->n) {
+        for (int i = 0; i < f->nr; i++)
+            inner[i] = b[f->inner[i]];
+        inner_solve(f, 1, inner);
+        if (f->nf) {
+            for (int p = 0; p < f->nf; p++) {
+                double sum = b[f->outer[p]];
+                for (int i = 0; i < f->nr; i++)
+                    sum -= f->coupling[i + (ptrdiff_t)p * f->nr] * inner[i];
+                outer[p] = sum;
+            }
+            outer_solve(f, outer);
+            for (int p = 0; p < f->nf; p++) {
+                for (int i = 0; i < f->nr; i++)
+                    inner[i] -= f->x[i + (ptrdiff_t)p * f->nr] * outer[p];
+                b[f->outer[p]] = outer[p];
+            }
+        }
+        for (int i = 0; i < f->nr; i++)
+            b[f->inner[i]] = inner[i];
+    }
+}
+
+/* LDL' of the inner band in its own storage (unit lower L below, D on the diagonal); returns the number of negative pivots. A
+ * pivot that cancels is replaced by a tiny one of its scale, which moves the shift by rounding and keeps the count. */
+static int band_ldl(struct factor *f)
+{
+    int negative = 0;
+    for (int j = 0; j < f->nr; j++) {
+        double *l = f->band + (ptrdiff_t)j * f->lda;
+        int reach = f->kd < f->nr - 1 - j ? f->kd : f->nr - 1 - j;
+        double scale = fabs(l[0]);
+        for (int d = 1; d <= reach; d++)
+            scale = fmax(scale, fabs(l[d]));
+        if (fabs(l[0]) < 1e-15 * scale)
+            l[0] = -1e-15 * scale;
+        negative += l[0] < 0;
+        for (int d = 1; d <= reach; d++) {
+            double factor = l[d] / l[0];
+            double *target = f->band + (ptrdiff_t)(j + d) * f->lda;
+            for (int e = d; e <= reach; e++)
+                target[e - d] -= factor * l[e];
+        }
+        for (int d = 1; d <= reach; d++)
+            l[d] /= l[0];
+    }
+    return negative;
+}
+
+static void ldl_solve(const struct factor *f, double *b)
+{
+    for (int j = 0; j < f->nr; j++) {
+        const double *l = f->band + (ptrdiff_t)j * f->lda;
+        int reach = f->kd < f->nr - 1 - j ? f->kd : f->nr - 1 - j;
+        for (int d = 1; d <= reach; d++)
+            b[j + d] -= l[d] * b[j];
+    }
+    for (int j = f->nr - 1; j >= 0; j--) {
+        const double *l = f->band + (ptrdiff_t)j * f->lda;
+        int reach = f->kd < f->nr - 1 - j ? f->kd : f->nr - 1 - j;
+        b[j] /= l[0];
+        for (int d = 1; d <= reach; d++)
+            b[j] -= l[d] * b[j + d];
+    }
+}
+
+int factor_negative_count(struct factor *f, const rotid_matrix *a)
+{
+    gather(f, a);
+    int negative = band_ldl(f);
+    if (!f->nf)
+        return negative;
+    memcpy(f->x, f->coupling, (size_t)f->nr * (size_t)f->nf * sizeof(double));
+    for (int p = 0; p < f->nf; p++)
+        ldl_solve(f, f->x + (ptrdiff_t)p * f->nr);
+    form_schur(f);
+    double *value = f->schur_work;
+    if (LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'N', 'L', f->nf, f->schur, f->nf, value, value + f->nf, 3 * f->nf))
+        return -1;
+    for (int p = 0; p < f->nf; p++)
+        negative += value[p] < 0;
+    return negative;
+}

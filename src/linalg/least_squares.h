@@ -1,0 +1,20 @@
+/* The two dense kernels of a least-squares fit. */
+#ifndef ROTID_LINALG_LEAST_SQUARES_H
+#define ROTID_LINALG_LEAST_SQUARES_H
+
+#include <stddef.h>
+
+size_t least_squares_workspace(int m, int n);
+
+/* h [n]: min |J h + r|^2 + mu |D h|^2 by QR of [J; sqrt(mu) D], D = diag(scale) > 0, mu > 0. J [m * n], r [m] are kept. work
+ * [least_squares_workspace(m, n)]. Returns 0, or 1 where the QR meets a zero on its diagonal or something not finite. */
+int least_squares_damped_step(int m, int n, const double *jacobian, const double *r, double mu, const double *scale, double *h,
+                              double *work);
+
+size_t singular_values_workspace(int m, int n);
+
+/* J [m * n] = U S V': value [n] decreasing (zeros past min(m, n)), direction [n * n] = V. J is kept.
+ * work [singular_values_workspace(m, n)]. Returns 0, or 1 without convergence. */
+int singular_values(int m, int n, const double *jacobian, double *value, double *direction, double *work);
+
+#endif

@@ -1,0 +1,106 @@
+#include "linalg/matrix.h"
+
+#include <math.h>
+#include <string.h>
+
+int matrix_new(struct pool *pool, int n, int kd, int nfar, const int *far, rotid_matrix *a)
+{
+    *a = (rotid_matrix){.n = n, .kd = kd, .nfar = nfar, .far = far};
+    a->band = pool_get(pool, (size_t)n * (size_t)(kd + 1), sizeof(double));
+    a->block = pool_get(pool, (size_t)nfar * (size_t)nfar, sizeof(double));
+    return a->band && a->block ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+static size_t band_length(const rotid_matrix *a)
+{
+    return (size_t)a->n * (size_t)(a->kd + 1);
+}
+
+static size_t block_length(const rotid_matrix *a)
+{
+    return (size_t)a->nfar * (size_t)a->nfar;
+}
+
+void matrix_zero(rotid_matrix *a)
+{
+    memset(a->band, 0, band_length(a) * sizeof(double));
+    if (a->nfar)
+        memset(a->block, 0, block_length(a) * sizeof(double));
+}
+
+static int far_position(const rotid_matrix *a, int dof)
+{
+    for (int f = 0; f < a->nfar; f++)
+        if (a->far[f] == dof)
+            return f;
+    return -1;
+}
+
+void matrix_add(rotid_matrix *a, int i, int j, double value)
+{
+    int low = i < j ? i : j, high = i < j ? j : i;
+    if (high - low <= a->kd) {
+        a->band[(high - low) + (ptrdiff_t)low * (a->kd + 1)] += value;
+        return;
+    }
+    int fi = far_position(a, i), fj = far_position(a, j);
+    a->block[fi + fj * a->nfar] += value;
+    a->block[fj + fi * a->nfar] += value;
+}
+
+void matrix_add_element(rotid_matrix *a, int nd, const int *dof, const double *e)
+{
+    for (int j = 0; j < nd; j++)
+        for (int i = j; i < nd; i++)
+            matrix_add(a, dof[i], dof[j], e[i + j * nd]);
+}
+
+void matrix_combine(double alpha, const rotid_matrix *a, double beta, const rotid_matrix *b, rotid_matrix *c)
+{
+    size_t length = band_length(a);
+    for (size_t i = 0; i < length; i++)
+        c->band[i] = alpha * a->band[i] + beta * b->band[i];
+    length = block_length(a);
+    for (size_t i = 0; i < length; i++)
+        c->block[i] = alpha * a->block[i] + beta * b->block[i];
+}
+
+void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y)
+{
+    int n = a->n, kd = a->kd;
+    for (int c = 0; c < columns; c++, x += n, y += n) {
+        memset(y, 0, (size_t)n * sizeof(double));
+        for (int j = 0; j < n; j++) {
+            const double *column = a->band + (ptrdiff_t)j * (kd + 1);
+            int reach = kd < n - 1 - j ? kd : n - 1 - j;
+            double xj = x[j], sum = column[0] * xj;
+            for (int d = 1; d <= reach; d++) {
+                y[j + d] += column[d] * xj;
+                sum += column[d] * x[j + d];
+            }
+            y[j] += sum;
+        }
+        for (int g = 0; g < a->nfar; g++)
+            for (int f = 0; f < a->nfar; f++)
+                y[a->far[f]] += a->block[f + g * a->nfar] * x[a->far[g]];
+    }
+}
+
+double matrix_product(const rotid_matrix *a, const double *x, const double *y, double *work)
+{
+    matrix_multiply(a, 1, y, work);
+    double sum = 0;
+    for (int i = 0; i < a->n; i++)
+        sum += x[i] * work[i];
+    return sum;
+}
+
+int matrix_is_finite(const rotid_matrix *a)
+{
+    double sum = 0; /* 0 * x is NaN for every x that is not finite */
+    for (size_t i = 0, length = band_length(a); i < length; i++)
+        sum += 0 * a->band[i];
+    for (size_t i = 0, length = block_length(a); i < length; i++)
+        sum += 0 * a->block[i];
+    return isfinite(sum);
+}

@@ -1,0 +1,30 @@
+/* Symmetric matrices that are banded but for a small block (rotid_matrix of rotid.h). */
+#ifndef ROTID_LINALG_MATRIX_H
+#define ROTID_LINALG_MATRIX_H
+
+#include "base/pool.h"
+#include "rotid.h"
+
+/* Storage for a zero matrix of the given structure; `far` is kept, not copied. ROTID_OK or ROTID_ERROR_MEMORY. */
+int matrix_new(struct pool *pool, int n, int kd, int nfar, const int *far, rotid_matrix *a);
+
+void matrix_zero(rotid_matrix *a);
+
+/* Adds value to A(i, j) and A(j, i): into the band where it reaches, else into the block, where i and j must both be far. */
+void matrix_add(rotid_matrix *a, int i, int j, double value);
+
+/* Adds the element matrix e [nd * nd] on the degrees of freedom dof [nd]. */
+void matrix_add_element(rotid_matrix *a, int nd, const int *dof, const double *e);
+
+/* c := alpha a + beta b, same structure; c may be a or b. */
+void matrix_combine(double alpha, const rotid_matrix *a, double beta, const rotid_matrix *b, rotid_matrix *c);
+
+/* Y [n * columns] := A X [n * columns]. */
+void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y);
+
+/* x' A y; work [n]. */
+double matrix_product(const rotid_matrix *a, const double *x, const double *y, double *work);
+
+int matrix_is_finite(const rotid_matrix *a);
+
+#endif

@@ -1,0 +1,25 @@
+#include "linalg/symmetric.h"
+
+#include <lapacke.h>
+
+#include "rotid.h"
+
+int symmetric_new(struct pool *pool, int n, struct symmetric *s)
+{
+    *s = (struct symmetric){.n = n, .lwork = 32 * n};
+    s->a = POOL_ARRAY(pool, double, (size_t)n * (size_t)n);
+    s->work = POOL_ARRAY(pool, double, s->lwork);
+    s->pivot = POOL_ARRAY(pool, int, n);
+    return s->a && s->work && s->pivot ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+int symmetric_factor(struct symmetric *s, int size)
+{
+    return size && LAPACKE_dsytrf_work(LAPACK_COL_MAJOR, 'L', size, s->a, size, s->pivot, s->work, s->lwork) != 0;
+}
+
+void symmetric_solve(struct symmetric *s, int size, double *b)
+{
+    if (size)
+        (void)LAPACKE_dsytrs_work(LAPACK_COL_MAJOR, 'L', size, 1, s->a, size, s->pivot, b, size);
+}

@@ -1,0 +1,230 @@
+#include "modal/prediction.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "linalg/matrix.h"
+
+static int new_matrices(struct pool *pool, const rotid_model *model, struct prediction *p)
+{
+    rotid_matrix *all[] = {&p->k, &p->m, &p->dk, &p->dm, &p->other_k, &p->other_m};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        int status = matrix_new(pool, model->n, model->kd, model->nfar, model->far, all[i]);
+        if (status)
+            return status;
+    }
+    return ROTID_OK;
+}
+
+static int new_solvers(struct pool *pool, const rotid_model *model, int with_vectors, struct prediction *p)
+{
+    int status;
+    if (p->reduction == ROTID_REDUCTION_NONE) {
+        status = eigen_band_new(pool, &p->k, p->count, &p->band);
+        return status || !with_vectors ? status : nelson_band_new(pool, &p->k, &p->nelson_band);
+    }
+    status = reduction_new(pool, p->reduction, &p->k, model->nmaster, model->master, &p->condensed);
+    if (!status)
+        status = eigen_dense_new(pool, p->size, p->count, &p->dense);
+    return status || !with_vectors ? status : nelson_dense_new(pool, p->size, &p->nelson_dense);
+}
+
+int prediction_new(struct pool *pool, const rotid_model *model, int reduction, int derivative, int count, int with_vectors,
+                   struct prediction *p)
+{
+    int full = reduction == ROTID_REDUCTION_NONE;
+    *p = (struct prediction){.model = model, .reduction = reduction, .derivative = derivative};
+    p->size = full ? model->n : model->nmaster;
+    p->count = !full && with_vectors && derivative == ROTID_MODAL ? p->size : count;
+    if (count < 1 || count > p->size || (full && derivative == ROTID_MODAL))
+        return ROTID_ERROR_ARGUMENT;
+    size_t vectors = (size_t)p->size * (size_t)p->count, nparam = (size_t)model->nparam;
+    p->lambda = POOL_ARRAY(pool, double, p->count);
+    p->phi = POOL_ARRAY(pool, double, vectors);
+    p->dlambda = POOL_ARRAY(pool, double, (size_t)p->count * nparam);
+    p->dphi = POOL_ARRAY(pool, double, with_vectors ? vectors * nparam : 0);
+    p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
+    p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
+    p->x = POOL_ARRAY(pool, double, nparam);
+    p->work = POOL_ARRAY(pool, double, 6 * (size_t)model->n);
+    if (!p->lambda || !p->phi || !p->dlambda || !p->dphi || !p->kx || !p->mx || !p->x || !p->work)
+        return ROTID_ERROR_MEMORY;
+    int status = new_matrices(pool, model, p);
+    return status ? status : new_solvers(pool, model, with_vectors, p);
+}
+
+static int evaluate(const rotid_model *model, const double *x, rotid_matrix *k, rotid_matrix *m)
+{
+    matrix_zero(k);
+    matrix_zero(m);
+    if (model->matrices(model->user, x, k, m))
+        return ROTID_ERROR_CALLBACK;
+    return matrix_is_finite(k) && matrix_is_finite(m) ? ROTID_OK : ROTID_ERROR_FINITE;
+}
+
+int prediction_compute(struct prediction *p, const double *x)
+{
+    int status = evaluate(p->model, x, &p->k, &p->m);
+    if (status)
+        return status;
+    if (p->reduction == ROTID_REDUCTION_NONE)
+        return eigen_band_solve(&p->band, &p->k, &p->m, p->lambda, p->phi);
+    status = reduction_compute(&p->condensed, &p->k, &p->m);
+    return status ? status : eigen_dense_solve(&p->dense, p->condensed.kc, p->condensed.mc, p->lambda, p->phi);
+}
+
+/* dK and dM by central differences, for a host that gives none. The step balances rounding against curvature. */
+static int difference(struct prediction *p, const double *x, int q)
+{
+    int nparam = p->model->nparam;
+    memcpy(p->x, x, (size_t)nparam * sizeof *x);
+    double h = 6e-6 * (x[q] != 0 ? fabs(x[q]) : 1);
+    p->x[q] = x[q] + h;
+    int status = evaluate(p->model, p->x, &p->dk, &p->dm);
+    p->x[q] = x[q] - h;
+    if (!status)
+        status = evaluate(p->model, p->x, &p->other_k, &p->other_m);
+    if (status)
+        return status;
+    matrix_combine(0.5 / h, &p->dk, -0.5 / h, &p->other_k, &p->dk);
+    matrix_combine(0.5 / h, &p->dm, -0.5 / h, &p->other_m, &p->dm);
+    return ROTID_OK;
+}
+
+static int matrix_derivatives(struct prediction *p, const double *x, int q)
+{
+    if (!p->model->derivatives)
+        return difference(p, x, q);
+    matrix_zero(&p->dk);
+    matrix_zero(&p->dm);
+    if (p->model->derivatives(p->model->user, x, q, &p->dk, &p->dm))
+        return ROTID_ERROR_CALLBACK;
+    return matrix_is_finite(&p->dk) && matrix_is_finite(&p->dm) ? ROTID_OK : ROTID_ERROR_FINITE;
+}
+
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* (36): u'(dK - lambda dM) u, u = T phi, plus for a condensed model 2 (dT phi)'(K - lambda M) u */
+static double eigenvalue_derivative(struct prediction *p, int k)
+{
+    int n = p->model->n;
+    double lambda = p->lambda[k], *u = p->work, *a = u + n, *b = a + n, *dt = b + n, sum;
+    const double *phi = p->phi + (ptrdiff_t)k * p->size;
+    if (p->reduction == ROTID_REDUCTION_NONE)
+        memcpy(u, phi, (size_t)n * sizeof *u);
+    else
+        reduction_expand(&p->condensed, phi, u);
+    matrix_multiply(&p->dk, 1, u, a);
+    matrix_multiply(&p->dm, 1, u, b);
+    sum = dot(n, u, a) - lambda * dot(n, u, b);
+    if (p->reduction == ROTID_REDUCTION_NONE)
+        return sum;
+    reduction_derivative_expand(&p->condensed, &p->dk, &p->dm, phi, dt);
+    matrix_multiply(&p->k, 1, u, a);
+    matrix_multiply(&p->m, 1, u, b);
+    return sum + 2 * (dot(n, dt, a) - lambda * dot(n, dt, b));
+}
+
+/* right-hand sides of (34, 35) from dK phi and dM phi, and lambda's derivative */
+static double right_side(int n, double lambda, const double *phi, const double *m_phi, const double *dk_phi, const double *dm_phi,
+                         double *p, double *q)
+{
+    double dlambda = dot(n, phi, dk_phi) - lambda * dot(n, phi, dm_phi);
+    for (int i = 0; i < n; i++)
+        p[i] = -(dk_phi[i] - dlambda * m_phi[i] - lambda * dm_phi[i]);
+    *q = -0.5 * dot(n, phi, dm_phi);
+    return dlambda;
+}
+
+static void multiply_dense(int n, const double *a, const double *x, double *y)
+{
+    memset(y, 0, (size_t)n * sizeof *y);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            y[i] += a[i + (ptrdiff_t)j * n] * x[j];
+}
+
+static int prepare_vector(struct prediction *p, int k)
+{
+    const double *phi = p->phi + (ptrdiff_t)k * p->size;
+    if (eigenvalue_is_close(p->count, p->lambda, k))
+        return ROTID_ERROR_CLOSE;
+    if (p->reduction == ROTID_REDUCTION_NONE)
+        return nelson_band_prepare(&p->nelson_band, &p->k, &p->m, p->lambda[k], phi);
+    if (p->derivative == ROTID_MODAL)
+        return ROTID_OK;
+    return nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, p->lambda[k], phi);
+}
+
+static void differentiate_vector(struct prediction *p, int k, int q)
+{
+    int n = p->size;
+    ptrdiff_t place = ((ptrdiff_t)q * p->count + k) * n;
+    double *m_phi = p->work, *right = m_phi + n, *dk_phi = right + n, *dm_phi = dk_phi + n, constant;
+    const double *phi = p->phi + (ptrdiff_t)k * n;
+    if (p->reduction == ROTID_REDUCTION_NONE) {
+        matrix_multiply(&p->m, 1, phi, m_phi);
+        matrix_multiply(&p->dk, 1, phi, dk_phi);
+        matrix_multiply(&p->dm, 1, phi, dm_phi);
+    } else {
+        reduction_derivative_multiply(&p->condensed, &p->dk, &p->dm, phi, p->kx + place, p->mx + place, p->work);
+        multiply_dense(n, p->condensed.mc, phi, m_phi);
+        dk_phi = p->kx + place;
+        dm_phi = p->mx + place;
+    }
+    p->dlambda[k + (ptrdiff_t)q * p->count] = right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, right, &constant);
+    if (p->reduction == ROTID_REDUCTION_NONE)
+        nelson_band_solve(&p->nelson_band, phi, m_phi, right, constant, p->dphi + place);
+    else if (p->derivative == ROTID_MODAL)
+        modal_superposition(n, p->lambda, p->phi, k, m_phi, right, constant, p->dphi + place);
+    else
+        nelson_dense_solve(&p->nelson_dense, phi, m_phi, right, constant, p->dphi + place);
+}
+
+/* Vectors: the factors belong to a mode and serve all parameters, so dK and dM are asked for again for each mode; they cost less. */
+static int differentiate_vectors(struct prediction *p, const double *x, int k)
+{
+    int status = prepare_vector(p, k);
+    for (int q = 0; q < p->model->nparam && !status; q++) {
+        status = matrix_derivatives(p, x, q);
+        if (!status)
+            differentiate_vector(p, k, q);
+    }
+    return status;
+}
+
+int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors)
+{
+    int status = ROTID_OK;
+    if (with_vectors) {
+        for (int k = 0; k < p->count && !status; k++)
+            if (wanted[k])
+                status = differentiate_vectors(p, x, k);
+        return status;
+    }
+    for (int q = 0; q < p->model->nparam && !status; q++) {
+        status = matrix_derivatives(p, x, q);
+        for (int k = 0; k < p->count && !status; k++)
+            if (wanted[k])
+                p->dlambda[k + (ptrdiff_t)q * p->count] = eigenvalue_derivative(p, k);
+    }
+    return status;
+}
+
+double prediction_at_sensor(const struct prediction *p, int k, int s)
+{
+    int row = p->reduction == ROTID_REDUCTION_NONE ? p->model->master[s] : s;
+    return p->phi[row + (ptrdiff_t)k * p->size];
+}
+
+double prediction_derivative_at_sensor(const struct prediction *p, int k, int q, int s)
+{
+    int row = p->reduction == ROTID_REDUCTION_NONE ? p->model->master[s] : s;
+    return p->dphi[row + ((ptrdiff_t)q * p->count + k) * p->size];
+}

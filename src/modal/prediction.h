@@ -1,0 +1,46 @@
+/* Modes of a model at given parameters, condensed or full, and their derivatives. Sees the model only through rotid_model. */
+#ifndef ROTID_MODAL_PREDICTION_H
+#define ROTID_MODAL_PREDICTION_H
+
+#include "base/pool.h"
+#include "linalg/eigen.h"
+#include "linalg/reduction.h"
+#include "modal/eigenvector_derivative.h"
+#include "rotid.h"
+
+struct prediction {
+    const rotid_model *model;
+    int reduction, derivative;
+    int count;       /* pairs computed, rigid ones included */
+    int size;        /* length of a vector: nmaster when condensed, n when full */
+    rotid_matrix k, m, dk, dm, other_k, other_m;
+    struct reduction condensed;
+    struct eigen_dense dense;
+    struct eigen_band band;
+    struct nelson_dense nelson_dense;
+    struct nelson_band nelson_band;
+    double *lambda;  /* [count], ascending */
+    double *phi;     /* [size * count], mass-normalised */
+    double *dlambda; /* [count * nparam]; only where differentiated */
+    double *dphi;    /* [size * count * nparam] */
+    double *kx, *mx; /* [size * count * nparam]: dK phi_k and dM phi_k of the condensed matrices */
+    double *x, *work;
+};
+
+/* count <= nmaster (condensed) or n. with_vectors: room for dphi. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_ARGUMENT. */
+int prediction_new(struct pool *pool, const rotid_model *model, int reduction, int derivative, int count, int with_vectors,
+                   struct prediction *p);
+
+/* K, M and the pairs at x [nparam]. Allocates nothing. Statuses: CALLBACK, FINITE, SLAVE, STIFFNESS, MASS, EIGEN. */
+int prediction_compute(struct prediction *p, const double *x);
+
+/* Derivatives of eigenvalues of the pairs with wanted [count] nonzero, and of their vectors where asked for, at the x of the last
+ * prediction_compute. Statuses: CALLBACK, FINITE, CLOSE. */
+int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors);
+
+/* Component of pair k at sensor s. */
+double prediction_at_sensor(const struct prediction *p, int k, int s);
+/* The component of dphi_k/dx_q there. */
+double prediction_derivative_at_sensor(const struct prediction *p, int k, int q, int s);
+
+#endif
