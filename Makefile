@@ -26,7 +26,7 @@ endif
 COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(filter 1,$(WERROR)),-Werror)
 ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L $(WARNINGS) -fvisibility=hidden -fPIC -Iinclude -Isrc \
-             -DWITH_NLOPT=$(WITH_NLOPT) $(shell pkg-config --cflags $(PACKAGES)) $(CFLAGS)
+             -DWITH_NLOPT=$(WITH_NLOPT) $(shell pkg-config --cflags $(PACKAGES) libcjson) $(CFLAGS)
 LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm
 PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
 

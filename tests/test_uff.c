@@ -164,7 +164,7 @@ static void real_shape_and_nodes(void **state)
     pool_close(&r.pool);
 }
 
-/* Every number of values per node, real and complex, in columns and, with free = 1, as few lines as free format allows. */
+/* Every number of values per node, real and complex, in columns, and separated by blanks on one line. */
 static void values_per_node(void **state)
 {
     (void)state;

@@ -69,25 +69,6 @@ static int refine(struct oracle_model *model, double tolerance, double *low, dou
     return ORACLE_OK;
 }
 
-/* sqrt(EI L/m)/L^2 with the mean EI and all the mass m, a frequency of the order of the first elastic one. */
-static double reference_frequency(const struct oracle_model *model)
-{
-    const struct oracle_system *system = model->system;
-    double length = model->length, bending = 0.0, mass = 0.0;
-
-    for (int i = 0; i < system->segments; i++) {
-        bending += system->segment[i].bending * system->segment[i].length / length;
-        mass += system->segment[i].mass * system->segment[i].length;
-    }
-    for (int i = 0; i < system->points; i++)
-        mass += system->point[i].mass + system->point[i].inertia / (length * length);
-    for (int i = 0; i < system->parallels; i++) {
-        const double *m = system->parallel[i].mass;
-        mass += fabs(m[0]) + fabs(m[10]) + (fabs(m[5]) + fabs(m[15])) / (length * length);
-    }
-    return sqrt(bending / (mass * length * length * length));
-}
-
 struct bracket {
     double low, high; /* rad/s */
     int count_low, count_high;
@@ -96,14 +77,14 @@ struct bracket {
 static int search(struct oracle_model *model, int first, int number, struct bracket *bracket, double *frequency_hz)
 {
     const double tolerance = 1e-13;
-    double reference = reference_frequency(model), floor_omega = 1e-6 * reference, top;
+    double floor_omega = sqrt(model->floor_lambda), top;
     int rigid, unstable, count, status;
 
-    status = count_below(model, -floor_omega * floor_omega, &unstable);
+    status = count_below(model, -model->floor_lambda, &unstable);
     if (!status && unstable > 0)
         status = ORACLE_ERROR_UNSTABLE;
     if (!status)
-        status = count_below(model, floor_omega * floor_omega, &rigid);
+        status = count_below(model, model->floor_lambda, &rigid);
     if (status)
         return status;
     for (int i = 0; i < number; i++)
@@ -115,7 +96,7 @@ static int search(struct oracle_model *model, int first, int number, struct brac
             frequency_hz[i] = 0.0;
             continue;
         }
-        top = fmax(b->low, reference);
+        top = fmax(b->low, model->reference);
         while (isinf(b->high) || b->high - b->low > tolerance * b->high) {
             double x;
             if (b->count_high - b->count_low == 1 && b->high - b->low < 0.05 * b->high) {
@@ -195,24 +176,35 @@ static void apply(const double transfer[16], double state[4])
     }
 }
 
-/* Marches through every member from the state at its left end; p1 = Tup^-1 (u2 - Tuu u1). */
+/* State (v, theta, Q, M) at the left end of a member: p1 = Tpp^-1 (p2 - Tpu u1) or Tup^-1 (u2 - Tuu u1). */
+static void left_state(const struct oracle_model *model, const struct oracle_member *member, double lambda, double state[4])
+{
+    double transfer[16], first, second, determinant;
+    const double *t, *end;
+
+    oracle_member_transfer(model, member->cell, lambda, transfer);
+    t = member->mixed ? &transfer[8] : transfer;
+    state[0] = model->vector[member->dof[0]];
+    state[1] = model->vector[member->dof[1]];
+    end = model->vector;
+    first = end[member->dof[member->mixed ? 4 : 2]] - t[0] * state[0] - t[1] * state[1];
+    second = end[member->dof[member->mixed ? 5 : 3]] - t[4] * state[0] - t[5] * state[1];
+    determinant = t[2] * t[7] - t[3] * t[6];
+    state[2] = (t[7] * first - t[3] * second) / determinant;
+    state[3] = (t[2] * second - t[6] * first) / determinant;
+}
+
+/* Marches through every member from the state at its left end. */
 static void interpolate(const struct oracle_model *model, double lambda, int points, const double *z, double *deflection,
                         double *rotation)
 {
     const double margin = 1e-9 * model->length; /* at a station means to its left, whatever the rounding of z */
 
-    for (int member = 0, cell = 0; member < model->members; member++) {
-        const int *dof = &model->member_dof[4 * member];
-        double t[16], step[16], jump[2], state[4], at[4], determinant, v, theta;
-        int first = cell, end = oracle_member_transfer(model, cell, lambda, t);
-        state[0] = model->vector[dof[0]];
-        state[1] = model->vector[dof[1]];
-        v = model->vector[dof[2]] - t[0] * state[0] - t[1] * state[1];
-        theta = model->vector[dof[3]] - t[4] * state[0] - t[5] * state[1];
-        determinant = t[2] * t[7] - t[3] * t[6];
-        state[2] = (t[7] * v - t[3] * theta) / determinant;
-        state[3] = (t[2] * theta - t[6] * v) / determinant;
-        for (; cell < end; cell++) {
+    for (int member = 0; member < model->members; member++) {
+        double step[16], jump[2], state[4], at[4];
+        int first = model->member[member].cell, end = member + 1 < model->members ? model->member[member + 1].cell : model->cells;
+        left_state(model, &model->member[member], lambda, state);
+        for (int cell = first; cell < end; cell++) {
             const struct oracle_cell *c = &model->cell[cell];
             double stop = cell + 1 < model->cells ? model->cell[cell + 1].z : INFINITY;
             if (cell > first) {
@@ -263,7 +255,7 @@ int oracle_shape(const struct oracle_system *system, double frequency_hz, int po
     for (int i = 0; i < points; i++)
         largest = fabs(deflection[i]) > fabs(largest) ? deflection[i] : largest;
     for (int i = 0; i < 4 * model.members; i++) /* the length turns a rotation into a deflection */
-        in_nodes = fmax(in_nodes, fabs(model.vector[model.member_dof[i]]) * (i % 2 == 0 ? 1.0 : model.length));
+        in_nodes = fmax(in_nodes, fabs(model.vector[model.member[i / 4].dof[i % 4]]) * (i % 2 == 0 ? 1.0 : model.length));
     if (fabs(largest) <= 1e-9 * in_nodes) {
         status = ORACLE_ERROR_SHAPE;
         goto done;

@@ -19,7 +19,7 @@ enum {
     ORACLE_ERROR_ARGUMENT = -1, /* a size, pointer or property out of its range */
     ORACLE_ERROR_MEMORY = -2,
     ORACLE_ERROR_UNSTABLE = -3, /* the axial forces or negative springs buckle the system: some omega^2 is negative */
-    ORACLE_ERROR_RANGE = -4,    /* the frequency is so high that the system would need more than 2000 degrees of freedom */
+    ORACLE_ERROR_RANGE = -4,    /* the frequency is so high that it would take more than 1000 members */
     ORACLE_ERROR_SHAPE = -5     /* the shape vanishes at every point asked for, so it cannot be scaled */
 };
 
@@ -73,9 +73,10 @@ struct oracle_system {
 int oracle_count(const struct oracle_system *system, double omega, int *count);
 
 /* frequency_hz[0..number-1]: natural frequencies first, first + 1, ..., counted from 1 for the lowest, in ascending order,
- * repeated ones as often as they occur; found to a relative 1e-13 of the bracket, rounding adds a few 1e-13 as a rule. The modes
- * of a rigid body come first and are reported as 0: zero means omega below 1e-6 sqrt(EI/(m L^3)), with the mean EI, the whole mass m and length L.
- * */
+ * repeated ones as often as they occur. The search ends at a relative 1e-13; rounding adds less than 1e-12 as a rule, but with
+ * parallel members about 1e-16 times the ratio of their stiffness to that of soft springs. The modes of a free rigid body come
+ * first and are reported as 0: zero means that omega^2 is below 1e-12 times 1/(m (L^3/EI + L/kGS)), with the mean EI and kGS, the
+ * whole mass m and length L, or below 1e-13 of the stiffness of the parallel members over m, whose rounding decides there. */
 int oracle_frequencies(const struct oracle_system *system, int first, int number, double *frequency_hz);
 
 /* Shape of the mode at frequency_hz, which oracle_frequencies has found, at z[0..points-1] (any order, 0 to the length of the
@@ -112,8 +113,7 @@ int oracle_beam_element(const struct oracle_segment *segment, double stiffness[1
 /* Rods as rods: stretching through the relative rotation of the ends, and the N rods' own small bending as one finite element. */
 int oracle_tie_rods(const struct oracle_tie *tie, double stiffness[16], double mass[16]);
 
-/* Rods as the wall of the tube of equal area and second moment, one finite element. The tube has a hole only if I > S^2/(4 pi).
- * */
+/* Rods as the wall of the tube of equal area S and second moment I, one finite element. It has a hole only if I > S^2/(4 pi). */
 int oracle_tie_tube(const struct oracle_tie *tie, double stiffness[16], double mass[16]);
 
 /* ---- Building blocks: matrices are row-major ---- */
@@ -126,9 +126,14 @@ void oracle_transfer(const struct oracle_segment *segment, double length, double
  * ends clamped. */
 int oracle_dynamic_stiffness(const double transfer[16], double stiffness[16]);
 
+/* Another form of it on (v1, theta1, v2, theta2, Q2, M2): a symmetric matrix whose last two rows say, set to zero, what v2 and
+ * theta2 are, the others being the end forces. It stays accurate for short members, whose stiffness is far above their inertia
+ * forces. Eliminating Q2 and M2 gives the dynamic stiffness. Fails at a resonance with end 1 clamped and end 2 free. */
+int oracle_mixed_member(const double transfer[16], double matrix[36]);
+
 /* Symmetric indefinite P A P' = L D L' after Bunch and Kaufman. a: n by n, lower triangle used and overwritten by L and D;
  * pivot[n]. negative: number of negative eigenvalues of A. log_determinant: of |det A|. A pivot that is exactly zero becomes
- * DBL_EPSILON: scale A to a unit diagonal before. */
+ * DBL_EPSILON, so the entries of A should be of order one. */
 void oracle_factor(int n, double *a, int *pivot, int *negative, double *log_determinant);
 
 /* Solves A x = b in place with the factors; work[n]. */

@@ -4,20 +4,6 @@
 
 #include "oracle_model.h"
 
-/* product := left product; the state is (v, theta, Q, M). */
-static void advance(const double left[16], double product[16])
-{
-    double old[16];
-
-    memcpy(old, product, sizeof(old));
-    for (int i = 0; i < 4; i++) {
-        for (int j = 0; j < 4; j++) {
-            product[4 * i + j] = left[4 * i] * old[j] + left[4 * i + 1] * old[4 + j] + left[4 * i + 2] * old[8 + j] +
-                                 left[4 * i + 3] * old[12 + j];
-        }
-    }
-}
-
 void oracle_station_jump(const struct oracle_station *station, double lambda, double jump[2])
 {
     jump[0] = station->spring - lambda * station->mass;
@@ -25,13 +11,13 @@ void oracle_station_jump(const struct oracle_station *station, double lambda, do
               lambda * (station->inertia[0] + station->inertia[1]);
 }
 
-int oracle_member_transfer(const struct oracle_model *model, int cell, double lambda, double product[16])
+void oracle_member_transfer(const struct oracle_model *model, int cell, double lambda, double product[16])
 {
     int first = cell;
 
     for (; cell < model->cells && (cell == first || !model->cell[cell].node); cell++) {
         const struct oracle_cell *c = &model->cell[cell];
-        double step[16], jump[2];
+        double step[16], before[16], jump[2];
         oracle_transfer(c->segment, c->length, lambda, step);
         if (cell == first) {
             memcpy(product, step, sizeof(step));
@@ -42,12 +28,12 @@ int oracle_member_transfer(const struct oracle_model *model, int cell, double la
             product[8 + j] += jump[0] * product[j];
             product[12 + j] += jump[1] * product[4 + j];
         }
-        advance(step, product);
+        memcpy(before, product, sizeof(before));
+        oracle_multiply(step, before, product);
     }
-    return cell;
 }
 
-/* Adds to the lower triangle; scale collects the magnitudes on the diagonal, among which nothing cancels. */
+/* Adds to the lower triangle. */
 static void add(struct oracle_model *model, int count, const int *dof, const double *matrix)
 {
     for (int i = 0; i < count; i++) {
@@ -55,7 +41,6 @@ static void add(struct oracle_model *model, int count, const int *dof, const dou
             if (dof[i] >= dof[j])
                 model->matrix[dof[i] * model->dofs + dof[j]] += matrix[count * i + j];
         }
-        model->scale[dof[i]] += fabs(matrix[count * i + i]);
     }
 }
 
@@ -90,38 +75,63 @@ static void add_stations(struct oracle_model *model, double lambda)
 
 /* A hinge of flexibility f enters by its moment M as an unknown, M (theta_right - theta_left) - f M^2/2, since its stiffness 1/f
  * would swamp that of the members as f goes to zero. Eliminating M has the pivot -f: the matrix has one negative eigenvalue more
- * than D has. The scale is that which makes the larger of f and the flexibility of the members equal to one. */
+ * than D. */
 static void add_hinges(struct oracle_model *model, int *extra)
 {
     int n = model->dofs;
 
-    *extra = 0;
     for (int i = 0; i < model->stations; i++) {
         const struct oracle_station *s = &model->station[i];
-        int moment = s->dof[3];
         if (!s->hinged || isinf(s->flexibility))
             continue;
-        model->matrix[moment * n + s->dof[1]] = -1.0;
-        model->matrix[moment * n + s->dof[2]] = 1.0;
-        model->matrix[moment * n + moment] = -s->flexibility;
-        model->scale[moment] = fmax(s->flexibility, 1.0 / (model->scale[s->dof[1]] + model->scale[s->dof[2]]));
+        model->matrix[s->dof[3] * n + s->dof[1]] = -1.0;
+        model->matrix[s->dof[3] * n + s->dof[2]] = 1.0;
+        model->matrix[s->dof[3] * n + s->dof[3]] = -s->flexibility;
         *extra += 1;
+    }
+}
+
+/* Displacements are scaled so that the inertia force of the whole mass becomes one, forces by the inverse: rounding then acts
+ * like a relative change of the mass and of the geometry, whatever the elastic stiffness. */
+static void scale_matrix(struct oracle_model *model, double lambda)
+{
+    int n = model->dofs;
+    double lambda_scale = fmax(fabs(lambda), model->floor_lambda);
+    double v = 1.0 / sqrt(lambda_scale * model->mass), theta = v / model->length;
+
+    for (int i = 0; i < model->members; i++) {
+        const struct oracle_member *member = &model->member[i];
+        model->scale[member->dof[0]] = model->scale[member->dof[2]] = v;
+        model->scale[member->dof[1]] = model->scale[member->dof[3]] = theta;
+        if (member->mixed) {
+            model->scale[member->dof[4]] = 1.0 / v;
+            model->scale[member->dof[5]] = 1.0 / theta;
+        }
+    }
+    for (int i = 0; i < model->stations; i++) {
+        if (model->station[i].hinged)
+            model->scale[model->station[i].dof[3]] = 1.0 / theta;
+    }
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j <= i; j++)
+            model->matrix[i * n + j] *= model->scale[i] * model->scale[j];
     }
 }
 
 int oracle_evaluate(struct oracle_model *model, double lambda, int *negative, double *log_determinant)
 {
     const struct oracle_system *system = model->system;
-    int n = model->dofs, extra;
+    int n = model->dofs, extra = 0;
 
     memset(model->matrix, 0, (size_t)n * (size_t)n * sizeof(*model->matrix));
-    memset(model->scale, 0, (size_t)n * sizeof(*model->scale));
-    for (int member = 0, cell = 0; member < model->members; member++) {
-        double transfer[16], stiffness[16];
-        cell = oracle_member_transfer(model, cell, lambda, transfer);
-        if (oracle_dynamic_stiffness(transfer, stiffness))
+    for (int i = 0; i < model->members; i++) {
+        const struct oracle_member *member = &model->member[i];
+        double transfer[16], matrix[36];
+        oracle_member_transfer(model, member->cell, lambda, transfer);
+        if (member->mixed ? oracle_mixed_member(transfer, matrix) : oracle_dynamic_stiffness(transfer, matrix))
             return ORACLE_ERROR_RANGE;
-        add(model, 4, &model->member_dof[4 * member], stiffness);
+        add(model, member->mixed ? 6 : 4, member->dof, matrix);
+        extra += 2 * member->mixed;
     }
     add_stations(model, lambda);
     for (int i = 0; i < system->parallels; i++) {
@@ -135,11 +145,7 @@ int oracle_evaluate(struct oracle_model *model, double lambda, int *negative, do
         add(model, 4, dof, matrix);
     }
     add_hinges(model, &extra);
-    for (int i = 0; i < n; i++) {
-        model->scale[i] = model->scale[i] > 0.0 ? 1.0 / sqrt(model->scale[i]) : 1.0;
-        for (int j = 0; j <= i; j++)
-            model->matrix[i * n + j] *= model->scale[i] * model->scale[j];
-    }
+    scale_matrix(model, lambda);
     for (int i = 0; i < model->stations; i++) {
         const struct oracle_station *s = &model->station[i];
         if (s->dof[0] >= 0 && isinf(s->spring))

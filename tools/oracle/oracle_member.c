@@ -9,9 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "oracle.h"
+#include "oracle_model.h"
 
-static void multiply(const double a[16], const double b[16], double product[16])
+void oracle_multiply(const double a[16], const double b[16], double product[16])
 {
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++)
@@ -37,22 +37,22 @@ static void exponential(const double a[16], double result[16])
         result[i] = i % 5 == 0 ? 1.0 : 0.0;
     }
     for (int term = 14; term > 0; term--) { /* Horner: I + a/1 (I + a/2 (I + ...)) */
-        multiply(scaled, result, next);
+        oracle_multiply(scaled, result, next);
         for (int i = 0; i < 16; i++)
             result[i] = next[i] / term + (i % 5 == 0 ? 1.0 : 0.0);
     }
     for (; squarings > 0; squarings--) {
-        multiply(result, result, next);
+        oracle_multiply(result, result, next);
         memcpy(result, next, sizeof(next));
     }
 }
 
-/* Scales the state further so that rows and columns of a come to the same size (Osborne), which makes its norm small: about beta l of
- * a slender member instead of (beta l)^4. Every squaring that is saved saves the rounding that it would have doubled. By powers of two,
- * without rounding. */
+/* Scales the state further so that rows and columns of a come to the same size (Osborne), which makes its norm small: about beta
+ * l of a slender member instead of (beta l)^4. Every squaring that is saved saves the rounding that it would have doubled. By
+ * powers of two, without rounding. */
 static void balance(double a[16], double scale[4])
 {
-    for (int sweep = 0; sweep < 4; sweep++) {
+    for (int sweep = 0; sweep < 2; sweep++) {
         for (int i = 0; i < 4; i++) {
             double row = 0.0, column = 0.0, factor;
             for (int j = 0; j < 4; j++) {
@@ -127,5 +127,39 @@ int oracle_dynamic_stiffness(const double transfer[16], double stiffness[16])
     }
     stiffness[1] = stiffness[4] = 0.5 * (stiffness[1] + stiffness[4]); /* equal but for rounding */
     stiffness[11] = stiffness[14] = 0.5 * (stiffness[11] + stiffness[14]);
+    return ORACLE_OK;
+}
+
+/* The same with u1 and p2 as the independent ones: with p1 = Tpp^-1 (p2 - Tpu u1), the end forces are the derivatives of
+ *     1/2 u1' A u1 + p2' (u2 - B u1) - 1/2 p2' C p2,   A = Tpp^-1 Tpu, B' = Tpp^-1, C = Tup Tpp^-1,
+ * where u1 and u2 are to be varied, and p2 as well, which gives u2. Tpp is singular where the member resonates with end 1 clamped
+ * and end 2 free; below that C, the flexibility at the free end, is positive definite. */
+int oracle_mixed_member(const double transfer[16], double matrix[36])
+{
+    const double *t = transfer;
+    double determinant = t[10] * t[15] - t[11] * t[14];
+    double inverse[4], a[4], c[4];
+
+    if (determinant == 0.0 || !isfinite(determinant))
+        return ORACLE_ERROR_ARGUMENT;
+    inverse[0] = t[15] / determinant;
+    inverse[1] = -t[11] / determinant;
+    inverse[2] = -t[14] / determinant;
+    inverse[3] = t[10] / determinant;
+    memset(matrix, 0, 36 * sizeof(matrix[0]));
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            a[2 * i + j] = inverse[2 * i] * t[8 + j] + inverse[2 * i + 1] * t[12 + j];
+            c[2 * i + j] = t[4 * i + 2] * inverse[j] + t[4 * i + 3] * inverse[2 + j];
+        }
+    }
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            matrix[6 * i + j] = 0.5 * (a[2 * i + j] + a[2 * j + i]); /* equal but for rounding */
+            matrix[6 * (i + 4) + j + 4] = -0.5 * (c[2 * i + j] + c[2 * j + i]);
+            matrix[6 * i + j + 4] = matrix[6 * (j + 4) + i] = -inverse[2 * i + j];
+        }
+        matrix[6 * (i + 2) + i + 4] = matrix[6 * (i + 4) + i + 2] = 1.0;
+    }
     return ORACLE_OK;
 }

@@ -90,7 +90,7 @@ static void place_points(struct oracle_model *model)
     }
     for (int i = 0; i < model->stations; i++) {
         struct oracle_station *s = &model->station[i];
-        /* Only what cannot lower the bound below what clamped_bound says may stand inside a member. */
+        /* Inside a member may only stand what its transfer matrix and the bound of its resonances take account of. */
         s->must_be_node = i == 0 || i == model->stations - 1 || s->hinged || s->spring < 0.0 || isinf(s->spring);
         for (int side = 0; side < 2; side++)
             s->must_be_node |= s->rotational_spring[side] < 0.0 || isinf(s->rotational_spring[side]);
@@ -103,13 +103,38 @@ static void place_points(struct oracle_model *model)
     }
 }
 
+/* The scales of mass and frequency. */
+static void measure(struct oracle_model *model)
+{
+    const struct oracle_system *system = model->system;
+    double length = model->length, bending = 0.0, shear = 0.0, mass = 0.0, stiffest = 0.0;
+
+    for (int i = 0; i < system->segments; i++) {
+        bending += system->segment[i].bending * system->segment[i].length / length;
+        shear += system->segment[i].shear * system->segment[i].length / length;
+        mass += system->segment[i].mass * system->segment[i].length;
+    }
+    for (int i = 0; i < system->points; i++)
+        mass += system->point[i].mass + system->point[i].inertia / (length * length);
+    for (int i = 0; i < system->parallels; i++) {
+        const double *m = system->parallel[i].mass;
+        const double *k = system->parallel[i].stiffness;
+        mass += fabs(m[0]) + fabs(m[10]) + (fabs(m[5]) + fabs(m[15])) / (length * length);
+        stiffest = fmax(stiffest, fmax(fmax(fabs(k[0]), fabs(k[10])), fmax(fabs(k[5]), fabs(k[15])) / (length * length)));
+    }
+    model->mass = mass;
+    model->reference = 1.0 / sqrt(mass * (length * length * length / bending + length / shear));
+    /* Zero is what is far below the elastic modes, or what the rounding of a parallel member's matrix may have made. */
+    model->floor_lambda = fmax(1e-12 * model->reference * model->reference, 1e-13 * stiffest / mass);
+}
+
 void oracle_model_free(struct oracle_model *model)
 {
     free(model->station);
     free(model->parallel_station);
     free(model->piece);
     free(model->cell);
-    free(model->member_dof);
+    free(model->member);
     free(model->matrix);
     free(model->scale);
     free(model->vector);
@@ -117,7 +142,6 @@ void oracle_model_free(struct oracle_model *model)
     free(model->pivot);
 }
 
-/* Splits the beam at the ends of segments, points and parallel members. After any result, oracle_model_free. */
 int oracle_model_build(const struct oracle_system *system, struct oracle_model *model)
 {
     int positions, segment = 0, status;
@@ -161,6 +185,7 @@ int oracle_model_build(const struct oracle_system *system, struct oracle_model *
         model->piece[i] = &system->segment[segment];
     }
     place_points(model);
+    measure(model);
     return ORACLE_OK;
 }
 

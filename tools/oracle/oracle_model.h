@@ -8,7 +8,7 @@
 
 #include "oracle.h"
 
-#define ORACLE_DOFS_MAX 2000
+#define ORACLE_MEMBERS_MAX 1000
 
 /* Position where something changes. Stations 0 .. stations-1 bound the pieces 0 .. stations-2. */
 struct oracle_station {
@@ -27,6 +27,13 @@ struct oracle_cell {
     int node;    /* 1 if a node is at its left end, which is where a member starts */
 };
 
+/* What lies between two nodes: one or more cells. */
+struct oracle_member {
+    int cell;   /* its first */
+    int mixed;  /* 1 if its forces are unknowns */
+    int dof[6]; /* v, theta at the left end, v, theta, Q, M at the right end */
+};
+
 struct oracle_model {
     const struct oracle_system *system;
     double length;
@@ -35,7 +42,10 @@ struct oracle_model {
     int *parallel_station; /* a and b of each parallel member */
     const struct oracle_segment **piece;
     struct oracle_cell *cell;
-    int *member_dof; /* v, theta at the left and at the right end of each member */
+    struct oracle_member *member;
+    double mass;         /* of everything */
+    double reference;    /* of the order of the first elastic omega */
+    double floor_lambda; /* omega^2 up to which it counts as zero */
     double *matrix, *scale, *vector, *work;
     int *pivot;
 };
@@ -52,8 +62,10 @@ int oracle_make_members(struct oracle_model *model, double lambda);
  * x[i]/scale[i]; held degrees of freedom have scale 0. log_determinant is that of the scaled matrix. */
 int oracle_evaluate(struct oracle_model *model, double lambda, int *negative, double *log_determinant);
 
-/* Transfer matrix over the member that starts at this cell; returns the first cell of the next member. */
-int oracle_member_transfer(const struct oracle_model *model, int cell, double lambda, double product[16]);
+void oracle_multiply(const double a[16], const double b[16], double product[16]);
+
+/* Transfer matrix over the member that starts at this cell. */
+void oracle_member_transfer(const struct oracle_model *model, int cell, double lambda, double product[16]);
 
 /* Equilibrium of a station inside a member: Q and M jump by jump[0] v and jump[1] theta. */
 void oracle_station_jump(const struct oracle_station *station, double lambda, double jump[2]);

@@ -1,0 +1,76 @@
+#include "cli/command.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io/deck.h"
+#include "io/output.h"
+
+void command_print_messages(const struct command *command)
+{
+    static const char *const words[] = {"note: ", "warning: ", ""};
+    for (size_t i = 0; i < command->messages.count; i++) {
+        const struct message *m = &command->messages.item[i];
+        if (m->severity != SEVERITY_ERROR && (command->quiet || (m->severity == SEVERITY_NOTE && !command->verbose)))
+            continue;
+        if (m->file)
+            (void)fprintf(stderr, "%s:%d:%d: ", m->file, m->line, m->column);
+        (void)fprintf(stderr, "%s%s\n", words[m->severity], m->text);
+    }
+    if (command->messages.errors > MESSAGE_LIMIT)
+        (void)fprintf(stderr, "%d errors in all, the first %d are shown\n", command->messages.errors, MESSAGE_LIMIT);
+}
+
+int command_fail(struct command *command, int status)
+{
+    command_print_messages(command);
+    if (status == ROTID_ERROR_SYNTAX || status == ROTID_ERROR_ARGUMENT || status == ROTID_ERROR_IO)
+        return EXIT_USAGE;
+    (void)fprintf(stderr, "rotid: %s: %s\n", command->deck, rotid_status_text(status));
+    switch (status) { /* what the input causes, and what it does not */
+    case ROTID_ERROR_MEMORY:
+    case ROTID_ERROR_LIBRARY:
+        return EXIT_INTERNAL;
+    case ROTID_ERROR_UNPAIRED:
+    case ROTID_ERROR_STIFFNESS:
+    case ROTID_ERROR_SLAVE:
+    case ROTID_ERROR_MASS:
+        return EXIT_USAGE;
+    default:
+        return EXIT_DOUBTFUL;
+    }
+}
+
+int command_read_deck(struct command *command)
+{
+    int status = deck_read(&command->pool, command->deck, command->noverride, command->override, &command->messages, &command->job);
+    if (status)
+        return command_fail(command, status);
+    command_print_messages(command);
+    for (size_t i = 0; i < command->messages.count; i++)
+        if (command->messages.item[i].severity == SEVERITY_WARNING)
+            return EXIT_DONE; /* kept: they belong to the result as well */
+    message_open(&command->messages, &command->pool);
+    return EXIT_DONE;
+}
+
+int command_wants_table(const struct command *command)
+{
+    return !command->quiet && !(command->json && !strcmp(command->json, "-"));
+}
+
+int command_write_json(struct command *command, char *text, int code)
+{
+    if (!command->json)
+        return code;
+    char *line = text ? pool_format(&command->pool, "%s\n", text) : NULL;
+    json_free(text);
+    if (!line)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    int status = output_write(command->json, line);
+    if (!status)
+        return code;
+    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", command->json, strerror(errno));
+    return EXIT_INTERNAL;
+}

@@ -1,0 +1,53 @@
+/* One run of the program: what the arguments say, and the commands. */
+#ifndef ROTID_CLI_COMMAND_H
+#define ROTID_CLI_COMMAND_H
+
+#include "io/deck_text.h"
+#include "io/json.h"
+#include "run/job.h"
+
+enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };
+
+struct command {
+    const char *name, *deck, *json, *at;
+    int quiet, verbose, threads, baseline, points;
+    unsigned long seed;
+    double step, range;
+    int noverride;
+    struct override *override;
+
+    struct pool pool;
+    struct message_list messages;
+    struct job job;
+    struct provenance provenance;
+};
+
+/* Reads the deck of the command; prints its errors. An exit code, EXIT_DONE to go on. */
+int command_read_deck(struct command *command);
+
+/* Prints the messages on standard error: errors always, the rest unless quiet. */
+void command_print_messages(const struct command *command);
+
+/* The exit code of a status below zero, after saying what happened. */
+int command_fail(struct command *command, int status);
+
+/* Tables go to standard output unless that carries JSON or the user wants none. */
+int command_wants_table(const struct command *command);
+
+/* Writes text (may be NULL: out of memory) where --json says and frees it; `code` unless that fails. */
+int command_write_json(struct command *command, char *text, int code);
+
+/* Polled by long computations: nonzero after SIGINT or SIGTERM. */
+int command_cancelled(void *unused);
+
+int command_check(struct command *command);
+int command_modes(struct command *command);
+int command_sensitivity(struct command *command);
+int command_identify(struct command *command);
+
+/* Of the build. */
+extern const char *const build_commit;
+const char *build_blas(void);
+void build_set_threads(int threads);
+
+#endif

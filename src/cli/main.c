@@ -1,0 +1,194 @@
+#include <errno.h>
+#include <getopt.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+int command_cancelled(void *unused)
+{
+    (void)unused;
+    return interrupted;
+}
+
+static const struct {
+    const char *name, *text;
+    int (*run)(struct command *command);
+} commands[] = {
+    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check},
+    {"modes", "frequencies and shapes, full and condensed, beside the measured ones", command_modes},
+    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity},
+    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify},
+};
+
+#define COMMANDS (sizeof commands / sizeof *commands)
+
+static void print_help(FILE *out)
+{
+    (void)fputs("usage: rotid COMMAND DECK [options]\n\n", out);
+    for (size_t c = 0; c < COMMANDS; c++)
+        (void)fprintf(out, "  %-12s %s\n", commands[c].name, commands[c].text);
+    (void)fputs("\n"
+                "  --json FILE              the result as JSON; - for standard output, which then carries nothing else\n"
+                "  --set CARD.OPTION=VALUE  another option on every such card of the deck, e.g. FIT.REDUCTION=NONE\n"
+                "  --quiet, --verbose       no tables; with shapes (modes), iterations (identify), notes of the readers\n"
+                "  --no-baseline            identify: without NLopt\n"
+                "  --at NAME[=VALUE],...    sensitivity: other parameters and reference values than those of *IDENTIFY\n"
+                "  --step 0.01, --range 0.5, --points 11   sensitivity: relative step, range and points of the curves\n"
+                "  --threads N, --seed N    BLAS threads (1); seed of random numbers (1)\n"
+                "  --version, --help\n\n"
+                "exit: 0 computed and converged; 1 computed, not to be trusted as it stands; 2 wrong usage or input; 3 failure\n",
+                out);
+}
+
+static int usage(const char *format, const char *value)
+{
+    (void)fprintf(stderr, "rotid: ");
+    (void)fprintf(stderr, format, value);
+    (void)fprintf(stderr, " (rotid --help lists what there is)\n");
+    return EXIT_USAGE;
+}
+
+enum { OPTION_JSON = 256, OPTION_SET, OPTION_QUIET, OPTION_VERBOSE, OPTION_NO_BASELINE, OPTION_AT, OPTION_STEP, OPTION_RANGE, OPTION_POINTS,
+       OPTION_THREADS, OPTION_SEED, OPTION_VERSION, OPTION_HELP };
+
+static int number(const char *option, const char *text, double least, double most, int whole, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    if (end != text && !*end && *value >= least && *value <= most && (!whole || *value == floor(*value)))
+        return 0;
+    (void)fprintf(stderr, "rotid: %s %s: expected a %snumber from %g to %g\n", option, text, whole ? "whole " : "", least, most);
+    return 1;
+}
+
+/* Returns -1 to go on, or an exit code. */
+static int take_option(struct command *command, int option, const char *value)
+{
+    double n;
+    switch (option) {
+    case OPTION_JSON:
+        command->json = value;
+        return -1;
+    case OPTION_SET:
+        if (override_parse(&command->pool, value, &command->override[command->noverride]))
+            return usage("--set %s: expected CARD.OPTION=VALUE", value);
+        command->noverride++;
+        return -1;
+    case OPTION_QUIET:
+        command->quiet = 1;
+        return -1;
+    case OPTION_VERBOSE:
+        command->verbose = 1;
+        return -1;
+    case OPTION_NO_BASELINE:
+        command->baseline = 0;
+        return -1;
+    case OPTION_AT:
+        command->at = value;
+        return -1;
+    case OPTION_STEP:
+        return number("--step", value, 1e-9, 0.5, 0, &command->step) ? EXIT_USAGE : -1;
+    case OPTION_RANGE:
+        return number("--range", value, 1e-6, 0.95, 0, &command->range) ? EXIT_USAGE : -1;
+    case OPTION_POINTS:
+        if (number("--points", value, 1, 1000, 1, &n))
+            return EXIT_USAGE;
+        command->points = (int)n;
+        return -1;
+    case OPTION_THREADS:
+        if (number("--threads", value, 1, 1024, 1, &n))
+            return EXIT_USAGE;
+        command->threads = (int)n;
+        return -1;
+    case OPTION_SEED:
+        if (number("--seed", value, 0, 4294967295.0, 1, &n))
+            return EXIT_USAGE;
+        command->seed = (unsigned long)n;
+        return -1;
+    case OPTION_VERSION:
+        (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
+        return EXIT_DONE;
+    case OPTION_HELP:
+        print_help(stdout);
+        return EXIT_DONE;
+    default:
+        (void)fprintf(stderr, "rotid --help lists the options\n");
+        return EXIT_USAGE;
+    }
+}
+
+static int parse_arguments(struct command *command, int argc, char **argv)
+{
+    static const struct option options[] = {
+        {"json", required_argument, NULL, OPTION_JSON},       {"set", required_argument, NULL, OPTION_SET},
+        {"quiet", no_argument, NULL, OPTION_QUIET},           {"verbose", no_argument, NULL, OPTION_VERBOSE},
+        {"no-baseline", no_argument, NULL, OPTION_NO_BASELINE}, {"at", required_argument, NULL, OPTION_AT},
+        {"step", required_argument, NULL, OPTION_STEP},       {"range", required_argument, NULL, OPTION_RANGE},
+        {"points", required_argument, NULL, OPTION_POINTS},   {"threads", required_argument, NULL, OPTION_THREADS},
+        {"seed", required_argument, NULL, OPTION_SEED},       {"version", no_argument, NULL, OPTION_VERSION},
+        {"help", no_argument, NULL, OPTION_HELP},             {NULL, 0, NULL, 0}};
+    int option;
+    command->override = POOL_ARRAY(&command->pool, struct override, argc);
+    if (!command->override)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
+        int code = take_option(command, option, optarg);
+        if (code >= 0)
+            return code;
+    }
+    if (optind >= argc) {
+        print_help(stderr);
+        return EXIT_USAGE;
+    }
+    command->name = argv[optind++];
+    if (optind >= argc)
+        return usage("%s: no deck given, expected rotid COMMAND DECK", command->name);
+    command->deck = argv[optind++];
+    if (optind < argc)
+        return usage("%s is one argument too many, expected one deck", argv[optind]);
+    return -1;
+}
+
+static int run(struct command *command)
+{
+    for (size_t c = 0; c < COMMANDS; c++) {
+        if (strcmp(command->name, commands[c].name))
+            continue;
+        command->provenance = (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
+        build_set_threads(command->threads);
+        int code = command_read_deck(command);
+        return code ? code : commands[c].run(command);
+    }
+    return usage("%s is no command, expected check, modes, sensitivity or identify", command->name);
+}
+
+int main(int argc, char **argv)
+{
+    struct command command = {.threads = 1, .seed = 1, .step = 0.01, .range = 0.5, .points = 11, .baseline = 1};
+    struct sigaction action = {.sa_handler = interrupt};
+    (void)sigaction(SIGINT, &action, NULL);
+    (void)sigaction(SIGTERM, &action, NULL);
+    pool_open(&command.pool, NULL);
+    message_open(&command.messages, &command.pool);
+    int code = parse_arguments(&command, argc, argv);
+    if (code < 0)
+        code = run(&command);
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        (void)fprintf(stderr, "rotid: cannot write to standard output: %s\n", strerror(errno));
+        code = EXIT_INTERNAL;
+    }
+    pool_close(&command.pool);
+    return code;
+}

@@ -1,0 +1,232 @@
+#include "io/deck.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/deck_cards.h"
+#include "rotid.h"
+
+/* Cards in the order in which they are read: what a later one refers to comes first, wherever it stands in the deck. */
+static const struct {
+    const char *name;
+    void (*read)(struct deck_reader *reader, const struct card *card);
+    int phase;
+    const char *options[7];
+} table[] = {
+    {"MATERIAL", deck_material, 0, {"NAME", NULL}},
+    {"ELASTIC", deck_elastic, 0, {"TYPE", NULL}},
+    {"DENSITY", deck_density, 0, {NULL}},
+    {"SHAFT", deck_shaft, 1, {"NAME", "MATERIAL", NULL}},
+    {"BEAM", deck_beam, 1, {"NAME", "MATERIAL", NULL}},
+    {"PERFORATION", deck_perforation, 2, {"GROUP", NULL}},
+    {"TIEROD", deck_tierod, 2, {"NAME", "MATERIAL", "FROM", "TO", "MODEL", "SELF_EQUILIBRATED", NULL}},
+    {"BARS", deck_bars, 2, {"NAME", "MATERIAL", "CENTER", "LENGTH", "MODEL", NULL}},
+    {"PRELOAD", deck_preload, 2, {"GROUP", NULL}},
+    {"DISK", deck_disk, 2, {"NAME", NULL}},
+    {"SPRING", deck_spring, 2, {"NAME", NULL}},
+    {"SLING", deck_sling, 2, {"LENGTH", NULL}},
+    {"HEADING", deck_heading, 2, {NULL}},
+    {"SENSORS", deck_sensors, 2, {NULL}},
+    {"MODES", deck_modes, 3, {NULL}},
+    {"NOISE", deck_noise, 3, {"FREQUENCY", "SHAPE", NULL}},
+    {"SHAPE", deck_shape, 4, {"MODE", NULL}},
+    {"MEASURED", deck_measured, 4, {"FILE", "AXIS", "DIRECTION", "ORIGIN", "FLIP", "SCALE", NULL}},
+    {"IDENTIFY", deck_identify, 5, {NULL}},
+    {"FIT", deck_fit, 5, {"FUNCTIONAL", "REDUCTION", "MODES", "HOLDOUT", "DERIVATIVE", "TIE", NULL}},
+};
+
+#define CARDS (sizeof table / sizeof *table)
+#define LAST_PHASE 5
+
+static void check_names(struct deck_reader *reader, const struct card *card)
+{
+    size_t t = 0;
+    while (t < CARDS && strcmp(card->name, table[t].name))
+        t++;
+    if (t == CARDS) {
+        deck_error(reader, card->place, "card *%s is not known, expected one of docs/deck.md such as *SHAFT", card->name);
+        return;
+    }
+    for (int i = 0; i < card->noption; i++) {
+        int known = 0;
+        for (const char *const *name = table[t].options; *name; name++)
+            known |= same_text(*name, card->option[i].name);
+        if (!known)
+            deck_error(reader, card->option[i].place, "option %s of *%s is not known, expected %s%s%s", card->option[i].name, card->name,
+                       table[t].options[0] ? table[t].options[0] : "none", table[t].options[0] && table[t].options[1] ? ", " : "",
+                       table[t].options[0] && table[t].options[1] ? table[t].options[1] : "");
+    }
+}
+
+static void check_materials(struct deck_reader *reader)
+{
+    for (int m = 0; m < reader->nmaterial; m++) {
+        if (!(reader->material_complete[m] & 1))
+            deck_error(reader, reader->material_place[m], "material %s has no *ELASTIC, expected one behind *MATERIAL", reader->material[m].name);
+        if (!(reader->material_complete[m] & 2))
+            deck_error(reader, reader->material_place[m], "material %s has no *DENSITY, expected one behind *MATERIAL", reader->material[m].name);
+    }
+}
+
+/* Parameters are addressed by name, so groups, rods, springs and disks share one set of names. */
+static void check_unique(struct deck_reader *reader)
+{
+    for (int c = 0; c < reader->text.ncard; c++) {
+        const struct card *card = &reader->text.card[c];
+        const struct card_option *option = card_option(card, "NAME");
+        if (!option || !strcmp(card->name, "MATERIAL"))
+            continue;
+        for (int d = 0; d < c; d++) {
+            const struct card_option *other = card_option(&reader->text.card[d], "NAME");
+            int shafts = (!strcmp(card->name, "SHAFT") || !strcmp(card->name, "BEAM")) &&
+                         (!strcmp(reader->text.card[d].name, "SHAFT") || !strcmp(reader->text.card[d].name, "BEAM"));
+            if (other && strcmp(reader->text.card[d].name, "MATERIAL") && !shafts && same_text(option->value, other->value))
+                deck_error(reader, option->value_place, "the name %s is given twice, expected a new one", option->value);
+        }
+    }
+}
+
+/* G of its own where it is identified, G = E/2(1+nu) where TIE asks for it. */
+static void settle_moduli(struct deck_reader *reader)
+{
+    struct job *job = reader->job;
+    for (int p = 0; p < job->nparameter && reader->tie; p++) {
+        if (job->parameter[p].kind != PARAMETER_E)
+            continue;
+        job->rotor.group[job->parameter[p].index].material.isotropic = 1;
+        for (int q = 0; q < job->nparameter; q++)
+            if (job->parameter[q].kind == PARAMETER_G && job->parameter[q].index == job->parameter[p].index) {
+                deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)", job->bounds[q].name, job->bounds[p].name);
+                memmove(job->parameter + q, job->parameter + q + 1, (size_t)(job->nparameter - q - 1) * sizeof *job->parameter);
+                memmove(job->bounds + q, job->bounds + q + 1, (size_t)(job->nparameter - q - 1) * sizeof *job->bounds);
+                job->nparameter--;
+                p -= q < p;
+                break;
+            }
+    }
+    for (int p = 0; p < job->nparameter; p++) {
+        if (job->parameter[p].kind != PARAMETER_G)
+            continue;
+        struct material *material = &job->rotor.group[job->parameter[p].index].material;
+        material->g = material_shear_modulus(material);
+        material->isotropic = 0;
+    }
+}
+
+static void apply_noise(struct deck_reader *reader)
+{
+    struct job *job = reader->job;
+    ptrdiff_t components = job->shape ? (ptrdiff_t)job->rotor.nsensor * job->nmode : 0;
+    for (int k = 0; k < job->nmode; k++)
+        if (!isfinite(job->frequency_std[k]) && reader->noise_frequency > 0)
+            job->frequency_std[k] = reader->noise_frequency;
+    for (ptrdiff_t i = 0; i < components; i++)
+        if (!isfinite(job->shape_std[i]) && reader->noise_shape > 0)
+            job->shape_std[i] = reader->noise_shape;
+}
+
+/* Without a word from the user: what can be trusted. */
+static void choose_functional(struct deck_reader *reader)
+{
+    struct job *job = reader->job;
+    struct place place = reader->fit_card ? reader->fit_card->place : reader->text.end;
+    int known = job_knows_frequency_noise(job);
+    if (!job->has_fit)
+        job->fit.functional = known ? ROTID_LIKELIHOOD : ROTID_HYBRID;
+    if (job->nmode && job->fit.functional == ROTID_LIKELIHOOD && !known)
+        deck_error(reader, place, "FUNCTIONAL=LIKELIHOOD weighs by the noise of the frequencies, expected *NOISE, FREQUENCY=relative standard deviation");
+    if (job->fit.functional == ROTID_LIKELIHOOD && job->shape && !job_knows_shape_noise(job)) {
+        deck_note(reader, place, "the shapes pair the modes and are not fitted: their noise is not known (*NOISE, SHAPE=relative standard deviation)");
+    }
+}
+
+static void check_masters(struct deck_reader *reader)
+{
+    struct job *job = reader->job;
+    struct place place = reader->fit_card ? reader->fit_card->place : reader->text.end;
+    int highest = 0;
+    for (int k = 0; k < job->nmode; k++)
+        highest = job->number[k] > highest ? job->number[k] : highest;
+    if (job->fit.reduction != ROTID_REDUCTION_NONE && job->rotor.nsensor && job->rotor.nsensor < 2 * highest)
+        deck_error(reader, place, "%d sensors are too few to condense onto for mode %d, expected at least twice as many as modes, or REDUCTION=NONE",
+                   job->rotor.nsensor, highest);
+}
+
+/* Builds the beam once, for what only the mesh and the sections can tell. */
+static void check_beam(struct deck_reader *reader)
+{
+    struct job *job = reader->job;
+    struct pool scratch;
+    struct beam beam;
+    int failed;
+    pool_open(&scratch, reader->pool->allocator);
+    int status = beam_build(&scratch, &job->rotor, 0, NULL, 1, &beam, &failed);
+    if (status == ROTID_ERROR_SECTION) {
+        int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
+        struct place place = rod < 0 ? reader->group_place[failed] : bars < 0 ? reader->tierod_place[rod] : reader->bars_place[bars];
+        deck_error(reader, place, rod < 0 ? "the holes leave nothing of a section of this group, expected fewer or smaller ones"
+                                          : "the rods have no equivalent cylinder (its squared inner diameter would be negative), expected a larger pitch radius or MODEL=RODS");
+    } else if (status) {
+        reader->out_of_memory = 1;
+    }
+    for (int s = 1; s < job->rotor.nsensor && !status; s++)
+        if (beam.mesh.sensor_node[s] == beam.mesh.sensor_node[s - 1])
+            deck_error(reader, reader->sensor_place[s], "sensors %d and %d lie at the same node, expected one sensor a position", job->rotor.sensor[s - 1].id,
+                       job->rotor.sensor[s].id);
+    pool_close(&scratch);
+}
+
+static void read_cards(struct deck_reader *reader)
+{
+    struct job *job = reader->job;
+    for (int c = 0; c < reader->text.ncard; c++)
+        check_names(reader, &reader->text.card[c]);
+    for (int phase = 0; phase <= LAST_PHASE; phase++) {
+        if (phase == 2)
+            reader->length = rotor_length(&job->rotor);
+        if (phase == 2 && !job->rotor.ngroup) {
+            check_materials(reader);
+            deck_error(reader, reader->text.end, "the deck has no *SHAFT and no *BEAM, expected at least one");
+            return; /* every position would be outside */
+        }
+        if (phase == 5) {
+            job->holdout = POOL_ARRAY(reader->pool, int, job->nmode);
+            reader->out_of_memory |= !job->holdout;
+        }
+        for (int c = 0; c < reader->text.ncard && !reader->out_of_memory; c++)
+            for (size_t t = 0; t < CARDS; t++)
+                if (table[t].phase == phase && !strcmp(table[t].name, reader->text.card[c].name))
+                    table[t].read(reader, &reader->text.card[c]);
+    }
+    check_materials(reader);
+    check_unique(reader);
+    if (reader->messages->errors || reader->out_of_memory)
+        return;
+    settle_moduli(reader);
+    apply_noise(reader);
+    choose_functional(reader);
+    check_masters(reader);
+    check_beam(reader);
+}
+
+int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
+              struct job *job)
+{
+    struct deck_reader reader = {.pool = pool, .messages = messages, .job = job};
+    *job = (struct job){.deck = pool_copy_text(pool, path)};
+    rotid_fit_defaults(&job->fit);
+    int status = deck_text_read(pool, path, messages, &reader.text);
+    if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !reader.text.ncard) {
+        if (!messages->errors && status != ROTID_ERROR_MEMORY)
+            deck_error(&reader, reader.text.end, "the deck is empty, expected cards such as *SHAFT");
+        return status ? status : ROTID_ERROR_SYNTAX;
+    }
+    for (int i = 0; i < noverride; i++)
+        if (deck_text_override(pool, &override[i], messages, &reader.text) == ROTID_ERROR_MEMORY)
+            return ROTID_ERROR_MEMORY;
+    read_cards(&reader);
+    if (reader.out_of_memory || messages->out_of_memory || !job->deck)
+        return ROTID_ERROR_MEMORY;
+    return messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
+}

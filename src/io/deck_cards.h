@@ -1,0 +1,81 @@
+/* Shared by the readers of the cards: what has been read so far, and the reading of single fields. */
+#ifndef ROTID_IO_DECK_CARDS_H
+#define ROTID_IO_DECK_CARDS_H
+
+#include "io/deck_text.h"
+#include "run/job.h"
+
+struct deck_reader {
+    struct pool *pool;
+    struct message_list *messages;
+    struct deck_text text;
+    struct job *job;
+    int nmaterial;
+    size_t material_room, group_room, segment_room, tierod_room, bars_room, disk_room, spring_room, sensor_room, parameter_room;
+    struct material *material;
+    int *material_complete;      /* bit 1: elastic constants, bit 2: density */
+    struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
+    size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room, bounds_room;
+    double length;               /* of the rotor, once all groups are read */
+    double noise_frequency, noise_shape;
+    const struct card *measured_card, *modes_card, *fit_card, *identify_card, *noise_card;
+    const char *tie;             /* FIT, TIE=E:G */
+    int out_of_memory;
+};
+
+void deck_error(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void deck_note(struct deck_reader *reader, struct place place, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Appends a zeroed element to a growing array and returns its address, or NULL with out_of_memory set. */
+void *deck_append(struct deck_reader *reader, void **array, int count, size_t *room, size_t size);
+#define DECK_APPEND(reader, array, count, room) deck_append((reader), (void **)&(array), (count), &(room), sizeof *(array))
+
+enum range { ANY, NOT_NEGATIVE, POSITIVE };
+
+/* Number i of a data line within the range; `what` names it in the error ("outer diameter [m]"). 0, or 1 after an error. */
+int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range, double *value);
+int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most, int *value);
+/* Field i is there and not empty. */
+int deck_has(const struct data_line *line, int i);
+/* No more than `most` fields; otherwise an error that says what a line of this card holds. */
+int deck_count(struct deck_reader *reader, const struct data_line *line, int most, const char *layout);
+/* A number in metres, start, end, group.start or group.end, inside the rotor. */
+int deck_position(struct deck_reader *reader, const char *text, struct place place, const char *what, double *z);
+
+/* The value of an option that must be there, or NULL after an error. */
+const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected);
+int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value);
+/* Index of the option's value in a list of words that ends with NULL; -1 after an error. */
+int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
+/* At least one data line; otherwise an error that says what is expected. Returns their number. */
+int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout);
+
+/* Index of a material, -1 where there is none of that name. */
+int deck_find_material(const struct deck_reader *reader, const char *name);
+
+#define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods */
+
+/* The readers of the cards, by file. */
+void deck_material(struct deck_reader *reader, const struct card *card);
+void deck_elastic(struct deck_reader *reader, const struct card *card);
+void deck_density(struct deck_reader *reader, const struct card *card);
+void deck_shaft(struct deck_reader *reader, const struct card *card);
+void deck_beam(struct deck_reader *reader, const struct card *card);
+void deck_perforation(struct deck_reader *reader, const struct card *card);
+void deck_tierod(struct deck_reader *reader, const struct card *card);
+void deck_bars(struct deck_reader *reader, const struct card *card);
+void deck_preload(struct deck_reader *reader, const struct card *card);
+void deck_disk(struct deck_reader *reader, const struct card *card);
+void deck_spring(struct deck_reader *reader, const struct card *card);
+void deck_sling(struct deck_reader *reader, const struct card *card);
+void deck_heading(struct deck_reader *reader, const struct card *card);
+void deck_sensors(struct deck_reader *reader, const struct card *card);
+void deck_modes(struct deck_reader *reader, const struct card *card);
+void deck_shape(struct deck_reader *reader, const struct card *card);
+void deck_noise(struct deck_reader *reader, const struct card *card);
+void deck_identify(struct deck_reader *reader, const struct card *card);
+void deck_fit(struct deck_reader *reader, const struct card *card);
+/* The universal file of MEASURED: sensors, modes and shapes. */
+void deck_measured(struct deck_reader *reader, const struct card *card);
+
+#endif

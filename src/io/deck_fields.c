@@ -1,0 +1,175 @@
+#include "io/deck_cards.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rotid.h"
+
+static void add(struct deck_reader *reader, enum severity severity, struct place place, const char *format, va_list values)
+{
+    char text[1024];
+    (void)vsnprintf(text, sizeof text, format, values);
+    message_add(reader->messages, severity, place.file, place.line, place.column, "%s", text);
+}
+
+void deck_error(struct deck_reader *reader, struct place place, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    add(reader, SEVERITY_ERROR, place, format, values);
+    va_end(values);
+}
+
+void deck_note(struct deck_reader *reader, struct place place, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    add(reader, SEVERITY_WARNING, place, format, values);
+    va_end(values);
+}
+
+void *deck_append(struct deck_reader *reader, void **array, int count, size_t *room, size_t size)
+{
+    void *grown = pool_grow(reader->pool, *array, (size_t)count, room, size);
+    if (!grown) {
+        reader->out_of_memory = 1;
+        return NULL;
+    }
+    *array = grown;
+    return (char *)grown + (size_t)count * size;
+}
+
+static const char *range_text(enum range range)
+{
+    return range == POSITIVE ? "a number above zero" : range == NOT_NEGATIVE ? "a number not below zero" : "a number";
+}
+
+static int parse_number(struct deck_reader *reader, const char *text, struct place place, const char *what, enum range range, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    if (end == text || *end) {
+        deck_error(reader, place, "'%s' is not a number, expected %s", text, what);
+        return 1;
+    }
+    if (!isfinite(*value) || (range == POSITIVE && *value <= 0) || (range == NOT_NEGATIVE && *value < 0)) {
+        deck_error(reader, place, "%s is %s, expected %s", what, text, isfinite(*value) ? range_text(range) : "a finite number");
+        return 1;
+    }
+    return 0;
+}
+
+int deck_has(const struct data_line *line, int i)
+{
+    return i < line->count && *line->field[i].text;
+}
+
+int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range, double *value)
+{
+    if (!deck_has(line, i)) {
+        deck_error(reader, i < line->count ? line->field[i].place : line->end, "a value is missing, expected %s", what);
+        return 1;
+    }
+    return parse_number(reader, line->field[i].text, line->field[i].place, what, range, value);
+}
+
+int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most, int *value)
+{
+    double number;
+    if (deck_number(reader, line, i, what, ANY, &number))
+        return 1;
+    if (number != floor(number) || number < least || number > most) {
+        deck_error(reader, line->field[i].place, "%s is %s, expected a whole number from %d to %d", what, line->field[i].text, least, most);
+        return 1;
+    }
+    *value = (int)number;
+    return 0;
+}
+
+int deck_count(struct deck_reader *reader, const struct data_line *line, int most, const char *layout)
+{
+    if (line->count <= most)
+        return 0;
+    deck_error(reader, line->field[most].place, "'%s' is one value too many, expected %s", line->field[most].text, layout);
+    return 1;
+}
+
+static int find_group(const struct deck_reader *reader, const char *name, size_t length)
+{
+    for (int g = 0; g < reader->job->rotor.ngroup; g++) {
+        const char *candidate = reader->job->rotor.group[g].name;
+        char copy[DECK_LINE_LENGTH + 1];
+        (void)snprintf(copy, sizeof copy, "%.*s", (int)length, name);
+        if (same_text(copy, candidate))
+            return g;
+    }
+    return -1;
+}
+
+int deck_position(struct deck_reader *reader, const char *text, struct place place, const char *what, double *z)
+{
+    const char *dot = strrchr(text, '.');
+    double from = 0, to = reader->length;
+    char *end;
+    *z = strtod(text, &end);
+    if (end == text || *end) {
+        const char *which = text;
+        int group = dot ? find_group(reader, text, (size_t)(dot - text)) : -1;
+        if (group >= 0) {
+            rotor_group_span(&reader->job->rotor, group, &from, &to);
+            which = dot + 1;
+        }
+        int is_start = same_text(which, "start"), is_end = same_text(which, "end");
+        if (!is_start && !is_end) {
+            deck_error(reader, place, "'%s' is no position, expected %s: metres from the left end, start, end, or GROUP.start, GROUP.end", text,
+                       what);
+            return 1;
+        }
+        *z = is_start ? from : to;
+    }
+    /* a coordinate with six digits may end a little beyond the end of the rotor */
+    if (!isfinite(*z) || *z < -1e-5 * reader->length || *z > reader->length * (1 + 1e-5)) {
+        deck_error(reader, place, "%s %s m lies outside the rotor, expected 0 to %.6g m", what, text, reader->length);
+        return 1;
+    }
+    *z = fmin(fmax(*z, 0), reader->length);
+    return 0;
+}
+
+const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected)
+{
+    const struct card_option *option = card_option(card, name);
+    if (option && *option->value)
+        return option->value;
+    deck_error(reader, option ? option->place : card->place, "*%s has no %s, expected %s=%s", card->name, name, name, expected);
+    return NULL;
+}
+
+int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value)
+{
+    return parse_number(reader, option->value, option->value_place, option->name, range, value);
+}
+
+int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words)
+{
+    char list[256] = "";
+    for (int i = 0; words[i]; i++) {
+        if (same_text(option->value, words[i]))
+            return i;
+        (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", words[i]);
+    }
+    deck_error(reader, option->value_place, "%s=%s is not known, expected one of %s", option->name, option->value, list);
+    return -1;
+}
+
+int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout)
+{
+    if (card->nline < least)
+        deck_error(reader, card->place, "*%s has no data line, expected %s", card->name, layout);
+    else if (card->nline > most)
+        deck_error(reader, card->line[most].place, "*%s has a data line too many, expected %s", card->name, layout);
+    return card->nline;
+}

@@ -1,0 +1,139 @@
+/* IDENTIFY and FIT. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/deck_cards.h"
+
+void deck_identify(struct deck_reader *reader, const struct card *card)
+{
+    static const char layout[] = "parameter, lower bound, upper bound, start";
+    struct job *job = reader->job;
+    reader->identify_card = card;
+    (void)deck_lines(reader, card, 1, 100, layout);
+    for (int i = 0; i < card->nline; i++) {
+        const struct data_line *line = &card->line[i];
+        struct parameter parameter;
+        rotid_parameter bounds = {.name = line->field[0].text};
+        int found = parameter_find(&job->rotor, bounds.name, &parameter, &bounds.unit);
+        if (found == 1)
+            deck_error(reader, line->field[0].place,
+                       "%s is no parameter, expected NAME.E, .G, .nu, .rho of a group, NAME.E, .tension of a tie rod, NAME.k, .k_rot of a spring, "
+                       "NAME.mass, .inertia of a disk",
+                       bounds.name);
+        if (found == 2)
+            deck_error(reader, line->field[0].place, "%s: there is a thing of that name and it has no such parameter, expected another one behind the dot",
+                       bounds.name);
+        int bad = deck_count(reader, line, 4, layout) || found;
+        bad |= deck_number(reader, line, 1, "lower bound", ANY, &bounds.lower);
+        bad |= deck_number(reader, line, 2, "upper bound", ANY, &bounds.upper);
+        bad |= deck_number(reader, line, 3, "start", ANY, &bounds.start);
+        if (bad)
+            continue;
+        if (bounds.lower >= bounds.upper)
+            deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected the lower one first", bounds.name, line->field[1].text,
+                       line->field[2].text);
+        else if (!(bounds.lower < bounds.start && bounds.start < bounds.upper))
+            deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds", bounds.name, line->field[3].text);
+        else if (bounds.start == 0)
+            deck_error(reader, line->field[3].place, "the start of %s is zero, expected another value: it is the scale of the parameter", bounds.name);
+        else if (bounds.lower < 0 && parameter.kind != PARAMETER_TENSION && parameter.kind != PARAMETER_NU)
+            deck_error(reader, line->field[1].place, "the lower bound of %s is %s, expected zero or more", bounds.name, line->field[1].text);
+        else if (parameter.kind == PARAMETER_NU && (bounds.lower < -1 || bounds.upper > 0.5))
+            deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected them inside -1 to 0.5", bounds.name, line->field[1].text,
+                       line->field[2].text);
+        for (int p = 0; p < job->nparameter; p++)
+            if (job->parameter[p].kind == parameter.kind && job->parameter[p].index == parameter.index)
+                deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
+        size_t room = reader->parameter_room;
+        struct parameter *added = DECK_APPEND(reader, job->parameter, job->nparameter, reader->parameter_room);
+        rotid_parameter *limits = DECK_APPEND(reader, job->bounds, job->nparameter, reader->bounds_room);
+        (void)room;
+        if (!added || !limits)
+            return;
+        *added = parameter;
+        *limits = bounds;
+        job->nparameter++;
+    }
+}
+
+/* "1-6", "1,2,5-6": sets flag[k] of the measured modes named. */
+static void mark_modes(struct deck_reader *reader, const struct card_option *option, int *flag)
+{
+    const struct job *job = reader->job;
+    const char *text = option->value;
+    while (*text) {
+        char *end;
+        long first = strtol(text, &end, 10), last = first;
+        int bad = end == text;
+        if (!bad && *end == '-') {
+            text = end + 1;
+            last = strtol(text, &end, 10);
+            bad = end == text || last < first;
+        }
+        while (*end == ' ')
+            end++;
+        if (bad || (*end && *end != ',') || first < 1 || last > 1000) {
+            deck_error(reader, option->value_place, "%s=%s is no list of modes, expected numbers and ranges such as 1-4,6", option->name, option->value);
+            return;
+        }
+        for (long number = first; number <= last; number++) {
+            int found = 0;
+            for (int k = 0; k < job->nmode; k++)
+                if (job->number[k] == number)
+                    found = flag[k] = 1;
+            if (!found)
+                deck_error(reader, option->value_place, "mode %ld of %s is not measured, expected modes that are", number, option->name);
+        }
+        text = *end ? end + 1 : end;
+    }
+}
+
+static void choose_modes(struct deck_reader *reader, const struct card *card)
+{
+    struct job *job = reader->job;
+    const struct card_option *modes = card_option(card, "MODES"), *holdout = card_option(card, "HOLDOUT");
+    int *fitted = POOL_ARRAY(reader->pool, int, job->nmode), left = 0;
+    if (!fitted) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    if (modes)
+        mark_modes(reader, modes, fitted);
+    if (holdout)
+        mark_modes(reader, holdout, job->holdout);
+    for (int k = 0; k < job->nmode; k++) {
+        job->holdout[k] |= modes && !fitted[k];
+        left += !job->holdout[k];
+    }
+    if (job->nmode && !left)
+        deck_error(reader, card->place, "no mode is left to fit, expected fewer in HOLDOUT or more in MODES");
+}
+
+void deck_fit(struct deck_reader *reader, const struct card *card)
+{
+    static const char *const functionals[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL}, *const reductions[] = {"NONE", "GUYAN", "IRS", NULL},
+                             *const derivatives[] = {"NELSON", "MODAL", NULL}, *const ties[] = {"E:G", NULL};
+    struct job *job = reader->job;
+    const struct card_option *option;
+    int word;
+    if (reader->fit_card)
+        deck_error(reader, card->place, "*FIT is given twice, expected once");
+    reader->fit_card = card;
+    for (int i = 0; i < card->nline; i++)
+        deck_error(reader, card->line[i].place, "*FIT has no data lines, expected options on the card");
+    if ((option = card_option(card, "FUNCTIONAL")) && (word = deck_option_word(reader, option, functionals)) >= 0) {
+        job->fit.functional = word;
+        job->has_fit = 1;
+    }
+    if ((option = card_option(card, "REDUCTION")) && (word = deck_option_word(reader, option, reductions)) >= 0)
+        job->fit.reduction = word;
+    if ((option = card_option(card, "DERIVATIVE")) && (word = deck_option_word(reader, option, derivatives)) >= 0)
+        job->fit.derivative = word;
+    if ((option = card_option(card, "TIE")) && deck_option_word(reader, option, ties) >= 0)
+        reader->tie = option->value;
+    if (job->fit.derivative == ROTID_MODAL && job->fit.reduction == ROTID_REDUCTION_NONE)
+        deck_error(reader, (option = card_option(card, "DERIVATIVE"))->value_place,
+                   "DERIVATIVE=MODAL needs every vector of the model, expected REDUCTION=GUYAN or IRS with it, or NELSON");
+    choose_modes(reader, card);
+}

@@ -1,0 +1,218 @@
+/* Cards of measured data that stand in the deck itself, and the references of the heading. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/deck_cards.h"
+
+/* "paper QUANTITY = value, value, ..." gives a reference; any other line is text. */
+static int read_reference(struct deck_reader *reader, const struct data_line *line)
+{
+    struct job *job = reader->job;
+    const char *equals = strchr(line->text, '=');
+    if (strncmp(line->text, "paper ", 6) || !equals)
+        return 0;
+    const char *begin = line->text + 6, *end = equals;
+    while (*begin == ' ')
+        begin++;
+    while (end > begin && end[-1] == ' ')
+        end--;
+    struct reference *reference = &job->reference[job->nreference];
+    reference->quantity = pool_format(reader->pool, "%.*s", (int)(end - begin), begin);
+    reference->value = POOL_ARRAY(reader->pool, double, line->count);
+    reader->out_of_memory |= !reference->quantity || !reference->value;
+    if (reader->out_of_memory)
+        return 1;
+    for (int i = 0; i < line->count; i++) {
+        const char *text = i ? line->field[i].text : equals + 1;
+        char *rest;
+        reference->value[i] = strtod(text, &rest);
+        while (*rest == ' ' || (!i && *rest == ','))
+            rest = *rest == ',' ? "" : rest + 1;
+        if (rest == text || *rest || !isfinite(reference->value[i])) {
+            deck_error(reader, line->field[i].place, "the reference has a value that is not a number, expected paper QUANTITY = number, number, ...");
+            return 1;
+        }
+    }
+    reference->count = line->count;
+    job->nreference++;
+    return 1;
+}
+
+void deck_heading(struct deck_reader *reader, const struct card *card)
+{
+    struct job *job = reader->job;
+    if (job->heading) {
+        deck_error(reader, card->place, "*HEADING is given twice, expected once");
+        return;
+    }
+    job->heading = POOL_ARRAY(reader->pool, const char *, card->nline);
+    job->reference = POOL_ARRAY(reader->pool, struct reference, card->nline);
+    reader->out_of_memory |= !job->heading || !job->reference;
+    for (int i = 0; i < card->nline && !reader->out_of_memory; i++)
+        if (!read_reference(reader, &card->line[i]))
+            job->heading[job->nheading++] = card->line[i].text;
+}
+
+void deck_sensors(struct deck_reader *reader, const struct card *card)
+{
+    static const char layout[] = "sensor id, position";
+    struct rotor *rotor = &reader->job->rotor;
+    (void)deck_lines(reader, card, 1, 100000, layout);
+    for (int i = 0; i < card->nline; i++) {
+        const struct data_line *line = &card->line[i];
+        struct sensor sensor;
+        if (deck_count(reader, line, 2, layout) || deck_integer(reader, line, 0, "sensor id", 1, 1000000000, &sensor.id))
+            continue;
+        if (!deck_has(line, 1)) {
+            deck_error(reader, line->end, "a value is missing, expected the position of sensor %d", sensor.id);
+            continue;
+        }
+        if (deck_position(reader, line->field[1].text, line->field[1].place, "position", &sensor.position))
+            continue;
+        for (int s = 0; s < rotor->nsensor; s++)
+            if (rotor->sensor[s].id == sensor.id)
+                deck_error(reader, line->field[0].place, "sensor %d is given twice, expected a new id", sensor.id);
+        struct sensor *added = DECK_APPEND(reader, rotor->sensor, rotor->nsensor, reader->sensor_room);
+        struct place *place = DECK_APPEND(reader, reader->sensor_place, rotor->nsensor, reader->sensor_place_room);
+        if (!added || !place)
+            return;
+        int at = rotor->nsensor++; /* kept by increasing position */
+        for (; at > 0 && rotor->sensor[at - 1].position > sensor.position; at--) {
+            rotor->sensor[at] = rotor->sensor[at - 1];
+            reader->sensor_place[at] = reader->sensor_place[at - 1];
+        }
+        rotor->sensor[at] = sensor;
+        reader->sensor_place[at] = line->place;
+    }
+}
+
+void deck_modes(struct deck_reader *reader, const struct card *card)
+{
+    static const char layout[] = "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]";
+    struct job *job = reader->job;
+    if (reader->modes_card) {
+        deck_error(reader, card->place, "*MODES is given twice, expected once");
+        return;
+    }
+    reader->modes_card = card;
+    (void)deck_lines(reader, card, 1, 1000, layout);
+    job->number = POOL_ARRAY(reader->pool, int, card->nline);
+    job->frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
+    job->damping = POOL_ARRAY(reader->pool, double, card->nline);
+    job->frequency_std = POOL_ARRAY(reader->pool, double, card->nline);
+    if (!job->number || !job->frequency_hz || !job->damping || !job->frequency_std) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    for (int i = 0; i < card->nline; i++) {
+        const struct data_line *line = &card->line[i];
+        int number = 0;
+        double hz = 1, damping = NAN, std = NAN;
+        int bad = deck_count(reader, line, 4, layout) || deck_integer(reader, line, 0, "mode", 1, 1000, &number);
+        bad |= deck_number(reader, line, 1, "frequency [Hz]", POSITIVE, &hz);
+        if (deck_has(line, 2))
+            bad |= deck_number(reader, line, 2, "damping ratio", NOT_NEGATIVE, &damping);
+        if (deck_has(line, 3))
+            bad |= deck_number(reader, line, 3, "standard deviation of the frequency [Hz]", POSITIVE, &std);
+        if (isfinite(damping) && damping >= 1)
+            deck_error(reader, line->field[2].place, "damping ratio is %s, expected a fraction of critical damping below 1", line->field[2].text);
+        if (bad)
+            continue;
+        for (int k = 0; k < job->nmode; k++)
+            if (job->number[k] == number)
+                deck_error(reader, line->field[0].place, "mode %d is given twice, expected once", number);
+        if (job->nmode && number > job->number[job->nmode - 1] && hz <= job->frequency_hz[job->nmode - 1])
+            deck_error(reader, line->field[1].place, "mode %d lies at %s Hz and mode %d at %.9g Hz, expected frequencies that rise with the number",
+                       number, line->field[1].text, job->number[job->nmode - 1], job->frequency_hz[job->nmode - 1]);
+        int k = job->nmode++;
+        job->number[k] = number;
+        job->frequency_hz[k] = hz;
+        job->damping[k] = damping;
+        job->frequency_std[k] = std / hz;
+    }
+}
+
+static int find_sensor(const struct rotor *rotor, int id)
+{
+    for (int s = 0; s < rotor->nsensor; s++)
+        if (rotor->sensor[s].id == id)
+            return s;
+    return -1;
+}
+
+static int new_shapes(struct deck_reader *reader)
+{
+    struct job *job = reader->job;
+    size_t components = (size_t)job->rotor.nsensor * (size_t)job->nmode;
+    job->shape = POOL_ARRAY(reader->pool, double, components);
+    job->shape_std = POOL_ARRAY(reader->pool, double, components);
+    if (!job->shape || !job->shape_std) {
+        job->shape = NULL;
+        reader->out_of_memory = 1;
+        return 1;
+    }
+    for (size_t i = 0; i < components; i++)
+        job->shape[i] = job->shape_std[i] = NAN;
+    return 0;
+}
+
+void deck_shape(struct deck_reader *reader, const struct card *card)
+{
+    static const char layout[] = "sensor id, value [, standard deviation relative to the largest component]";
+    struct job *job = reader->job;
+    const struct card_option *option = card_option(card, "MODE");
+    double number;
+    int mode = -1;
+    if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") || deck_option_number(reader, option, POSITIVE, &number))
+        return;
+    for (int k = 0; k < job->nmode; k++)
+        if (job->number[k] == number)
+            mode = k;
+    if (mode < 0 || !reader->modes_card) {
+        deck_error(reader, option->value_place, "mode %s is not among *MODES, expected one that is", option->value);
+        return;
+    }
+    (void)deck_lines(reader, card, 1, 100000, layout);
+    if (!job->shape && new_shapes(reader))
+        return;
+    double *shape = job->shape + (ptrdiff_t)mode * job->rotor.nsensor, *std = job->shape_std + (ptrdiff_t)mode * job->rotor.nsensor;
+    int any = 0;
+    for (int i = 0; i < card->nline; i++) {
+        const struct data_line *line = &card->line[i];
+        int id, sensor;
+        double value, deviation = NAN;
+        if (deck_count(reader, line, 3, layout) || deck_integer(reader, line, 0, "sensor id", 1, 1000000000, &id) ||
+            deck_number(reader, line, 1, "value", ANY, &value) ||
+            (deck_has(line, 2) && deck_number(reader, line, 2, "standard deviation", POSITIVE, &deviation)))
+            continue;
+        sensor = find_sensor(&job->rotor, id);
+        if (sensor < 0) {
+            deck_error(reader, line->field[0].place, "sensor %d is not among *SENSORS, expected one that is", id);
+            continue;
+        }
+        if (isfinite(shape[sensor]))
+            deck_error(reader, line->field[0].place, "sensor %d is given twice for mode %s, expected once", id, option->value);
+        shape[sensor] = value;
+        std[sensor] = deviation;
+        any |= value != 0;
+    }
+    if (!any && card->nline)
+        deck_error(reader, card->place, "the shape of mode %s is zero everywhere, expected at least one component that is not", option->value);
+}
+
+void deck_noise(struct deck_reader *reader, const struct card *card)
+{
+    const struct card_option *frequency = card_option(card, "FREQUENCY"), *shape = card_option(card, "SHAPE");
+    if (reader->noise_card)
+        deck_error(reader, card->place, "*NOISE is given twice, expected once");
+    reader->noise_card = card;
+    if (!frequency && !shape)
+        deck_error(reader, card->place, "*NOISE has no value, expected FREQUENCY=relative standard deviation, SHAPE=the same of the largest component");
+    if (frequency)
+        (void)deck_option_number(reader, frequency, POSITIVE, &reader->noise_frequency);
+    if (shape)
+        (void)deck_option_number(reader, shape, POSITIVE, &reader->noise_shape);
+    for (int i = 0; i < card->nline; i++)
+        deck_error(reader, card->line[i].place, "*NOISE has no data lines, expected options on the card");
+}

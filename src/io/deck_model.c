@@ -1,0 +1,149 @@
+/* Cards of materials and of the shaft itself. */
+#include "io/deck_cards.h"
+
+int deck_find_material(const struct deck_reader *reader, const char *name)
+{
+    for (int i = 0; i < reader->nmaterial; i++)
+        if (same_text(reader->material[i].name, name))
+            return i;
+    return -1;
+}
+
+void deck_material(struct deck_reader *reader, const struct card *card)
+{
+    const char *name = deck_option(reader, card, "NAME", "name");
+    if (name && deck_find_material(reader, name) >= 0)
+        deck_error(reader, card_option(card, "NAME")->value_place, "material %s is defined twice, expected a new name", name);
+    for (int i = 0; i < card->nline; i++)
+        deck_error(reader, card->line[i].place, "*MATERIAL has no data lines, expected *ELASTIC and *DENSITY behind it");
+    struct material *material = DECK_APPEND(reader, reader->material, reader->nmaterial, reader->material_room);
+    int *complete = DECK_APPEND(reader, reader->material_complete, reader->nmaterial, reader->material_complete_room);
+    struct place *place = DECK_APPEND(reader, reader->material_place, reader->nmaterial, reader->material_place_room);
+    if (!material || !complete || !place)
+        return;
+    *material = (struct material){.name = name ? name : ""};
+    *complete = 0;
+    *place = card->place;
+    reader->nmaterial++;
+}
+
+static struct material *current_material(struct deck_reader *reader, const struct card *card, int bit)
+{
+    if (!reader->nmaterial) {
+        deck_error(reader, card->place, "*%s stands before any material, expected *MATERIAL, NAME=name first", card->name);
+        return NULL;
+    }
+    int last = reader->nmaterial - 1;
+    if (reader->material_complete[last] & bit)
+        deck_error(reader, card->place, "*%s is given twice for material %s, expected once", card->name, reader->material[last].name);
+    reader->material_complete[last] |= bit;
+    return &reader->material[last];
+}
+
+void deck_elastic(struct deck_reader *reader, const struct card *card)
+{
+    static const char *const types[] = {"ISOTROPIC", "SHEAR", NULL};
+    const struct card_option *type = card_option(card, "TYPE");
+    int shear = type && deck_option_word(reader, type, types) == 1;
+    const char *layout = shear ? "E [Pa], G [Pa], nu" : "E [Pa], nu";
+    struct material *material = current_material(reader, card, 1);
+    if (!material || deck_lines(reader, card, 1, 1, layout) != 1)
+        return;
+    const struct data_line *line = &card->line[0];
+    int last = shear ? 2 : 1, bad = deck_count(reader, line, last + 1, layout);
+    bad |= deck_number(reader, line, 0, "Young's modulus E [Pa]", POSITIVE, &material->e);
+    if (shear)
+        bad |= deck_number(reader, line, 1, "shear modulus G [Pa]", POSITIVE, &material->g);
+    bad |= deck_number(reader, line, last, "Poisson ratio nu", ANY, &material->nu);
+    material->isotropic = !shear;
+    if (!bad && !(material->nu > -1 && material->nu <= 0.5))
+        deck_error(reader, line->field[last].place, "Poisson ratio nu is %s, expected above -1 and at most 0.5", line->field[last].text);
+}
+
+void deck_density(struct deck_reader *reader, const struct card *card)
+{
+    struct material *material = current_material(reader, card, 2);
+    if (!material || deck_lines(reader, card, 1, 1, "density [kg/m3]") != 1)
+        return;
+    (void)deck_count(reader, &card->line[0], 1, "density [kg/m3]");
+    (void)deck_number(reader, &card->line[0], 0, "density [kg/m3]", POSITIVE, &material->rho);
+}
+
+/* A new group, or -1 after an error. */
+static int add_group(struct deck_reader *reader, const struct card *card)
+{
+    struct rotor *rotor = &reader->job->rotor;
+    const char *name = deck_option(reader, card, "NAME", "name"), *of = deck_option(reader, card, "MATERIAL", "name of a material");
+    int material = of ? deck_find_material(reader, of) : -1;
+    if (of && material < 0)
+        deck_error(reader, card_option(card, "MATERIAL")->value_place, "material %s is not defined, expected the name of a *MATERIAL", of);
+    for (int g = 0; name && g < rotor->ngroup; g++)
+        if (same_text(rotor->group[g].name, name)) {
+            deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one", name);
+            return -1;
+        }
+    struct group *group = DECK_APPEND(reader, rotor->group, rotor->ngroup, reader->group_room);
+    struct place *place = DECK_APPEND(reader, reader->group_place, rotor->ngroup, reader->group_place_room);
+    if (!group || !place)
+        return -1;
+    *group = (struct group){.name = name ? name : ""};
+    *place = card->place;
+    if (material >= 0)
+        group->material = reader->material[material];
+    return rotor->ngroup++;
+}
+
+static struct segment *add_segment(struct deck_reader *reader, int group)
+{
+    struct rotor *rotor = &reader->job->rotor;
+    struct segment *segment = DECK_APPEND(reader, rotor->segment, rotor->nsegment, reader->segment_room);
+    if (segment) {
+        *segment = (struct segment){.group = group, .length = 1, .elements = 1}; /* harmless where an error follows */
+        rotor->nsegment++;
+    }
+    return segment;
+}
+
+void deck_shaft(struct deck_reader *reader, const struct card *card)
+{
+    static const char layout[] = "length, outer diameter, inner diameter [m], elements [, outer diameter that carries stiffness]";
+    int group = add_group(reader, card);
+    (void)deck_lines(reader, card, 1, 100000, layout);
+    for (int i = 0; i < card->nline && group >= 0; i++) {
+        const struct data_line *line = &card->line[i];
+        struct segment *s = add_segment(reader, group);
+        if (!s || deck_count(reader, line, 5, layout))
+            continue;
+        int bad = deck_number(reader, line, 0, "length [m]", POSITIVE, &s->length);
+        bad |= deck_number(reader, line, 1, "outer diameter [m]", POSITIVE, &s->outer);
+        bad |= deck_number(reader, line, 2, "inner diameter [m]", NOT_NEGATIVE, &s->inner);
+        bad |= deck_integer(reader, line, 3, "number of elements", 1, DECK_MOST_ELEMENTS, &s->elements);
+        s->stiff_outer = s->outer;
+        if (deck_has(line, 4))
+            bad |= deck_number(reader, line, 4, "outer diameter that carries stiffness [m]", POSITIVE, &s->stiff_outer);
+        if (!bad && s->inner >= s->outer)
+            deck_error(reader, line->field[2].place, "inner diameter %s m is not below the outer diameter %s m, expected a smaller one",
+                       line->field[2].text, line->field[1].text);
+        else if (!bad && (s->stiff_outer > s->outer || s->stiff_outer <= s->inner))
+            deck_error(reader, line->field[4].place,
+                       "the diameter that carries stiffness is %s m, expected above the inner and at most the outer diameter", line->field[4].text);
+    }
+}
+
+void deck_beam(struct deck_reader *reader, const struct card *card)
+{
+    static const char layout[] = "length, height in the bending plane, width [m], elements";
+    int group = add_group(reader, card);
+    (void)deck_lines(reader, card, 1, 100000, layout);
+    for (int i = 0; i < card->nline && group >= 0; i++) {
+        const struct data_line *line = &card->line[i];
+        struct segment *s = add_segment(reader, group);
+        if (!s || deck_count(reader, line, 4, layout))
+            continue;
+        s->rectangular = 1;
+        (void)deck_number(reader, line, 0, "length [m]", POSITIVE, &s->length);
+        (void)deck_number(reader, line, 1, "height in the bending plane [m]", POSITIVE, &s->height);
+        (void)deck_number(reader, line, 2, "width [m]", POSITIVE, &s->width);
+        (void)deck_integer(reader, line, 3, "number of elements", 1, DECK_MOST_ELEMENTS, &s->elements);
+    }
+}

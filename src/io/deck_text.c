@@ -1,0 +1,363 @@
+#include "io/deck_text.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "rotid.h"
+
+struct reader {
+    struct pool *pool;
+    struct message_list *messages;
+    struct deck_text *text;
+    long bytes_left;
+    int depth;
+    const char *open_file[DECK_MOST_INCLUDES + 1];
+    struct place keyword; /* a keyword line that ends in a comma goes on here */
+    int continues;
+    int out_of_memory;
+};
+
+int same_text(const char *a, const char *b)
+{
+    for (; *a && *b; a++, b++)
+        if (toupper((unsigned char)*a) != toupper((unsigned char)*b))
+            return 0;
+    return *a == *b;
+}
+
+const struct card_option *card_option(const struct card *card, const char *name)
+{
+    for (int i = 0; i < card->noption; i++)
+        if (same_text(card->option[i].name, name))
+            return &card->option[i];
+    return NULL;
+}
+
+static char *copy_span(struct reader *reader, const char *begin, const char *end)
+{
+    char *copy = pool_get(reader->pool, (size_t)(end - begin) + 1, 1);
+    if (copy)
+        memcpy(copy, begin, (size_t)(end - begin));
+    else
+        reader->out_of_memory = 1;
+    return copy;
+}
+
+static void trim(const char **begin, const char **end)
+{
+    while (*begin < *end && isspace((unsigned char)**begin))
+        (*begin)++;
+    while (*end > *begin && isspace((unsigned char)(*end)[-1]))
+        (*end)--;
+}
+
+static struct card *add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place)
+{
+    struct card *grown = pool_grow(pool, text->card, (size_t)text->ncard, &text->card_room, sizeof *grown);
+    if (!grown)
+        return NULL;
+    text->card = grown;
+    grown[text->ncard] = (struct card){.name = name, .place = place};
+    return &grown[text->ncard++];
+}
+
+static int add_option(struct pool *pool, struct card *card, struct card_option option)
+{
+    struct card_option *grown = pool_grow(pool, card->option, (size_t)card->noption, &card->option_room, sizeof *grown);
+    if (!grown)
+        return 1;
+    card->option = grown;
+    card->option[card->noption++] = option;
+    return 0;
+}
+
+static struct place at(const struct reader *reader, const char *line_begin, const char *here, int line)
+{
+    return (struct place){reader->open_file[reader->depth], line, (int)(here - line_begin) + 1};
+}
+
+/* One piece of a keyword line: NAME=VALUE, NAME, or, behind a list such as MODES=1,2, the next item of the list. */
+static void read_option(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end, int line)
+{
+    trim(&begin, &end);
+    if (begin == end)
+        return;
+    const char *equals = memchr(begin, '=', (size_t)(end - begin));
+    if (!equals && isdigit((unsigned char)*begin) && card->noption) {
+        struct card_option *list = &card->option[card->noption - 1];
+        char *item = copy_span(reader, begin, end);
+        list->value = item ? pool_format(reader->pool, "%s,%s", list->value, item) : NULL;
+        reader->out_of_memory |= !list->value;
+        return;
+    }
+    const char *name_end = equals ? equals : end, *value = equals ? equals + 1 : end, *value_end = end;
+    const char *name = begin;
+    trim(&name, &name_end);
+    trim(&value, &value_end);
+    struct card_option option = {.name = copy_span(reader, name, name_end),
+                            .value = copy_span(reader, value, value_end),
+                            .place = at(reader, line_begin, name, line),
+                            .value_place = at(reader, line_begin, value, line)};
+    if (!option.name || !option.value)
+        return;
+    if (card_option(card, option.name))
+        message_add(reader->messages, SEVERITY_ERROR, option.place.file, line, option.place.column,
+                    "option %s is given twice on *%s, expected once", option.name, card->name);
+    reader->out_of_memory |= add_option(reader->pool, card, option);
+}
+
+static void read_options(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end, int line)
+{
+    const char *last = end, *first = begin;
+    trim(&first, &last);
+    reader->continues = last > first && last[-1] == ',';
+    while (begin <= end) {
+        const char *comma = memchr(begin, ',', (size_t)(end - begin));
+        read_option(reader, card, line_begin, begin, comma ? comma : end, line);
+        if (!comma)
+            break;
+        begin = comma + 1;
+    }
+}
+
+static int read_file(struct reader *reader, const char *path, struct place from);
+
+/* A relative path is relative to the file that names it. */
+static const char *beside(struct reader *reader, const char *path)
+{
+    const char *here = reader->open_file[reader->depth], *slash = strrchr(here, '/');
+    if (*path == '/' || !slash)
+        return path;
+    return pool_format(reader->pool, "%.*s/%s", (int)(slash - here), here, path);
+}
+
+static void include(struct reader *reader, struct card card)
+{
+    const struct card_option *file = card_option(&card, "FILE");
+    if (!file || !*file->value) {
+        message_add(reader->messages, SEVERITY_ERROR, card.place.file, card.place.line, card.place.column,
+                    "*INCLUDE names no file, expected FILE=path");
+        return;
+    }
+    const char *path = beside(reader, file->value);
+    if (!path) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    for (int i = 0; i <= reader->depth; i++)
+        if (!strcmp(path, reader->open_file[i])) {
+            message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line, file->value_place.column,
+                        "%s includes itself, expected a file that is not already open", path);
+            return;
+        }
+    if (reader->depth >= DECK_MOST_INCLUDES) {
+        message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line, file->value_place.column,
+                    "files are included more than %d deep, expected fewer", DECK_MOST_INCLUDES);
+        return;
+    }
+    (void)read_file(reader, path, file->value_place);
+}
+
+static void read_keyword(struct reader *reader, const char *begin, const char *end, int line)
+{
+    const char *comma = memchr(begin, ',', (size_t)(end - begin)), *name = begin + 1, *name_end = comma ? comma : end;
+    trim(&name, &name_end);
+    char *upper = copy_span(reader, name, name_end);
+    for (char *c = upper; c && *c; c++)
+        *c = (char)toupper((unsigned char)*c);
+    struct card *card = upper ? add_card(reader->pool, reader->text, upper, at(reader, begin, begin, line)) : NULL;
+    if (!card) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    reader->continues = 0;
+    if (comma)
+        read_options(reader, card, begin, comma + 1, end, line);
+}
+
+static void read_data(struct reader *reader, const char *begin, const char *end, int line)
+{
+    struct deck_text *text = reader->text;
+    const char *first = begin, *last = end;
+    trim(&first, &last);
+    if (first == last)
+        return;
+    if (!text->ncard) {
+        message_add(reader->messages, SEVERITY_ERROR, reader->open_file[reader->depth], line, (int)(first - begin) + 1,
+                    "a data line stands before the first card, expected a line that begins with *");
+        return;
+    }
+    struct card *card = &text->card[text->ncard - 1];
+    struct data_line *grown = pool_grow(reader->pool, card->line, (size_t)card->nline, &card->line_room, sizeof *grown);
+    int count = 1;
+    for (const char *c = begin; c < end; c++)
+        count += *c == ',';
+    struct data_line data = {.place = at(reader, begin, first, line), .end = at(reader, begin, last, line), .text = copy_span(reader, first, last)};
+    data.field = POOL_ARRAY(reader->pool, struct field, count);
+    if (!grown || !data.field || !data.text) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    for (const char *piece = begin; data.count < count; data.count++) {
+        const char *comma = memchr(piece, ',', (size_t)(end - piece)), *from = piece, *to = comma ? comma : end;
+        trim(&from, &to);
+        data.field[data.count] = (struct field){copy_span(reader, from, to), at(reader, begin, from, line)};
+        piece = comma ? comma + 1 : end;
+    }
+    if (data.count > 1 && !*data.field[data.count - 1].text) /* a comma at the end of the line */
+        data.count--;
+    card->line = grown;
+    card->line[card->nline++] = data;
+}
+
+/* Returns 1 where the file is not text, which ends the reading of it. */
+static int read_line(struct reader *reader, const char *line_text, size_t length, int line)
+{
+    const char *file = reader->open_file[reader->depth], *end = line_text + length;
+    for (const char *c = line_text; c < end; c++)
+        if ((unsigned char)*c < ' ' && *c != '\t') {
+            message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(c - line_text) + 1,
+                        "byte 0x%02x is not text, expected a deck of cards that begin with *", (unsigned char)*c);
+            return 1;
+        }
+    if (line == 1 && length >= 3 && !memcmp(line_text, "\xef\xbb\xbf", 3))
+        line_text += 3; /* byte-order mark of an editor */
+    for (const char *c = line_text; c + 1 < end; c++)
+        if (c[0] == '*' && c[1] == '*') {
+            end = c;
+            break;
+        }
+    if (line_text == end)
+        return 0;
+    if (reader->continues) {
+        read_options(reader, &reader->text->card[reader->text->ncard - 1], line_text, line_text, end, line);
+    } else if (*line_text == '*') {
+        read_keyword(reader, line_text, end, line);
+    } else {
+        read_data(reader, line_text, end, line);
+        return 0;
+    }
+    struct deck_text *text = reader->text;
+    if (text->ncard && !reader->continues && !strcmp(text->card[text->ncard - 1].name, "INCLUDE"))
+        include(reader, text->card[--text->ncard]);
+    return 0;
+}
+
+static void too_large(struct reader *reader, const char *path)
+{
+    message_add(reader->messages, SEVERITY_ERROR, path, 1, 1, "the deck is larger than %ld MiB, expected cards of a rotor",
+                DECK_MOST_BYTES >> 20);
+}
+
+static int read_file(struct reader *reader, const char *path, struct place from)
+{
+    struct stat information;
+    FILE *stream = NULL;
+    if (stat(path, &information) == 0 && !S_ISDIR(information.st_mode))
+        stream = fopen(path, "rb");
+    else if (!errno || S_ISDIR(information.st_mode))
+        errno = EISDIR;
+    if (!stream) {
+        message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column, "cannot read %s: %s, expected a deck",
+                    path, strerror(errno));
+        return ROTID_ERROR_IO;
+    }
+    if (S_ISREG(information.st_mode) && information.st_size > reader->bytes_left) {
+        too_large(reader, path);
+        (void)fclose(stream);
+        return ROTID_ERROR_SYNTAX;
+    }
+    if (from.file)
+        reader->depth++;
+    reader->open_file[reader->depth] = path;
+    char line_text[DECK_LINE_LENGTH + 2];
+    size_t length = 0;
+    int line = 1, c, stop = 0;
+    while (!stop && !reader->out_of_memory && (c = getc(stream)) != EOF) {
+        if (--reader->bytes_left < 0) {
+            too_large(reader, path);
+            break;
+        }
+        if (c == '\n') {
+            if (length && line_text[length - 1] == '\r')
+                length--;
+            stop = length <= DECK_LINE_LENGTH && read_line(reader, line_text, length, line);
+            reader->text->end = (struct place){path, line, (int)length + 1};
+            line++;
+            length = 0;
+        } else if (length <= DECK_LINE_LENGTH) {
+            line_text[length++] = (char)c;
+            if (length == DECK_LINE_LENGTH + 1 && c != '\r') {
+                message_add(reader->messages, SEVERITY_ERROR, path, line, DECK_LINE_LENGTH + 1,
+                            "the line is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
+                stop = memchr(line_text, 0, length) != NULL;
+            }
+        }
+    }
+    if (!stop && length && length <= DECK_LINE_LENGTH)
+        (void)read_line(reader, line_text, length, line);
+    if (length)
+        reader->text->end = (struct place){path, line, (int)length + 1};
+    if (ferror(stream))
+        message_add(reader->messages, SEVERITY_ERROR, path, line, 1, "reading failed: %s", strerror(errno));
+    (void)fclose(stream);
+    reader->continues = 0;
+    if (from.file)
+        reader->depth--;
+    return ROTID_OK;
+}
+
+int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text)
+{
+    struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
+    *text = (struct deck_text){.end = {path, 1, 1}};
+    int status = read_file(&reader, path, (struct place){NULL, 1, 1});
+    if (reader.out_of_memory || messages->out_of_memory)
+        return ROTID_ERROR_MEMORY;
+    return status ? status : messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
+}
+
+int override_parse(struct pool *pool, const char *text, struct override *override)
+{
+    const char *dot = strchr(text, '.'), *equals = strchr(text, '=');
+    if (!dot || !equals || dot > equals || dot == text || equals == dot + 1 || !equals[1])
+        return 1;
+    *override = (struct override){pool_format(pool, "%.*s", (int)(dot - text), text),
+                                  pool_format(pool, "%.*s", (int)(equals - dot - 1), dot + 1), equals + 1,
+                                  pool_format(pool, "--set %s", text)};
+    return !override->card || !override->option || !override->text;
+}
+
+int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text)
+{
+    static const char *const single[] = {"FIT", "NOISE", "SLING", "MEASURED"};
+    struct place place = {override->text, 1, 1};
+    struct card_option option = {override->option, override->value, place, place};
+    int found = 0;
+    for (int i = 0; i < text->ncard; i++)
+        found |= same_text(text->card[i].name, override->card);
+    for (size_t s = 0; s < sizeof single / sizeof *single && !found; s++)
+        if (same_text(single[s], override->card)) {
+            if (!add_card(pool, text, single[s], place))
+                return ROTID_ERROR_MEMORY;
+            found = 1;
+        }
+    if (!found) {
+        message_add(messages, SEVERITY_ERROR, place.file, 1, 1, "the deck has no card *%s, expected one that it has", override->card);
+        return ROTID_ERROR_SYNTAX;
+    }
+    for (int i = 0; i < text->ncard; i++) {
+        struct card *card = &text->card[i];
+        if (!same_text(card->name, override->card))
+            continue;
+        struct card_option *present = (struct card_option *)card_option(card, override->option);
+        if (present)
+            *present = option;
+        else if (add_option(pool, card, option))
+            return ROTID_ERROR_MEMORY;
+    }
+    return ROTID_OK;
+}

@@ -1,0 +1,70 @@
+/* A deck as text: cards with their options and data lines, each piece with its place. */
+#ifndef ROTID_IO_DECK_TEXT_H
+#define ROTID_IO_DECK_TEXT_H
+
+#include "base/message.h"
+#include "base/pool.h"
+
+#define DECK_LINE_LENGTH 1024
+#define DECK_MOST_BYTES (16l << 20) /* all files together: a rotor takes kilobytes */
+#define DECK_MOST_INCLUDES 16       /* depth */
+
+struct place {
+    const char *file;
+    int line, column;
+};
+
+struct field { /* of a data line, trimmed; empty between two commas */
+    const char *text;
+    struct place place;
+};
+
+struct data_line {
+    struct place place, end; /* end: just behind the last character */
+    const char *text;        /* the whole line, comment removed */
+    int count;
+    struct field *field;
+};
+
+struct card_option {
+    const char *name, *value; /* value "" where there is no '=' */
+    struct place place, value_place;
+};
+
+struct card {
+    const char *name; /* upper case, without the asterisk */
+    struct place place;
+    int noption, nline;
+    size_t option_room, line_room;
+    struct card_option *option;
+    struct data_line *line;
+};
+
+struct deck_text {
+    int ncard;
+    size_t card_room;
+    struct card *card;
+    struct place end;
+};
+
+/* --set CARD.OPTION=VALUE */
+struct override {
+    const char *card, *option, *value, *text;
+};
+
+/* Reads a deck and what it includes. Errors go to the list with their place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO or
+ * ROTID_ERROR_MEMORY. */
+int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text);
+
+/* Splits "CARD.OPTION=VALUE"; 0, or 1 where it has another form or no memory. */
+int override_parse(struct pool *pool, const char *text, struct override *override);
+
+/* Replaces or adds the option on every card of that name; a card of which there can only be one is added if it is missing. */
+int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text);
+
+/* The option of that name, or NULL. */
+const struct card_option *card_option(const struct card *card, const char *name);
+
+int same_text(const char *a, const char *b); /* without regard to case */
+
+#endif

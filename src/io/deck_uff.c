@@ -1,0 +1,270 @@
+/* MEASURED: sensors, modes and shapes from a universal file. */
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/deck_cards.h"
+#include "io/uff.h"
+#include "rotid.h"
+
+struct import {
+    struct deck_reader *reader;
+    const struct card *card;
+    const char *path;
+    struct uff_file file;
+    int axis, component;
+    double origin, scale;
+    int flip;
+};
+
+static struct place in_file(const struct import *import, int line)
+{
+    return (struct place){import->path, line, 1};
+}
+
+static int read_options(struct import *import)
+{
+    static const char *const axes[] = {"X", "Y", "Z", NULL}, *const answers[] = {"NO", "YES", NULL};
+    struct deck_reader *reader = import->reader;
+    const struct card_option *option;
+    int bad = 0;
+    import->axis = 2;
+    if ((option = card_option(import->card, "AXIS")))
+        bad |= (import->axis = deck_option_word(reader, option, axes)) < 0;
+    if ((option = card_option(import->card, "DIRECTION")))
+        bad |= (import->component = deck_option_word(reader, option, axes)) < 0;
+    if ((option = card_option(import->card, "FLIP")))
+        bad |= (import->flip = deck_option_word(reader, option, answers)) < 0;
+    import->scale = 1;
+    if ((option = card_option(import->card, "SCALE")))
+        bad |= deck_option_number(reader, option, POSITIVE, &import->scale);
+    import->origin = import->flip > 0 ? reader->length : 0;
+    if ((option = card_option(import->card, "ORIGIN")))
+        bad |= deck_option_number(reader, option, ANY, &import->origin);
+    return bad;
+}
+
+static int compare_sensors(const void *left, const void *right)
+{
+    const struct sensor *a = left, *b = right;
+    return (a->position > b->position) - (a->position < b->position);
+}
+
+static int is_mode(const struct uff_shape *shape)
+{
+    return shape->analysis_type != 5; /* 5 is a frequency response: an operating shape */
+}
+
+/* Is the node in any of the modes? */
+static int carries_shape(const struct uff_file *file, int id)
+{
+    for (int k = 0; k < file->shape_count; k++)
+        for (int i = 0; is_mode(&file->shape[k]) && i < file->shape[k].node_count; i++)
+            if (file->shape[k].node[i] == id)
+                return 1;
+    return 0;
+}
+
+/* z = origin + scale * coordinate, or origin - scale * coordinate where the test counts from the other end */
+static int import_sensors(struct import *import)
+{
+    struct deck_reader *reader = import->reader;
+    struct rotor *rotor = &reader->job->rotor;
+    const struct uff_file *file = &import->file;
+    if (!file->node_count) {
+        if (rotor->nsensor)
+            return 0;
+        deck_error(reader, in_file(import, 1), "the file has no nodes (sets 15, 2411), expected them, or a *SENSORS card in the deck");
+        return 1;
+    }
+    if (rotor->nsensor) {
+        deck_error(reader, import->card->place, "sensors are given by *SENSORS and by the nodes of %s, expected one of them", import->path);
+        return 1;
+    }
+    rotor->sensor = POOL_ARRAY(reader->pool, struct sensor, file->node_count);
+    reader->sensor_place = POOL_ARRAY(reader->pool, struct place, file->node_count);
+    if (!rotor->sensor || !reader->sensor_place) {
+        reader->out_of_memory = 1;
+        return 1;
+    }
+    int bad = 0;
+    for (int i = 0; i < file->node_count; i++) {
+        if (!carries_shape(file, file->node[i].id))
+            continue;
+        double z = import->origin + (import->flip ? -1 : 1) * import->scale * file->node[i].x[import->axis];
+        if (!(z >= -1e-5 * reader->length && z <= reader->length * (1 + 1e-5))) {
+            deck_error(reader, in_file(import, 1),
+                       "node %d lies at %.6g m of the model, outside the rotor, expected 0 to %.6g m: check AXIS, ORIGIN, FLIP, SCALE and the unit",
+                       file->node[i].id, z, reader->length);
+            bad = 1;
+            continue;
+        }
+        z = fmin(fmax(z, 0), reader->length);
+        rotor->sensor[rotor->nsensor++] = (struct sensor){file->node[i].id, z};
+    }
+    if (rotor->nsensor)
+        qsort(rotor->sensor, (size_t)rotor->nsensor, sizeof *rotor->sensor, compare_sensors);
+    for (int s = 0; s < rotor->nsensor; s++)
+        reader->sensor_place[s] = in_file(import, 1);
+    return bad;
+}
+
+static int compare_shapes(const void *left, const void *right)
+{
+    const struct uff_shape *const *a = left, *const *b = right;
+    return ((*a)->frequency_hz > (*b)->frequency_hz) - ((*a)->frequency_hz < (*b)->frequency_hz);
+}
+
+/* Modes by rising frequency, without the second of each conjugate pair. */
+static int choose_modes(struct import *import, const struct uff_shape **chosen)
+{
+    int count = 0, kept = 0;
+    for (int k = 0; k < import->file.shape_count; k++)
+        if (is_mode(&import->file.shape[k]))
+            chosen[count++] = &import->file.shape[k];
+    if (count)
+        qsort(chosen, (size_t)count, sizeof *chosen, compare_shapes);
+    for (int k = 0; k < count; k++)
+        if (!kept || chosen[k]->frequency_hz - chosen[kept - 1]->frequency_hz > 1e-9 * chosen[k]->frequency_hz)
+            chosen[kept++] = chosen[k];
+    if (kept < count)
+        deck_note(import->reader, in_file(import, chosen[0]->line), "%d shapes repeat the frequency of another and are left out, as conjugates of it",
+                  count - kept);
+    return kept;
+}
+
+/* The real vector nearest to a complex one: turned by the phase that makes its real part largest. Returns the part of the motion that is
+ * out of phase. */
+static double turn_to_real(int n, const double *real, const double *imag, double *out)
+{
+    double complex square = 0;
+    double total = 0, left = 0;
+    for (int i = 0; i < n; i++) {
+        double complex value = real[i] + I * imag[i];
+        square += value * value;
+        total += real[i] * real[i] + imag[i] * imag[i];
+    }
+    double complex turn = cexp(-0.5 * I * carg(square));
+    for (int i = 0; i < n; i++) {
+        double complex value = (real[i] + I * imag[i]) * turn;
+        out[i] = creal(value);
+        left += cimag(value) * cimag(value);
+    }
+    return total > 0 ? left / total : 0;
+}
+
+static void place_components(struct import *import, const struct uff_shape *shape, const double *value, double *target)
+{
+    const struct rotor *rotor = &import->reader->job->rotor;
+    int missing = 0;
+    for (int i = 0; i < shape->node_count; i++) {
+        int found = 0;
+        for (int s = 0; s < rotor->nsensor && !found; s++)
+            if (rotor->sensor[s].id == shape->node[i]) {
+                target[s] = value[i];
+                found = 1;
+            }
+        missing += !found;
+    }
+    if (missing)
+        deck_error(import->reader, in_file(import, shape->line), "%d nodes of this shape have no position, expected all of them among the sensors",
+                   missing);
+}
+
+static int import_shape(struct import *import, const struct uff_shape *shape, double *target)
+{
+    struct deck_reader *reader = import->reader;
+    int component = shape->component_count == 1 ? 0 : import->component;
+    if (component >= shape->component_count) {
+        deck_error(reader, in_file(import, shape->line), "the shape has %d values a node, expected DIRECTION to be one of them", shape->component_count);
+        return 1;
+    }
+    double *real = POOL_ARRAY(reader->pool, double, shape->node_count), *imag = POOL_ARRAY(reader->pool, double, shape->node_count);
+    if (!real || !imag) {
+        reader->out_of_memory = 1;
+        return 1;
+    }
+    double largest = 0;
+    for (int i = 0; i < shape->node_count; i++) {
+        real[i] = shape->real[i * shape->component_count + component];
+        imag[i] = shape->imag ? shape->imag[i * shape->component_count + component] : 0;
+        largest = fmax(largest, hypot(real[i], imag[i]));
+    }
+    if (largest == 0) {
+        deck_error(reader, in_file(import, shape->line), "the shape at %.6g Hz is zero everywhere in this direction, expected another DIRECTION",
+                   shape->frequency_hz);
+        return 1;
+    }
+    if (shape->imag) {
+        double left = turn_to_real(shape->node_count, real, imag, real);
+        if (left > 0.05)
+            deck_note(reader, in_file(import, shape->line), "%.0f %% of the motion of the shape at %.6g Hz is out of phase and left out", 100 * left,
+                      shape->frequency_hz);
+    }
+    place_components(import, shape, real, target);
+    return 0;
+}
+
+static int import_modes(struct import *import)
+{
+    struct deck_reader *reader = import->reader;
+    struct job *job = reader->job;
+    const struct uff_shape **chosen = POOL_ARRAY(reader->pool, const struct uff_shape *, import->file.shape_count);
+    int count = chosen ? choose_modes(import, chosen) : 0;
+    if (chosen && !count) {
+        deck_error(reader, in_file(import, 1), "the file has no mode shapes, expected sets 55 of normal or complex modes");
+        return 1;
+    }
+    size_t components = (size_t)job->rotor.nsensor * (size_t)count;
+    job->number = POOL_ARRAY(reader->pool, int, count);
+    job->frequency_hz = POOL_ARRAY(reader->pool, double, count);
+    job->damping = POOL_ARRAY(reader->pool, double, count);
+    job->frequency_std = POOL_ARRAY(reader->pool, double, count);
+    job->shape = POOL_ARRAY(reader->pool, double, components);
+    job->shape_std = POOL_ARRAY(reader->pool, double, components);
+    if (!chosen || !job->number || !job->frequency_hz || !job->damping || !job->frequency_std || !job->shape || !job->shape_std) {
+        reader->out_of_memory = 1;
+        return 1;
+    }
+    for (size_t i = 0; i < components; i++)
+        job->shape[i] = job->shape_std[i] = NAN;
+    int distinct = 1, bad = 0;
+    for (int k = 0; k < count; k++)
+        distinct &= chosen[k]->number > 0 && (!k || chosen[k]->number > chosen[k - 1]->number);
+    for (int k = 0; k < count; k++) {
+        job->number[k] = distinct ? chosen[k]->number : k + 1;
+        job->frequency_hz[k] = chosen[k]->frequency_hz;
+        job->damping[k] = chosen[k]->damping > 0 ? chosen[k]->damping : NAN;
+        job->frequency_std[k] = NAN;
+        bad |= import_shape(import, chosen[k], job->shape + (ptrdiff_t)k * job->rotor.nsensor);
+    }
+    job->nmode = count;
+    return bad;
+}
+
+void deck_measured(struct deck_reader *reader, const struct card *card)
+{
+    struct import import = {.reader = reader, .card = card};
+    if (reader->measured_card)
+        deck_error(reader, card->place, "*MEASURED is given twice, expected once");
+    reader->measured_card = card;
+    if (reader->modes_card) {
+        deck_error(reader, card->place, "modes are given by *MODES and by *MEASURED, expected one of them");
+        return;
+    }
+    const char *file = deck_option(reader, card, "FILE", "path of a universal file");
+    if (read_options(&import) || !file)
+        return;
+    const char *deck = card->place.file, *slash = strrchr(deck, '/');
+    if (card_option(card, "FILE")->place.file != deck) /* --set names it from where the user stands */
+        slash = NULL;
+    import.path = *file == '/' || !slash ? file : pool_format(reader->pool, "%.*s/%s", (int)(slash - deck), deck, file);
+    int before = reader->messages->errors, status = import.path ? uff_read(reader->pool, import.path, reader->messages, &import.file) : ROTID_ERROR_MEMORY;
+    if (status == ROTID_ERROR_MEMORY)
+        reader->out_of_memory = 1;
+    if (status == ROTID_ERROR_IO && reader->messages->errors == before)
+        deck_error(reader, card_option(card, "FILE")->value_place, "cannot read %s, expected a universal file", import.path);
+    if (!status && !import_sensors(&import))
+        (void)import_modes(&import);
+}

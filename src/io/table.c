@@ -1,0 +1,262 @@
+#include "io/table.h"
+
+#include <math.h>
+#include <string.h>
+
+void table_heading(FILE *out, const struct job *job)
+{
+    for (int i = 0; i < job->nheading; i++)
+        (void)fprintf(out, "%s\n", job->heading[i]);
+    if (!job->nheading)
+        (void)fprintf(out, "%s\n", job->deck);
+    (void)fputc('\n', out);
+}
+
+void table_notes(FILE *out, const struct message_list *notes)
+{
+    int any = 0;
+    for (size_t i = 0; i < notes->count; i++)
+        if (notes->item[i].severity == SEVERITY_WARNING) {
+            (void)fprintf(out, "%snote: %s\n", any ? "" : "\n", notes->item[i].text);
+            any = 1;
+        }
+}
+
+/* A number in the width given, or a dash where there is none. */
+static void cell(FILE *out, int width, int decimals, double value)
+{
+    if (isfinite(value))
+        (void)fprintf(out, "%*.*f", width, decimals, value);
+    else
+        (void)fprintf(out, "%*s", width, "-");
+}
+
+static void signed_cell(FILE *out, int width, int decimals, double value)
+{
+    if (isfinite(value))
+        (void)fprintf(out, "%+*.*f", width, decimals, value);
+    else
+        (void)fprintf(out, "%*s", width, "-");
+}
+
+static double reference_value(const struct reference *reference, int i)
+{
+    return reference && i < reference->count ? reference->value[i] : NAN;
+}
+
+void table_check(FILE *out, const struct job *job, const struct mass_properties *mass, const struct spectrum *spectrum)
+{
+    const struct rotor *rotor = &job->rotor;
+    table_heading(out, job);
+    (void)fprintf(out, "length          %12.6f m\n", rotor_length(rotor));
+    (void)fprintf(out, "mass            %12.4f kg\n", mass->mass);
+    (void)fprintf(out, "centre of mass  %12.6f m from the left end\n", mass->center);
+    (void)fprintf(out, "inertia         %12.4f kg.m2 about a diameter there\n", mass->inertia);
+    (void)fprintf(out, "mesh            %12d nodes, %d elements\n", spectrum->nnode, spectrum->nnode - 1);
+    (void)fprintf(out, "sensors         %12d\n", rotor->nsensor);
+    (void)fprintf(out, "measured modes  %12d\n", job->nmode);
+    (void)fprintf(out, "free motions    %12d", spectrum->nrigid);
+    for (int i = 0; i < spectrum->nrigid; i++)
+        (void)fprintf(out, "%s%.3f", i ? ", " : " (modes on the supports at ", spectrum->rigid_hz[i]);
+    (void)fprintf(out, "%s\n", spectrum->nrigid ? " Hz)" : "");
+    (void)fprintf(out, "fit             %12s, reduction %s, %d parameter%s\n\n", functional_name(job->fit.functional), reduction_name(job->fit.reduction),
+                  job->nparameter, job->nparameter == 1 ? "" : "s");
+    (void)fprintf(out, "group          from [m]     to [m]      E [Pa]      G [Pa]     nu   rho [kg/m3]\n");
+    for (int g = 0; g < rotor->ngroup; g++) {
+        const struct material *material = &rotor->group[g].material;
+        double from, to;
+        rotor_group_span(rotor, g, &from, &to);
+        (void)fprintf(out, "%-12s %10.6f %10.6f  %10.4e  %10.4e  %5.3f  %12.2f\n", rotor->group[g].name, from, to, material->e,
+                      material_shear_modulus(material), material->nu, material->rho);
+    }
+}
+
+void table_modes(FILE *out, const struct job *job, const struct spectrum *s, const struct comparison *compared, int shapes)
+{
+    table_heading(out, job);
+    for (int i = 0; i < s->nrigid; i++)
+        (void)fprintf(out, "rotor on its supports: %.4f Hz\n", s->rigid_hz[i]);
+    (void)fprintf(out, "%smode   full model   %-6s [Hz]  reduction   mesh      measured    error     NCO\n", s->nrigid ? "\n" : "",
+                  job->fit.reduction == ROTID_IRS ? "IRS" : "Guyan");
+    (void)fprintf(out, "           [Hz]                     [%%]       [%%]         [Hz]      [%%]\n");
+    for (int j = 0; j < s->count; j++) {
+        int measured = -1;
+        for (int k = 0; k < compared->nmode; k++)
+            if (compared->number[k] == j + 1)
+                measured = k;
+        double hz = measured >= 0 ? job->frequency_hz[measured] : NAN;
+        (void)fprintf(out, "%3d ", j + 1);
+        cell(out, 13, 4, s->full_hz[j]);
+        cell(out, 14, 4, s->reduced_hz[j]);
+        signed_cell(out, 10, 3, s->reduction_error_percent[j]);
+        signed_cell(out, 9, 4, s->mesh_error_percent[j]);
+        cell(out, 13, 4, hz);
+        signed_cell(out, 9, 2, 100 * (s->full_hz[j] / hz - 1));
+        cell(out, 8, 3, measured >= 0 ? compared->nco[measured] : NAN);
+        (void)fputc('\n', out);
+    }
+    if (!shapes)
+        return;
+    (void)fprintf(out, "\n    z [m]");
+    for (int j = 0; j < s->count; j++)
+        (void)fprintf(out, "  mode %-3d", j + 1);
+    (void)fputc('\n', out);
+    for (int i = 0; i < s->nmaster; i++) {
+        (void)fprintf(out, "%9.5f", s->master_z[i]);
+        for (int j = 0; j < s->count; j++)
+            (void)fprintf(out, " %9.5f", s->shape[i + (ptrdiff_t)j * s->nmaster]);
+        (void)fputc('\n', out);
+    }
+}
+
+void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter, const struct sensitivity_options *options,
+                       const struct sensitivity *r)
+{
+    table_heading(out, job);
+    (void)fprintf(out, "sensitivity of E_k = 1 - R*_k/w_k^2 to the relative value of each parameter, %g %% steps, reduction %s\n\n", 100 * options->step,
+                  reduction_name(job->fit.reduction));
+    for (int p = 0; p < r->n; p++) {
+        char quantity[128];
+        (void)snprintf(quantity, sizeof quantity, "sensitivity %s", parameter[p].name);
+        const struct reference *paper = job_reference(job, quantity);
+        (void)fprintf(out, "%s at %.6g %s\n", parameter[p].name, r->reference[p], strcmp(parameter[p].unit, "1") ? parameter[p].unit : "");
+        (void)fprintf(out, "mode   frequency [Hz]   step        limit       %s\n", paper ? "paper (magnitude)" : "");
+        for (int k = 0; k < r->m; k++) {
+            (void)fprintf(out, "%3d  %14.4f  %+.4e %+.4e", k + 1, r->hz[k], r->difference[k + (ptrdiff_t)p * r->m], r->derivative[k + (ptrdiff_t)p * r->m]);
+            if (isfinite(reference_value(paper, k)))
+                (void)fprintf(out, "  %.3e", reference_value(paper, k));
+            (void)fputc('\n', out);
+        }
+        (void)fprintf(out, "1/2 E_k^2 over the relative value (Figure 5 of the paper)\n value");
+        for (int k = 0; k < r->m; k++)
+            (void)fprintf(out, "   mode %d ", k + 1);
+        (void)fputc('\n', out);
+        for (int i = 0; i < r->points; i++) {
+            (void)fprintf(out, "%6.3f", r->relative[i]);
+            for (int k = 0; k < r->m; k++)
+                (void)fprintf(out, " %9.2e", r->curve[k + (ptrdiff_t)r->m * (i + (ptrdiff_t)r->points * p)]);
+            (void)fputc('\n', out);
+        }
+        (void)fputc('\n', out);
+    }
+}
+
+static void print_modes(FILE *out, const struct job *job, const struct identification *result)
+{
+    const rotid_fit_result *fit = result->fit;
+    const struct reference *paper_hz = job_reference(job, "predicted_hz"), *paper_error = job_reference(job, "error_percent");
+    int paper = paper_hz || paper_error, shapes = 0;
+    double sum = 0, held = 0;
+    int count = 0, nheld = 0;
+    for (int k = 0; k < fit->m; k++)
+        shapes |= isfinite(result->compared.nco[k]);
+    (void)fprintf(out, "mode   measured  predicted    error%s  reduction    mesh%s\n", paper ? "      paper    paper" : "", shapes ? "     NCO    MAC" : "");
+    (void)fprintf(out, "           [Hz]       [Hz]      [%%]%s        [%%]     [%%]\n", paper ? "       [Hz]      [%]" : "");
+    for (int k = 0; k < fit->m; k++) {
+        int j = result->compared.number[k] - 1, is_held = job->holdout && job->holdout[k];
+        double error = 100 * (fit->predicted_hz[k] / job->frequency_hz[k] - 1);
+        (void)fprintf(out, "%4d", j + 1);
+        cell(out, 11, 2, job->frequency_hz[k]);
+        cell(out, 11, 2, fit->predicted_hz[k]);
+        signed_cell(out, 9, 2, error);
+        if (paper) {
+            cell(out, 11, 2, reference_value(paper_hz, k));
+            signed_cell(out, 9, 2, reference_value(paper_error, k));
+        }
+        signed_cell(out, 11, 2, result->spectrum.reduction_error_percent[j]);
+        signed_cell(out, 8, 3, result->spectrum.mesh_error_percent[j]);
+        if (shapes) {
+            cell(out, 8, 3, result->compared.nco[k]);
+            cell(out, 7, 3, result->compared.mac[k]);
+        }
+        (void)fprintf(out, "%s\n", is_held ? "  held out" : "");
+        *(is_held ? &held : &sum) += error * error;
+        *(is_held ? &nheld : &count) += 1;
+    }
+    (void)fprintf(out, "rms error of the fitted modes %.2f %%", sqrt(sum / count));
+    if (nheld)
+        (void)fprintf(out, ", of the modes held out %.2f %%", sqrt(held / nheld));
+    (void)fprintf(out, "\n");
+}
+
+static void print_parameters(FILE *out, const struct job *job, const rotid_fit_result *fit)
+{
+    (void)fprintf(out, "%-14s %14s  %-8s %27s   %s\n", "parameter", "value", "unit", "95 % interval", "start");
+    for (int p = 0; p < fit->n; p++) {
+        (void)fprintf(out, "%-14s %14.6g  %-8s ", job->bounds[p].name, fit->x[p], job->bounds[p].unit);
+        if (isfinite(fit->ci_lower[p]))
+            (void)fprintf(out, "%12.5g ...%12.5g", fit->ci_lower[p], fit->ci_upper[p]);
+        else
+            (void)fprintf(out, "%27s", "cannot be stated");
+        (void)fprintf(out, "   %.4g%s%s\n", job->bounds[p].start, fit->at_bound[p] ? "   AT ITS BOUND" : "",
+                      !fit->identifiable[p] && !fit->at_bound[p] ? "   NOT DETERMINED by these data" : "");
+    }
+    for (int j = 0; j < fit->n; j++) {
+        if (!fit->direction_undetermined[j])
+            continue;
+        (void)fprintf(out, "the data do not determine the combination");
+        for (int p = 0; p < fit->n; p++)
+            if (fabs(fit->direction[p + (ptrdiff_t)j * fit->n]) > 0.05)
+                (void)fprintf(out, " %+.2f %s", fit->direction[p + (ptrdiff_t)j * fit->n], job->bounds[p].name);
+        (void)fprintf(out, " (relative changes)\n");
+    }
+    if (fit->n > 1) {
+        (void)fprintf(out, "condition number %.3g", fit->condition_number);
+        if (fit->n == 2 && isfinite(fit->correlation[1]))
+            (void)fprintf(out, ", correlation %.3f", fit->correlation[1]);
+        (void)fprintf(out, "\n");
+    }
+    if (fit->variance_from_residuals && fit->dof > 0)
+        (void)fprintf(out, "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them on the measurement\n",
+                      fit->dof);
+    if (fit->widened_by > 1)
+        (void)fprintf(out, "the misfit is %.3g times the stated noise: the intervals are widened by that, and the model is not adequate for these data\n",
+                      fit->widened_by);
+}
+
+static void print_history(FILE *out, const rotid_fit_result *fit)
+{
+    (void)fprintf(out, "\niteration   objective         gradient    mu         gain      step\n");
+    for (int i = 0; i < fit->nhistory; i++)
+        (void)fprintf(out, "%6d      %.10e  %.2e    %.2e  %8.3f  %.2e\n", fit->history[i].iteration, fit->history[i].objective, fit->history[i].gradient,
+                      fit->history[i].mu, fit->history[i].gain_ratio, fit->history[i].step);
+}
+
+static void print_baseline(FILE *out, const struct job *job, const rotid_fit_result *fit)
+{
+    (void)fprintf(out, "\n%-20s %14s %11s %9s", "minimiser", "objective", "evaluations", "ms");
+    for (int p = 0; p < fit->n; p++)
+        (void)fprintf(out, " %13s", job->bounds[p].name);
+    (void)fprintf(out, "   result\n%-20s %14.8e %11d %9.2f", "Levenberg-Marquardt", fit->objective, fit->evaluations, 1e3 * fit->seconds);
+    for (int p = 0; p < fit->n; p++)
+        (void)fprintf(out, " %13.7g", fit->x[p]);
+    (void)fprintf(out, "   %s\n", rotid_status_text(fit->status));
+    for (int i = 0; i < fit->nbaseline; i++) {
+        const rotid_baseline *b = &fit->baseline[i];
+        (void)fprintf(out, "NLopt %-14s %14.8e %11d %9.2f", b->algorithm, b->objective, b->evaluations, 1e3 * b->seconds);
+        for (int p = 0; p < fit->n; p++)
+            (void)fprintf(out, " %13.7g", b->x[p]);
+        (void)fprintf(out, "   %s\n", b->result);
+    }
+}
+
+void table_identify(FILE *out, const struct job *job, const struct identification *result, int history)
+{
+    const rotid_fit_result *fit = result->fit;
+    table_heading(out, job);
+    (void)fprintf(out, "%s, %s of %d mode%s, functional %s, reduction %s, objective %.10g, gradient %.1e\n\n",
+                  fit->converged ? (fit->any_at_bound ? "converged AT A BOUND" : "converged") : "NOT CONVERGED", "fit", fit->m, fit->m == 1 ? "" : "s",
+                  functional_name(job->fit.functional), reduction_name(job->fit.reduction), fit->objective, fit->gradient);
+    print_parameters(out, job, fit);
+    (void)fputc('\n', out);
+    print_modes(out, job, result);
+    if (job->fit.functional != ROTID_LIKELIHOOD)
+        (void)fprintf(out, "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies alone\n",
+                      job->fit.reduction == ROTID_REDUCTION_NONE ? "model" : "condensed model");
+    if (isfinite(fit->chi2_per_dof))
+        (void)fprintf(out, "chi2 %.4g with %d degrees of freedom\n", fit->chi2, fit->dof);
+    if (history)
+        print_history(out, fit);
+    if (fit->nbaseline)
+        print_baseline(out, job, fit);
+}

@@ -1,0 +1,102 @@
+#include "run/identify.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "run/client.h"
+
+#define ROUNDS 3 /* of fitting and pairing, should the pairs change with the model */
+
+static int check(const struct job *job, struct message_list *notes)
+{
+    if (!job->nparameter)
+        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck names nothing to identify, expected a card *IDENTIFY");
+    if (!job->nmode)
+        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes, expected *MODES or *MEASURED");
+    return job->nparameter && job->nmode ? ROTID_OK : ROTID_ERROR_ARGUMENT;
+}
+
+/* Which measured shapes the functional gets: with LIKELIHOOD those whose noise is known. */
+static int uses_shapes(const struct job *job)
+{
+    return job->shape && (job->fit.functional != ROTID_LIKELIHOOD || job_knows_shape_noise(job));
+}
+
+static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, struct spectrum *spectrum)
+{
+    int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
+    return spectrum_compute(pool, &job->rotor, job->nparameter, job->parameter, x, reduction, count, spectrum);
+}
+
+static int fit_once(struct pool *pool, const struct job *job, const struct comparison *compared, const rotid_fit_options *options,
+                    const rotid_environment *environment, struct mass_properties *mass, rotid_fit_result **fit)
+{
+    struct client *client = POOL_NEW(pool, struct client);
+    int failed, status = client ? client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, client, &failed) : ROTID_ERROR_MEMORY;
+    if (status)
+        return status;
+    int shapes = uses_shapes(job);
+    rotid_measured measured = {.nmode = job->nmode,
+                               .number = compared->number,
+                               .frequency_hz = job->frequency_hz,
+                               .frequency_std = job_knows_frequency_noise(job) ? job->frequency_std : NULL,
+                               .shape = shapes ? job->shape : NULL,
+                               .shape_std = shapes && job_knows_shape_noise(job) ? job->shape_std : NULL,
+                               .holdout = job->holdout};
+    status = rotid_fit(&client->model, job->bounds, &measured, options, environment, fit);
+    if (!status) { /* the beam stands at the last point that was evaluated; the mass wants the best one */
+        for (int p = 0; p < job->nparameter; p++)
+            *parameter_value(&client->beam.rotor, job->parameter[p]) = (*fit)->x[p];
+        beam_mass_properties(&client->beam, mass);
+    }
+    return status;
+}
+
+int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment, struct message_list *notes,
+                 struct identification *out)
+{
+    *out = (struct identification){0};
+    int status = check(job, notes), candidates = comparison_candidates(job);
+    double *start = POOL_ARRAY(pool, double, job->nparameter);
+    if (status || !start)
+        return status ? status : ROTID_ERROR_MEMORY;
+    for (int p = 0; p < job->nparameter; p++)
+        start[p] = job->bounds[p].start;
+    struct comparison before;
+    struct message_list quiet; /* what the pairing at the start says is not worth repeating unless it ends the run */
+    message_open(&quiet, pool);
+    status = compute_spectrum(pool, job, start, candidates, &out->spectrum);
+    if (!status)
+        status = comparison_make(pool, job, &out->spectrum, &quiet, &before);
+    if (status) {
+        for (size_t i = 0; i < quiet.count; i++)
+            message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
+        return status;
+    }
+    rotid_fit_options options = job->fit;
+    options.baseline = baseline;
+    for (int round = 1;; round++) {
+        rotid_fit_free(out->fit);
+        out->fit = NULL;
+        status = fit_once(pool, job, &before, &options, environment, &out->mass, &out->fit);
+        if (!status)
+            status = compute_spectrum(pool, job, out->fit->x, candidates, &out->spectrum);
+        message_open(&quiet, pool);
+        if (!status)
+            status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
+        if (status || round == ROUNDS || !memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number))
+            break;
+        before = out->compared;
+    }
+    for (size_t i = 0; i < quiet.count; i++)
+        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
+    if (status) {
+        rotid_fit_free(out->fit);
+        out->fit = NULL;
+        return status;
+    }
+    if (memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number))
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "the pairing of the modes still changes with the fitted model: do not trust this result");
+    out->shapes_fitted = uses_shapes(job) && !(job->fit.functional != ROTID_LIKELIHOOD && job->fit.reduction == ROTID_REDUCTION_NONE);
+    return ROTID_OK;
+}

@@ -1,0 +1,46 @@
+#include "run/job.h"
+
+#include <math.h>
+#include <string.h>
+
+const struct reference *job_reference(const struct job *job, const char *quantity)
+{
+    for (int i = 0; i < job->nreference; i++)
+        if (!strcmp(job->reference[i].quantity, quantity))
+            return &job->reference[i];
+    return NULL;
+}
+
+int job_knows_frequency_noise(const struct job *job)
+{
+    for (int k = 0; k < job->nmode; k++)
+        if (!isfinite(job->frequency_std[k]))
+            return 0;
+    return job->nmode > 0;
+}
+
+int job_knows_shape_noise(const struct job *job)
+{
+    ptrdiff_t components = (ptrdiff_t)job->rotor.nsensor * job->nmode;
+    if (!job->shape)
+        return 0;
+    for (ptrdiff_t i = 0; i < components; i++)
+        if (isfinite(job->shape[i]) && !isfinite(job->shape_std[i]))
+            return 0;
+    return 1;
+}
+
+const char *functional_name(int functional)
+{
+    return functional == ROTID_HYBRID ? "HYBRID" : functional == ROTID_HYBRID_F ? "HYBRID_F" : "LIKELIHOOD";
+}
+
+const char *reduction_name(int reduction)
+{
+    return reduction == ROTID_REDUCTION_NONE ? "NONE" : reduction == ROTID_GUYAN ? "GUYAN" : "IRS";
+}
+
+const char *derivative_name(int derivative)
+{
+    return derivative == ROTID_MODAL ? "MODAL" : "NELSON";
+}

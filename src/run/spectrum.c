@@ -1,0 +1,104 @@
+#include "run/spectrum.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "modal/prediction.h"
+#include "run/client.h"
+
+static double hertz(double lambda)
+{
+    return lambda > 0 ? sqrt(lambda) / 6.28318530717958647692 : 0;
+}
+
+/* Full model on a mesh `refine` times as fine. */
+static int full_model(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x,
+                      int refine, int count, struct client *client, struct prediction *prediction)
+{
+    int failed, status = client_open(pool, rotor, nparameter, parameter, refine, client, &failed);
+    if (!status)
+        status = prediction_new(pool, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + count, 0, prediction);
+    return status ? status : prediction_compute(prediction, x);
+}
+
+static void keep_shapes(const struct client *client, const struct prediction *p, struct spectrum *s)
+{
+    for (int i = 0; i < s->nmaster; i++)
+        s->master_z[i] = client->beam.mesh.z[client->master[i] / 2];
+    for (int j = 0; j < s->count; j++) {
+        double *shape = s->shape + (ptrdiff_t)j * s->nmaster, largest = 0;
+        for (int i = 0; i < s->nmaster; i++) {
+            shape[i] = prediction_at_sensor(p, s->nrigid + j, i);
+            if (fabs(shape[i]) > fabs(largest))
+                largest = shape[i];
+        }
+        for (int i = 0; i < s->nmaster && largest != 0; i++)
+            shape[i] /= largest;
+    }
+}
+
+/* Frequencies of the condensed model as far as it has any, and Guyan's mass for the NCO. */
+static int condensed_model(struct pool *pool, struct client *client, const double *x, int reduction, struct spectrum *s)
+{
+    int wanted = s->nrigid + s->count, count = wanted < s->nmaster ? wanted : s->nmaster;
+    struct prediction p;
+    for (int kind = ROTID_GUYAN; kind <= ROTID_IRS; kind++) {
+        if (kind == ROTID_IRS && reduction != ROTID_IRS)
+            break;
+        int status = prediction_new(pool, &client->model, kind, ROTID_NELSON, count, 0, &p);
+        if (status)
+            return status;
+        status = prediction_compute(&p, x);
+        if (status == ROTID_ERROR_SLAVE || status == ROTID_ERROR_MASS || status == ROTID_ERROR_STIFFNESS)
+            return ROTID_OK; /* one sensor, say: nothing to condense onto, and nothing to report */
+        if (status)
+            return status;
+        if (kind == ROTID_GUYAN)
+            s->mass = p.condensed.mc;
+        for (int j = 0; j < s->count && kind == reduction; j++)
+            s->reduced_hz[j] = s->nrigid + j < count ? hertz(p.lambda[s->nrigid + j]) : NAN;
+    }
+    return ROTID_OK;
+}
+
+int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x,
+                     int reduction, int count, struct spectrum *s)
+{
+    struct client *client = POOL_NEW(pool, struct client), *fine = POOL_NEW(pool, struct client);
+    struct prediction p, q;
+    if (!client || !fine)
+        return ROTID_ERROR_MEMORY;
+    int status = full_model(pool, rotor, nparameter, parameter, x, 1, count, client, &p);
+    if (!status)
+        status = full_model(pool, rotor, nparameter, parameter, x, 2, count, fine, &q);
+    if (status)
+        return status;
+    *s = (struct spectrum){.nrigid = client->model.nrigid, .count = count, .nmaster = client->model.nmaster, .nnode = client->beam.mesh.naxis};
+    double **arrays[] = {&s->full_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
+            return ROTID_ERROR_MEMORY;
+    s->shape = POOL_ARRAY(pool, double, (size_t)s->nmaster * (size_t)count);
+    s->master_z = POOL_ARRAY(pool, double, s->nmaster);
+    if (!s->shape || !s->master_z)
+        return ROTID_ERROR_MEMORY;
+    for (int j = 0; j < s->nrigid; j++)
+        s->rigid_hz[j] = hertz(p.lambda[j]);
+    keep_shapes(client, &p, s);
+    for (int j = 0; j < count; j++)
+        s->reduced_hz[j] = NAN;
+    status = condensed_model(pool, client, x, reduction, s);
+    for (int j = 0; j < count && !status; j++) {
+        double coarse = hertz(p.lambda[s->nrigid + j]), finer = hertz(q.lambda[fine->model.nrigid + j]), limit = finer + (finer - coarse) / 3;
+        s->full_hz[j] = coarse;
+        s->mesh_error_percent[j] = 100 * (coarse / limit - 1);
+        s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / coarse - 1);
+    }
+    return status;
+}
+
+double spectrum_correlation(const struct spectrum *s, const double *shape, int j, double *work)
+{
+    const double *mode = s->shape + (ptrdiff_t)j * s->nmaster;
+    return s->mass ? rotid_nco(s->nmaster, s->mass, shape, mode, work) : rotid_mac(s->nmaster, shape, mode);
+}

@@ -1,0 +1,30 @@
+/* The modes of a rotor with what their numbers are worth: full model, condensed model, mesh error. */
+#ifndef ROTID_RUN_SPECTRUM_H
+#define ROTID_RUN_SPECTRUM_H
+
+#include "base/pool.h"
+#include "beam/beam.h"
+#include "rotid.h"
+
+struct spectrum {
+    int nrigid, count, nmaster; /* count: elastic modes */
+    int nnode;                  /* of the axis */
+    double rigid_hz[2];
+    double *full_hz;                 /* [count] */
+    double *reduced_hz;              /* [count] NaN where the masters are too few */
+    double *reduction_error_percent; /* [count] reduced against full */
+    double *mesh_error_percent;      /* [count] against the Richardson value of this mesh and one twice as fine */
+    double *shape;                   /* [nmaster * count] full model at the masters, largest component 1 */
+    double *mass;                    /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible */
+    double *master_z;                /* [nmaster] m */
+};
+
+/* At the values x [nparameter] of the parameters. reduction: ROTID_GUYAN or ROTID_IRS. Statuses of the prediction and of client_open. */
+int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x,
+                     int reduction, int count, struct spectrum *spectrum);
+
+/* NCO of a measured shape [nmaster] with mode j of the full model by the condensed mass; MAC where there is no such matrix.
+ * work [nmaster]. */
+double spectrum_correlation(const struct spectrum *spectrum, const double *shape, int j, double *work);
+
+#endif

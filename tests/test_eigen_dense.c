@@ -1,0 +1,158 @@
+/* The dense eigenvalue problem of a condensed model: residuals, orthonormality, the banded solver as second opinion. */
+#include "dense.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "linalg/eigen.h"
+#include "linalg/matrix.h"
+
+/* Residuals relative to |K| + |lambda| |M|, phi' M phi = I, lambda ascending. */
+static void check_pairs(struct pool *pool, int n, const double *k, const double *m, int count, const double *lambda, const double *phi)
+{
+    const double *k_phi = dense_product(pool, n, n, count, k, phi), *m_phi = dense_product(pool, n, n, count, m, phi);
+    const double *square = dense_transposed_product(pool, count, n, count, phi, m_phi);
+    for (int j = 0; j < count; j++) {
+        double difference = 0, size = 0;
+        assert_true(j == 0 || lambda[j] >= lambda[j - 1]);
+        for (int i = j * n; i < (j + 1) * n; i++) {
+            difference = fmax(difference, fabs(k_phi[i] - lambda[j] * m_phi[i]));
+            size = fmax(size, fabs(phi[i]));
+        }
+        size *= dense_norm(n, n, k) + fabs(lambda[j]) * dense_norm(n, n, m);
+        assert_close(difference / size, 0, 0, 1e-13);
+        for (int i = 0; i < count; i++)
+            assert_close(square[i + j * count], i == j, 0, 1e-10);
+    }
+}
+
+static double *solve_and_check(struct pool *pool, int n, const double *k, const double *m, int count)
+{
+    struct eigen_dense e;
+    double *lambda = numbers(pool, count), *phi = numbers(pool, (ptrdiff_t)n * count);
+    assert_status(eigen_dense_new(pool, n, count, &e), ROTID_OK);
+    for (int again = 0; again < 2; again++) { /* the second call starts from the shift of the first */
+        assert_status(eigen_dense_solve(&e, k, m, lambda, phi), ROTID_OK);
+        check_pairs(pool, n, k, m, count, lambda, phi);
+    }
+    return lambda;
+}
+
+static void a_part_and_all_pairs_agree_with_the_banded_solver(void **state)
+{
+    struct random_stream stream = {31};
+    for (int n = 1; n <= 61; n += 12) {
+        rotid_matrix k, m;
+        random_positive(*state, &stream, n, n - 1, 0, NULL, 0.1, &k);
+        random_positive(*state, &stream, n, n - 1, 0, NULL, 1, &m);
+        struct eigen_band band;
+        double *expected = numbers(*state, n), *phi = numbers(*state, n * n);
+        assert_status(eigen_band_new(*state, &k, n, &band), ROTID_OK);
+        assert_status(eigen_band_solve(&band, &k, &m, expected, phi), ROTID_OK);
+        const double *full_k = dense_of(*state, &k), *full_m = dense_of(*state, &m);
+        const int counts[5] = {1, n > 5 ? 5 : n, n / 2 + 1 < n ? n / 2 + 1 : n, n > 1 ? n - 1 : 1, n};
+        for (int c = 0; c < 5; c++) {
+            const double *lambda = solve_and_check(*state, n, full_k, full_m, counts[c]);
+            for (int j = 0; j < counts[c]; j++)
+                assert_close(lambda[j], expected[j], 1e-10, 1e-14);
+        }
+    }
+}
+
+/* K of two free strings of n/2 masses 1 with springs 1; eigenvalues 4 sin^2(j pi/n), each twice. */
+static double *two_free_strings(struct pool *pool, int n)
+{
+    double *k = numbers(pool, (ptrdiff_t)n * n);
+    for (int i = 0; i + 1 < n; i++) {
+        if (i == n / 2 - 1)
+            continue;
+        k[i + i * n] += 1;
+        k[i + 1 + (i + 1) * n] += 1;
+        k[i + 1 + i * n] = k[i + (i + 1) * n] = -1;
+    }
+    return k;
+}
+
+static void repeated_and_zero_eigenvalues_are_found_for_any_request(void **state)
+{
+    enum { n = 40 };
+    const double *k = two_free_strings(*state, n);
+    double *m = numbers(*state, n * n);
+    for (int i = 0; i < n; i++)
+        m[i + i * n] = 1;
+    for (int count = 1; count <= n; count++) {
+        const double *lambda = solve_and_check(*state, n, k, m, count);
+        for (int j = 0; j < count; j++)
+            assert_close(lambda[j], 4 * pow(sin(3.14159265358979323846 * (j / 2) / n), 2), 1e-10, 1e-10);
+    }
+}
+
+/* From parameters five times as stiff or as soft to others: what was found before must not matter. */
+static void the_solution_before_does_not_show(void **state)
+{
+    enum { n = 30, count = 7 };
+    const double factors[] = {1, 5, 0.2, 25, 1e-3, 1};
+    struct random_stream stream = {32};
+    struct eigen_dense warm;
+    rotid_matrix k, other, m;
+    random_positive(*state, &stream, n, n - 1, 0, NULL, 0.1, &k);
+    random_positive(*state, &stream, n, n - 1, 0, NULL, 0.1, &other);
+    random_positive(*state, &stream, n, n - 1, 0, NULL, 1, &m);
+    assert_status(eigen_dense_new(*state, n, count, &warm), ROTID_OK);
+    const double *full_m = dense_of(*state, &m);
+    for (int f = 0; f < 6; f++) {
+        double lambda[count], phi[n * count];
+        matrix_combine(factors[f], &k, 0.1, &other, &k);
+        const double *full_k = dense_of(*state, &k), *cold = solve_and_check(*state, n, full_k, full_m, count);
+        assert_status(eigen_dense_solve(&warm, full_k, full_m, lambda, phi), ROTID_OK);
+        check_pairs(*state, n, full_k, full_m, count, lambda, phi);
+        for (int j = 0; j < count; j++)
+            assert_close(lambda[j], cold[j], 1e-9, 0);
+    }
+}
+
+/* Lowers a(row, row) by `part` of what makes A singular: 1 and more make it indefinite. */
+static double *lowered(struct pool *pool, int n, const double *a, int row, double part)
+{
+    double *copy = numbers(pool, (ptrdiff_t)n * n), *unit = numbers(pool, n);
+    memcpy(copy, a, (size_t)n * (size_t)n * sizeof *a);
+    unit[row] = 1;
+    copy[row + row * n] -= part / dense_solution(pool, n, 1, a, unit)[row];
+    return copy;
+}
+
+static void a_pencil_that_is_not_of_a_structure_is_an_error(void **state)
+{
+    enum { n = 20 };
+    struct random_stream stream = {33};
+    rotid_matrix k, m;
+    random_positive(*state, &stream, n, n - 1, 0, NULL, 1, &k);
+    random_positive(*state, &stream, n, n - 1, 0, NULL, 1, &m);
+    const double *full_k = dense_of(*state, &k), *full_m = dense_of(*state, &m);
+    const int counts[3] = {1, 6, n};
+    for (int c = 0; c < 3; c++)
+        for (int row = 0; row < n; row++)
+            for (int warm = 0; warm < 2; warm++) {
+                struct eigen_dense e;
+                double lambda[n], phi[n * n];
+                const double *bad_m = lowered(*state, n, full_m, row, 1.5), *bad_k = lowered(*state, n, full_k, row, 1.5);
+                assert_status(eigen_dense_new(*state, n, counts[c], &e), ROTID_OK);
+                if (warm)
+                    assert_status(eigen_dense_solve(&e, full_k, full_m, lambda, phi), ROTID_OK);
+                assert_status(eigen_dense_solve(&e, full_k, bad_m, lambda, phi), ROTID_ERROR_MASS);
+                assert_status(eigen_dense_solve(&e, bad_k, full_m, lambda, phi), ROTID_ERROR_STIFFNESS);
+                assert_status(eigen_dense_solve(&e, full_k, full_m, lambda, phi), ROTID_OK); /* an error spoils nothing */
+                check_pairs(*state, n, full_k, full_m, counts[c], lambda, phi);
+            }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_POOL(a_part_and_all_pairs_agree_with_the_banded_solver),
+        WITH_POOL(repeated_and_zero_eigenvalues_are_found_for_any_request),
+        WITH_POOL(the_solution_before_does_not_show),
+        WITH_POOL(a_pencil_that_is_not_of_a_structure_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
