@@ -59,31 +59,58 @@ static void a_part_and_all_pairs_agree_with_the_banded_solver(void **state)
     }
 }
 
-/* K of two free strings of n/2 masses 1 with springs 1; eigenvalues 4 sin^2(j pi/n), each twice. */
-static double *two_free_strings(struct pool *pool, int n)
+/* Free strings of random masses and springs, `each` masses long: one zero eigenvalue a string. */
+static void random_strings(struct pool *pool, struct random_stream *stream, int strings, int each, double **k, double **m)
 {
-    double *k = numbers(pool, (ptrdiff_t)n * n);
-    for (int i = 0; i + 1 < n; i++) {
-        if (i == n / 2 - 1)
+    int n = strings * each;
+    *k = numbers(pool, (ptrdiff_t)n * n);
+    *m = numbers(pool, (ptrdiff_t)n * n);
+    for (int i = 0; i < n; i++) {
+        (*m)[i + i * n] = 0.5 + random_uniform(stream);
+        if ((i + 1) % each == 0)
+            continue;
+        double spring = 1 + random_uniform(stream);
+        (*k)[i + i * n] += spring;
+        (*k)[i + 1 + (i + 1) * n] += spring;
+        (*k)[i + 1 + i * n] = (*k)[i + (i + 1) * n] = -spring;
+    }
+}
+
+/* Shafts in two planes have four rigid motions, bodies in space six; a request may end among them. */
+static void any_number_of_rigid_motions_is_served(void **state)
+{
+    enum { each = 10 };
+    struct random_stream stream = {34};
+    for (int strings = 1; strings <= 7; strings++)
+        for (int count = 1; count <= strings + 3; count++)
+            for (int repeat = 0; repeat < 4; repeat++) {
+                double *k, *m, expected[7 * each];
+                int n = strings * each;
+                random_strings(*state, &stream, strings, each, &k, &m);
+                dense_pairs(*state, n, k, m, -0.1, expected, numbers(*state, (ptrdiff_t)n * n));
+                const double *lambda = solve_and_check(*state, n, k, m, count);
+                for (int j = 0; j < count; j++)
+                    assert_close(lambda[j], expected[j], 1e-12, 1e-14);
+            }
+}
+
+/* Two strings of n/2 masses 1 and springs 1: 4 sin^2(j pi/n), each twice. */
+static void repeated_eigenvalues_are_found_for_any_request(void **state)
+{
+    enum { n = 40 };
+    double *k = numbers(*state, n * n), *m = numbers(*state, n * n);
+    for (int i = 0; i < n; i++) {
+        m[i + i * n] = 1;
+        if (i == n / 2 - 1 || i == n - 1)
             continue;
         k[i + i * n] += 1;
         k[i + 1 + (i + 1) * n] += 1;
         k[i + 1 + i * n] = k[i + (i + 1) * n] = -1;
     }
-    return k;
-}
-
-static void repeated_and_zero_eigenvalues_are_found_for_any_request(void **state)
-{
-    enum { n = 40 };
-    const double *k = two_free_strings(*state, n);
-    double *m = numbers(*state, n * n);
-    for (int i = 0; i < n; i++)
-        m[i + i * n] = 1;
     for (int count = 1; count <= n; count++) {
         const double *lambda = solve_and_check(*state, n, k, m, count);
         for (int j = 0; j < count; j++)
-            assert_close(lambda[j], 4 * pow(sin(3.14159265358979323846 * (j / 2) / n), 2), 1e-10, 1e-10);
+            assert_close(lambda[j], 4 * pow(sin(3.14159265358979323846 * (j / 2) / n), 2), 1e-12, 1e-14);
     }
 }
 
@@ -150,7 +177,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         WITH_POOL(a_part_and_all_pairs_agree_with_the_banded_solver),
-        WITH_POOL(repeated_and_zero_eigenvalues_are_found_for_any_request),
+        WITH_POOL(any_number_of_rigid_motions_is_served),
+        WITH_POOL(repeated_eigenvalues_are_found_for_any_request),
         WITH_POOL(the_solution_before_does_not_show),
         WITH_POOL(a_pencil_that_is_not_of_a_structure_is_an_error),
     };

@@ -24,7 +24,9 @@ struct factor {
     double *coupling; /* [nr * nf] A_rf */
     double *x;        /* [nr * nf] */
     double *schur;    /* [nf * nf] factored */
-    double *work;     /* [n] */
+    double *work;     /* [8 n], right-hand sides interleaved */
+    double *column, *outer_work; /* [n], [nf] */
+    int *first, *last; /* [nf] range of the rows of A_rf that are not zero */
     double *schur_work; /* [4 nf] */
     int *band_pivot, *schur_pivot;
 };

@@ -65,20 +65,20 @@ void matrix_combine(double alpha, const rotid_matrix *a, double beta, const roti
         c->block[i] = alpha * a->block[i] + beta * b->block[i];
 }
 
+/* Row by row, so that no sum waits for the store of another. */
 void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y)
 {
-    int n = a->n, kd = a->kd;
+    int n = a->n, kd = a->kd, ld = kd + 1;
     for (int c = 0; c < columns; c++, x += n, y += n) {
-        memset(y, 0, (size_t)n * sizeof(double));
-        for (int j = 0; j < n; j++) {
-            const double *column = a->band + (ptrdiff_t)j * (kd + 1);
-            int reach = kd < n - 1 - j ? kd : n - 1 - j;
-            double xj = x[j], sum = column[0] * xj;
-            for (int d = 1; d <= reach; d++) {
-                y[j + d] += column[d] * xj;
-                sum += column[d] * x[j + d];
-            }
-            y[j] += sum;
+        for (int i = 0; i < n; i++) {
+            const double *row = a->band + (ptrdiff_t)i * ld;
+            int below = kd < n - 1 - i ? kd : n - 1 - i, above = kd < i ? kd : i;
+            double sum = row[0] * x[i];
+            for (int d = 1; d <= below; d++)
+                sum += row[d] * x[i + d];
+            for (int d = 1; d <= above; d++)
+                sum += row[d - (ptrdiff_t)d * ld] * x[i - d];
+            y[i] = sum;
         }
         for (int g = 0; g < a->nfar; g++)
             for (int f = 0; f < a->nfar; f++)

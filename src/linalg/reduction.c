@@ -6,12 +6,15 @@
 
 #include "linalg/matrix.h"
 
+#define STRIP 24 /* columns: narrow enough to save most of the upper triangle, wide enough for dgemm */
+
 int reduction_new(struct pool *pool, int kind, const rotid_matrix *structure, int nc, const int *master, struct reduction *r)
 {
     int n = structure->n, ni = n - nc;
     *r = (struct reduction){.kind = kind, .n = n, .nc = nc, .ni = ni, .master = master};
     size_t tall = (size_t)n * (size_t)nc, square = (size_t)nc * (size_t)nc;
     r->slave = POOL_ARRAY(pool, int, ni);
+    r->nonzero = POOL_ARRAY(pool, int, n);
     r->t = POOL_ARRAY(pool, double, tall);
     r->kc = POOL_ARRAY(pool, double, square);
     r->mc = POOL_ARRAY(pool, double, square);
@@ -23,7 +26,7 @@ int reduction_new(struct pool *pool, int kind, const rotid_matrix *structure, in
     r->c1 = POOL_ARRAY(pool, double, nc);
     r->c2 = POOL_ARRAY(pool, double, nc);
     r->c3 = POOL_ARRAY(pool, double, nc);
-    if (!r->slave || !r->t || !r->kc || !r->mc || !r->image || !r->u1 || !r->u2 || !r->u3 || !r->slaves || !r->c1 || !r->c2 || !r->c3)
+    if (!r->slave || !r->nonzero || !r->t || !r->kc || !r->mc || !r->image || !r->u1 || !r->u2 || !r->u3 || !r->slaves || !r->c1 || !r->c2 || !r->c3)
         return ROTID_ERROR_MEMORY;
     r->psi = r->t;
     r->kg = r->kc;
@@ -57,18 +60,36 @@ static void slave_solve(struct reduction *r, const double *in, double *out)
         out[r->slave[s]] = r->slaves[s];
 }
 
+/* column [n] := A e_j */
+static void matrix_column(const rotid_matrix *a, int j, double *column)
+{
+    memset(column, 0, (size_t)a->n * sizeof(double));
+    for (int d = 0; d <= a->kd && j + d < a->n; d++)
+        column[j + d] = a->band[d + (ptrdiff_t)j * (a->kd + 1)];
+    for (int d = 1; d <= a->kd && d <= j; d++)
+        column[j - d] = a->band[d + (ptrdiff_t)(j - d) * (a->kd + 1)];
+    for (int g = 0; g < a->nfar; g++)
+        for (int f = 0; a->far[g] == j && f < a->nfar; f++)
+            column[a->far[f]] += a->block[f + g * a->nfar];
+}
+
 /* Psi = [Phi; I] with Phi = -K_ii^-1 K_ic (12) */
 static void constraint_modes(struct reduction *r, const rotid_matrix *k)
 {
-    int n = r->n;
+    int n = r->n, ni = r->ni;
+    double *phi = r->image; /* [ni * nc] */
+    for (int c = 0; c < r->nc; c++) {
+        matrix_column(k, r->master[c], r->u1);
+        for (int s = 0; s < ni; s++)
+            phi[s + (ptrdiff_t)c * ni] = -r->u1[r->slave[s]];
+    }
+    factor_solve(&r->factor, r->nc, phi);
     for (int c = 0; c < r->nc; c++) {
         double *psi = r->psi + (ptrdiff_t)c * n;
-        memset(r->u1, 0, (size_t)n * sizeof(double));
-        r->u1[r->master[c]] = 1;
-        matrix_multiply(k, 1, r->u1, r->u2);
-        slave_solve(r, r->u2, psi);
-        cblas_dscal(n, -1, psi, 1);
-        psi[r->master[c]] = 1;
+        for (int b = 0; b < r->nc; b++)
+            psi[r->master[b]] = b == c;
+        for (int s = 0; s < ni; s++)
+            psi[r->slave[s]] = phi[s + (ptrdiff_t)c * ni];
     }
 }
 
@@ -77,17 +98,37 @@ static void congruence(struct reduction *r, const rotid_matrix *a, const double 
 {
     int n = r->n, nc = r->nc;
     matrix_multiply(a, nc, basis, r->image);
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, nc, nc, n, 1, basis, n, r->image, n, 0, square, nc);
+    for (int begin = 0; begin < nc; begin += STRIP) { /* strips of the lower triangle: the upper one is its mirror image */
+        int width = nc - begin < STRIP ? nc - begin : STRIP;
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, nc - begin, width, n, 1, basis + (ptrdiff_t)begin * n, n,
+                    r->image + (ptrdiff_t)begin * n, n, 0, square + begin + (ptrdiff_t)begin * nc, nc);
+    }
+    for (int c = 0; c < nc; c++)
+        for (int b = 0; b < c; b++)
+            square[b + (ptrdiff_t)c * nc] = square[c + (ptrdiff_t)b * nc];
 }
 
-/* Psi' K Psi = K_cc + K_ci Phi: K Psi vanishes on the slave rows, so only its master rows are needed. */
+/* Psi' K Psi = K_cc + K_ci Phi: K Psi vanishes on the slave rows, so only the master rows of K are needed. */
 static void guyan_stiffness(struct reduction *r, const rotid_matrix *k)
 {
     int n = r->n, nc = r->nc;
-    matrix_multiply(k, nc, r->psi, r->image);
-    for (int c = 0; c < nc; c++)
-        for (int b = 0; b < nc; b++)
-            r->kg[b + (ptrdiff_t)c * nc] = r->image[r->master[b] + (ptrdiff_t)c * n];
+    for (int b = 0; b < nc; b++) {
+        matrix_column(k, r->master[b], r->u1);
+        int count = 0;
+        for (int i = 0; i < n; i++)
+            if (r->u1[i] != 0)
+                r->nonzero[count++] = i;
+        for (int c = 0; c < nc; c++) {
+            const double *psi = r->psi + (ptrdiff_t)c * n;
+            double sum = 0;
+            for (int i = 0; i < count; i++)
+                sum += r->u1[r->nonzero[i]] * psi[r->nonzero[i]];
+            r->kg[b + (ptrdiff_t)c * nc] = sum;
+        }
+    }
+    for (int c = 0; c < nc; c++) /* symmetric but for rounding, which the eigen-solvers would see */
+        for (int b = c + 1; b < nc; b++)
+            r->kg[b + (ptrdiff_t)c * nc] = r->kg[c + (ptrdiff_t)b * nc] = (r->kg[b + (ptrdiff_t)c * nc] + r->kg[c + (ptrdiff_t)b * nc]) / 2;
 }
 
 static int improve(struct reduction *r, const rotid_matrix *k, const rotid_matrix *m)
@@ -284,4 +325,27 @@ void reduction_derivative_multiply(struct reduction *r, const rotid_matrix *dk, 
     reduction_derivative_expand(r, dk, dm, x, du);
     congruence_derivative(r, r->k, dk, dk, dm, u, du, kx, row, column);
     congruence_derivative(r, r->m, dm, dk, dm, u, du, mx, row, column);
+}
+
+double reduction_eigenvalue_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, double lambda, const double *x,
+                                       const struct reduction_mode *mode)
+{
+    int n = r->n;
+    matrix_multiply(dk, 1, mode->u, r->u2);
+    matrix_multiply(dm, 1, mode->u, r->u3);
+    double sum = cblas_ddot(n, mode->u, 1, r->u2, 1) - lambda * cblas_ddot(n, mode->u, 1, r->u3, 1);
+    if (r->kind == ROTID_GUYAN) /* dT x = -S dK u, so that 2 g' dT x = -2 (S g)' dK u, and S g serves every parameter */
+        return sum - 2 * cblas_ddot(n, mode->adjoint, 1, r->u2, 1);
+    irs_derivative_expand(r, dk, dm, x, mode->scratch);
+    return sum + 2 * cblas_ddot(n, mode->residual, 1, mode->scratch, 1);
+}
+
+void reduction_mode_prepare(struct reduction *r, double lambda, const double *x, struct reduction_mode *mode)
+{
+    reduction_expand(r, x, mode->u);
+    matrix_multiply(r->k, 1, mode->u, mode->residual);
+    matrix_multiply(r->m, 1, mode->u, r->u1);
+    cblas_daxpy(r->n, -lambda, r->u1, 1, mode->residual, 1);
+    if (r->kind == ROTID_GUYAN)
+        slave_solve(r, mode->residual, mode->adjoint);
 }

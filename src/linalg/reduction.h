@@ -14,7 +14,7 @@ struct reduction {
     int kind; /* ROTID_GUYAN or ROTID_IRS */
     int n, nc, ni;
     const int *master;
-    int *slave;                      /* [ni] */
+    int *slave, *nonzero;            /* [ni], [n] */
     const rotid_matrix *k, *m;       /* of the last reduction_compute: kept by the caller */
     struct factor factor;            /* K_ii */
     double *t;                       /* [n * nc] */
@@ -46,5 +46,17 @@ void reduction_derivative_project(struct reduction *r, const rotid_matrix *dk, c
 /* kx [nc] := dK~ x, mx [nc] := dM~ x, (40, 41) corrected; work [3 n + nc]. */
 void reduction_derivative_multiply(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *x, double *kx,
                                    double *mx, double *work);
+
+/* What an eigenpair (lambda, x) of the condensed problem needs for the derivative of lambda by any number of parameters: u = T x, the
+ * residual (K - lambda M) u of the full model, and S times it. Vectors [n], supplied by the caller. */
+struct reduction_mode {
+    double *u, *residual, *adjoint, *scratch;
+};
+
+void reduction_mode_prepare(struct reduction *r, double lambda, const double *x, struct reduction_mode *mode);
+
+/* dlambda = x' (dK~ - lambda dM~) x = u' (dK - lambda dM) u + 2 (K - lambda M) u . dT x, for x' M~ x = 1: (36). */
+double reduction_eigenvalue_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, double lambda, const double *x,
+                                       const struct reduction_mode *mode);
 
 #endif

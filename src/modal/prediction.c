@@ -24,6 +24,14 @@ static int new_solvers(struct pool *pool, const rotid_model *model, int with_vec
         return status || !with_vectors ? status : nelson_band_new(pool, &p->k, &p->nelson_band);
     }
     status = reduction_new(pool, p->reduction, &p->k, model->nmaster, model->master, &p->condensed);
+    p->mode = POOL_ARRAY(pool, struct reduction_mode, p->count);
+    double *vectors = POOL_ARRAY(pool, double, 4 * (size_t)p->count * (size_t)model->n);
+    if (!p->mode || !vectors)
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < p->count; k++) {
+        double *u = vectors + 4 * (ptrdiff_t)k * model->n;
+        p->mode[k] = (struct reduction_mode){u, u + model->n, u + 2 * (ptrdiff_t)model->n, u + 3 * (ptrdiff_t)model->n};
+    }
     if (!status)
         status = eigen_dense_new(pool, p->size, p->count, &p->dense);
     return status || !with_vectors ? status : nelson_dense_new(pool, p->size, &p->nelson_dense);
@@ -110,25 +118,17 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
-/* (36): u'(dK - lambda dM) u, u = T phi, plus for a condensed model 2 (dT phi)'(K - lambda M) u */
+/* (36) with the derivatives of the matrices in place */
 static double eigenvalue_derivative(struct prediction *p, int k)
 {
     int n = p->model->n;
-    double lambda = p->lambda[k], *u = p->work, *a = u + n, *b = a + n, *dt = b + n, sum;
+    double *a = p->work, *b = a + n;
     const double *phi = p->phi + (ptrdiff_t)k * p->size;
-    if (p->reduction == ROTID_REDUCTION_NONE)
-        memcpy(u, phi, (size_t)n * sizeof *u);
-    else
-        reduction_expand(&p->condensed, phi, u);
-    matrix_multiply(&p->dk, 1, u, a);
-    matrix_multiply(&p->dm, 1, u, b);
-    sum = dot(n, u, a) - lambda * dot(n, u, b);
-    if (p->reduction == ROTID_REDUCTION_NONE)
-        return sum;
-    reduction_derivative_expand(&p->condensed, &p->dk, &p->dm, phi, dt);
-    matrix_multiply(&p->k, 1, u, a);
-    matrix_multiply(&p->m, 1, u, b);
-    return sum + 2 * (dot(n, dt, a) - lambda * dot(n, dt, b));
+    if (p->reduction != ROTID_REDUCTION_NONE)
+        return reduction_eigenvalue_derivative(&p->condensed, &p->dk, &p->dm, p->lambda[k], phi, &p->mode[k]);
+    matrix_multiply(&p->dk, 1, phi, a);
+    matrix_multiply(&p->dm, 1, phi, b);
+    return dot(n, phi, a) - p->lambda[k] * dot(n, phi, b);
 }
 
 /* right-hand sides of (34, 35) from dK phi and dM phi, and lambda's derivative */
@@ -208,6 +208,9 @@ int prediction_differentiate(struct prediction *p, const double *x, const int *w
                 status = differentiate_vectors(p, x, k);
         return status;
     }
+    for (int k = 0; k < p->count && p->reduction != ROTID_REDUCTION_NONE; k++)
+        if (wanted[k])
+            reduction_mode_prepare(&p->condensed, p->lambda[k], p->phi + (ptrdiff_t)k * p->size, &p->mode[k]);
     for (int q = 0; q < p->model->nparam && !status; q++) {
         status = matrix_derivatives(p, x, q);
         for (int k = 0; k < p->count && !status; k++)

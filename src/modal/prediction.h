@@ -15,6 +15,7 @@ struct prediction {
     int size;        /* length of a vector: nmaster when condensed, n when full */
     rotid_matrix k, m, dk, dm, other_k, other_m;
     struct reduction condensed;
+    struct reduction_mode *mode; /* [count], condensed */
     struct eigen_dense dense;
     struct eigen_band band;
     struct nelson_dense nelson_dense;
