@@ -33,7 +33,7 @@ extern "C" {
     X(ROTID_OK, 0, "done")                                                                                                    \
     X(ROTID_STOP_GRADIENT, 1, "the gradient vanished")                                                                        \
     X(ROTID_STOP_STEP, 2, "the step became negligible")                                                                       \
-    X(ROTID_STOP_OBJECTIVE, 3, "the objective cannot fall any further in this precision")                                     \
+    X(ROTID_STOP_OBJECTIVE, 3, "the decrease that is left is below rounding")                                     \
     X(ROTID_STOP_ITERATIONS, 4, "the iteration limit was reached")                                                            \
     X(ROTID_STOP_STALLED, 5, "no step lowers the objective")                                                                  \
     X(ROTID_STOP_CANCELLED, 6, "cancelled")                                                                                   \

@@ -73,7 +73,7 @@ static void eigenvalues(const struct rotor *rotor, int count, double *lambda)
     struct eigen_band eigen;
     rotid_matrix k, m;
     assemble(rotor, &beam, &k, &m);
-    double *phi = POOL_ARRAY(&pool, double, count * k.n);
+    double *phi = POOL_ARRAY(&pool, double, count *k.n);
     assert_status(eigen_band_new(&pool, &k, count, &eigen), ROTID_OK);
     assert_status(eigen_band_solve(&eigen, &k, &m, lambda, phi), ROTID_OK);
 }
@@ -86,8 +86,9 @@ static void pinned_eigenvalues(const struct rotor *rotor, int count, double *lam
     rotid_matrix k, m;
     assemble(rotor, &beam, &k, &m);
     int n = k.n, kept = n - 2;
-    double *unit = POOL_ARRAY(&pool, double, n), *column = POOL_ARRAY(&pool, double, n), *phi = POOL_ARRAY(&pool, double, kept * count);
-    double *dense[2] = {POOL_ARRAY(&pool, double, kept * kept), POOL_ARRAY(&pool, double, kept * kept)};
+    double *unit = POOL_ARRAY(&pool, double, n), *column = POOL_ARRAY(&pool, double, n),
+           *phi = POOL_ARRAY(&pool, double, kept *count);
+    double *dense[2] = {POOL_ARRAY(&pool, double, kept *kept), POOL_ARRAY(&pool, double, kept *kept)};
     for (int j = 1, c = 0; j < n; j++) {
         if (j == n - 2)
             continue;
@@ -133,8 +134,8 @@ static double with_tip_mass(double x, double a)
     return 1 / cosh(x) + cos(x) + a * x * (cos(x) * tanh(x) - sin(x));
 }
 
-static void assert_wave_numbers(const struct rotor *rotor, const double *lambda, int count, equation *f, double a, const double *bracket,
-                                double tolerance)
+static void assert_wave_numbers(const struct rotor *rotor, const double *lambda, int count, equation *f, double a,
+                                const double *bracket, double tolerance)
 {
     struct element e = properties(rotor);
     for (int k = 0; k < count; k++) {
@@ -334,8 +335,8 @@ static void pinned_column_buckles_at_engessers_load(void **state)
         struct rotor fine = bar(1, diameter[i], 40, 0);
         struct element e = properties(&fine);
         double euler = pi * pi * e.ei, engesser = euler / (1 + euler / e.kgs), on_fine = critical_load(&fine);
-        print_message("Pe/kGS %.4f: critical load over Engesser's %.7f on 20, %.7f on 40 elements\n", euler / e.kgs, on_coarse / engesser,
-                      on_fine / engesser);
+        print_message("Pe/kGS %.4f: critical load over Engesser's %.7f on 20, %.7f on 40 elements\n", euler / e.kgs,
+                      on_coarse / engesser, on_fine / engesser);
         assert_close(on_fine, engesser, 1e-3, 0);
         assert_true(on_coarse > on_fine && on_fine > engesser * (1 - 1e-9));
     }

@@ -1,4 +1,5 @@
-/* dK/dx and dM/dx of the assembled rotor for every kind of parameter, against differences of the assembled matrices. */
+/* dK/dx and dM/dx of the assembled rotor for every kind of parameter, against differences of the assembled matrices; and what
+ * beam_build refuses. */
 #include <math.h>
 
 #include "beam/beam.h"
@@ -22,8 +23,8 @@ static int close_pool(void **state)
     return 0;
 }
 
-/* The paper's rotor with a group of each shape of section, bars, a disk and holes, so that every branch has something to differentiate:
- * the left shaft is bored, the right one rectangular, the core perforated. */
+/* The paper's rotor with a group of each shape of section, bars, a disk and holes, so that every branch has something to
+ * differentiate: the left shaft is bored, the right one rectangular, the core perforated. */
 static struct rotor *workshop(enum bundle_model model, int self_equilibrated, int rod_elements)
 {
     static struct bars bars;
@@ -54,8 +55,8 @@ static struct rotor *workshop(enum bundle_model model, int self_equilibrated, in
     return rotor;
 }
 
-/* Largest entries of a difference and of a matrix, rotations divided by the length of an element: every entry then has the unit of a
- * translational stiffness, and none hides behind another. b may be NULL. */
+/* Largest entries of a difference and of a matrix, rotations divided by the length of an element: every entry then has the unit
+ * of a translational stiffness, and none hides behind another. b may be NULL. */
 static double largest(const rotid_matrix *a, const rotid_matrix *b)
 {
     const double h = 0.0116;
@@ -82,8 +83,9 @@ static rotid_matrix zero_like(const struct mesh *mesh)
     return a;
 }
 
-/* Error of the derivative with respect to parameter p at x, relative to its largest entry, the larger of K's and M's. `wanted` tells
- * whether K or M or both (1, 2, 3) depend on the parameter; the derivative of one that does not is zero but for rounding. */
+/* Error of the derivative with respect to parameter p at x, relative to its largest entry, the larger of K's and M's. `wanted`
+ * tells whether K or M or both (1, 2, 3) depend on the parameter; the derivative of one that does not is zero but for rounding.
+ */
 static double error_of(struct beam *beam, int p, int wanted)
 {
     const double step[4] = {1e-3, -1e-3, 2e-3, -2e-3}, weight[4] = {8, -8, -1, 1};
@@ -130,16 +132,17 @@ static const struct case_of_parameter {
     const char *name;
     int wanted;
     double tolerance;
-} cases[] = {{"left.E", 3, 1e-7},       {"left.nu", 3, 1e-6},      {"left.rho", 2, 1e-9},  {"core.E", 3, 1e-7},  {"core.G", 3, 1e-7},
-             {"core.nu", 3, 1e-6},      {"core.rho", 2, 1e-9},     {"right.E", 3, 1e-7},   {"right.nu", 3, 1e-6}, {"right.rho", 2, 1e-9},
-             {"ties.E", 1, 1e-7},       {"ties.tension", 1, 1e-6}, {"start.k", 1, 1e-6},   {"start.k_rot", 1, 1e-6},
-             {"fan.mass", 2, 1e-9},     {"fan.inertia", 2, 1e-9}};
+} cases[] = {{"left.E", 3, 1e-7},   {"left.nu", 3, 1e-6},     {"left.rho", 2, 1e-9}, {"core.E", 3, 1e-7},
+             {"core.G", 3, 1e-7},   {"core.nu", 3, 1e-6},     {"core.rho", 2, 1e-9}, {"right.E", 3, 1e-7},
+             {"right.nu", 3, 1e-6}, {"right.rho", 2, 1e-9},   {"ties.E", 1, 1e-7},   {"ties.tension", 1, 1e-6},
+             {"start.k", 1, 1e-6},  {"start.k_rot", 1, 1e-6}, {"fan.mass", 2, 1e-9}, {"fan.inertia", 2, 1e-9}};
 
 #define CASES ((int)(sizeof cases / sizeof *cases))
 
-/* All parameters at once. Isotropic rods: their E is their G too, and for an isotropic material M does not depend on E, since the shear
- * factor is a ratio of E and G. */
-static void differentiate_all(enum bundle_model model, int self_equilibrated, int rod_elements, int orthotropic_shafts, double *worst)
+/* All parameters at once. Isotropic rods: their E is their G too, and for an isotropic material M does not depend on E, since the
+ * shear factor is a ratio of E and G. */
+static void differentiate_all(enum bundle_model model, int self_equilibrated, int rod_elements, int orthotropic_shafts,
+                              double *worst)
 {
     struct rotor *rotor = workshop(model, self_equilibrated, rod_elements);
     struct parameter parameter[CASES];
@@ -183,8 +186,9 @@ static void derivatives_times_values_sum_up_to_the_matrices(void **state)
 {
     (void)state;
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
-        static const char *const name[] = {"left.E", "core.E", "core.G", "right.E", "ties.E", "ties.tension", "start.k", "start.k_rot",
-                                           "right.k", "left.rho", "core.rho", "right.rho", "fan.mass", "fan.inertia"};
+        static const char *const name[] = {"left.E",       "core.E",    "core.G",      "right.E",    "ties.E",
+                                           "ties.tension", "start.k",   "start.k_rot", "right.k",    "left.rho",
+                                           "core.rho",     "right.rho", "fan.mass",    "fan.inertia"};
         enum { count = sizeof name / sizeof *name };
         struct rotor *rotor = workshop((enum bundle_model)model, 1, 3);
         struct parameter parameter[count];
@@ -265,6 +269,25 @@ static void names_find_their_parameter_without_case_and_tell_what_is_wrong(void 
     assert_int_equal(parameter_find(rotor, "core.", &parameter, &unit), 2);
 }
 
+static void impossible_sections_name_their_group_or_bundle(void **state)
+{
+    (void)state;
+    struct beam beam;
+    int failed;
+    struct rotor *rotor = workshop(BUNDLE_TUBE, 1, 1);
+    rotor->group[1].holes = 400;
+    assert_status(beam_build(&pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
+    assert_int_equal(failed, 1);
+    rotor = workshop(BUNDLE_TUBE, 1, 1);
+    rotor->tierod[0].pitch = 0.02; /* twelve rods of 32 mm in there are more than a disc */
+    assert_status(beam_build(&pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
+    assert_int_equal(failed, rotor->ngroup);
+    rotor = workshop(BUNDLE_TUBE, 1, 1);
+    rotor->bars[0].pitch = 0.01;
+    assert_status(beam_build(&pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
+    assert_int_equal(failed, rotor->ngroup + rotor->ntierod);
+}
+
 static void no_memory_is_reported_at_every_allocation_of_a_build(void **state)
 {
     (void)state;
@@ -298,6 +321,7 @@ int main(void)
         TEST(derivatives_times_values_sum_up_to_the_matrices),
         TEST(parameters_move_the_beams_own_copy_of_the_rotor),
         TEST(names_find_their_parameter_without_case_and_tell_what_is_wrong),
+        TEST(impossible_sections_name_their_group_or_bundle),
         TEST(no_memory_is_reported_at_every_allocation_of_a_build),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

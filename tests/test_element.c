@@ -182,7 +182,8 @@ static void rigid_rotation_stores_force_times_length_in_the_geometric_matrix(voi
     }
 }
 
-/* Fixed at the left end. Tip load P: v = P (l^3/3EI + l/kGS), theta = -P l^2/2EI; tip moment M: theta = M l/EI, v = -M l^2/2EI. */
+/* Fixed at the left end. Tip load P: v = P (l^3/3EI + l/kGS), theta = -P l^2/2EI; tip moment M: theta = M l/EI, v = -M l^2/2EI.
+ */
 static void cantilever_bends_and_shears_as_the_closed_form(void **state)
 {
     (void)state;
@@ -231,8 +232,8 @@ static struct element moved(const struct element *e, const struct element *d, do
                             e->rhoi + h * d->rhoi, e->force + h * d->force, e->length};
 }
 
-/* Largest error of element_derivatives against differences of fourth order, and what rounding of the differenced matrices may add to
- * it, both relative to the largest derivative; size is that derivative over the largest entry, to see that there is one. */
+/* Largest error of element_derivatives against differences of fourth order, and what rounding of the differenced matrices may add
+ * to it, both relative to the largest derivative; size is that derivative over the largest entry, to see that there is one. */
 static double derivative_error(const struct element *e, const struct element *d, double *rounding, double *size)
 {
     const double h = 1e-3, step[4] = {h, -h, 2 * h, -2 * h}, weight[4] = {8, -8, -1, 1};
@@ -266,12 +267,9 @@ static void derivatives_agree_with_differences_in_each_quantity_and_a_mixed_dire
     for (size_t n = 0; n < ELEMENTS; n++) {
         const struct element *e = &elements[n];
         double force = fmax(fabs(e->force), 0.01 * e->kgs);
-        const struct element directions[] = {{.ei = e->ei},
-                                             {.kgs = e->kgs},
-                                             {.rhos = e->rhos},
-                                             {.rhoi = e->rhoi},
-                                             {.force = force},
-                                             {0.3 * e->ei, -0.7 * e->kgs, 1.1 * e->rhos, -0.4 * e->rhoi, 0.6 * force, 0}};
+        const struct element directions[] = {
+            {.ei = e->ei},     {.kgs = e->kgs},  {.rhos = e->rhos},
+            {.rhoi = e->rhoi}, {.force = force}, {0.3 * e->ei, -0.7 * e->kgs, 1.1 * e->rhos, -0.4 * e->rhoi, 0.6 * force, 0}};
         for (int i = 0; i < 6; i++) {
             double rounding, size, error = derivative_error(e, &directions[i], &rounding, &size);
             assert_true(size > 1e-8);
@@ -283,7 +281,8 @@ static void derivatives_agree_with_differences_in_each_quantity_and_a_mixed_dire
     print_message("largest relative error of a derivative %.1e\n", worst);
 }
 
-/* In phi the geometric part has no other test: with an axial force that carries the whole stiffness it must not hide behind K_f. */
+/* In phi the geometric part has no other test: with an axial force that carries the whole stiffness it must not hide behind K_f.
+ */
 static void geometric_part_is_differentiated_through_the_shear_factor(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What the paper says of its functional, (15) to (25) and (43), where it does not hold: beside each statement what does, on the paper's
- * rotor and on the paper's own assumption (19b). docs/errata.md lists the numbers. */
+/* What the paper says of its functional, (15) to (25) and (43), where it does not hold: beside each statement what does, on the
+ * paper's rotor and on the paper's own assumption (19b). docs/errata.md lists the numbers. */
 #include <math.h>
 
 #include "base/random.h"
@@ -8,7 +8,7 @@
 #include "run/client.h"
 #include "support.h"
 
-#define MODES PAPER_MODES
+#define MODES   PAPER_MODES
 #define SENSORS PAPER_SENSORS
 
 static const double pi = 3.14159265358979323846;
@@ -82,7 +82,8 @@ static double slope_at(const struct curve *curve, double eps)
 static double curvature_at(const struct curve *curve, double eps)
 {
     const double h = 1e-3;
-    double near = value_at(curve, eps + h) + value_at(curve, eps - h), far = value_at(curve, eps + 2 * h) + value_at(curve, eps - 2 * h);
+    double near = value_at(curve, eps + h) + value_at(curve, eps - h),
+           far = value_at(curve, eps + 2 * h) + value_at(curve, eps - 2 * h);
     return (16 * near - far - 30 * value_at(curve, eps)) / (12 * h * h);
 }
 
@@ -98,8 +99,8 @@ static void eq20_has_a_cubic_term_that_little_o_denies(void **state)
             double eps = 0.04 / (1 << i);
             cubic[i] = (value_at(&curves[c], eps) - value_at(&curves[c], -eps)) / (2 * eps * eps * eps);
         }
-        print_message("(20a) %s: cubic coefficient %.5f %.5f %.5f at eps 0.04, 0.02, 0.01\n", c ? "rotor" : "under (19b)", cubic[0],
-                      cubic[1], cubic[2]);
+        print_message("(20a) %s: cubic coefficient %.5f %.5f %.5f at eps 0.04, 0.02, 0.01\n", c ? "rotor" : "under (19b)",
+                      cubic[0], cubic[1], cubic[2]);
         assert_close(cubic[1], cubic[2], 0.01, 0);
         assert_true(fabs(cubic[2]) > 0.01);
         if (!c)
@@ -143,27 +144,30 @@ static void eq23_and_eq24_contradict_eq20_in_their_intercepts_and_agree_in_their
     assert_true(fabs(-50.2044 - log(2 * MODES)) > 52);
     assert_close(-50.2044 + 51.5923, log(4), 0.002, 0);
     assert_close(intercept[0] - intercept[1], log(4), 0.02, 0);
-    assert_true(intercept[0] < log(2 * MODES) - 1); /* omega rises by less than eps/2: (19b) is too large by more than a factor of 2 */
+    assert_true(intercept[0] <
+                log(2 * MODES) - 1); /* omega rises by less than eps/2: (19b) is too large by more than a factor of 2 */
 }
 
-/* (25) prints value >= slope >= curvature >= 4. The ratios are 4 + 4s, 4 + 6s, 4 + 12s in first order of the frequency error s: the other
- * way round above the optimum, and all below 4 beneath it. */
+/* (25) prints value >= slope >= curvature >= 4. The ratios are 4 + 4s, 4 + 6s, 4 + 12s in first order of the frequency error s:
+ * the other way round above the optimum, and all below 4 beneath it. */
 static void eq25_ratios_tend_to_four_in_the_reverse_order(void **state)
 {
     (void)state;
     struct functional e, f;
     open_functional(ROTID_HYBRID, &e);
     open_functional(ROTID_HYBRID_F, &f);
-    const struct curve curves[2][2] = {{{NULL, ROTID_HYBRID}, {NULL, ROTID_HYBRID_F}}, {{&e, ROTID_HYBRID}, {&f, ROTID_HYBRID_F}}};
+    const struct curve curves[2][2] = {{{NULL, ROTID_HYBRID}, {NULL, ROTID_HYBRID_F}},
+                                       {{&e, ROTID_HYBRID}, {&f, ROTID_HYBRID_F}}};
     for (int c = 0; c < 2; c++)
         for (int sign = 1; sign >= -1; sign -= 2) {
             double last = INFINITY;
             for (double size = 0.04; size > 0.009; size /= 2) {
                 const struct curve *of_e = &curves[c][0], *of_f = &curves[c][1];
                 double eps = sign * size, value = value_at(of_e, eps) / value_at(of_f, eps);
-                double slope = slope_at(of_e, eps) / slope_at(of_f, eps), curvature = curvature_at(of_e, eps) / curvature_at(of_f, eps);
-                print_message("(25) %s, eps %+.2f: value %.5f, slope %.5f, curvature %.5f\n", c ? "rotor" : "under (19b)", eps, value, slope,
-                              curvature);
+                double slope = slope_at(of_e, eps) / slope_at(of_f, eps),
+                       curvature = curvature_at(of_e, eps) / curvature_at(of_f, eps);
+                print_message("(25) %s, eps %+.2f: value %.5f, slope %.5f, curvature %.5f\n", c ? "rotor" : "under (19b)", eps,
+                              value, slope, curvature);
                 assert_true(sign * (curvature - slope) > 0);
                 assert_true(sign * (slope - value) > 0);
                 assert_true(sign * (value - 4) > 0);
@@ -206,7 +210,8 @@ static void eq19b_frequencies_rise_by_at_most_half_of_epsilon(void **state)
             all += part;
             core += i == 1 || i == 2 ? part : 0;
         }
-        print_message("(19b) mode %d: omega rises by %.8f eps with all moduli, %.4f eps with those of the core\n", k + 1, all, core);
+        print_message("(19b) mode %d: omega rises by %.8f eps with all moduli, %.4f eps with those of the core\n", k + 1, all,
+                      core);
         assert_close(all, 0.5, 1e-6, 0);
         assert_true(core < 0.5);
     }
@@ -216,7 +221,8 @@ static void eq19b_frequencies_rise_by_at_most_half_of_epsilon(void **state)
     for (int k = 0; k < MODES; k++)
         assert_close(sqrt(p.lambda[2 + k]) / omega[k], sqrt(1.01), 1e-7, 0); /* printed: 1.01 */
     /* the paper's own Table 1: the sum over E and G of d ln lambda/d ln x, where (19b) asks for 2 */
-    const double table[MODES][2] = {{0.669, 0.0297}, {0.361, 0.0847}, {0.232, 0.189}, {0.274, 0.220}, {0.257, 0.208}, {0.157, 0.260}};
+    const double table[MODES][2] = {{0.669, 0.0297}, {0.361, 0.0847}, {0.232, 0.189},
+                                    {0.274, 0.220},  {0.257, 0.208},  {0.157, 0.260}};
     for (int k = 0; k < MODES; k++)
         assert_true(table[k][0] + table[k][1] < 1);
 }
@@ -235,7 +241,8 @@ static void add_noise(double *to, double relative, uint64_t seed)
     }
 }
 
-/* K~ phi~ = lambda~ M~ phi~ makes phi^' K~ phi~/(phi^' M~ phi~) = lambda~ for every phi^: no shape enters (14). The likelihood sees them. */
+/* K~ phi~ = lambda~ M~ phi~ makes phi^' K~ phi~/(phi^' M~ phi~) = lambda~ for every phi^: no shape enters (14). The likelihood
+ * sees them. */
 static void hybrid_quotient_is_the_eigenvalue_whatever_the_measured_shape(void **state)
 {
     (void)state;

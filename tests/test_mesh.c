@@ -6,7 +6,8 @@
 #include "beam/mesh.h"
 #include "support.h"
 
-/* Two segments of 1 m and 0.5 m with 10 and 4 elements: nodes at 0, 0.1, ..., 1, 1.125, ..., 1.5. The arrays have room for the tests. */
+/* Two segments of 1 m and 0.5 m with 10 and 4 elements: nodes at 0, 0.1, ..., 1, 1.125, ..., 1.5. The arrays have room for the
+ * tests. */
 static struct group groups[1];
 static struct segment segments[2];
 static struct tierod rods[2];
@@ -20,8 +21,15 @@ static struct rotor bare(void)
     groups[0] = (struct group){.name = "shaft", .material = {"steel", 2.1e11, 0, 0.3, 7850, 1}};
     segments[0] = (struct segment){0, 10, 0, 1, 0.1, 0, 0.1, 0, 0};
     segments[1] = (struct segment){0, 4, 0, 0.5, 0.1, 0, 0.1, 0, 0};
-    return (struct rotor){.ngroup = 1, .group = groups, .nsegment = 2, .segment = segments, .tierod = rods, .bars = bars,
-                          .disk = disks, .spring = springs, .sensor = sensors};
+    return (struct rotor){.ngroup = 1,
+                          .group = groups,
+                          .nsegment = 2,
+                          .segment = segments,
+                          .tierod = rods,
+                          .bars = bars,
+                          .disk = disks,
+                          .spring = springs,
+                          .sensor = sensors};
 }
 
 static void add_sensors(struct rotor *rotor, int count, const double *position)
@@ -33,8 +41,15 @@ static void add_sensors(struct rotor *rotor, int count, const double *position)
 
 static void add_rod(struct rotor *rotor, double from, double to, int elements)
 {
-    rods[rotor->ntierod++] = (struct tierod){.name = "rod", .material = groups[0].material, .from = from, .to = to, .model = BUNDLE_RODS,
-                                             .number = 6, .elements = elements, .diameter = 0.01, .pitch = 0.04};
+    rods[rotor->ntierod++] = (struct tierod){.name = "rod",
+                                             .material = groups[0].material,
+                                             .from = from,
+                                             .to = to,
+                                             .model = BUNDLE_RODS,
+                                             .number = 6,
+                                             .elements = elements,
+                                             .diameter = 0.01,
+                                             .pitch = 0.04};
 }
 
 static struct pool pool;

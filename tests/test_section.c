@@ -123,7 +123,8 @@ static void equivalent_cylinder_gives_an_annulus_back(void **state)
     (void)state;
     const double annulus[][2] = {{0.3, 0.2}, {0.3, 0.299}, {3e-3, 1e-3}, {40, 1}};
     for (int i = 0; i < 4; i++) {
-        double ro = annulus[i][0] / 2, ri = annulus[i][1] / 2, outer, inner, area = ring_area(ro, ri), inertia = ring_inertia(ro, ri);
+        double ro = annulus[i][0] / 2, ri = annulus[i][1] / 2, outer, inner, area = ring_area(ro, ri),
+               inertia = ring_inertia(ro, ri);
         struct section s;
         assert_status(rotid_equivalent_cylinder(area, inertia, &outer, &inner), ROTID_OK);
         assert_close(outer, 2 * ro, 1e-14, 0);
@@ -149,7 +150,7 @@ static void solid_disc_is_the_limit_of_the_equivalent_cylinder(void **state)
     }
 }
 
-static void section_stiffer_than_a_disc_allows_is_refused(void **state)
+static void section_softer_than_a_disc_of_its_area_is_refused(void **state)
 {
     (void)state;
     double outer, inner, area = ring_area(0.1, 0), inertia = ring_inertia(0.1, 0);
@@ -178,6 +179,19 @@ static void rods_have_the_exact_sum_at_any_rotation(void **state)
         }
 }
 
+/* The disc has the least second moment of all sections of an area: rods that touch but do not overlap always have their annulus.
+ */
+static void rods_that_do_not_overlap_always_have_an_equivalent_cylinder(void **state)
+{
+    (void)state;
+    for (int number = 3; number <= 60; number++) {
+        double area, own, pitch, outer, inner, d = 0.02, touching = d / (2 * sin(pi / number));
+        section_rods(number, d, touching, &area, &own, &pitch);
+        assert_status(rotid_equivalent_cylinder(area, own + pitch, &outer, &inner), ROTID_OK);
+        assert_true(inner > 0);
+    }
+}
+
 static void cowper_has_its_limits_of_solid_and_thin_walled_circle(void **state)
 {
     (void)state;
@@ -200,8 +214,8 @@ static void cowper_has_its_limits_of_solid_and_thin_walled_circle(void **state)
     assert_close(rotid_shear_coefficient_rectangle(0.3), 0.849673202614379, 1e-14, 0); /* 13/15.3 */
 }
 
-/* Without lateral contraction Cowper's mean deflection and the shear energy agree: 1/k = A/Q^2 times the integral of tau^2 over the
- * section, here with Saint-Venant's exact shear stresses in a bent round bar. */
+/* Without lateral contraction Cowper's mean deflection and the shear energy agree: 1/k = A/Q^2 times the integral of tau^2 over
+ * the section, here with Saint-Venant's exact shear stresses in a bent round bar. */
 static void cowper_at_nu_zero_is_the_shear_energy_of_a_circle(void **state)
 {
     (void)state;
@@ -229,7 +243,8 @@ static void shear_coefficient_chooses_by_shape_and_its_derivative_is_right(void 
             double k = section_shear_coefficient(&s[i], nu, &derivative);
             double expected = i == 2 ? rotid_shear_coefficient_rectangle(nu) : rotid_shear_coefficient_annulus(nu, s[i].ratio);
             double near = section_shear_coefficient(&s[i], nu + h, &unused) - section_shear_coefficient(&s[i], nu - h, &unused);
-            double far = section_shear_coefficient(&s[i], nu + 2 * h, &unused) - section_shear_coefficient(&s[i], nu - 2 * h, &unused);
+            double far =
+                section_shear_coefficient(&s[i], nu + 2 * h, &unused) - section_shear_coefficient(&s[i], nu - 2 * h, &unused);
             assert_close(k, expected, 1e-15, 0);
             assert_close(derivative, (8 * near - far) / (12 * h), 1e-9, 0);
             assert_true(derivative > 0);
@@ -247,8 +262,9 @@ int main(void)
         cmocka_unit_test(holes_that_leave_nothing_are_an_error),
         cmocka_unit_test(equivalent_cylinder_gives_an_annulus_back),
         cmocka_unit_test(solid_disc_is_the_limit_of_the_equivalent_cylinder),
-        cmocka_unit_test(section_stiffer_than_a_disc_allows_is_refused),
+        cmocka_unit_test(section_softer_than_a_disc_of_its_area_is_refused),
         cmocka_unit_test(rods_have_the_exact_sum_at_any_rotation),
+        cmocka_unit_test(rods_that_do_not_overlap_always_have_an_equivalent_cylinder),
         cmocka_unit_test(cowper_has_its_limits_of_solid_and_thin_walled_circle),
         cmocka_unit_test(cowper_at_nu_zero_is_the_shear_energy_of_a_circle),
         cmocka_unit_test(shear_coefficient_chooses_by_shape_and_its_derivative_is_right),

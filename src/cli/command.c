@@ -25,13 +25,15 @@ void command_print_messages(const struct command *command)
 int command_fail(struct command *command, int status)
 {
     command_print_messages(command);
-    if (status == ROTID_ERROR_SYNTAX || status == ROTID_ERROR_ARGUMENT || status == ROTID_ERROR_IO)
-        return EXIT_USAGE;
-    (void)fprintf(stderr, "rotid: %s: %s\n", command->deck, rotid_status_text(status));
+    if (!command->messages.errors)
+        (void)fprintf(stderr, "rotid: %s: %s\n", command->deck, rotid_status_text(status));
     switch (status) { /* what the input causes, and what it does not */
     case ROTID_ERROR_MEMORY:
     case ROTID_ERROR_LIBRARY:
         return EXIT_INTERNAL;
+    case ROTID_ERROR_SYNTAX:
+    case ROTID_ERROR_ARGUMENT:
+    case ROTID_ERROR_IO:
     case ROTID_ERROR_UNPAIRED:
     case ROTID_ERROR_STIFFNESS:
     case ROTID_ERROR_SLAVE:

@@ -45,10 +45,8 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         for (int p = 0; p < job->nparameter; p++)
             if (job->parameter[p].kind == parameter.kind && job->parameter[p].index == parameter.index)
                 deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
-        size_t room = reader->parameter_room;
         struct parameter *added = DECK_APPEND(reader, job->parameter, job->nparameter, reader->parameter_room);
         rotid_parameter *limits = DECK_APPEND(reader, job->bounds, job->nparameter, reader->bounds_room);
-        (void)room;
         if (!added || !limits)
             return;
         *added = parameter;

@@ -248,6 +248,10 @@ void table_identify(FILE *out, const struct job *job, const struct identificatio
                   fit->converged ? (fit->any_at_bound ? "converged AT A BOUND" : "converged") : "NOT CONVERGED", "fit", fit->m, fit->m == 1 ? "" : "s",
                   functional_name(job->fit.functional), reduction_name(job->fit.reduction), fit->objective, fit->gradient);
     print_parameters(out, job, fit);
+    if (fit->nbaseline)
+        print_baseline(out, job, fit);
+    if (history)
+        print_history(out, fit);
     (void)fputc('\n', out);
     print_modes(out, job, result);
     if (job->fit.functional != ROTID_LIKELIHOOD)
@@ -255,8 +259,4 @@ void table_identify(FILE *out, const struct job *job, const struct identificatio
                       job->fit.reduction == ROTID_REDUCTION_NONE ? "model" : "condensed model");
     if (isfinite(fit->chi2_per_dof))
         (void)fprintf(out, "chi2 %.4g with %d degrees of freedom\n", fit->chi2, fit->dof);
-    if (history)
-        print_history(out, fit);
-    if (fit->nbaseline)
-        print_baseline(out, job, fit);
 }

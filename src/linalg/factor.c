@@ -22,7 +22,7 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
     f->work = POOL_ARRAY(pool, double, LANES * (size_t)n);
     f->column = POOL_ARRAY(pool, double, n);
-    f->outer_work = POOL_ARRAY(pool, double, outer);
+    f->outer_work = POOL_ARRAY(pool, double, LANES * outer);
     f->first = POOL_ARRAY(pool, int, outer);
     f->last = POOL_ARRAY(pool, int, outer);
     f->band_pivot = POOL_ARRAY(pool, int, n);
@@ -191,42 +191,52 @@ int factor_compute(struct factor *f, const rotid_matrix *a)
     return info != 0;
 }
 
-static void outer_solve(struct factor *f, double *b)
+static void outer_solve(struct factor *f, int columns, double *b)
 {
     if (f->kind == FACTOR_CHOLESKY)
-        (void)LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', f->nf, 1, f->schur, f->nf, b, f->nf);
+        (void)LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', f->nf, columns, f->schur, f->nf, b, f->nf);
     else
-        (void)LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', f->nf, 1, f->schur, f->nf, f->schur_pivot, b, f->nf);
+        (void)LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', f->nf, columns, f->schur, f->nf, f->schur_pivot, b, f->nf);
+}
+
+/* outer [nf * lanes] := A_ff part of b less A_fr inner, solved; inner := inner - X outer */
+static void solve_border(struct factor *f, int lanes, double *b)
+{
+    double *inner = f->work, *outer = f->outer_work;
+    for (int c = 0; c < lanes; c++)
+        for (int p = 0; p < f->nf; p++) {
+            const double *coupling = f->coupling + (ptrdiff_t)p * f->nr;
+            double sum = b[f->outer[p] + (ptrdiff_t)c * f->n];
+            for (int i = f->first[p]; i < f->last[p]; i++)
+                sum -= coupling[i] * inner[(ptrdiff_t)i * LANES + c];
+            outer[p + c * f->nf] = sum;
+        }
+    outer_solve(f, lanes, outer);
+    for (int p = 0; p < f->nf; p++) {
+        const double *restrict x = f->x + (ptrdiff_t)p * f->nr;
+        double row[LANES] = {0};
+        for (int c = 0; c < lanes; c++)
+            b[f->outer[p] + (ptrdiff_t)c * f->n] = row[c] = outer[p + c * f->nf];
+        for (int i = 0; i < f->nr; i++)
+            for (int c = 0; c < LANES; c++)
+                inner[(ptrdiff_t)i * LANES + c] -= x[i] * row[c];
+    }
 }
 
 /* `lanes` columns of b, at most LANES */
 static void solve_lanes(struct factor *f, int lanes, double *b)
 {
-    double *inner = f->work, *outer = f->outer_work;
+    double *inner = f->work;
     memset(inner, 0, (size_t)f->nr * LANES * sizeof(double));
     for (int c = 0; c < lanes; c++)
         for (int i = 0; i < f->nr; i++)
             inner[(ptrdiff_t)i * LANES + c] = b[f->inner[i] + (ptrdiff_t)c * f->n];
     inner_solve(f, inner);
-    for (int c = 0; c < lanes; c++, b += f->n) {
-        for (int p = 0; p < f->nf; p++) {
-            const double *coupling = f->coupling + (ptrdiff_t)p * f->nr;
-            double sum = b[f->outer[p]];
-            for (int i = f->first[p]; i < f->last[p]; i++)
-                sum -= coupling[i] * inner[(ptrdiff_t)i * LANES + c];
-            outer[p] = sum;
-        }
-        if (f->nf)
-            outer_solve(f, outer);
-        for (int p = 0; p < f->nf; p++) {
-            const double *x = f->x + (ptrdiff_t)p * f->nr;
-            for (int i = 0; i < f->nr; i++)
-                inner[(ptrdiff_t)i * LANES + c] -= x[i] * outer[p];
-            b[f->outer[p]] = outer[p];
-        }
+    if (f->nf)
+        solve_border(f, lanes, b);
+    for (int c = 0; c < lanes; c++)
         for (int i = 0; i < f->nr; i++)
-            b[f->inner[i]] = inner[(ptrdiff_t)i * LANES + c];
-    }
+            b[f->inner[i] + (ptrdiff_t)c * f->n] = inner[(ptrdiff_t)i * LANES + c];
 }
 
 void factor_solve(struct factor *f, int columns, double *b)

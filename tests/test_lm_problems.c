@@ -1,0 +1,209 @@
+/* Levenberg-Marquardt on the least-squares problems of More, Garbow and Hillstrom: what is found is judged by the printed minima and by
+ * objective and gradient recomputed at the point that came back, not by the status. */
+#include <math.h>
+#include <string.h>
+
+#include "more_garbow_hillstrom.h"
+#include "support.h"
+
+static double work[20000];
+
+struct outcome {
+    double x[MGH_MOST_PARAMETERS], r[MGH_MOST_RESIDUALS], jacobian[MGH_MOST_RESIDUALS * MGH_MOST_PARAMETERS];
+    double objective, cosine; /* recomputed: half the sum of squares, largest cosine between r and a column of J */
+    rotid_lm_result result;
+};
+
+static void recompute(const struct mgh_problem *problem, const double *x, double *objective, double *cosine)
+{
+    double r[MGH_MOST_RESIDUALS], jacobian[MGH_MOST_RESIDUALS * MGH_MOST_PARAMETERS], square = 0;
+    assert_int_equal(problem->residual(NULL, problem->m, problem->n, x, r, NULL), 0);
+    assert_int_equal(problem->residual(NULL, problem->m, problem->n, x, NULL, jacobian), 0);
+    for (int i = 0; i < problem->m; i++)
+        square += r[i] * r[i];
+    *objective = square / 2;
+    *cosine = 0;
+    for (int j = 0; j < problem->n; j++) {
+        double product = 0, norm = 0;
+        for (int i = 0; i < problem->m; i++) {
+            product += jacobian[i + j * problem->m] * r[i];
+            norm += jacobian[i + j * problem->m] * jacobian[i + j * problem->m];
+        }
+        if (norm > 0 && square > 0)
+            *cosine = fmax(*cosine, fabs(product) / sqrt(norm * square));
+    }
+}
+
+static int solve(const struct mgh_problem *problem, double factor, struct outcome *out)
+{
+    rotid_lm_options options = {.max_iterations = 1000};
+    assert_true(rotid_lm_workspace(problem->m, problem->n) <= sizeof work / sizeof *work);
+    for (int j = 0; j < problem->n; j++)
+        out->x[j] = factor * problem->start[j];
+    int status = rotid_lm(problem->m, problem->n, problem->residual, NULL, &options, out->x, out->r, out->jacobian, work, &out->result);
+    recompute(problem, out->x, &out->objective, &out->cosine);
+    return status;
+}
+
+static const double factors[3] = {1, 10, 100};
+
+static void test_problems_have_the_jacobians_of_their_residuals(void **state)
+{
+    (void)state;
+    for (int k = 0; k < mgh_count; k++) {
+        const struct mgh_problem *problem = &mgh_problems[k];
+        double x[MGH_MOST_PARAMETERS], above[MGH_MOST_RESIDUALS], below[MGH_MOST_RESIDUALS];
+        double jacobian[MGH_MOST_RESIDUALS * MGH_MOST_PARAMETERS];
+        for (int j = 0; j < problem->n; j++) /* off the start, where some terms vanish */
+            x[j] = 1.1 * problem->start[j] + 0.01;
+        assert_int_equal(problem->residual(NULL, problem->m, problem->n, x, NULL, jacobian), 0);
+        for (int j = 0; j < problem->n; j++) {
+            double kept = x[j], h = 6e-6 * fabs(kept), largest = 0;
+            x[j] = kept + h;
+            assert_int_equal(problem->residual(NULL, problem->m, problem->n, x, above, NULL), 0);
+            x[j] = kept - h;
+            assert_int_equal(problem->residual(NULL, problem->m, problem->n, x, below, NULL), 0);
+            x[j] = kept;
+            for (int i = 0; i < problem->m; i++)
+                largest = fmax(largest, fabs(jacobian[i + j * problem->m]));
+            for (int i = 0; i < problem->m; i++)
+                assert_close(jacobian[i + j * problem->m], (above[i] - below[i]) / (2 * h), 0, 1e-6 * largest);
+        }
+    }
+}
+
+/* One line a run, so that a change of the evaluations is seen. */
+static void test_printed_minima_are_reached_from_near_and_far(void **state)
+{
+    (void)state;
+    int failures = 0;
+    for (int k = 0; k < mgh_count; k++)
+        for (int f = 0; f < 3; f++) {
+            const struct mgh_problem *problem = &mgh_problems[k];
+            if (!(problem->factors >> f & 1))
+                continue;
+            struct outcome out;
+            int status = solve(problem, factors[f], &out);
+            double sum = 2 * out.objective, known = problem->sum_of_squares;
+            /* the minima are printed with six digits; a zero one is reached in the square of rounding */
+            int reached = known > 0 ? fabs(sum / known - 1) < 5e-6 : sum < 1e-20;
+            failures += !reached;
+            print_message("%-18s x%-4g %-21s sum of squares %.6g (%.6g) cosine %.1e evaluations %d jacobians %d%s\n", problem->name,
+                          factors[f], rotid_status_name(status), sum, known, out.cosine, out.result.evaluations, out.result.jacobians,
+                          reached ? "" : " NOT REACHED");
+        }
+    assert_int_equal(failures, 0);
+}
+
+static void test_what_comes_back_belongs_to_the_point_that_comes_back(void **state)
+{
+    (void)state;
+    for (int k = 0; k < mgh_count; k++) {
+        const struct mgh_problem *problem = &mgh_problems[k];
+        struct outcome out;
+        double r[MGH_MOST_RESIDUALS], jacobian[MGH_MOST_RESIDUALS * MGH_MOST_PARAMETERS];
+        (void)solve(problem, 1, &out);
+        assert_int_equal(problem->residual(NULL, problem->m, problem->n, out.x, r, NULL), 0);
+        assert_int_equal(problem->residual(NULL, problem->m, problem->n, out.x, NULL, jacobian), 0);
+        assert_close(out.result.objective, out.objective, 1e-15, 0);
+        assert_memory_equal(out.r, r, (size_t)problem->m * sizeof *r);
+        assert_memory_equal(out.jacobian, jacobian, (size_t)(problem->m * problem->n) * sizeof *jacobian);
+    }
+}
+
+/* Gauss-Newton steps of a large residual overshoot, and the objective is flat to rounding where x is still off by 1e-4: a stop there is
+ * a stop too early. Zero residuals have no cosine worth the name. */
+static void test_gradient_vanishes_at_the_minimum_of_a_large_residual(void **state)
+{
+    (void)state;
+    for (int k = 0; k < mgh_count; k++)
+        for (int f = 0; f < 3; f++) {
+            struct outcome out;
+            if (!(mgh_problems[k].factors >> f & 1) || mgh_problems[k].sum_of_squares == 0)
+                continue;
+            (void)solve(&mgh_problems[k], factors[f], &out);
+            assert_close(out.cosine, 0, 0, 1e-7);
+        }
+}
+
+/* Rosenbrock (1, 1), helical valley (1, 0, 0), Powell (0, 0, 0, 0); Box also vanishes at (10, 1, -1) and where x1 = x2, x3 = 0. */
+static void test_zero_residuals_are_found_where_they_are(void **state)
+{
+    static const struct {
+        const char *name;
+        double x[4], digits; /* Powell's Jacobian is singular there: x is the square root of the residual */
+    } known[] = {{"Rosenbrock", {1, 1}, 1e-10}, {"helical valley", {1, 0, 0}, 1e-10}, {"Box 3D", {1, 10, 1}, 1e-10}, {"Powell singular", {0}, 1e-5}};
+    (void)state;
+    for (int k = 0; k < mgh_count; k++)
+        for (size_t z = 0; z < sizeof known / sizeof *known; z++) {
+            struct outcome out;
+            if (strcmp(mgh_problems[k].name, known[z].name) != 0)
+                continue;
+            (void)solve(&mgh_problems[k], 1, &out);
+            for (int j = 0; j < mgh_problems[k].n; j++)
+                assert_close(out.x[j], known[z].x[j], known[z].digits, known[z].digits);
+        }
+}
+
+/* A run that only its iteration limit ends tells the user nothing. Powell's columns shrink with x and so must the damping. */
+static void test_every_run_ends_by_itself(void **state)
+{
+    (void)state;
+    for (int k = 0; k < mgh_count; k++)
+        for (int f = 0; f < 3; f++) {
+            struct outcome out;
+            if (!(mgh_problems[k].factors >> f & 1))
+                continue;
+            int status = solve(&mgh_problems[k], factors[f], &out);
+            if (status == ROTID_STOP_ITERATIONS || status < 0)
+                print_error("%s from %g times its start: %s\n", mgh_problems[k].name, factors[f], rotid_status_name(status));
+            assert_true(status > 0 && status != ROTID_STOP_ITERATIONS);
+        }
+}
+
+/* D makes the path the same in any unit; powers of two, so that rounding is the same as well. */
+static int rescaled(void *user, int m, int n, const double *x, double *r, double *jacobian)
+{
+    const struct mgh_problem *problem = user;
+    double own[MGH_MOST_PARAMETERS] = {0};
+    for (int j = 0; j < n; j++)
+        own[j] = ldexp(x[j], 10 * j - 13);
+    int status = problem->residual(NULL, m, n, own, r, jacobian);
+    for (int j = 0; jacobian && j < n; j++)
+        for (int i = 0; i < m; i++)
+            jacobian[i + j * m] = ldexp(jacobian[i + j * m], 10 * j - 13);
+    return status;
+}
+
+static void test_path_does_not_depend_on_the_units_of_x(void **state)
+{
+    (void)state;
+    for (int k = 0; k < mgh_count; k++) {
+        struct mgh_problem problem = mgh_problems[k];
+        struct outcome plain, other;
+        rotid_lm_options options = {.max_iterations = 8};
+        for (int j = 0; j < problem.n; j++) {
+            plain.x[j] = problem.start[j];
+            other.x[j] = ldexp(problem.start[j], 13 - 10 * j);
+        }
+        (void)rotid_lm(problem.m, problem.n, problem.residual, NULL, &options, plain.x, plain.r, plain.jacobian, work, &plain.result);
+        (void)rotid_lm(problem.m, problem.n, rescaled, &problem, &options, other.x, other.r, other.jacobian, work, &other.result);
+        assert_int_equal(plain.result.evaluations, other.result.evaluations);
+        for (int j = 0; j < problem.n; j++)
+            assert_close(ldexp(other.x[j], 10 * j - 13), plain.x[j], 1e-9, 1e-12);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_problems_have_the_jacobians_of_their_residuals),
+        cmocka_unit_test(test_printed_minima_are_reached_from_near_and_far),
+        cmocka_unit_test(test_what_comes_back_belongs_to_the_point_that_comes_back),
+        cmocka_unit_test(test_gradient_vanishes_at_the_minimum_of_a_large_residual),
+        cmocka_unit_test(test_zero_residuals_are_found_where_they_are),
+        cmocka_unit_test(test_every_run_ends_by_itself),
+        cmocka_unit_test(test_path_does_not_depend_on_the_units_of_x),
+    };
+    return cmocka_run_group_tests_name("lm_problems", tests, NULL, NULL);
+}

@@ -1,0 +1,245 @@
+/* The jobs themselves: spectrum, comparison, identification and sensitivity on jobs made in memory. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "paper_rotor.h"
+#include "run/identify.h"
+#include "run/sensitivity.h"
+
+static const double truth[2] = {1.157e11, 0.316e11};
+
+/* A job of the paper's rotor whose data are the modes of its own full model at `truth`. Modes and shapes live on the pool. */
+static void make_job(struct pool *pool, int nmode, struct job *job)
+{
+    static const rotid_parameter bounds[2] = {{"core.E", "Pa", 1e6, 2.3e11, 0.9e11}, {"core.G", "Pa", 1e6, 0.898e11, 0.28e11}};
+    struct rotor *rotor = paper_rotor(BUNDLE_RODS, 1);
+    struct spectrum spectrum;
+    *job = (struct job){.deck = "memory", .rotor = *rotor, .nmode = nmode, .nparameter = 2};
+    assert_int_equal(spectrum_compute(pool, rotor, 2, paper_parameters, truth, ROTID_GUYAN, nmode, &spectrum), ROTID_OK);
+    ptrdiff_t components = (ptrdiff_t)rotor->nsensor * nmode;
+    job->number = POOL_ARRAY(pool, int, nmode);
+    job->frequency_hz = spectrum.full_hz;
+    job->damping = POOL_ARRAY(pool, double, nmode);
+    job->frequency_std = POOL_ARRAY(pool, double, nmode);
+    job->shape = POOL_ARRAY(pool, double, components);
+    job->shape_std = POOL_ARRAY(pool, double, components);
+    job->holdout = POOL_ARRAY(pool, int, nmode);
+    job->parameter = POOL_ARRAY(pool, struct parameter, 2);
+    job->bounds = POOL_ARRAY(pool, rotid_parameter, 2);
+    memcpy(job->parameter, paper_parameters, 2 * sizeof *job->parameter);
+    memcpy(job->bounds, bounds, sizeof bounds);
+    memcpy(job->shape, spectrum.shape, (size_t)components * sizeof *job->shape);
+    for (int k = 0; k < nmode; k++) {
+        job->number[k] = k + 1;
+        job->damping[k] = NAN;
+        job->frequency_std[k] = 0.001;
+    }
+    for (ptrdiff_t i = 0; i < components; i++)
+        job->shape_std[i] = 0.015;
+    rotid_fit_defaults(&job->fit);
+}
+
+static int says(const struct message_list *notes, const char *text)
+{
+    for (size_t i = 0; i < notes->count; i++)
+        if (strstr(notes->item[i].text, text))
+            return 1;
+    return 0;
+}
+
+static void identification_recovers_what_made_the_data(void **state)
+{
+    (void)state;
+    struct pool pool;
+    struct job job;
+    struct message_list notes;
+    struct identification result;
+    pool_open(&pool, NULL);
+    message_open(&notes, &pool);
+    make_job(&pool, 6, &job);
+    assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_OK);
+    assert_true(result.fit->converged && !result.fit->any_at_bound && !result.fit->any_undetermined);
+    assert_close(result.fit->x[0], truth[0], 1e-7, 0);
+    assert_close(result.fit->x[1], truth[1], 1e-7, 0);
+    for (int k = 0; k < 6; k++) {
+        assert_int_equal(result.compared.basis[k], PAIRED_BY_SHAPE);
+        assert_close(result.compared.nco[k], 1, 1e-9, 0);
+        assert_close(result.compared.mac[k], 1, 1e-9, 0);
+        assert_close(result.fit->predicted_hz[k], job.frequency_hz[k], 1e-8, 0);
+    }
+    assert_close(result.mass.mass, 998.2755, 1e-6, 0);
+    assert_int_equal(notes.count, 0);
+    rotid_fit_free(result.fit);
+    pool_close(&pool);
+}
+
+static void a_mode_that_was_not_measured_is_said_and_the_rest_keep_their_partners(void **state)
+{
+    (void)state;
+    struct pool pool;
+    struct job job;
+    struct message_list notes;
+    struct identification result;
+    pool_open(&pool, NULL);
+    message_open(&notes, &pool);
+    make_job(&pool, 6, &job);
+    int nsensor = job.rotor.nsensor;
+    for (int k = 2; k < 5; k++) { /* mode 3 was missed, and the analyser numbered the others through */
+        job.frequency_hz[k] = job.frequency_hz[k + 1];
+        memcpy(job.shape + (ptrdiff_t)k * nsensor, job.shape + (ptrdiff_t)(k + 1) * nsensor, (size_t)nsensor * sizeof *job.shape);
+    }
+    job.nmode = 5;
+    assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_OK);
+    const int expected[] = {1, 2, 4, 5, 6};
+    for (int k = 0; k < 5; k++)
+        assert_int_equal(result.compared.number[k], expected[k]);
+    assert_close(result.fit->x[0], truth[0], 1e-6, 0);
+    assert_true(says(&notes, "mode 3 of the model"));
+    assert_true(says(&notes, "measured mode 3 at"));
+    rotid_fit_free(result.fit);
+    pool_close(&pool);
+}
+
+static void a_mode_that_is_no_mode_of_the_model_is_said(void **state)
+{
+    (void)state;
+    struct pool pool;
+    struct job job;
+    struct message_list notes;
+    struct identification result;
+    struct random_stream stream = {7};
+    pool_open(&pool, NULL);
+    message_open(&notes, &pool);
+    make_job(&pool, 6, &job);
+    for (int s = 0; s < job.rotor.nsensor; s++) /* a shape of pure noise under number 4 */
+        job.shape[s + (ptrdiff_t)3 * job.rotor.nsensor] = random_normal(&stream);
+    job.holdout[3] = 1; /* so that it does not decide the fit */
+    assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_OK);
+    assert_true(says(&notes, "has no partner in the model by its shape"));
+    assert_close(result.fit->x[0], truth[0], 1e-6, 0);
+    rotid_fit_free(result.fit);
+    pool_close(&pool);
+}
+
+static void jobs_without_data_or_parameters_are_refused_with_a_reason(void **state)
+{
+    (void)state;
+    struct pool pool;
+    struct job job;
+    struct message_list notes;
+    struct identification result;
+    pool_open(&pool, NULL);
+    message_open(&notes, &pool);
+    make_job(&pool, 2, &job);
+    job.nparameter = 0;
+    assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_ERROR_ARGUMENT);
+    assert_true(says(&notes, "IDENTIFY"));
+    job.nparameter = 2;
+    job.nmode = 0;
+    assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_ERROR_ARGUMENT);
+    assert_true(says(&notes, "MODES"));
+    assert_null(result.fit);
+    pool_close(&pool);
+}
+
+static int stop_at_once(void *unused)
+{
+    (void)unused;
+    return 1;
+}
+
+static void a_cancelled_identification_keeps_the_best_point(void **state)
+{
+    (void)state;
+    struct pool pool;
+    struct job job;
+    struct message_list notes;
+    struct identification result;
+    const rotid_environment environment = {.cancelled = stop_at_once};
+    pool_open(&pool, NULL);
+    message_open(&notes, &pool);
+    make_job(&pool, 4, &job);
+    assert_int_equal(identify_run(&pool, &job, 1, &environment, &notes, &result), ROTID_OK);
+    assert_int_equal(result.fit->status, ROTID_STOP_CANCELLED);
+    assert_false(result.fit->converged);
+    assert_close(result.fit->x[0], job.bounds[0].start, 1e-12, 0);
+    rotid_fit_free(result.fit);
+    pool_close(&pool);
+}
+
+static void sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivative(void **state)
+{
+    (void)state;
+    struct pool pool;
+    struct job job;
+    struct sensitivity coarse, fine;
+    struct sensitivity_options options = {.step = 1e-2, .range = 0.5, .points = 3, .modes = 6};
+    const double x[3] = {8e10, 3e10, 1.0 / 3};
+    const struct parameter parameter[3] = {{PARAMETER_E, 1}, {PARAMETER_G, 1}, {PARAMETER_NU, 1}};
+    pool_open(&pool, NULL);
+    make_job(&pool, 6, &job);
+    job.fit.reduction = ROTID_GUYAN;
+    assert_int_equal(sensitivity_run(&pool, &job, 3, parameter, x, &options, &coarse), ROTID_OK);
+    options.step = 1e-5;
+    assert_int_equal(sensitivity_run(&pool, &job, 3, parameter, x, &options, &fine), ROTID_OK);
+    for (int k = 0; k < 6; k++) {
+        for (int p = 0; p < 3; p++)
+            assert_close(fine.difference[k + 6 * p], fine.derivative[k + 6 * p], 1e-4, 1e-9);
+        /* all stiffness times (1 + e) raises every eigenvalue by e, so a part of it by less */
+        double sum = -(coarse.derivative[k] + coarse.derivative[k + 6]);
+        assert_true(sum > 0 && sum < 1);
+        /* E_k vanishes at the reference and grows to both sides: Figure 5 */
+        const double *curve = coarse.curve + k;
+        assert_true(curve[6] < 1e-15 && curve[0] > curve[6] && curve[12] > curve[6]);
+    }
+    pool_close(&pool);
+}
+
+static void no_allocation_that_fails_leaks_or_goes_unsaid(void **state)
+{
+    (void)state;
+    struct pool outer;
+    struct job job;
+    pool_open(&outer, NULL);
+    make_job(&outer, 3, &job);
+    long n = 1;
+    for (;; n++) {
+        struct failing_allocator failing;
+        struct pool pool;
+        struct message_list notes;
+        struct identification result;
+        failing_allocator_open(&failing, n);
+        const rotid_environment environment = {.allocator = &failing.allocator};
+        pool_open(&pool, &failing.allocator);
+        message_open(&notes, &pool);
+        int status = identify_run(&pool, &job, 0, &environment, &notes, &result);
+        if (!status)
+            rotid_fit_free(result.fit);
+        else
+            assert_status(status, ROTID_ERROR_MEMORY);
+        pool_close(&pool);
+        assert_int_equal(failing.in_use, 0);
+        if (!status)
+            break;
+    }
+    assert_true(n > 100); /* the sweep went through the run, not around it */
+    pool_close(&outer);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(identification_recovers_what_made_the_data),
+        cmocka_unit_test(a_mode_that_was_not_measured_is_said_and_the_rest_keep_their_partners),
+        cmocka_unit_test(a_mode_that_is_no_mode_of_the_model_is_said),
+        cmocka_unit_test(jobs_without_data_or_parameters_are_refused_with_a_reason),
+        cmocka_unit_test(a_cancelled_identification_keeps_the_best_point),
+        cmocka_unit_test(sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivative),
+        cmocka_unit_test(no_allocation_that_fails_leaks_or_goes_unsaid),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
