@@ -154,8 +154,8 @@ double *dense_guyan(struct pool *pool, int n, const double *k, int nc, const int
 {
     const int *slave = slaves_of(pool, n, nc, master);
     int ni = n - nc;
-    double *phi = dense_solution(pool, ni, nc, dense_part(pool, n, k, ni, slave, ni, slave), dense_part(pool, n, k, ni, slave, nc, master));
-    double *t = numbers(pool, (ptrdiff_t)n * nc);
+    const double *k_ii = dense_part(pool, n, k, ni, slave, ni, slave), *k_ic = dense_part(pool, n, k, ni, slave, nc, master);
+    double *phi = dense_solution(pool, ni, nc, k_ii, k_ic), *t = numbers(pool, (ptrdiff_t)n * nc);
     for (int c = 0; c < nc; c++) {
         for (int i = 0; i < ni; i++)
             t[slave[i] + (ptrdiff_t)c * n] = -phi[i + (ptrdiff_t)c * ni];
@@ -175,7 +175,8 @@ double *dense_irs(struct pool *pool, int n, const double *k, const double *m, in
     int ni = n - nc;
     double *t = dense_guyan(pool, n, k, nc, master);
     double *w = dense_solution(pool, nc, nc, dense_congruence(pool, n, nc, m, t), dense_congruence(pool, n, nc, k, t));
-    double *image = dense_product(pool, n, nc, nc, dense_product(pool, n, n, nc, m, t), w), *right = numbers(pool, (ptrdiff_t)ni * nc);
+    double *image = dense_product(pool, n, nc, nc, dense_product(pool, n, n, nc, m, t), w);
+    double *right = numbers(pool, (ptrdiff_t)ni * nc);
     for (int c = 0; c < nc; c++)
         for (int i = 0; i < ni; i++)
             right[i + (ptrdiff_t)c * ni] = image[slave[i] + (ptrdiff_t)c * n];

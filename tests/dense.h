@@ -18,7 +18,7 @@ double *numbers(struct pool *pool, ptrdiff_t count);
 
 double *random_numbers(struct pool *pool, struct random_stream *stream, ptrdiff_t count);
 
-/* A random positive definite matrix of the structure: sums of g g' over windows of the band and over the block, plus `floor` I. */
+/* A random positive definite matrix of the structure: sums of g g' over windows of the band and over the block, and `floor` I. */
 void random_positive(struct pool *pool, struct random_stream *stream, int n, int kd, int nfar, const int *far, double floor,
                      rotid_matrix *a);
 

@@ -1,14 +1,12 @@
-/* Pool, messages, random numbers, statuses. */
+/* Pool, messages, statuses. */
 #include "support.h"
 
 #include <limits.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
-#include "base/random.h"
 
 /* ---- an allocator that hands out dirty memory and sees writes behind a block */
 
@@ -296,67 +294,6 @@ static void messages_survive_a_failed_allocation(void **state)
     }
 }
 
-/* ---- random numbers */
-
-static void the_stream_is_splitmix64(void **state)
-{
-    (void)state;
-    /* first outputs of the authors' C code for the seed 1234567 */
-    const uint64_t expected[] = {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u, 16408922859458223821u};
-    struct random_stream stream = {1234567};
-    for (int i = 0; i < 5; i++)
-        assert_close(random_uniform(&stream), ((double)(expected[i] >> 11) + 0.5) / 9007199254740992.0, 0, 0);
-}
-
-static void a_seed_repeats_and_another_does_not(void **state)
-{
-    (void)state;
-    struct random_stream one = {42}, two = {42}, other = {43};
-    int same = 0;
-    for (int i = 0; i < 1000; i++) {
-        double x = random_normal(&one);
-        assert_close(random_normal(&two), x, 0, 0);
-        same += random_normal(&other) == x;
-    }
-    assert_int_equal(same, 0);
-}
-
-/* Moments within five standard deviations of their own; N = 1e6. */
-static void random_numbers_have_their_moments(void **state)
-{
-    (void)state;
-    enum { count = 1000000 };
-    struct random_stream stream = {7};
-    double u1 = 0, u2 = 0, least = 1, most = 0, m1 = 0, m2 = 0, m3 = 0, m4 = 0, lag = 0, previous = 0;
-    int beyond = 0;
-    for (int i = 0; i < count; i++) {
-        double u = random_uniform(&stream);
-        u1 += u - 0.5;
-        u2 += (u - 0.5) * (u - 0.5);
-        least = fmin(least, u);
-        most = fmax(most, u);
-    }
-    assert_true(least > 0 && least < 2e-5 && most < 1 && most > 1 - 2e-5);
-    assert_close(u1 / count, 0, 0, 5 * sqrt(1.0 / 12 / count));
-    assert_close(u2 / count, 1.0 / 12, 0, 5 * sqrt(1.0 / 180 / count));
-    for (int i = 0; i < count; i++) {
-        double x = random_normal(&stream);
-        m1 += x;
-        m2 += x * x;
-        m3 += x * x * x;
-        m4 += x * x * x * x;
-        lag += x * previous;
-        previous = x;
-        beyond += fabs(x) > 3;
-    }
-    assert_close(m1 / count, 0, 0, 5 * sqrt(1.0 / count));
-    assert_close(m2 / count, 1, 0, 5 * sqrt(2.0 / count));
-    assert_close(m3 / count, 0, 0, 5 * sqrt(15.0 / count));
-    assert_close(m4 / count, 3, 0, 5 * sqrt(96.0 / count));
-    assert_close(lag / count, 0, 0, 5 * sqrt(1.0 / count));
-    assert_close((double)beyond / count, 0.0026997960632601890, 0, 5 * sqrt(0.0027 / count));
-}
-
 /* ---- statuses */
 
 struct status {
@@ -411,9 +348,6 @@ int main(void)
         cmocka_unit_test(messages_past_the_limit_are_counted_only),
         cmocka_unit_test(a_long_message_is_cut_not_overrun),
         cmocka_unit_test(messages_survive_a_failed_allocation),
-        cmocka_unit_test(the_stream_is_splitmix64),
-        cmocka_unit_test(a_seed_repeats_and_another_does_not),
-        cmocka_unit_test(random_numbers_have_their_moments),
         cmocka_unit_test(every_status_has_its_own_name_and_text),
         cmocka_unit_test(other_values_are_unknown_statuses),
     };

@@ -12,8 +12,9 @@
 /* ---- the paper's rotor with seven parameters; its left spring is stiff enough to be felt by the bending modes */
 
 enum { nparam = 7 };
-static const struct parameter seven[nparam] = {{PARAMETER_E, 1},       {PARAMETER_G, 1},        {PARAMETER_NU, 1},      {PARAMETER_RHO, 1},
-                                               {PARAMETER_TENSION, 0}, {PARAMETER_TIEROD_E, 0}, {PARAMETER_SPRING_K, 0}};
+static const struct parameter seven[nparam] = {{PARAMETER_E, 1},       {PARAMETER_G, 1},        {PARAMETER_NU, 1},
+                                               {PARAMETER_RHO, 1},     {PARAMETER_TENSION, 0}, {PARAMETER_TIEROD_E, 0},
+                                               {PARAMETER_SPRING_K, 0}};
 static const double rotor_values[nparam] = {0.6e11, 0.3e11, 0.28, 7380.66, 150e3, 2.1e11, 1e8};
 /* relative: as large as the curvature allows, since the bending modes hardly feel some of these */
 static const double rotor_steps[nparam] = {2e-3, 2e-3, 1e-2, 2e-3, 0.5, 2e-2, 2e-2};
@@ -96,10 +97,10 @@ static double largest(int n, const double *x)
     return most;
 }
 
-/* Of all modes with respect to x_q: dlambda [count] and dphi [size * count]. Vectors are turned to the sign of those that p holds, at x;
- * their scale is that of phi' M phi = 1 everywhere. `away` computes at the points beside x, so that p stays there. */
-static void differentiate_numerically(struct pool *pool, const struct prediction *p, struct prediction *away, const double *x, int q,
-                                      double step, double *dlambda, double *dphi)
+/* Of all modes with respect to x_q: dlambda [count] and dphi [size * count]. Vectors are turned to the sign of those that p
+ * holds, at x; their scale is that of phi' M phi = 1 everywhere. `away` computes at the points beside x: p stays there. */
+static void differentiate_numerically(struct pool *pool, const struct prediction *p, struct prediction *away, const double *x,
+                                      int q, double step, double *dlambda, double *dphi)
 {
     const double weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12}, at[4] = {-2, -1, 1, 2};
     int n = p->size, nx = p->model->nparam;

@@ -35,7 +35,8 @@ static double string_eigenvalue(int n, int held, int j)
     return 4 * s * s;
 }
 
-static const double ei = 2.1e11 * 4.9087385e-6, kgs = 0.89 * 8.1e10 * 7.8539816e-3, rhos = 7850 * 7.8539816e-3, rhoi = 7850 * 4.9087385e-6;
+static const double ei = 2.1e11 * 4.9087385e-6, kgs = 0.89 * 8.1e10 * 7.8539816e-3;
+static const double rhos = 7850 * 7.8539816e-3, rhoi = 7850 * 4.9087385e-6;
 
 /* A steel beam of 0.1 m diameter; pinned: both deflections at its ends are left out, and 2 `elements` degrees of freedom stay. */
 static void uniform_beam(struct pool *pool, int elements, double length, int pinned, rotid_matrix *k, rotid_matrix *m)
@@ -92,7 +93,8 @@ static double pair_residual(struct pool *pool, const rotid_matrix *k, const roti
         matrix_multiply(k, 1, phi + (ptrdiff_t)j * n, k_phi);
         matrix_multiply(m, 1, phi + (ptrdiff_t)j * n, m_phi);
         cblas_daxpy(n, -lambda[j], m_phi, 1, k_phi, 1);
-        worst = fmax(worst, cblas_dnrm2(n, k_phi, 1) / ((k_norm + fabs(lambda[j]) * m_norm) * cblas_dnrm2(n, phi + (ptrdiff_t)j * n, 1)));
+        double size = (k_norm + fabs(lambda[j]) * m_norm) * cblas_dnrm2(n, phi + (ptrdiff_t)j * n, 1);
+        worst = fmax(worst, cblas_dnrm2(n, k_phi, 1) / size);
     }
     return worst;
 }
@@ -109,7 +111,8 @@ static double orthonormality(struct pool *pool, const rotid_matrix *m, int count
     return worst;
 }
 
-static void check_pairs(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, const double *lambda, const double *phi)
+static void check_pairs(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, const double *lambda,
+                        const double *phi)
 {
     assert_close(pair_residual(pool, k, m, count, lambda, phi), 0, 0, 1e-11);
     assert_close(orthonormality(pool, m, count, phi), 0, 0, 1e-10);
@@ -139,8 +142,8 @@ static void random_pencils_agree_with_dsygv(void **state)
             rotid_matrix k, m;
             random_positive(*state, &stream, n, 1 + n % 5, coupled ? 6 : 0, far, 1e-4, &k);
             random_positive(*state, &stream, n, 1 + n % 5, coupled ? 6 : 0, far, 1, &m);
-            double *expected = numbers(*state, n);
-            dense_pairs(*state, n, dense_of(*state, &k), dense_of(*state, &m), -1e-3, expected, numbers(*state, (ptrdiff_t)n * n));
+            double *expected = numbers(*state, n), *vectors = numbers(*state, (ptrdiff_t)n * n);
+            dense_pairs(*state, n, dense_of(*state, &k), dense_of(*state, &m), -1e-3, expected, vectors);
             const double *lambda = solve_and_check(*state, &k, &m, 5);
             for (int j = 0; j < 5; j++)
                 assert_close(lambda[j], expected[j], 1e-9, 1e-14);

@@ -8,7 +8,8 @@
 #include "linalg/matrix.h"
 
 /* Residuals relative to |K| + |lambda| |M|, phi' M phi = I, lambda ascending. */
-static void check_pairs(struct pool *pool, int n, const double *k, const double *m, int count, const double *lambda, const double *phi)
+static void check_pairs(struct pool *pool, int n, const double *k, const double *m, int count, const double *lambda,
+                        const double *phi)
 {
     const double *k_phi = dense_product(pool, n, n, count, k, phi), *m_phi = dense_product(pool, n, n, count, m, phi);
     const double *square = dense_transposed_product(pool, count, n, count, phi, m_phi);

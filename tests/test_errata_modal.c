@@ -105,7 +105,7 @@ static void multiply(const double *a, const double *x, double *y)
 
 /* Everything (34) to (38) speak of, for mode `mode` at x = 0, and the derivative by differences. */
 struct mode {
-    double k[N * N], m[N * N], lambda[N], phi[N * N], m_phi[N], p[N], q, difference[N], dlambda, dlambda_difference;
+    double k[N * N], m[N * N], lambda[N], phi[N * N], m_phi[N], p[N], q, difference[N], dlambda;
 };
 
 static void open_mode(const struct dense *d, int mode, struct mode *e)
@@ -120,28 +120,14 @@ static void open_mode(const struct dense *d, int mode, struct mode *e)
     multiply(e->m, own, e->m_phi);
     e->dlambda = dot(own, dk_phi) - e->lambda[mode] * dot(own, dm_phi);
     e->q = -dot(own, dm_phi) / 2;
-    e->dlambda_difference = 0;
     memset(e->difference, 0, sizeof e->difference);
     for (int i = 0; i < N; i++)
         e->p[i] = -(dk_phi[i] - e->dlambda * e->m_phi[i] - e->lambda[mode] * dm_phi[i]);
     for (int s = 0; s < 4; s++) {
         pairs_at(d, step[s] * h, e->phi, lambda, phi);
-        e->dlambda_difference += weight[s] * lambda[mode] / (12 * h);
         for (int i = 0; i < N; i++)
             e->difference[i] += weight[s] * phi[i + N * mode] / (12 * h);
     }
-}
-
-static void eq36_holds_as_printed(void **state)
-{
-    (void)state;
-    struct mode e;
-    for (uint64_t seed = 1; seed <= 4; seed++)
-        for (int mode = 0; mode < N; mode++) {
-            struct dense d = random_problem(seed);
-            open_mode(&d, mode, &e);
-            assert_close(e.dlambda, e.dlambda_difference, 1e-6, 1e-7);
-        }
 }
 
 /* The text gains c_j by premultiplying (34) with phi_k'. That row of A_k is zero and so is phi_k' P_k: nothing is left to find
@@ -181,7 +167,7 @@ static void eq37_takes_phi_j_from_the_left_where_the_text_takes_phi_k(void **sta
 static void eq38_needs_the_transpose_that_is_not_printed(void **state)
 {
     (void)state;
-    double worst = 0, least_printed = INFINITY, least_dropped = INFINITY;
+    double worst = 0, off_printed = 0, off_dropped = 0;
     struct nelson_dense nelson;
     assert_status(nelson_dense_new(&pool, N, &nelson), ROTID_OK);
     for (uint64_t seed = 1; seed <= 4; seed++)
@@ -202,13 +188,14 @@ static void eq38_needs_the_transpose_that_is_not_printed(void **state)
             }
             worst = fmax(worst, relative_difference(N, corrected, e.difference));
             worst = fmax(worst, fabs(dot(e.m_phi, corrected) - e.q));
-            least_printed = fmin(least_printed, fabs(dot(e.m_phi, printed) - e.q) / sqrt(dot(v, mv)));
-            least_dropped = fmin(least_dropped, fabs(dot(e.m_phi, dropped) - e.q) / sqrt(dot(v, mv)));
+            off_printed += fabs(dot(e.m_phi, printed) - e.q) / sqrt(dot(v, mv)) / (4 * N);
+            off_dropped += fabs(dot(e.m_phi, dropped) - e.q) / sqrt(dot(v, mv)) / (4 * N);
         }
-    print_message("(38) corrected within %.1e; (35) missed by at least %.3f of |V| without transpose, %.3f without the product\n",
-                  worst, least_printed, least_dropped);
+    print_message(
+        "(38) corrected within %.1e; (35) missed by %.2f |V| without transpose, %.2f |V| without the product, on average\n",
+        worst, off_printed, off_dropped);
     assert_close(worst, 0, 0, 1e-6);
-    assert_true(least_printed > 1e-3 && least_dropped > 1e-3);
+    assert_true(off_printed > 0.1 && off_dropped > 0.1);
 }
 
 /* ---- (39) to (41): the paper's rotor condensed to its sensors */
@@ -395,7 +382,6 @@ static void eq41_is_symmetric_in_its_second_term_where_printed_is_not(void **sta
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(eq36_holds_as_printed),
         TEST(eq37_takes_phi_j_from_the_left_where_the_text_takes_phi_k),
         TEST(eq38_needs_the_transpose_that_is_not_printed),
         TEST(eq39_has_a_plus_between_its_terms),

@@ -33,7 +33,8 @@ static void multiply_combine_and_product_match_dense(void **state)
         random_positive(*state, &stream, n, of->kd, of->nfar, of->far, 1, &a);
         random_positive(*state, &stream, n, of->kd, of->nfar, of->far, 1, &b);
         assert_status(matrix_new(*state, n, of->kd, of->nfar, of->far, &c), ROTID_OK);
-        const double *full = dense_of(*state, &a), *other = dense_of(*state, &b), *x = random_numbers(*state, &stream, 3 * (ptrdiff_t)n);
+        const double *full = dense_of(*state, &a), *other = dense_of(*state, &b);
+        const double *x = random_numbers(*state, &stream, 3 * (ptrdiff_t)n);
         double *y = numbers(*state, 3 * (ptrdiff_t)n), *work = numbers(*state, n), *sum = numbers(*state, (ptrdiff_t)n * n);
         matrix_multiply(&a, 3, x, y);
         assert_close(relative_difference(3 * (size_t)n, y, dense_product(*state, n, n, 3, full, x)), 0, 0, 1e-14);
@@ -217,7 +218,7 @@ static void a_matrix_that_is_not_positive_definite_is_refused(void **state)
     struct factor f;
     for (int i = 0; i < n; i++)
         all[i] = i;
-    for (int i = 0; i < n; i++) { /* at a degree of freedom of the band or a far one: the latter shows in the Schur complement only */
+    for (int i = 0; i < n; i++) { /* of the band, or a far one: that shows in the Schur complement only */
         random_positive(*state, &stream, n, of->kd, of->nfar, of->far, 1, &a);
         assert_status(factor_new(*state, FACTOR_CHOLESKY, &a, n, all, &f), ROTID_OK);
         assert_int_equal(factor_compute(&f, &a), 0);
@@ -266,8 +267,8 @@ static void negative_eigenvalues_are_counted_in_every_gap(void **state)
         double *lambda = numbers(*state, n), *value = numbers(*state, n);
         dense_pairs(*state, n, dense_of(*state, &k), dense_of(*state, &m), -1, lambda, numbers(*state, (ptrdiff_t)n * n));
         for (int below = 0; below <= n; below++) {
-            double low = below ? lambda[below - 1] : -lambda[n - 1], high = below < n ? lambda[below] : 2 * lambda[n - 1], shift = (low + high) / 2;
-            matrix_combine(1, &k, -shift, &m, &shifted);
+            double low = below ? lambda[below - 1] : -lambda[n - 1], high = below < n ? lambda[below] : 2 * lambda[n - 1];
+            matrix_combine(1, &k, -(low + high) / 2, &m, &shifted);
             int negative = 0;
             double *full = dense_of(*state, &shifted);
             assert_int_equal(LAPACKE_dsyev(LAPACK_COL_MAJOR, 'N', 'L', n, full, n, value), 0);
@@ -317,7 +318,8 @@ static void the_damped_step_solves_the_normal_equations(void **state)
         for (int d = 0; d < 4; d++) {
             int m = sizes[s][0], n = sizes[s][1];
             const double *jacobian = random_numbers(*state, &stream, (ptrdiff_t)m * n), *r = random_numbers(*state, &stream, m);
-            double *scale = numbers(*state, n), *h = numbers(*state, n), *work = numbers(*state, (ptrdiff_t)least_squares_workspace(m, n));
+            double *scale = numbers(*state, n), *h = numbers(*state, n);
+            double *work = numbers(*state, (ptrdiff_t)least_squares_workspace(m, n));
             for (int j = 0; j < n; j++)
                 scale[j] = 0.1 + random_uniform(&stream);
             assert_int_equal(least_squares_damped_step(m, n, jacobian, r, dampings[d], scale, h, work), 0);

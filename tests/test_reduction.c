@@ -26,11 +26,12 @@ struct rotor_model {
     rotid_matrix k, m, dk, dm;
 };
 
-static void open_rotor(struct pool *pool, enum bundle_model bundle, int self_equilibrated, int nparameter, const struct parameter *parameter,
-                       const double *x, struct rotor_model *r)
+static void open_rotor(struct pool *pool, enum bundle_model bundle, int self_equilibrated, int nparameter,
+                       const struct parameter *parameter, const double *x, struct rotor_model *r)
 {
     int failed;
-    assert_status(client_open(pool, paper_rotor(bundle, self_equilibrated), nparameter, parameter, 1, &r->client, &failed), ROTID_OK);
+    const struct rotor *rotor = paper_rotor(bundle, self_equilibrated);
+    assert_status(client_open(pool, rotor, nparameter, parameter, 1, &r->client, &failed), ROTID_OK);
     const rotid_model *model = &r->client.model;
     rotid_matrix *all[4] = {&r->k, &r->m, &r->dk, &r->dm};
     for (int i = 0; i < 4; i++)
@@ -39,7 +40,8 @@ static void open_rotor(struct pool *pool, enum bundle_model bundle, int self_equ
 }
 
 /* T, K~, M~ of both kinds against their dense formulas, the difference relative to the largest element. */
-static void check_against_dense(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int nc, const int *master, double tolerance)
+static void check_against_dense(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int nc, const int *master,
+                                double tolerance)
 {
     int n = k->n;
     size_t square = (size_t)nc * (size_t)nc, tall = (size_t)n * (size_t)nc;
@@ -60,7 +62,8 @@ static void condensed_matrices_are_those_of_the_dense_formulas(void **state)
     struct random_stream stream = {41};
     const int far[6] = {0, 1, 11, 12, 24, 25}, all[30] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
                                                           15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29};
-    const int masters[5][8] = {{0}, {3, 24}, {0, 4, 8, 12, 16, 20, 24, 28}, {1, 2, 3, 4, 5, 6, 7, 8}, {22, 23, 24, 25, 26, 27, 28, 29}};
+    const int masters[5][8] = {
+        {0}, {3, 24}, {0, 4, 8, 12, 16, 20, 24, 28}, {1, 2, 3, 4, 5, 6, 7, 8}, {22, 23, 24, 25, 26, 27, 28, 29}};
     const int counts[5] = {1, 2, 8, 8, 8};
     for (int nfar = 0; nfar <= 6; nfar += 3)
         for (int c = 0; c < 7; c++) {
@@ -97,7 +100,8 @@ static void guyan_keeps_the_static_flexibility_of_the_masters(void **state)
     double *loads = numbers(*state, n * nc), *unit = numbers(*state, nc * nc);
     for (int c = 0; c < nc; c++)
         loads[master[c] + c * n] = unit[c + c * nc] = 1;
-    const double *full = dense_solution(*state, n, nc, dense_of(*state, &k), loads), *small = dense_solution(*state, nc, nc, r.kc, unit);
+    const double *full = dense_solution(*state, n, nc, dense_of(*state, &k), loads);
+    const double *small = dense_solution(*state, nc, nc, r.kc, unit);
     for (int c = 0; c < nc; c++)
         for (int b = 0; b < nc; b++)
             assert_close(small[b + c * nc], full[master[b] + c * n], 1e-11, 1e-12);
@@ -127,7 +131,8 @@ static void bending_frequencies(struct pool *pool, const struct rotor_model *r, 
 /* Per cent by which Guyan with 68 masters raises the frequencies; from SciPy, dense. IRS on the same masters is nearer. */
 static void condensation_errors_of_the_papers_rotor_are_those_of_scipy(void **state)
 {
-    const double expected[PAPER_MODES] = {0.043357, 0.076664, 0.214545, 0.709566, 3.296078, 1.287215}, x[2] = {1.157e11, 0.316e11};
+    const double expected[PAPER_MODES] = {0.043357, 0.076664, 0.214545, 0.709566, 3.296078, 1.287215};
+    const double x[2] = {1.157e11, 0.316e11};
     struct rotor_model r;
     double full[PAPER_MODES], guyan[PAPER_MODES], irs[PAPER_MODES];
     open_rotor(*state, BUNDLE_TUBE, 0, 2, paper_parameters, x, &r);
@@ -178,7 +183,12 @@ static double *difference(struct pool *pool, struct rotor_model *r, struct reduc
     return sum;
 }
 
-/* dT, dK~ and dM~ column by column, and dT' by its definition as the adjoint. */
+static double largest(size_t count, const double *x)
+{
+    return fabs(x[cblas_idamax((int)count, x, 1)]);
+}
+
+/* dT, dK~ and dM~ column by column. */
 static void derivatives_match_central_differences(void **state)
 {
     for (int kind = 0; kind < 2; kind++) {
@@ -202,26 +212,23 @@ static void derivatives_match_central_differences(void **state)
                 reduction_derivative_multiply(&reduction, &r.dk, &r.dm, column, dkc + c * nc, dmc + c * nc, work);
                 reduction_derivative_expand(&reduction, &r.dk, &r.dm, column, dt + (ptrdiff_t)c * n);
             }
+            const double *parts[3] = {dt, dkc, dmc}, *of[3] = {reduction.t, reduction.kc, reduction.mc};
             for (int part = 0; part < 3; part++) { /* Guyan's T and K~ do not feel rho */
-                const double *value = part == 0 ? dt : part == 1 ? dkc : dmc, *of = part == 0 ? reduction.t : part == 1 ? reduction.kc : reduction.mc;
                 const double *reference = expected + (part > 0) * tall + (part > 1) * square;
                 size_t length = part ? square : tall;
-                double size = fabs(of[cblas_idamax((int)length, of, 1)]) / values[p], difference_size;
-                difference_size = fabs(reference[cblas_idamax((int)length, reference, 1)]);
-                if (six[p].kind == PARAMETER_RHO && kinds[kind] == ROTID_GUYAN && part < 2)
-                    assert_close(relative_difference(length, value, numbers(*state, (ptrdiff_t)length)), 0, 0, 0);
-                else if (difference_size > 1e-7 * size) /* else rounding is all that the difference shows */
-                    assert_close(relative_difference(length, value, reference), 0, 0, 1e-8);
-                else
-                    fail_msg("parameter %d does not act on part %d", p, part);
+                if (six[p].kind == PARAMETER_RHO && kinds[kind] == ROTID_GUYAN && part < 2) {
+                    assert_close(largest(length, parts[part]), 0, 0, 0);
+                    continue;
+                }
+                /* it has to act, or rounding is all that the difference shows */
+                assert_true(largest(length, reference) * values[p] > 1e-7 * largest(length, of[part]));
+                assert_close(relative_difference(length, parts[part], reference), 0, 0, 1e-8);
             }
-            double asymmetry = 0;
             for (int j = 0; j < nc; j++)
                 for (int i = 0; i < j; i++) {
-                    asymmetry = fmax(asymmetry, fabs(dkc[i + j * nc] - dkc[j + i * nc]) / fabs(dkc[cblas_idamax(nc * nc, dkc, 1)] + 1e-300));
-                    asymmetry = fmax(asymmetry, fabs(dmc[i + j * nc] - dmc[j + i * nc]) / fabs(dmc[cblas_idamax(nc * nc, dmc, 1)] + 1e-300));
+                    assert_close(dkc[i + j * nc], dkc[j + i * nc], 0, 1e-9 * largest(square, dkc));
+                    assert_close(dmc[i + j * nc], dmc[j + i * nc], 0, 1e-9 * largest(square, dmc));
                 }
-            assert_close(asymmetry, 0, 0, 1e-9);
         }
     }
 }
@@ -249,10 +256,12 @@ static void expansion_and_projection_are_adjoint(void **state)
             reduction_expand(&r, x, tx);
             reduction_project(&r, u, tu);
             assert_close(relative_difference(n, tx, dense_product(*state, n, nc, 1, r.t, x)), 0, 0, 1e-14);
-            assert_close(cblas_ddot(nc, x, 1, tu, 1), cblas_ddot(n, tx, 1, u, 1), 0, 1e-13 * cblas_dnrm2(n, tx, 1) * cblas_dnrm2(n, u, 1));
+            double size = cblas_dnrm2(n, tx, 1) * cblas_dnrm2(n, u, 1);
+            assert_close(cblas_ddot(nc, x, 1, tu, 1), cblas_ddot(n, tx, 1, u, 1), 0, 1e-13 * size);
             reduction_derivative_expand(&r, &dk, &dm, x, tx);
             reduction_derivative_project(&r, &dk, &dm, u, tu);
-            assert_close(cblas_ddot(nc, x, 1, tu, 1), cblas_ddot(n, tx, 1, u, 1), 0, 1e-11 * cblas_dnrm2(n, tx, 1) * cblas_dnrm2(n, u, 1));
+            size = cblas_dnrm2(n, tx, 1) * cblas_dnrm2(n, u, 1);
+            assert_close(cblas_ddot(nc, x, 1, tu, 1), cblas_ddot(n, tx, 1, u, 1), 0, 1e-11 * size);
             /* (K~ + h dK~) x by a difference on random matrices, where no structure of a beam can hide an error */
             double h = 1e-5, *work = numbers(*state, 3 * n + nc), *low = numbers(*state, 2 * nc), *high = numbers(*state, 2 * nc);
             reduction_derivative_multiply(&r, &dk, &dm, x, kx, mx, work);

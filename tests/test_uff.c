@@ -230,7 +230,6 @@ static void complex_eigenvalues(void **state)
         check_equal(r.file.shape[0].imag[0], -1);
         pool_close(&r.pool);
     }
-    check_refused(SHAPE_SET KIND_FIRST_1 "2 2 1 1\n-3.0 0.0\n1\n1.0 0.0\n" END, 10, "no imaginary part");
 }
 
 static void frequency_response(void **state)
@@ -413,7 +412,7 @@ static void many_types_of_sets(void **state)
     read_text(&r, text);
     check_ok(&r);
     assert_int_equal(r.messages.count, 33);
-    assert_true(has_message(&r, SEVERITY_NOTE, 0, "68 sets of further types"));
+    assert_true(has_message(&r, SEVERITY_NOTE, 1, "68 sets of further types"));
     pool_close(&r.pool);
 }
 
@@ -486,7 +485,7 @@ static void no_universal_file(void **state)
 
     read_path(&r, "/does/not/exist.uff", NULL);
     assert_int_equal(r.status, ROTID_ERROR_IO);
-    assert_true(has_message(&r, SEVERITY_ERROR, 0, "cannot be opened"));
+    assert_true(has_message(&r, SEVERITY_ERROR, 1, "cannot be opened"));
     assert_int_equal(r.file.shape_count, 0);
     pool_close(&r.pool);
     read_path(&r, "/", NULL);
@@ -585,10 +584,9 @@ static void wrong_records(void **state)
     check_refused(SHAPE_SET KIND_NORMAL_1 "2 -1 1 1\n", 9, "-1 reals announced");
     check_refused(SHAPE_SET KIND_NORMAL_1 "2 0 1 1\n", 9, "0 reals announced; expected at least 1");
     check_refused(SHAPE_SET KIND_FIRST_1 "2 1 1 1\n1.0\n", 9, "1 reals announced; expected at least 2");
-    check_refused(SHAPE_SET KIND_NORMAL_1 MODE_4 "  0.00000E+00  1.0  0.0  0.0\n", 10, "the frequency is not positive");
-    check_refused(SHAPE_SET KIND_NORMAL_1 MODE_4 " -1.00000E+00  1.0  0.0  0.0\n", 10, "the frequency is not positive");
+    check_refused(SHAPE_SET KIND_NORMAL_1 MODE_4 " -1.00000E+00  1.0  0.0  0.0\n", 10, "the frequency is negative");
     check_refused(SHAPE_SET KIND_NORMAL_1 MODE_4 "          NaN  1.0  0.0  0.0\n", 10, "NaN is not a finite number");
-    check_refused(SHAPE_SET KIND_FIRST_1 "2 2 1 1\n1.5e308 1.5e308\n", 10, "not positive");
+    check_refused(SHAPE_SET KIND_FIRST_1 "2 2 1 1\n1.5e308 1.5e308\n", 10, "the frequency is");
     check_refused(SHAPE_SET KIND_NORMAL_3 MODE_4 RECORD_8 "1\n1.0 2.0\n", 12, "expected 3 reals, found 2 fields");
     check_refused(SHAPE_SET KIND_NORMAL_3 MODE_4 RECORD_8 "1\n1.0 inf 2.0\n", 12, "inf is not a finite number");
     check_refused(SHAPE_SET KIND_NORMAL_3 MODE_4 RECORD_8 "1.0 2.0 3.0\n", 11,
@@ -599,9 +597,9 @@ static void repeated_nodes(void **state)
 {
     (void)state;
     check_refused(SHAPE_SET KIND_NORMAL_1 MODE_4 RECORD_8 "5\n1.0\n3\n1.0\n5\n2.0\n" END, 15,
-                  "set 55: node 5 occurs twice in the set, line 11");
+                  "set 55: node 5 occurs twice in the set, first in line 11");
     check_refused(NODE_SET "4 0 0 8 1. 2. 3.\n7 0 0 8 1. 2. 3.\n4 0 0 8 1. 2. 3.\n" END, 5,
-                  "node 4 occurs twice in the set, line 3");
+                  "node 4 occurs twice in the set, first in line 3");
     check_refused(NODE_SET "4 0 0 8 1. 2. 3.\n" END "    -1\n  2411\n4 0 0 8\n1. 2. 3.1\n" END, 7,
                   "set 2411: node 4 was elsewhere in an earlier set, line 3");
     struct reading r;
@@ -698,7 +696,7 @@ static void every_byte_replaced(void **state)
             assert_true(r.status == ROTID_OK || r.status == ROTID_ERROR_SYNTAX);
             assert_int_equal(r.messages.errors, r.status != ROTID_OK);
             for (int s = 0; s < r.file.shape_count; ++s)
-                assert_true(isfinite(r.file.shape[s].frequency_hz) && r.file.shape[s].frequency_hz > 0);
+                assert_true(isfinite(r.file.shape[s].frequency_hz) && r.file.shape[s].frequency_hz >= 0);
             pool_close(&r.pool);
         }
     free(bytes);

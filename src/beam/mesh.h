@@ -21,7 +21,7 @@ struct mesh {
     struct chain *tierod;        /* [rotor->ntierod] */
     struct chain *bars;          /* [2 * rotor->nbars]: left and right half */
     int *spring_node, *disk_node; /* [nspring], [ndisk] */
-    int *sensor_node;            /* [nsensor], increasing */
+    int *sensor_node;            /* [nsensor], not decreasing */
     int end_node;
 };
 

@@ -18,8 +18,7 @@ int section_equivalent(double area, double inertia, struct section *section);
 
 /* Takes `number` >= 3 evenly spaced holes of diameter d on the pitch radius e out of a round section: each hole has
  * I = pi d^4/64 + S e^2/2 on average over the angle, exactly so for 3 or more. Holes outside the stiffness diameter cost mass only.
- * The shear coefficient stays that of the section without holes: a section perforated near its rim has no equivalent annulus (its
- * squared inner diameter by (6) would be negative). ROTID_OK or ROTID_ERROR_SECTION where less than nothing would be left. */
+ * The shear coefficient stays that of the section without holes: the equivalent annulus of (6) would move it. ROTID_OK or ROTID_ERROR_SECTION where less than nothing would be left. */
 int section_perforate(int number, double d, double e, double stiff_outer, struct section *section);
 
 /* Area and second moment of `number` round rods of diameter d at pitch radius e: S = N pi d^2/4, own = N pi d^4/64,

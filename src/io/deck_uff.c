@@ -119,10 +119,15 @@ static int compare_shapes(const void *left, const void *right)
 /* Modes by rising frequency, without the second of each conjugate pair. */
 static int choose_modes(struct import *import, const struct uff_shape **chosen)
 {
-    int count = 0, kept = 0;
-    for (int k = 0; k < import->file.shape_count; k++)
-        if (is_mode(&import->file.shape[k]))
+    int count = 0, kept = 0, rigid = 0;
+    for (int k = 0; k < import->file.shape_count; k++) {
+        if (is_mode(&import->file.shape[k]) && import->file.shape[k].frequency_hz > 0)
             chosen[count++] = &import->file.shape[k];
+        else
+            rigid += is_mode(&import->file.shape[k]);
+    }
+    if (rigid)
+        deck_note(import->reader, in_file(import, 1), "%d modes at 0 Hz are left out: they do not bend", rigid);
     if (count)
         qsort(chosen, (size_t)count, sizeof *chosen, compare_shapes);
     for (int k = 0; k < count; k++)

@@ -36,13 +36,13 @@ static void say_skipped(struct uff_job *job)
     for (int i = 0; i < job->skip_count; ++i) {
         const struct uff_skip *skip = &job->skip[i];
         if (skip->count == 1)
-            message_add(lines->messages, SEVERITY_NOTE, lines->path, skip->line, 0, "%s skipped", skip->what);
+            message_add(lines->messages, SEVERITY_NOTE, lines->path, skip->line, 1, "%s skipped", skip->what);
         else
-            message_add(lines->messages, SEVERITY_NOTE, lines->path, skip->line, 0, "%s skipped, %d times from here on",
+            message_add(lines->messages, SEVERITY_NOTE, lines->path, skip->line, 1, "%s skipped, %d times from here on",
                         skip->what, skip->count);
     }
     if (job->skip_others)
-        message_add(lines->messages, SEVERITY_NOTE, lines->path, 0, 0, "%d sets of further types skipped", job->skip_others);
+        message_add(lines->messages, SEVERITY_NOTE, lines->path, 1, 1, "%d sets of further types skipped", job->skip_others);
 }
 
 /* Data of unknown sets may be -1 in a line of its own, so the end must look like the beginning did. */
@@ -182,7 +182,7 @@ int uff_read(struct pool *pool, const char *path, struct message_list *messages,
         if (status == ROTID_OK)
             status = keep_shapes(&job, out);
     } else {
-        message_add(messages, SEVERITY_ERROR, path, 0, 0, "cannot be opened: %s", strerror(errno));
+        message_add(messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s", strerror(errno));
     }
     pool_close(&job.scratch);
 

@@ -9,6 +9,7 @@ int uff_fail(struct uff_lines *lines, int column, const char *format, ...)
 {
     char text[512];
     va_list values;
+    column = column > 0 ? column : 1; /* the line as a whole */
     va_start(values, format);
     (void)vsnprintf(text, sizeof text, format, values);
     va_end(values);
@@ -30,7 +31,7 @@ const char *uff_excerpt(const char *text, size_t length, char buffer[UFF_EXCERPT
 
 static int fail_reading(struct uff_lines *lines)
 {
-    message_add(lines->messages, SEVERITY_ERROR, lines->path, lines->line, 0, "cannot be read: %s", strerror(errno));
+    message_add(lines->messages, SEVERITY_ERROR, lines->path, lines->line, 1, "cannot be read: %s", strerror(errno));
     return ROTID_ERROR_IO;
 }
 

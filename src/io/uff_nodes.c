@@ -70,7 +70,7 @@ int uff_read_nodes_15(struct uff_job *job)
         if (status != ROTID_OK)
             return status;
         if (field[1] != 0 && !warned) {
-            message_add(lines->messages, SEVERITY_WARNING, lines->path, lines->line, 0,
+            message_add(lines->messages, SEVERITY_WARNING, lines->path, lines->line, 1,
                         "set 15: node %d is given in coordinate system %d; its coordinates are taken as global and Cartesian",
                         field[0], field[1]);
             warned = 1;
@@ -122,7 +122,7 @@ static int check_repeated(struct uff_job *job, const struct uff_placed_node *fir
         wrong = "was elsewhere in an earlier set";
     if (!wrong)
         return ROTID_OK;
-    message_add(job->lines.messages, SEVERITY_ERROR, job->lines.path, again->line, 0, "set %d: node %d %s, line %d", again->set,
+    message_add(job->lines.messages, SEVERITY_ERROR, job->lines.path, again->line, 1, "set %d: node %d %s, line %d", again->set,
                 again->node.id, wrong, first->line);
     return ROTID_ERROR_SYNTAX;
 }

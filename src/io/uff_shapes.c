@@ -94,14 +94,11 @@ static int read_mode(struct uff_job *job, struct uff_shape *shape)
     } else if (shape->analysis_type == NORMAL_MODE && counts[1] >= 3) {
         shape->damping = real[2];
     }
-    const char *wrong = NULL;
     if (is_eigenvalue && real[1] == 0)
-        wrong = "the eigenvalue has no imaginary part: this mode does not oscillate";
-    else if (!(shape->frequency_hz > 0) || !isfinite(shape->frequency_hz))
-        wrong = "the frequency is not positive";
-    if (!wrong)
+        shape->frequency_hz = shape->damping = 0; /* it does not oscillate: as a rigid-body mode, which has zero here */
+    if (shape->frequency_hz >= 0 && isfinite(shape->frequency_hz))
         return ROTID_OK;
-    message_add(lines->messages, SEVERITY_ERROR, lines->path, line, 1, "set 55: record 8: %s", wrong);
+    message_add(lines->messages, SEVERITY_ERROR, lines->path, line, 1, "set 55: record 8: the frequency is negative or not finite, expected zero or more");
     return ROTID_ERROR_SYNTAX;
 }
 
@@ -147,8 +144,8 @@ static int refuse_repeated_nodes(struct uff_job *job)
             continue;
         const struct uff_placed_values *first = &job->values[labels->item[i - 1].order];
         const struct uff_placed_values *again = &job->values[labels->item[i].order];
-        message_add(job->lines.messages, SEVERITY_ERROR, job->lines.path, again->line, 0,
-                    "set 55: node %d occurs twice in the set, line %d", again->node, first->line);
+        message_add(job->lines.messages, SEVERITY_ERROR, job->lines.path, again->line, 1,
+                    "set 55: node %d occurs twice in the set, first in line %d, expected once", again->node, first->line);
         return ROTID_ERROR_SYNTAX;
     }
     return ROTID_OK;
@@ -200,7 +197,7 @@ int uff_read_shape(struct uff_job *job)
     if (status != ROTID_OK)
         return status;
     if (!shape.node_count)
-        message_add(job->lines.messages, SEVERITY_WARNING, job->lines.path, job->lines.line, 0,
+        message_add(job->lines.messages, SEVERITY_WARNING, job->lines.path, job->lines.line, 1,
                     "set 55: no nodes, which means that all values are zero");
     return keep_values(job, &shape);
 }

@@ -156,7 +156,7 @@ static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
         e->ritz[i] = random_normal(&stream);
     for (int j = 0; j < e->block; j++)
         e->value[j] = 0;
-    int watched = e->count < 3 ? e->count : 3, status = refactor(e, k, m);
+    int watched = e->block < 3 ? e->block : 3, status = refactor(e, k, m);
     if (!status)
         status = converge(e, k, m, watched, 1e-3);
     if (status)

@@ -30,6 +30,9 @@ static int choose_masters(struct pool *pool, struct client *client)
         client->master[count++] = 2 * i;
     client->model.nmaster = count;
     client->model.master = client->master;
+    for (int i = 1; i < count; i++) /* two sensors that fall on one node */
+        if (client->master[i] <= client->master[i - 1])
+            return ROTID_ERROR_ARGUMENT;
     return ROTID_OK;
 }
 
@@ -51,7 +54,7 @@ int client_open(struct pool *pool, const struct rotor *rotor, int nparameter, co
     status = choose_masters(pool, client);
     double *x = POOL_ARRAY(pool, double, nparameter);
     if (status || !x)
-        return ROTID_ERROR_MEMORY;
+        return status ? status : ROTID_ERROR_MEMORY;
     for (int p = 0; p < nparameter; p++)
         x[p] = *parameter_value(&client->beam.rotor, parameter[p]);
     return beam_count_rigid(pool, &client->beam, x, &client->model.nrigid);

@@ -1,0 +1,112 @@
+"""Every command on every deck of input/, and on decks that bring out nulls and flags: the JSON follows docs/schema, and every number is
+finite. Decks without *IDENTIFY end identify and sensitivity with exit code 2 and no output."""
+import json
+import math
+from pathlib import Path
+
+import jsonschema
+
+from support import INPUT, ROOT, Checks, numbers, parse, rotid, temporary_folder
+
+COMMANDS = ("check", "modes", "sensitivity", "identify")
+
+SHAFT = """*MATERIAL, NAME=steel
+*ELASTIC
+2.1e11, 0.3
+*DENSITY
+7850
+*SHAFT, NAME=left, MATERIAL=steel
+0.3, 0.05, 0, 6
+*SHAFT, NAME=core, MATERIAL=steel
+0.4, 0.1, 0.02, 8
+*SHAFT, NAME=right, MATERIAL=steel
+0.3, 0.05, 0, 6
+"""
+MODES = """*MODES
+1, 383
+2, 640
+3, 1690
+"""
+# name: deck, options, exit codes of check, modes, sensitivity, identify
+SMALL = {
+    "nothing measured": (SHAFT, (), (0, 0, 2, 2)),
+    "identified without data": (SHAFT + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 2)),
+    "one parameter, no noise": (SHAFT + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0)),
+    "at a bound": (SHAFT + MODES + "*IDENTIFY\ncore.E, 2.5e11, 1e12, 3e11\n", (), (0, 0, 0, 1)),
+    "no degree of freedom left": (SHAFT + MODES + "*FIT, FUNCTIONAL=HYBRID, MODES=1\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0)),
+    "not determined": (SHAFT + MODES + "*IDENTIFY\ncore.G, 1e9, 1e13, 8e10\ncore.nu, 0, 0.5, 0.3\nleft.nu, 0, 0.5, 0.3\n", (), (0, 0, 0, 1)),
+    "condensed, noise stated, mode held out": (
+        SHAFT + MODES + "*NOISE, FREQUENCY=0.01\n*FIT, FUNCTIONAL=HYBRID, REDUCTION=IRS, HOLDOUT=2\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n",
+        (), (0, 0, 0, 0)),
+    "few sensors": (
+        SHAFT + "*SENSORS\n1, start\n2, 0.5\n3, end\n" + MODES +
+        "*SHAPE, MODE=1\n1, 1\n2, -0.6\n3, 1\n*SHAPE, MODE=2\n1, 1\n3, -1\n*NOISE, FREQUENCY=0.01, SHAPE=0.05\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n",
+        (), (0, 0, 0, 0)),
+    "one sensor": (SHAFT + "*SENSORS\n1, start\n" + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0)),
+    "without the baseline": (SHAFT + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", ("--no-baseline",), (0, 0, 0, 0)),
+}
+
+
+def validate(checks, name, schema, text):
+    try:
+        value = parse(text)
+    except ValueError as error:
+        checks.true(name, False, error)
+        return
+    errors = [f"{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in schema.iter_errors(value)]
+    errors += [f"{n} is not finite" for n in numbers(value) if not math.isfinite(n)]
+    checks.true(name, not errors, "; ".join(errors[:3]))
+
+
+def main():
+    checks = Checks()
+    schemas = {}
+    for command in COMMANDS:
+        schema = json.loads((ROOT / "docs" / "schema" / f"{command}.schema.json").read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        schemas[command] = jsonschema.Draft202012Validator(schema)
+        loose = [k for k, v in walk(schema) if v.get("type") == "object" and "additionalProperties" not in v]
+        checks.true(f"schema of {command}: every object says what it may hold", not loose, loose)
+
+    for deck in sorted(INPUT.glob("*.inp")):
+        identifies = any(line.upper().startswith("*IDENTIFY") for line in deck.read_text().splitlines())
+        for command in COMMANDS:
+            needs = command in ("sensitivity", "identify") and not identifies
+            run(checks, f"{command} {deck.name}", schemas[command], command, deck, (), (2,) if needs else (0, 1) if command == "identify" else (0,))
+
+    with temporary_folder() as folder:
+        for name, (text, options, codes) in SMALL.items():
+            deck = Path(folder) / "deck.inp"
+            deck.write_text(text)
+            for command, code in zip(COMMANDS, codes):
+                run(checks, f"{command}, {name}", schemas[command], command, deck, options, (code,))
+        written = Path(folder) / "result.json"
+        code, out, _ = rotid("modes", INPUT / "solid_steel.inp", "--json", written, "--quiet")
+        validate(checks, "modes --json FILE", schemas["modes"], written.read_text())
+        checks.true("modes --json FILE --quiet prints nothing", code == 0 and not out, out[:80])
+        left = sorted(p.name for p in Path(folder).iterdir())
+        checks.true("no temporary file is left beside it", left == ["deck.inp", "result.json"], left)
+    checks.end()
+
+
+def run(checks, name, schema, command, deck, options, codes):
+    code, out, err = rotid(command, deck, "--json", "-", *options)
+    if code not in codes:
+        checks.true(name, False, f"exit code {code} for {codes}: {err.strip()[:200]}")
+    elif code == 2:
+        checks.true(f"{name} is refused", not out and err, f"{out[:80]!r} {err[:80]!r}")
+    else:
+        validate(checks, name, schema, out)
+
+
+def walk(schema, path=""):
+    """Every subschema with its path."""
+    yield path, schema
+    for name, value in schema.get("properties", {}).items():
+        yield from walk(value, f"{path}/{name}")
+    if isinstance(schema.get("items"), dict):
+        yield from walk(schema["items"], f"{path}[]")
+
+
+if __name__ == "__main__":
+    main()
