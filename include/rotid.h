@@ -72,10 +72,11 @@ typedef struct rotid_allocator {
     void *context;
 } rotid_allocator;
 
-/* What a host may hand to a long call. NULL anywhere: malloc, never cancelled. */
+/* What a host may hand to a long call. NULL anywhere: malloc, never cancelled, silent. */
 typedef struct rotid_environment {
     const rotid_allocator *allocator;
     int (*cancelled)(void *context); /* polled once per iteration; nonzero ends the call with ROTID_STOP_CANCELLED */
+    void (*progress)(void *context, const char *stage, int step); /* told of every iteration, of the baseline every evaluation */
     void *context;
 } rotid_environment;
 

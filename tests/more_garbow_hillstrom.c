@@ -3,7 +3,7 @@
 #include <math.h>
 
 #define RESIDUAL(name) static int name(void *user, int m, int n, const double *x, double *r, double *jacobian)
-#define J(i, j) jacobian[(i) + (j) * m]
+#define J(i, j)        jacobian[(i) + (j) * m]
 
 /* what an overflow looks like to a caller: no residual there */
 static int unusable(int count, const double *values)
@@ -109,7 +109,8 @@ RESIDUAL(bard)
 RESIDUAL(meyer)
 {
     (void)user;
-    static const double y[16] = {34780, 28610, 23650, 19630, 16370, 13720, 11540, 9744, 8261, 7030, 6005, 5147, 4427, 3820, 3307, 2872};
+    static const double y[16] = {34780, 28610, 23650, 19630, 16370, 13720, 11540, 9744,
+                                 8261,  7030,  6005,  5147,  4427,  3820,  3307,  2872};
     for (int i = 0; i < m; i++) {
         double below = 50 + 5 * i + x[2], e = exp(x[1] / below);
         if (r) {

@@ -1,14 +1,14 @@
-/* Test problems of J. J. More, B. S. Garbow, K. E. Hillstrom, Testing Unconstrained Optimization Software, ACM TOMS 7 (1981) 17-41,
- * from their printed definitions; the number in a comment is the problem's number there. */
-/* Starts. MINPACK's lmder (scipy 1.17.1) reaches the minimum from all that are set but Kowalik-Osborne x10, and from one that is not:
- * Meyer x100, where rotid_lm has gone astray along the valley after 3000 iterations. From the others both end at another minimum or at
- * infinity. */
+/* Test problems of J. J. More, B. S. Garbow, K. E. Hillstrom, Testing Unconstrained Optimization Software, ACM TOMS 7 (1981)
+ * 17-41, from their printed definitions; the number in a comment is the problem's number there. */
+/* Starts. MINPACK's lmder (scipy 1.17.1) reaches the minimum from all that are set but Kowalik-Osborne x10, and from one that is
+ * not: Meyer x100, where rotid_lm has gone astray along the valley after 3000 iterations. From the others both end at another
+ * minimum or at infinity. */
 #ifndef ROTID_TESTS_MORE_GARBOW_HILLSTROM_H
 #define ROTID_TESTS_MORE_GARBOW_HILLSTROM_H
 
 #include "rotid.h"
 
-#define MGH_MOST_RESIDUALS 65
+#define MGH_MOST_RESIDUALS  65
 #define MGH_MOST_PARAMETERS 11
 
 struct mgh_problem {

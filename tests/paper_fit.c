@@ -39,7 +39,9 @@ static void predict_again(struct paper_fit *fit, int reduction, const double *x)
 {
     const rotid_model *model = &fit->client.model;
     if (!fit->predicts || fit->reduction != reduction)
-        assert_status(prediction_new(&fit->pool, model, reduction, ROTID_NELSON, model->nrigid + PAPER_MODES, 0, &fit->prediction), ROTID_OK);
+        assert_status(
+            prediction_new(&fit->pool, model, reduction, ROTID_NELSON, model->nrigid + PAPER_MODES, 0, &fit->prediction),
+            ROTID_OK);
     fit->predicts = 1;
     fit->reduction = reduction;
     assert_status(prediction_compute(&fit->prediction, x), ROTID_OK);
@@ -105,7 +107,8 @@ double paper_objective(struct paper_fit *fit, const double *x)
     double sum = 0;
     predict_again(fit, fit->options.reduction, x);
     for (int k = 0; k < fit->measured.nmode; k++) {
-        double f = sqrt(fit->prediction.lambda[fit->client.model.nrigid + fit->number[k] - 1]) / two_pi, ratio = f / fit->frequency_hz[k];
+        double f = sqrt(fit->prediction.lambda[fit->client.model.nrigid + fit->number[k] - 1]) / two_pi,
+               ratio = f / fit->frequency_hz[k];
         double r = fit->options.functional == ROTID_HYBRID     ? 1 - ratio * ratio
                    : fit->options.functional == ROTID_HYBRID_F ? 1 - ratio
                                                                : (ratio - 1) / fit->frequency_std[k];

@@ -36,14 +36,15 @@ void paper_fit_close(struct paper_fit *fit);
 /* Frequencies [Hz] and, unless NULL, shapes [sensors * modes] with a largest component of 1 at x. */
 void paper_predict(struct paper_fit *fit, int reduction, const double *x, double *frequency_hz, double *shape);
 
-/* Takes the prediction of the full model at x as what was measured: with standard deviations, or frequencies alone where they are 0. */
+/* Takes the prediction of the full model at x as what was measured: with standard deviations, or frequencies alone where they are
+ * 0. */
 void paper_synthesise(struct paper_fit *fit, const double *x, double frequency_std, double shape_std);
 
 /* Runs it; the status must be ROTID_OK. */
 rotid_fit_result *paper_run(struct paper_fit *fit);
 
-/* The objective at x from its definition, and its gradient with respect to x_p/start_p by five-point differences: shares the prediction
- * with the fit, but neither the residuals nor any derivative. */
+/* The objective at x from its definition, and its gradient with respect to x_p/start_p by five-point differences: shares the
+ * prediction with the fit, but neither the residuals nor any derivative. */
 double paper_objective(struct paper_fit *fit, const double *x);
 double paper_gradient(struct paper_fit *fit, const double *x, double *gradient); /* its largest component; gradient may be NULL */
 

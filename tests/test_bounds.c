@@ -23,12 +23,14 @@ static void test_bijection_is_the_printed_formula(void **state)
     for (int k = 0; k < RANGES; k++) {
         rotid_parameter p = between(ranges[k][0], ranges[k][1]);
         for (double y = -200; y <= 200; y += 12.5)
-            assert_close(bounds_to_x(&p, chi, y), p.lower + (p.upper - p.lower) / (1 + exp(chi * y)), 4e-16, 4e-16 * (p.upper - p.lower));
+            assert_close(bounds_to_x(&p, chi, y), p.lower + (p.upper - p.lower) / (1 + exp(chi * y)), 4e-16,
+                         4e-16 * (p.upper - p.lower));
         assert_close(bounds_to_x(&p, chi, 0), p.lower + (p.upper - p.lower) / 2, 4e-16, 0);
     }
 }
 
-/* (31): alpha for y towards plus infinity, beta towards minus infinity; what saturates must be the bound itself, and never beyond it */
+/* (31): alpha for y towards plus infinity, beta towards minus infinity; what saturates must be the bound itself, and never beyond
+ * it */
 static void test_far_saturation_is_the_bound_without_overflow(void **state)
 {
     static const double far[] = {1e5, 1e150, DBL_MAX, INFINITY};
@@ -64,7 +66,8 @@ static void test_inverse_gives_back_what_went_in(void **state)
         }
         for (int i = 1; i < 100; i++) {
             double x = p.lower + i / 100.0 * (p.upper - p.lower);
-            assert_close(bounds_to_x(&p, chi, bounds_to_y(&p, chi, x)), x, 0, 1e-14 * (p.upper - p.lower) + 4 * DBL_EPSILON * largest);
+            assert_close(bounds_to_x(&p, chi, bounds_to_y(&p, chi, x)), x, 0,
+                         1e-14 * (p.upper - p.lower) + 4 * DBL_EPSILON * largest);
         }
     }
 }
@@ -119,10 +122,9 @@ static void test_student_quantiles_agree_with_the_tables(void **state)
     static const struct {
         int dof;
         double t;
-    } table[] = {{1, 12.706204736174694},  {2, 4.302652729749462},    {3, 3.1824463052837078},
-                 {4, 2.7764451051977934},  {5, 2.5705818356363146},   {10, 2.228138851986274},
-                 {30, 2.0422724563012378}, {100, 1.9839715185235518}, {406, 1.9658241784477395},
-                 {1000, 1.9623390808264083}, {100000, 1.9599877075346095}};
+    } table[] = {{1, 12.706204736174694},   {2, 4.302652729749462},     {3, 3.1824463052837078},     {4, 2.7764451051977934},
+                 {5, 2.5705818356363146},   {10, 2.228138851986274},    {30, 2.0422724563012378},    {100, 1.9839715185235518},
+                 {406, 1.9658241784477395}, {1000, 1.9623390808264083}, {100000, 1.9599877075346095}};
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof *table; k++)
         assert_close(quantile_student_95(table[k].dof), table[k].t, 1e-10, 0);
@@ -138,15 +140,9 @@ static void test_chi_square_tails_agree_with_the_tables(void **state)
         double x;
         int dof;
         double tail;
-    } table[] = {{3.841458820694124, 1, 0.05},
-                 {18.307038053275146, 10, 0.05},
-                 {406, 406, 0.49066632775011815},
-                 {300, 406, 0.9999774970229296},
-                 {500, 406, 0.0009780533342488447},
-                 {1000, 406, 5.794843480901828e-52},
-                 {1e-3, 1, 0.9747728793699604},
-                 {40, 3, 1.065509033425585e-08},
-                 {1400, 3, 2.945619361016289e-303}};
+    } table[] = {{3.841458820694124, 1, 0.05},   {18.307038053275146, 10, 0.05},    {406, 406, 0.49066632775011815},
+                 {300, 406, 0.9999774970229296}, {500, 406, 0.0009780533342488447}, {1000, 406, 5.794843480901828e-52},
+                 {1e-3, 1, 0.9747728793699604},  {40, 3, 1.065509033425585e-08},    {1400, 3, 2.945619361016289e-303}};
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof *table; k++)
         assert_close(chi_square_tail(table[k].x, table[k].dof), table[k].tail, 1e-11, 0);

@@ -38,9 +38,15 @@ static void compute(struct sample *s)
     double work[2000];
     struct covariance_input in = {M, s->n, s->jacobian, s->r, s->known ? s->noise : NULL, s->nscale, s->x, s->fixed};
     assert_true(covariance_workspace(M, N) <= sizeof work / sizeof *work);
-    s->result = (rotid_fit_result){.std = s->std, .ci_lower = s->ci_lower, .ci_upper = s->ci_upper, .covariance = s->covariance,
-                                   .correlation = s->correlation, .singular_value = s->singular_value, .direction = s->direction,
-                                   .identifiable = s->identifiable, .direction_undetermined = s->undetermined};
+    s->result = (rotid_fit_result){.std = s->std,
+                                   .ci_lower = s->ci_lower,
+                                   .ci_upper = s->ci_upper,
+                                   .covariance = s->covariance,
+                                   .correlation = s->correlation,
+                                   .singular_value = s->singular_value,
+                                   .direction = s->direction,
+                                   .identifiable = s->identifiable,
+                                   .direction_undetermined = s->undetermined};
     for (int i = 0; i < M; i++)
         s->result.objective += s->r[i] * s->r[i] / 2;
     assert_status(covariance_compute(&in, &s->result, work), ROTID_OK);

@@ -2,7 +2,6 @@
  * and random rotors. What can hang on a shaft is in test_exact_ties.c. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "base/random.h"
 #include "exact.h"
@@ -271,7 +270,7 @@ static void paper_rotor_has_the_exact_shapes(void **state)
 /* ---- random rotors ---- */
 
 #define RANDOM_ROTORS 20
-#define RANDOM_ELEMENTS 40 /* in every segment */
+#define RANDOM_ELEMENTS 40 /* in every segment; two Richardson meshes are then within 4e-7 of the truth */
 
 struct random_rotor {
     struct rotor rotor; /* points into this struct */
@@ -341,7 +340,7 @@ static void attach(struct random_stream *stream, int index, struct random_rotor 
     double a = random_position(stream, rotor), b = random_position(stream, rotor);
     struct material material = random_material(stream);
     material.isotropic = 1; /* of the oracle's builders */
-    rotor->ntierod = fabs(a - b) > 0.2;
+    rotor->ntierod = fabs(a - b) > 0.1;
     r->rod = (struct tierod){.name = "rods", .material = material, .from = fmin(a, b), .to = fmax(a, b),
                              .model = index % 2 ? BUNDLE_RODS : BUNDLE_TUBE, .self_equilibrated = index / 2 % 2,
                              .number = 3 + below(stream, 12), .elements = 1, .diameter = between(stream, 0.01, 0.035),
@@ -374,6 +373,7 @@ static void random_rotors_converge_to_the_truth(void **state)
 {
     (void)state;
     struct random_stream stream = {20170521};
+    int bundles[2] = {0, 0};
     for (int index = 0; index < RANDOM_ROTORS; index++) {
         struct random_rotor r;
         struct exact exact;
@@ -384,9 +384,10 @@ static void random_rotors_converge_to_the_truth(void **state)
         exact_hz(&exact, 3, EXACT_MODES, truth);
         limit_hz(&r.rotor, 1, 2, EXACT_MODES, limit);
         snprintf(name, sizeof name, "random rotor %d", index);
-        if(getenv("SHOW")){double m[6];mesh_hz(&r.rotor,1,2,6,m);printf("%d seg %d disk %d spr %d tie %d holes %d: %.2f..%.2f Hz mesh %.2e rich %.2e\n",index,r.rotor.nsegment,r.rotor.ndisk,r.rotor.nspring,r.rotor.ntierod,r.group[1].holes,truth[0],truth[5],worst_ratio(6,m,truth),worst_ratio(6,limit,truth));}
-        assert_hz_at(EXACT_MODES, limit, truth, 1e-4, name, __FILE__, __LINE__);
+        assert_hz_at(EXACT_MODES, limit, truth, 1e-6, name, __FILE__, __LINE__);
+        bundles[r.rod.model] += r.rotor.ntierod;
     }
+    assert_true(bundles[BUNDLE_RODS] >= 5 && bundles[BUNDLE_TUBE] >= 5); /* a seed that draws no rods would show little */
 }
 
 int main(void)

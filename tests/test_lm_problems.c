@@ -1,5 +1,5 @@
-/* Levenberg-Marquardt on the least-squares problems of More, Garbow and Hillstrom: what is found is judged by the printed minima and by
- * objective and gradient recomputed at the point that came back, not by the status. */
+/* Levenberg-Marquardt on the least-squares problems of More, Garbow and Hillstrom: what is found is judged by the printed minima
+ * and by objective and gradient recomputed at the point that came back, not by the status. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -41,7 +41,8 @@ static int solve(const struct mgh_problem *problem, double factor, struct outcom
     assert_true(rotid_lm_workspace(problem->m, problem->n) <= sizeof work / sizeof *work);
     for (int j = 0; j < problem->n; j++)
         out->x[j] = factor * problem->start[j];
-    int status = rotid_lm(problem->m, problem->n, problem->residual, NULL, &options, out->x, out->r, out->jacobian, work, &out->result);
+    int status =
+        rotid_lm(problem->m, problem->n, problem->residual, NULL, &options, out->x, out->r, out->jacobian, work, &out->result);
     recompute(problem, out->x, &out->objective, &out->cosine);
     return status;
 }
@@ -89,9 +90,9 @@ static void test_printed_minima_are_reached_from_near_and_far(void **state)
             /* the minima are printed with six digits; a zero one is reached in the square of rounding */
             int reached = known > 0 ? fabs(sum / known - 1) < 5e-6 : sum < 1e-20;
             failures += !reached;
-            print_message("%-18s x%-4g %-21s sum of squares %.6g (%.6g) cosine %.1e evaluations %d jacobians %d%s\n", problem->name,
-                          factors[f], rotid_status_name(status), sum, known, out.cosine, out.result.evaluations, out.result.jacobians,
-                          reached ? "" : " NOT REACHED");
+            print_message("%-18s x%-4g %-21s sum of squares %.6g (%.6g) cosine %.1e evaluations %d jacobians %d%s\n",
+                          problem->name, factors[f], rotid_status_name(status), sum, known, out.cosine, out.result.evaluations,
+                          out.result.jacobians, reached ? "" : " NOT REACHED");
         }
     assert_int_equal(failures, 0);
 }
@@ -112,8 +113,8 @@ static void test_what_comes_back_belongs_to_the_point_that_comes_back(void **sta
     }
 }
 
-/* Gauss-Newton steps of a large residual overshoot, and the objective is flat to rounding where x is still off by 1e-4: a stop there is
- * a stop too early. Zero residuals have no cosine worth the name. */
+/* Gauss-Newton steps of a large residual overshoot, and the objective is flat to rounding where x is still off by 1e-4: a stop
+ * there is a stop too early. Zero residuals have no cosine worth the name. */
 static void test_gradient_vanishes_at_the_minimum_of_a_large_residual(void **state)
 {
     (void)state;
@@ -127,13 +128,17 @@ static void test_gradient_vanishes_at_the_minimum_of_a_large_residual(void **sta
         }
 }
 
-/* Rosenbrock (1, 1), helical valley (1, 0, 0), Powell (0, 0, 0, 0); Box also vanishes at (10, 1, -1) and where x1 = x2, x3 = 0. */
+/* Rosenbrock (1, 1), helical valley (1, 0, 0), Powell (0, 0, 0, 0); Box also vanishes at (10, 1, -1) and where x1 = x2, x3 = 0.
+ */
 static void test_zero_residuals_are_found_where_they_are(void **state)
 {
     static const struct {
         const char *name;
         double x[4], digits; /* Powell's Jacobian is singular there: x is the square root of the residual */
-    } known[] = {{"Rosenbrock", {1, 1}, 1e-10}, {"helical valley", {1, 0, 0}, 1e-10}, {"Box 3D", {1, 10, 1}, 1e-10}, {"Powell singular", {0}, 1e-5}};
+    } known[] = {{"Rosenbrock", {1, 1}, 1e-10},
+                 {"helical valley", {1, 0, 0}, 1e-10},
+                 {"Box 3D", {1, 10, 1}, 1e-10},
+                 {"Powell singular", {0}, 1e-5}};
     (void)state;
     for (int k = 0; k < mgh_count; k++)
         for (size_t z = 0; z < sizeof known / sizeof *known; z++) {
@@ -187,7 +192,8 @@ static void test_path_does_not_depend_on_the_units_of_x(void **state)
             plain.x[j] = problem.start[j];
             other.x[j] = ldexp(problem.start[j], 13 - 10 * j);
         }
-        (void)rotid_lm(problem.m, problem.n, problem.residual, NULL, &options, plain.x, plain.r, plain.jacobian, work, &plain.result);
+        (void)rotid_lm(problem.m, problem.n, problem.residual, NULL, &options, plain.x, plain.r, plain.jacobian, work,
+                       &plain.result);
         (void)rotid_lm(problem.m, problem.n, rescaled, &problem, &options, other.x, other.r, other.jacobian, work, &other.result);
         assert_int_equal(plain.result.evaluations, other.result.evaluations);
         for (int j = 0; j < problem.n; j++)
@@ -195,8 +201,8 @@ static void test_path_does_not_depend_on_the_units_of_x(void **state)
     }
 }
 
-/* sum exp(x t) against exp(t) (1 + 0.01 sin): J shrinks by exp(19 t) on the way from 20 to 1. What vanishes must be the gradient where x
- * stands, not beside the Jacobian of the start. The minimum is the root of J'r, found by bisection. */
+/* sum exp(x t) against exp(t) (1 + 0.01 sin): J shrinks by exp(19 t) on the way from 20 to 1. What vanishes must be the gradient
+ * where x stands, not beside the Jacobian of the start. The minimum is the root of J'r, found by bisection. */
 static int growth(void *user, int m, int n, const double *x, double *r, double *j)
 {
     (void)user, (void)n;
@@ -251,7 +257,8 @@ static int noisy_residual(void *user, int m, int n, const double *x, double *r, 
     return status;
 }
 
-/* Noise of 1e-10 of the residual, as the rotor has with eigenvalues good to 1e-11: f then tells x to 1e-5 only, the gradient to 1e-9. */
+/* Noise of 1e-10 of the residual, as the rotor has with eigenvalues good to 1e-11: f then tells x to 1e-5 only, the gradient to
+ * 1e-9. */
 static void test_noise_in_the_residual_neither_spoils_the_gradient_nor_burns_evaluations(void **state)
 {
     (void)state;
@@ -263,7 +270,8 @@ static void test_noise_in_the_residual_neither_spoils_the_gradient_nor_burns_eva
             continue; /* these two need more than 100 steps without noise */
         (void)solve(problem, 1, &clean);
         memcpy(out.x, problem->start, sizeof out.x);
-        int status = rotid_lm(problem->m, problem->n, noisy_residual, &noisy, NULL, out.x, out.r, out.jacobian, work, &out.result);
+        int status =
+            rotid_lm(problem->m, problem->n, noisy_residual, &noisy, NULL, out.x, out.r, out.jacobian, work, &out.result);
         recompute(problem, out.x, &out.objective, &out.cosine);
         print_message("%-18s with noise %.1e: %-21s cosine %.1e evaluations %d, without %d\n", problem->name, noisy.noise,
                       rotid_status_name(status), out.cosine, out.result.evaluations, clean.result.evaluations);

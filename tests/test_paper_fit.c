@@ -25,9 +25,9 @@ static void test_moduli_errors_and_objective_are_those_of_a_second_solver(void *
         assert_close(result->residual[k], 1 - ratio * ratio, 0, 1e-12);
         assert_true(isnan(result->mac[k])); /* no shapes are given */
     }
-    print_message("E %.10e G %.10e objective %.13g gradient %.1e iterations %d evaluations %d jacobians %d in %.1f ms\n", result->x[0],
-                  result->x[1], result->objective, result->gradient, result->iterations, result->evaluations, result->jacobians,
-                  1e3 * result->seconds);
+    print_message("E %.10e G %.10e objective %.13g gradient %.1e iterations %d evaluations %d jacobians %d in %.1f ms\n",
+                  result->x[0], result->x[1], result->objective, result->gradient, result->iterations, result->evaluations,
+                  result->jacobians, 1e3 * result->seconds);
     assert_true(result->iterations <= 13 && result->evaluations <= 14);
     assert_true(result->gradient <= 1e-9);
     rotid_fit_free(result);
@@ -153,13 +153,14 @@ static void test_nlopt_agrees_and_needs_more_evaluations(void **state)
             paper_fit_open(&fit, BUNDLE_TUBE);
             fit.options = (rotid_fit_options){.functional = functional, .reduction = reduction, .baseline = 1};
             for (int k = 0; k < PAPER_MODES; k++)
-                fit.frequency_std[k] = 1e-3;
+                fit.frequency_std[k] =
+                    1e-4; /* makes f large: a solver must not take the size of its gradient for a reason to stop */
             fit.measured.frequency_std = functional == ROTID_LIKELIHOOD ? fit.frequency_std : NULL;
             rotid_fit_result *result = paper_run(&fit);
             assert_true(result->converged);
             assert_int_equal(result->nbaseline, baseline_count(2));
-            print_message("functional %d reduction %d  LM           objective %.12g gradient %.1e evaluations %4d %7.1f ms\n", functional,
-                          reduction, result->objective, result->gradient, result->evaluations, 1e3 * result->seconds);
+            print_message("functional %d reduction %d  LM           objective %.12g gradient %.1e evaluations %4d %7.1f ms\n",
+                          functional, reduction, result->objective, result->gradient, result->evaluations, 1e3 * result->seconds);
             for (int b = 0; b < result->nbaseline; b++) {
                 const rotid_baseline *other = &result->baseline[b];
                 print_message("%26s %-12s objective %.12g gradient %.1e evaluations %4d %7.1f ms %s\n", "", other->algorithm,

@@ -599,7 +599,7 @@ static void repeated_nodes(void **state)
     check_refused(SHAPE_SET KIND_NORMAL_1 MODE_4 RECORD_8 "5\n1.0\n3\n1.0\n5\n2.0\n" END, 15,
                   "set 55: node 5 occurs twice in the set, first in line 11");
     check_refused(NODE_SET "4 0 0 8 1. 2. 3.\n7 0 0 8 1. 2. 3.\n4 0 0 8 1. 2. 3.\n" END, 5,
-                  "node 4 occurs twice in the set, first in line 3");
+                  "node 4 occurs twice in the set, line 3");
     check_refused(NODE_SET "4 0 0 8 1. 2. 3.\n" END "    -1\n  2411\n4 0 0 8\n1. 2. 3.1\n" END, 7,
                   "set 2411: node 4 was elsewhere in an earlier set, line 3");
     struct reading r;

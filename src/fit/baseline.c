@@ -29,9 +29,11 @@ int baseline_run(struct pool *keep, struct functional *functional, const rotid_p
 
 static const struct {
     nlopt_algorithm algorithm;
-    const char *name;
+    const char *name, *stage;
     int least; /* parameters */
-} table[] = {{NLOPT_LN_BOBYQA, "LN_BOBYQA", 2}, {NLOPT_LN_SBPLX, "LN_SBPLX", 1}, {NLOPT_LD_SLSQP, "LD_SLSQP", 1}};
+} table[] = {{NLOPT_LN_BOBYQA, "LN_BOBYQA", "NLopt LN_BOBYQA, evaluation", 2},
+             {NLOPT_LN_SBPLX, "LN_SBPLX", "NLopt LN_SBPLX, evaluation", 1},
+             {NLOPT_LD_SLSQP, "LD_SLSQP", "NLopt LD_SLSQP, evaluation", 1}};
 
 #define ALGORITHMS ((int)(sizeof table / sizeof *table))
 
@@ -48,6 +50,7 @@ struct problem {
     const rotid_parameter *parameter;
     const rotid_environment *environment;
     nlopt_opt optimiser;
+    const char *stage; /* for progress */
     double *x, *r, *jacobian;
     int evaluations, cancelled;
 };
@@ -62,6 +65,8 @@ static double objective(unsigned n, const double *scaled, double *gradient, void
         (void)nlopt_force_stop(problem->optimiser);
     }
     problem->evaluations++;
+    if (environment && environment->progress)
+        environment->progress(environment->context, problem->stage, problem->evaluations);
     for (unsigned p = 0; p < n; p++)
         problem->x[p] = scaled[p] * fabs(problem->parameter[p].start);
     int status = functional_residual(f, problem->x, problem->r);
@@ -102,6 +107,7 @@ static int run_one(int a, int n, struct problem *problem, double *bounds, rotid_
         out->x[p] = problem->parameter[p].start / unit;
     }
     problem->optimiser = optimiser;
+    problem->stage = table[a].stage;
     problem->evaluations = 0;
     (void)nlopt_set_lower_bounds(optimiser, lower);
     (void)nlopt_set_upper_bounds(optimiser, upper);

@@ -76,6 +76,8 @@ static int trace(void *user, const rotid_lm_iteration *now)
     result->history[row] = (rotid_fit_iteration){now->iteration, now->objective, gradient, now->mu, now->gain_ratio, sqrt(step)};
     result->nhistory++;
     const rotid_environment *environment = fit->environment;
+    if (environment && environment->progress)
+        environment->progress(environment->context, "Levenberg-Marquardt, iteration", now->iteration);
     return environment && environment->cancelled && environment->cancelled(environment->context);
 }
 

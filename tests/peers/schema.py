@@ -2,6 +2,7 @@
 finite. Decks without *IDENTIFY end identify and sensitivity with exit code 2 and no output."""
 import json
 import math
+import re
 from pathlib import Path
 
 import jsonschema
@@ -52,10 +53,11 @@ def validate(checks, name, schema, text):
         value = parse(text)
     except ValueError as error:
         checks.true(name, False, error)
-        return
+        return None
     errors = [f"{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in schema.iter_errors(value)]
     errors += [f"{n} is not finite" for n in numbers(value) if not math.isfinite(n)]
     checks.true(name, not errors, "; ".join(errors[:3]))
+    return value
 
 
 def main():
@@ -68,6 +70,8 @@ def main():
         loose = [k for k, v in walk(schema) if v.get("type") == "object" and "additionalProperties" not in v]
         checks.true(f"schema of {command}: every object says what it may hold", not loose, loose)
 
+    stops = set(re.findall(r'X\(ROTID_STOP_\w+, \d+, "([^"]+)"\)', (ROOT / "include" / "rotid.h").read_text()))
+    reasons = set()
     for deck in sorted(INPUT.glob("*.inp")):
         identifies = any(line.upper().startswith("*IDENTIFY") for line in deck.read_text().splitlines())
         for command in COMMANDS:
@@ -79,7 +83,9 @@ def main():
             deck = Path(folder) / "deck.inp"
             deck.write_text(text)
             for command, code in zip(COMMANDS, codes):
-                run(checks, f"{command}, {name}", schemas[command], command, deck, options, (code,))
+                out = run(checks, f"{command}, {name}", schemas[command], command, deck, options, (code,))
+                reasons |= {out["stop_reason"]} if out and command == "identify" else set()
+        checks.true("stop_reason is the text of a status", reasons and reasons <= stops, reasons - stops)
         written = Path(folder) / "result.json"
         code, out, _ = rotid("modes", INPUT / "solid_steel.inp", "--json", written, "--quiet")
         validate(checks, "modes --json FILE", schemas["modes"], written.read_text())
@@ -90,13 +96,15 @@ def main():
 
 
 def run(checks, name, schema, command, deck, options, codes):
+    """The result, or None where the program is to refuse."""
     code, out, err = rotid(command, deck, "--json", "-", *options)
     if code not in codes:
         checks.true(name, False, f"exit code {code} for {codes}: {err.strip()[:200]}")
     elif code == 2:
         checks.true(f"{name} is refused", not out and err, f"{out[:80]!r} {err[:80]!r}")
     else:
-        validate(checks, name, schema, out)
+        return validate(checks, name, schema, out)
+    return None
 
 
 def walk(schema, path=""):

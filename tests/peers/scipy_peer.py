@@ -1,8 +1,9 @@
 """The same fits in NumPy and SciPy. The paper's rotor by tools/bench/scipy_fit.py, which shares no code with rotid; the solid rotor, with
 shapes and noise, by a chain of the same elements built here."""
 import sys
+from pathlib import Path
 
-from support import INPUT, ROOT, Checks, result
+from support import INPUT, ROOT, Checks, result, temporary_folder
 
 sys.path.insert(0, str(ROOT / "tools" / "bench"))
 import numpy as np
@@ -65,11 +66,28 @@ def paper_rotor(checks):
         variance = 2 * peer["objective"] / (target.size - 2)
         compare_intervals(checks, name, report, variance * np.linalg.inv(jacobian.T @ jacobian), student.ppf(0.975, target.size - 2))
 
+    noise = np.array([0.08, 0.20, 0.10, 0.12, 0.09, 0.15])  # unequal, and above the misfit: no widening, the sandwich at work
+    with temporary_folder() as folder:
+        noisy = Path(folder) / "noisy.inp"
+        lines = deck.read_text().splitlines()
+        first = lines.index("*MODES") + 1
+        for mode, relative in enumerate(noise):
+            lines[first + mode] += f", {relative * scipy_fit.MEASURED_HZ[mode]:.12g}"
+        noisy.write_text("\n".join(lines) + "\n")
+        report = result("identify", noisy, "--no-baseline", expected=(0, 1))
+    model = scipy_fit.Guyan(scipy_fit.Rotor())
+    peer = scipy_fit.fit(model)
+    jacobian = relative_change(lambda y: 1 - model.eigenvalues(*y) / target, [peer["e"], peer["g"]])
+    inverse = np.linalg.inv(jacobian.T @ jacobian)
+    sandwich = inverse @ jacobian.T @ np.diag((2 * noise) ** 2) @ jacobian @ inverse
+    residual = 1 - (np.array(peer["frequency_hz"]) / scipy_fit.MEASURED_HZ) ** 2
+    checks.close("paper rotor, stated noise: chi2", [report["chi2"], report["intervals_widened_by"]], [((residual / (2 * noise)) ** 2).sum(), 1], 1e-6)
+    compare_intervals(checks, "paper rotor, stated noise", report, sandwich, 1.959963984540054)
+
     report = result("identify", deck)
     for other in report["baseline"]:
         checks.close(f"paper rotor, NLopt {other['algorithm']}: objective", [other["objective"]], [report["objective"]], 1e-8)
 
-    model = scipy_fit.Guyan(scipy_fit.Rotor())
     at = np.array([8e10, 3e10, 1 / 3])
     report = result("sensitivity", deck, "--at", "core.E=8e10,core.G=3e10,core.nu=0.3333333333333333")
     reference = model.eigenvalues(*at)
