@@ -38,10 +38,9 @@ void paper_fit_close(struct paper_fit *fit)
 static void predict_again(struct paper_fit *fit, int reduction, const double *x)
 {
     const rotid_model *model = &fit->client.model;
+    int count = model->nrigid + PAPER_MODES;
     if (!fit->predicts || fit->reduction != reduction)
-        assert_status(
-            prediction_new(&fit->pool, model, reduction, ROTID_NELSON, model->nrigid + PAPER_MODES, 0, &fit->prediction),
-            ROTID_OK);
+        assert_status(prediction_new(&fit->pool, model, reduction, ROTID_NELSON, count, 0, &fit->prediction), ROTID_OK);
     fit->predicts = 1;
     fit->reduction = reduction;
     assert_status(prediction_compute(&fit->prediction, x), ROTID_OK);

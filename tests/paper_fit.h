@@ -36,8 +36,7 @@ void paper_fit_close(struct paper_fit *fit);
 /* Frequencies [Hz] and, unless NULL, shapes [sensors * modes] with a largest component of 1 at x. */
 void paper_predict(struct paper_fit *fit, int reduction, const double *x, double *frequency_hz, double *shape);
 
-/* Takes the prediction of the full model at x as what was measured: with standard deviations, or frequencies alone where they are
- * 0. */
+/* Takes the prediction of the full model at x as what was measured; a standard deviation of 0: not known, or no shapes at all. */
 void paper_synthesise(struct paper_fit *fit, const double *x, double frequency_std, double shape_std);
 
 /* Runs it; the status must be ROTID_OK. */

@@ -29,8 +29,7 @@ static void test_bijection_is_the_printed_formula(void **state)
     }
 }
 
-/* (31): alpha for y towards plus infinity, beta towards minus infinity; what saturates must be the bound itself, and never beyond
- * it */
+/* (31): alpha for y towards plus infinity, beta towards minus infinity; saturated, it is the bound itself */
 static void test_far_saturation_is_the_bound_without_overflow(void **state)
 {
     static const double far[] = {1e5, 1e150, DBL_MAX, INFINITY};

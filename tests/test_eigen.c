@@ -259,6 +259,35 @@ static void a_warm_start_gives_what_a_cold_one_gives(void **state)
     }
 }
 
+/* The lowest modes move from one of two uncoupled chains to the other, of which the old vectors contain nothing. */
+static void modes_that_a_warm_start_cannot_see_are_found(void **state)
+{
+    enum { each = 60, n = 2 * each, count = 4 };
+    const double stiffness[4] = {100, 1e-4, 1e4, 0.5}; /* of the second chain */
+    struct eigen_band e;
+    rotid_matrix k, m;
+    double lambda[count], *phi = numbers(*state, n * count);
+    for (int step = 0; step < 4; step++) {
+        assert_status(matrix_new(*state, n, 1, 0, NULL, &k), ROTID_OK);
+        assert_status(matrix_new(*state, n, 1, 0, NULL, &m), ROTID_OK);
+        add_string(&k, &m, 0, each, 1);
+        add_string(&k, &m, each, each, 1);
+        for (int i = each; i < n; i++)
+            for (int d = 0; d < 2; d++)
+                k.band[d + 2 * i] *= stiffness[step];
+        if (!step)
+            assert_status(eigen_band_new(*state, &k, count, &e), ROTID_OK);
+        assert_status(eigen_band_solve(&e, &k, &m, lambda, phi), ROTID_OK);
+        check_pairs(*state, &k, &m, count, lambda, phi);
+        for (int j = 0, a = 0, b = 0; j < count; j++) {
+            double first = string_eigenvalue(each, 1, a), second = stiffness[step] * string_eigenvalue(each, 1, b);
+            assert_close(lambda[j], fmin(first, second), 1e-9, 0);
+            a += first <= second;
+            b += first > second;
+        }
+    }
+}
+
 static void one_pair_and_nearly_all_pairs_are_served(void **state)
 {
     const int counts[][2] = {{1, 1}, {2, 1}, {2, 2}, {3, 2}, {17, 1}, {17, 15}, {17, 16}, {17, 17}, {60, 57}, {60, 60}};
@@ -293,73 +322,6 @@ static void twenty_thousand_degrees_of_freedom_agree_with_closed_forms(void **st
         assert_close(lambda[j], pinned_beam_eigenvalue(20, j + 1), 1e-5, 0);
 }
 
-/* ---- what is not a beam */
-
-static int status_of(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count)
-{
-    struct eigen_band e;
-    double *lambda = numbers(pool, count), *phi = numbers(pool, (ptrdiff_t)k->n * count);
-    assert_status(eigen_band_new(pool, k, count, &e), ROTID_OK);
-    return eigen_band_solve(&e, k, m, lambda, phi);
-}
-
-static void a_mass_that_is_not_positive_definite_is_an_error(void **state)
-{
-    struct random_stream stream = {23};
-    const int n = 40;
-    for (int row = 0; row < n; row += 3) {
-        rotid_matrix k, m;
-        random_positive(*state, &stream, n, 3, 0, NULL, 1, &k);
-        random_positive(*state, &stream, n, 3, 0, NULL, 1, &m);
-        assert_status(status_of(*state, &k, &m, 4), ROTID_OK);
-        double *unit = numbers(*state, n), *diagonal = &m.band[4 * row];
-        unit[row] = 1;
-        double margin = 1 / dense_solution(*state, n, 1, dense_of(*state, &m), unit)[row];
-        *diagonal -= 1.5 * margin; /* indefinite, with every diagonal element still positive */
-        assert_status(status_of(*state, &k, &m, 4), ROTID_ERROR_MASS);
-        *diagonal = -1;
-        assert_status(status_of(*state, &k, &m, 4), ROTID_ERROR_MASS);
-    }
-}
-
-static void a_stiffness_that_is_indefinite_is_an_error(void **state)
-{
-    struct random_stream stream = {24};
-    const int n = 40;
-    for (int row = 0; row < n; row += 3)
-        for (int size = 0; size < 3; size++) {
-            rotid_matrix k, m;
-            random_positive(*state, &stream, n, 3, 0, NULL, 1, &k);
-            random_positive(*state, &stream, n, 3, 0, NULL, 1, &m);
-            double *unit = numbers(*state, n);
-            unit[row] = 1;
-            double margin = 1 / dense_solution(*state, n, 1, dense_of(*state, &k), unit)[row];
-            k.band[4 * row] -= margin * (size == 0 ? 1.001 : size == 1 ? 1.5 : 100);
-            assert_status(status_of(*state, &k, &m, 4), ROTID_ERROR_STIFFNESS);
-        }
-}
-
-/* Whether K is refused must not depend on what was solved before. */
-static void an_indefinite_stiffness_is_an_error_warm_as_well(void **state)
-{
-    struct random_stream stream = {25};
-    const int n = 40;
-    rotid_matrix k, m;
-    struct eigen_band e;
-    double lambda[4], *phi = numbers(*state, 4 * n), *unit = numbers(*state, n);
-    random_positive(*state, &stream, n, 3, 0, NULL, 1, &k);
-    random_positive(*state, &stream, n, 3, 0, NULL, 1, &m);
-    assert_status(eigen_band_new(*state, &k, 4, &e), ROTID_OK);
-    assert_status(eigen_band_solve(&e, &k, &m, lambda, phi), ROTID_OK);
-    unit[20] = 1;
-    double margin = 1 / dense_solution(*state, n, 1, dense_of(*state, &k), unit)[20];
-    k.band[4 * 20] -= 1.001 * margin;
-    assert_status(eigen_band_solve(&e, &k, &m, lambda, phi), ROTID_ERROR_STIFFNESS);
-    k.band[4 * 20] += 1.001 * margin;
-    assert_status(eigen_band_solve(&e, &k, &m, lambda, phi), ROTID_OK); /* and a failure leaves the solver usable */
-    check_pairs(*state, &k, &m, 4, lambda, phi);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -370,11 +332,9 @@ int main(void)
         WITH_POOL(any_number_of_rigid_motions_is_served),
         WITH_POOL(no_partner_of_a_repeated_eigenvalue_is_missed),
         WITH_POOL(a_warm_start_gives_what_a_cold_one_gives),
+        WITH_POOL(modes_that_a_warm_start_cannot_see_are_found),
         WITH_POOL(one_pair_and_nearly_all_pairs_are_served),
         WITH_POOL(twenty_thousand_degrees_of_freedom_agree_with_closed_forms),
-        WITH_POOL(a_mass_that_is_not_positive_definite_is_an_error),
-        WITH_POOL(a_stiffness_that_is_indefinite_is_an_error),
-        WITH_POOL(an_indefinite_stiffness_is_an_error_warm_as_well),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -213,8 +213,7 @@ static void test_likelihood_intervals_cover_the_truth(void **state)
     struct tally tally;
     open_two(&fit, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, 1e-3, 0.015);
     check_coverage("LIKELIHOOD", &fit, 0.015, 11, &tally);
-    /* 40 times 406 degrees of freedom: 1 +- 0.011, and less by what the noise adds to the largest component, by which a mode is
-     * divided */
+    /* 40 times 406 degrees of freedom: 1 +- 0.011, less what noise adds to the component by which a mode is divided */
     assert_close(tally.chi2_per_dof, 1, 0, 0.06);
     for (int p = 0; p < 2; p++) /* a mean of 40 squares of mean 1 and variance 2; intervals twice too wide would have 0.25 */
         assert_true(tally.square[p] > 0.45 && tally.square[p] < 1.9);
@@ -230,6 +229,7 @@ static void test_hybrid_intervals_cover_the_truth_with_known_and_unknown_noise(v
     check_coverage("HYBRID, noise stated", &fit, 0, 12, &tally);
     for (int p = 0; p < 2; p++)
         assert_true(tally.square[p] > 0.4 && tally.square[p] < 1.9);
+    assert_close(tally.chi2_per_dof, 1, 0, 0.4); /* 160 degrees of freedom: 1 +- 0.11 */
     fit.measured.frequency_std = NULL;
     check_coverage("HYBRID, noise from the residuals", &fit, 0, 13, &tally);
     paper_fit_close(&fit);

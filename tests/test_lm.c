@@ -122,8 +122,7 @@ static void test_parameter_without_influence_stays_where_it_is(void **state)
     assert_true(result.cosine < 1e-9);
 }
 
-/* x1 and x2 enter as their sum: from equal starts they stay equal, and the sum is found. No drift along what is not determined.
- */
+/* x1 and x2 enter as their sum: from equal starts they stay equal, without a drift along what is not determined. */
 static void test_equal_columns_share_the_step(void **state)
 {
     (void)state;

@@ -207,14 +207,16 @@ static void a_shape_decides_from_the_stated_threshold_on(void **state)
 static void the_stronger_of_two_claims_wins(void **state)
 {
     (void)state;
-    const double correlation[6] = {0.70, 0.95, 0.10, 0.05, 0.02, 0.01}; /* both are most like candidate 1 */
-    int number[2] = {2, 3}, used[3];
-    enum pairing_basis basis[2];
-    assert_int_equal(pair_modes(2, 3, correlation, number, basis, used), 0);
-    assert_int_equal(number[0], 2);
-    assert_int_equal(basis[0], PAIRED_BY_NUMBER);
-    assert_int_equal(number[1], 1);
-    assert_int_equal(basis[1], PAIRED_BY_SHAPE);
+    for (int strong = 0; strong < 2; strong++) { /* both are most like candidate 1 */
+        const double correlation[6] = {strong ? 0.70 : 0.95, strong ? 0.95 : 0.70, 0.10, 0.05, 0.02, 0.01};
+        int number[2] = {2, 3}, used[3];
+        enum pairing_basis basis[2];
+        assert_int_equal(pair_modes(2, 3, correlation, number, basis, used), 0);
+        assert_int_equal(number[strong], 1);
+        assert_int_equal(basis[strong], PAIRED_BY_SHAPE);
+        assert_int_equal(number[1 - strong], strong ? 2 : 3);
+        assert_int_equal(basis[1 - strong], PAIRED_BY_NUMBER);
+    }
 }
 
 static void a_number_that_is_taken_is_reported(void **state)

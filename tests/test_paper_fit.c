@@ -153,8 +153,7 @@ static void test_nlopt_agrees_and_needs_more_evaluations(void **state)
             paper_fit_open(&fit, BUNDLE_TUBE);
             fit.options = (rotid_fit_options){.functional = functional, .reduction = reduction, .baseline = 1};
             for (int k = 0; k < PAPER_MODES; k++)
-                fit.frequency_std[k] =
-                    1e-4; /* makes f large: a solver must not take the size of its gradient for a reason to stop */
+                fit.frequency_std[k] = 1e-4; /* makes f large, which is no reason for a solver to stop early */
             fit.measured.frequency_std = functional == ROTID_LIKELIHOOD ? fit.frequency_std : NULL;
             rotid_fit_result *result = paper_run(&fit);
             assert_true(result->converged);

@@ -20,12 +20,13 @@ void message_add(struct message_list *list, enum severity severity, const char *
     if (list->count >= MESSAGE_LIMIT)
         return;
     struct message *grown = pool_grow(list->pool, list->item, list->count, &list->capacity, sizeof *grown);
+    if (grown)
+        list->item = grown; /* now: the capacity already is that of the new array */
     char *copy = grown ? pool_copy_text(list->pool, text) : NULL;
     char *place = copy && file ? pool_copy_text(list->pool, file) : NULL;
     if (!copy || (file && !place)) {
         list->out_of_memory = 1;
         return;
     }
-    list->item = grown;
     list->item[list->count++] = (struct message){severity, place, line, column, copy};
 }

@@ -159,7 +159,7 @@ void beam_mass_properties(const struct beam *beam, struct mass_properties *prope
         sum.m2 += stretch.inertia;
     }
     for (int i = 0; i < rotor->nbars; i++) {
-        double center = mesh->z[mesh->bars[2 * i].first_end], half = rotor->bars[i].length / 2;
+        double center = mesh->z[mesh->bars[2 * (ptrdiff_t)i].first_end], half = rotor->bars[i].length / 2;
         bars_quantities(beam, i, 1, &element, &inertia);
         add_rod_of_mass(&sum, element.rhos, element.rhoi, center - half, center + half);
         sum.m2 += inertia;

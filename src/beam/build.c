@@ -8,7 +8,7 @@ static const double gravity = 9.81; /* m/s2: the value the paper's table of the 
 
 static void *copy_array(struct pool *pool, const void *source, int count, size_t size, int room)
 {
-    void *copy = pool_get(pool, (size_t)(count + room), size);
+    void *copy = pool_get(pool, (size_t)count + (size_t)room, size);
     if (copy && count)
         memcpy(copy, source, (size_t)count * size);
     return copy;

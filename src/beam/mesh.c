@@ -150,8 +150,8 @@ static void place_members(const struct rotor *rotor, int refine, struct mesh *me
     for (int i = 0; i < rotor->nbars; i++) {
         const struct bars *bars = &rotor->bars[i];
         int center = mesh_node_at(mesh, bars->center), half = bars->elements / 2 * refine;
-        number_chain(mesh, &mesh->bars[2 * i], center, -1, half);
-        number_chain(mesh, &mesh->bars[2 * i + 1], center, -1, half);
+        number_chain(mesh, &mesh->bars[2 * (ptrdiff_t)i], center, -1, half);
+        number_chain(mesh, &mesh->bars[2 * (ptrdiff_t)i + 1], center, -1, half);
     }
     sort_far(mesh);
     for (int i = 0; i < rotor->nspring; i++)

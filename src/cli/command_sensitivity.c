@@ -43,6 +43,10 @@ static int select_listed(struct command *command, struct selection *s)
         }
         s->n++;
     }
+    if (list && !s->n) {
+        message_add(&command->messages, SEVERITY_ERROR, "--at", 1, 1, "no parameter is named, expected NAME or NAME=VALUE, separated by commas");
+        return ROTID_ERROR_SYNTAX;
+    }
     return list ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 

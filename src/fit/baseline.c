@@ -4,6 +4,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "fit/bounds.h"
+
 #ifndef WITH_NLOPT
 #define WITH_NLOPT 1
 #endif
@@ -53,6 +55,7 @@ struct problem {
     const char *stage; /* for progress */
     double *x, *r, *jacobian;
     int evaluations, cancelled;
+    double unit; /* f at the start: SLSQP's first step is as long as the gradient of what it is given */
 };
 
 static double objective(unsigned n, const double *scaled, double *gradient, void *user)
@@ -69,6 +72,8 @@ static double objective(unsigned n, const double *scaled, double *gradient, void
         environment->progress(environment->context, problem->stage, problem->evaluations);
     for (unsigned p = 0; p < n; p++)
         problem->x[p] = scaled[p] * fabs(problem->parameter[p].start);
+    for (unsigned p = 0; gradient && p < n; p++)
+        gradient[p] = 0;
     int status = functional_residual(f, problem->x, problem->r);
     if (!status && gradient)
         status = functional_jacobian(f, problem->x, problem->jacobian);
@@ -77,13 +82,14 @@ static double objective(unsigned n, const double *scaled, double *gradient, void
     double sum = 0;
     for (int i = 0; i < f->nresidual; i++)
         sum += problem->r[i] * problem->r[i];
+    if (!(problem->unit > 0))
+        problem->unit = sum > 0 ? sum / 2 : 1;
     for (unsigned p = 0; gradient && p < n; p++) {
-        gradient[p] = 0;
         for (int i = 0; i < f->nresidual; i++)
             gradient[p] += problem->jacobian[i + (ptrdiff_t)p * f->nresidual] * problem->r[i];
-        gradient[p] *= fabs(problem->parameter[p].start);
+        gradient[p] *= fabs(problem->parameter[p].start) / problem->unit;
     }
-    return sum / 2;
+    return sum / 2 / problem->unit;
 }
 
 static double seconds_now(void)
@@ -109,6 +115,7 @@ static int run_one(int a, int n, struct problem *problem, double *bounds, rotid_
     problem->optimiser = optimiser;
     problem->stage = table[a].stage;
     problem->evaluations = 0;
+    problem->unit = 0;
     (void)nlopt_set_lower_bounds(optimiser, lower);
     (void)nlopt_set_upper_bounds(optimiser, upper);
     (void)nlopt_set_min_objective(optimiser, objective, problem);
@@ -145,9 +152,14 @@ static void judge(int n, struct problem *problem, rotid_baseline *out)
     for (int i = 0; i < f->nresidual; i++)
         sum += problem->r[i] * problem->r[i];
     for (int p = 0; p < n; p++) {
-        double g = 0;
-        for (int i = 0; i < f->nresidual; i++)
-            g += problem->jacobian[i + (ptrdiff_t)p * f->nresidual] * problem->r[i];
+        double g = 0, square = 0;
+        for (int i = 0; i < f->nresidual; i++) {
+            double j = problem->jacobian[i + (ptrdiff_t)p * f->nresidual];
+            g += j * problem->r[i];
+            square += j * j;
+        }
+        if (bounds_pressed(&problem->parameter[p], out->x[p]) * g >= 0 && g * g > square * (1e-6 * sum + 1e-12 * problem->unit))
+            out->usable = 0; /* moving this parameter alone would lower f by a millionth: whatever the solver says, no minimum */
         out->gradient = fmax(out->gradient, fabs(g * problem->parameter[p].start));
     }
     out->objective = sum / 2;

@@ -9,6 +9,7 @@
 #define RANK 1e-10       /* singular values below this part of the largest are rounding */
 #define UNDETERMINED 0.5 /* relative standard deviation: the 95 % interval is then as wide as the value to either side */
 #define TAKES_PART 0.3   /* component of a unit direction */
+#define FREE 1e-6        /* a component of a direction without any information that still leaves a parameter without an interval */
 
 size_t covariance_workspace(int m, int n)
 {
@@ -77,14 +78,17 @@ static void judge_directions(const struct covariance_input *in, const double *in
             of_fixed |= in->fixed[p] && fabs(result->direction[p + (ptrdiff_t)j * n]) > 0.999;
         result->direction_undetermined[j] = !of_fixed && (rank_lost || (isfinite(spread) && spread > UNDETERMINED));
         for (int p = 0; p < n && result->direction_undetermined[j]; p++) {
-            if (fabs(result->direction[p + (ptrdiff_t)j * n]) < TAKES_PART)
-                continue;
-            result->identifiable[p] = 0;
-            if (rank_lost)
+            double part = fabs(result->direction[p + (ptrdiff_t)j * n]);
+            if (part >= (rank_lost ? FREE : TAKES_PART))
+                result->identifiable[p] = 0;
+            if (rank_lost && part >= FREE)
                 result->std[p] = NAN;
         }
         result->any_undetermined |= result->direction_undetermined[j];
     }
+    for (int p = 0; p < n; p++) /* a small part in a very wide direction, or in many */
+        if (result->std[p] > UNDETERMINED * fabs(in->x[p]))
+            result->identifiable[p] = 0;
 }
 
 int covariance_compute(const struct covariance_input *in, rotid_fit_result *result, double *work)

@@ -10,6 +10,8 @@
 #include "modal/functional.h"
 #include "rotid.h"
 
+#define LEAP 5 /* of chi y in one step: further, the sigmoid saturates, J vanishes, and the parameter is caught at a bound */
+
 struct fit {
     const rotid_parameter *parameter;
     const rotid_environment *environment;
@@ -18,6 +20,7 @@ struct fit {
     rotid_fit_result *result;
     int n, callback_status;
     double *x, *y, *r, *jacobian, *work;
+    const double *accepted; /* y of the last accepted point, NULL before the first */
 };
 
 void rotid_fit_defaults(rotid_fit_options *options)
@@ -43,6 +46,9 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
 {
     struct fit *fit = user;
     double chi = fit->options.bijection_chi;
+    for (int p = 0; r && fit->accepted && p < n; p++)
+        if (!(fabs(chi * (y[p] - fit->accepted[p])) <= LEAP))
+            return 1;
     for (int p = 0; p < n; p++)
         fit->x[p] = bounds_to_x(&fit->parameter[p], chi, y[p]);
     if (r) {
@@ -64,6 +70,7 @@ static int trace(void *user, const rotid_lm_iteration *now)
     struct fit *fit = user;
     rotid_fit_result *result = fit->result;
     int n = fit->n, row = result->nhistory;
+    fit->accepted = now->x;
     double *x = result->history_x + (ptrdiff_t)row * n, step = 0, gradient = 0;
     for (int p = 0; p < n; p++) {
         double unit = fabs(fit->parameter[p].start), slope = bounds_slope(&fit->parameter[p], fit->options.bijection_chi, now->x[p]);
@@ -85,7 +92,8 @@ static int check_arguments(const rotid_model *model, const rotid_parameter *para
                            const rotid_fit_options *options)
 {
     if (!model || !parameter || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n || model->nfar < 0 ||
-        model->nparam < 1 || model->nrigid < 0 || model->nmaster < 0 || !model->matrices || measured->nmode < 1)
+        model->nparam < 1 || model->nrigid < 0 || model->nmaster < 0 || !model->matrices || measured->nmode < 1 || !measured->number ||
+        !measured->frequency_hz || (model->nmaster && !model->master) || (model->nfar && !model->far))
         return ROTID_ERROR_ARGUMENT;
     if (options->functional < ROTID_HYBRID || options->functional > ROTID_LIKELIHOOD || options->reduction < ROTID_REDUCTION_NONE ||
         options->reduction > ROTID_IRS || options->derivative < ROTID_NELSON || options->derivative > ROTID_MODAL)
@@ -203,7 +211,7 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
 {
     rotid_fit_result *result = fit->result;
     struct functional *f = &fit->functional;
-    int n = fit->n, m = f->nresidual;
+    int n = fit->n, m = f->nresidual, pulled_inside = 0;
     double *noise = fit->work, *gradient = noise + m, *rest = gradient + n;
     for (int p = 0; p < n; p++)
         result->x[p] = bounds_to_x(&fit->parameter[p], fit->options.bijection_chi, fit->y[p]);
@@ -222,9 +230,10 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     for (int i = 0; i < m; i++)
         result->objective += fit->r[i] * fit->r[i] / 2;
     for (int p = 0; p < n; p++) {
-        double g = 0;
+        double g = 0, square = 0;
         for (int i = 0; i < m; i++) {
             fit->jacobian[i + (ptrdiff_t)p * m] *= fabs(result->x[p]);
+            square += fit->jacobian[i + (ptrdiff_t)p * m] * fit->jacobian[i + (ptrdiff_t)p * m];
             g += fit->jacobian[i + (ptrdiff_t)p * m] * fit->r[i];
         }
         gradient[p] = g;
@@ -232,6 +241,8 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
         int side = bounds_pressed(&fit->parameter[p], result->x[p]);
         result->at_bound[p] = side != 0;
         result->any_at_bound |= side != 0;
+        /* f falls towards the inside, by more than rounding: the parameter was only caught there */
+        pulled_inside |= side * g > 1e-6 * sqrt(2 * square * result->objective);
     }
     struct covariance_input input = {.m = m,
                                      .n = n,
@@ -243,7 +254,8 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
                                      .fixed = result->at_bound};
     status = covariance_compute(&input, result, rest);
     /* a stop on the limit, or where rounding left no step that lowers f, may still be at the minimum: the step that is left decides */
-    result->converged = result->status != ROTID_STOP_CANCELLED && (result->status == ROTID_STOP_GRADIENT || step_left(fit, gradient) < 1e-6);
+    result->converged = result->status != ROTID_STOP_CANCELLED && !pulled_inside &&
+                        (result->status == ROTID_STOP_GRADIENT || step_left(fit, gradient) < 1e-6);
     return status;
 }
 

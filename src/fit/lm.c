@@ -4,8 +4,10 @@
 #include "linalg/least_squares.h"
 #include "rotid.h"
 
-#define MU_MOST 1e16 /* beyond it a step is below rounding */
-#define FLAT 1e-8    /* predicted decrease over objective below which the noise of a computed objective can hide the decrease */
+#define MU_MOST 1e16   /* beyond it a step is below rounding */
+#define MU_LEAST 1e-24 /* its root against D is far below any rounding of J, and yet keeps the QR regular */
+#define FLAT 1e-8      /* predicted decrease over objective below which the noise of a computed objective can hide the decrease */
+#define FLAT_TRIES 5 /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
 
 struct lm {
     int m, n;
@@ -62,10 +64,12 @@ static int linearise(struct lm *lm)
         if (sqrt(square) > lm->norm[j])
             lm->norm[j] = sqrt(square);
         lm->scale[j] = lm->norm[j] > 0 ? lm->norm[j] : 1; /* where a column has been zero so far any scale keeps the system regular */
-        if (length > 0)
-            lm->result->cosine = fmax(lm->result->cosine, fabs(lm->gradient[j]) / (lm->scale[j] * length));
+        if (!isfinite(square))
+            return ROTID_ERROR_FINITE;
+        if (length > 0 && square > 0) /* with the norm of the column here, not with D: where J has shrunk by 1e10 D would end the iteration */
+            lm->result->cosine = fmax(lm->result->cosine, fabs(lm->gradient[j]) / (sqrt(square) * length));
     }
-    return usable || length == 0 ? ROTID_OK : ROTID_ERROR_RANK;
+    return usable || length == 0 || lm->result->jacobians > 1 ? ROTID_OK : ROTID_ERROR_RANK; /* J = 0 later: the gradient has vanished */
 }
 
 /* h'(mu D^2 h - g)/2, the decrease that the linear model promises */
@@ -147,7 +151,7 @@ static int accept_by_gradient(struct lm *lm)
 /* Steps of growing damping until one lowers the objective; the accepted point is linearised. */
 static int descend(struct lm *lm)
 {
-    for (;;) {
+    for (int flat_steps = 0;;) {
         double predicted, actual;
         int refused, status = try_step(lm, &predicted, &refused);
         if (status)
@@ -158,13 +162,19 @@ static int descend(struct lm *lm)
         if (lm->gain > 0.25 || (lm->gain > 0 && predicted > flat)) {
             double t = 2 * lm->gain - 1;
             accept(lm);
-            lm->mu = fmax(lm->mu * fmax(1.0 / 3, 1 - t * t * t), 1e-16);
+            lm->mu = fmax(lm->mu * fmax(1.0 / 3, 1 - t * t * t), MU_LEAST);
             lm->nu = 2;
             return linearise(lm);
         }
         if (!refused && predicted < flat && fabs(actual) < flat) {
-            lm->mu = fmax(lm->mu / 3, 1e-16);
-            return accept_by_gradient(lm);
+            double before = lm->result->cosine;
+            status = accept_by_gradient(lm);
+            if (status == ROTID_OK && lm->result->cosine < before / 3)
+                lm->mu = fmax(lm->mu / 3, MU_LEAST);
+            if (status == ROTID_OK)
+                lm->nu = 2;
+            if (status != ROTID_STOP_OBJECTIVE || ++flat_steps == FLAT_TRIES)
+                return status;
         }
         lm->mu *= lm->nu;
         lm->nu *= 2;
@@ -195,6 +205,8 @@ static int minimise(struct lm *lm)
     if (!all_finite(lm->m, lm->r))
         return ROTID_ERROR_FINITE;
     lm->result->objective = half_square(lm->m, lm->r);
+    if (!isfinite(lm->result->objective))
+        return ROTID_ERROR_FINITE;
     int status = linearise(lm);
     while (!status) {
         if (report(lm))

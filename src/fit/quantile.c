@@ -52,8 +52,12 @@ double quantile_student_95(int dof)
 double chi_square_tail(double x, int dof)
 {
     double a = 0.5 * dof, y = 0.5 * x;
+    if (isnan(y))
+        return NAN;
     if (!(y > 0))
         return 1;
+    if (isinf(y))
+        return 0;
     double front = exp(a * log(y) - y - lgamma(a));
     if (y < a + 1) {
         double sum = 1 / a, term = sum;

@@ -1,6 +1,7 @@
 #include "io/deck.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,10 +53,11 @@ static void check_names(struct deck_reader *reader, const struct card *card)
         int known = 0;
         for (const char *const *name = table[t].options; *name; name++)
             known |= same_text(*name, card->option[i].name);
+        char list[256] = "none";
+        for (int o = 0, length = 0; table[t].options[o]; o++)
+            length += snprintf(list + length, sizeof list - (size_t)length, "%s%s", o ? ", " : "", table[t].options[o]);
         if (!known)
-            deck_error(reader, card->option[i].place, "option %s of *%s is not known, expected %s%s%s", card->option[i].name, card->name,
-                       table[t].options[0] ? table[t].options[0] : "none", table[t].options[0] && table[t].options[1] ? ", " : "",
-                       table[t].options[0] && table[t].options[1] ? table[t].options[1] : "");
+            deck_error(reader, card->option[i].place, "option %s of *%s is not known, expected %s", card->option[i].name, card->name, list);
     }
 }
 
@@ -177,6 +179,16 @@ static void check_beam(struct deck_reader *reader)
     pool_close(&scratch);
 }
 
+static void check_elements(struct deck_reader *reader)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    long elements = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        elements += rotor->segment[s].elements;
+    if (elements > DECK_MOST_ELEMENTS)
+        deck_error(reader, reader->group_place[rotor->ngroup - 1], "the rotor has %ld elements, expected at most %d", elements, DECK_MOST_ELEMENTS);
+}
+
 static void read_cards(struct deck_reader *reader)
 {
     struct job *job = reader->job;
@@ -201,6 +213,7 @@ static void read_cards(struct deck_reader *reader)
     }
     check_materials(reader);
     check_unique(reader);
+    check_elements(reader);
     if (reader->messages->errors || reader->out_of_memory)
         return;
     settle_moduli(reader);

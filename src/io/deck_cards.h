@@ -47,13 +47,14 @@ const char *deck_option(struct deck_reader *reader, const struct card *card, con
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value);
 /* Index of the option's value in a list of words that ends with NULL; -1 after an error. */
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
-/* At least one data line; otherwise an error that says what is expected. Returns their number. */
+/* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than `most`. */
 int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout);
 
 /* Index of a material, -1 where there is none of that name. */
 int deck_find_material(const struct deck_reader *reader, const char *name);
 
-#define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods */
+#define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods, of the rotor */
+#define DECK_MOST_LINES 10000    /* of a card; sensors are compared with each other */
 
 /* The readers of the cards, by file. */
 void deck_material(struct deck_reader *reader, const struct card *card);

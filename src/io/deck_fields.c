@@ -50,15 +50,16 @@ static const char *range_text(enum range range)
 static int parse_number(struct deck_reader *reader, const char *text, struct place place, const char *what, enum range range, double *value)
 {
     char *end;
-    *value = strtod(text, &end);
+    double number = strtod(text, &end);
     if (end == text || *end) {
         deck_error(reader, place, "'%s' is not a number, expected %s", text, what);
         return 1;
     }
-    if (!isfinite(*value) || (range == POSITIVE && *value <= 0) || (range == NOT_NEGATIVE && *value < 0)) {
-        deck_error(reader, place, "%s is %s, expected %s", what, text, isfinite(*value) ? range_text(range) : "a finite number");
+    if (!isfinite(number) || (range == POSITIVE && number <= 0) || (range == NOT_NEGATIVE && number < 0)) {
+        deck_error(reader, place, "%s is %s, expected %s", what, text, isfinite(number) ? range_text(range) : "a finite number");
         return 1;
     }
+    *value = number; /* only now: what follows from a bad length would be reported as well */
     return 0;
 }
 
@@ -171,5 +172,5 @@ int deck_lines(struct deck_reader *reader, const struct card *card, int least, i
         deck_error(reader, card->place, "*%s has no data line, expected %s", card->name, layout);
     else if (card->nline > most)
         deck_error(reader, card->line[most].place, "*%s has a data line too many, expected %s", card->name, layout);
-    return card->nline;
+    return card->nline < most ? card->nline : most;
 }

@@ -10,8 +10,7 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
     static const char layout[] = "parameter, lower bound, upper bound, start";
     struct job *job = reader->job;
     reader->identify_card = card;
-    (void)deck_lines(reader, card, 1, 100, layout);
-    for (int i = 0; i < card->nline; i++) {
+    for (int i = 0, count = deck_lines(reader, card, 1, 100, layout); i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct parameter parameter;
         rotid_parameter bounds = {.name = line->field[0].text};
@@ -55,12 +54,13 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
     }
 }
 
-/* "1-6", "1,2,5-6": sets flag[k] of the measured modes named. */
-static void mark_modes(struct deck_reader *reader, const struct card_option *option, int *flag)
+/* "1-6", "1,2,5-6": sets flag[k] of the measured modes named. 0, or 1 after an error. */
+static int mark_modes(struct deck_reader *reader, const struct card_option *option, int *flag)
 {
     const struct job *job = reader->job;
     const char *text = option->value;
-    while (*text) {
+    int missing = 0;
+    do {
         char *end;
         long first = strtol(text, &end, 10), last = first;
         int bad = end == text;
@@ -73,18 +73,20 @@ static void mark_modes(struct deck_reader *reader, const struct card_option *opt
             end++;
         if (bad || (*end && *end != ',') || first < 1 || last > 1000) {
             deck_error(reader, option->value_place, "%s=%s is no list of modes, expected numbers and ranges such as 1-4,6", option->name, option->value);
-            return;
+            return 1;
         }
         for (long number = first; number <= last; number++) {
             int found = 0;
             for (int k = 0; k < job->nmode; k++)
                 if (job->number[k] == number)
                     found = flag[k] = 1;
+            missing |= !found;
             if (!found)
                 deck_error(reader, option->value_place, "mode %ld of %s is not measured, expected modes that are", number, option->name);
         }
         text = *end ? end + 1 : end;
-    }
+    } while (*text);
+    return missing;
 }
 
 static void choose_modes(struct deck_reader *reader, const struct card *card)
@@ -96,15 +98,13 @@ static void choose_modes(struct deck_reader *reader, const struct card *card)
         reader->out_of_memory = 1;
         return;
     }
-    if (modes)
-        mark_modes(reader, modes, fitted);
-    if (holdout)
-        mark_modes(reader, holdout, job->holdout);
+    int bad = modes && mark_modes(reader, modes, fitted);
+    bad |= holdout && mark_modes(reader, holdout, job->holdout);
     for (int k = 0; k < job->nmode; k++) {
         job->holdout[k] |= modes && !fitted[k];
         left += !job->holdout[k];
     }
-    if (job->nmode && !left)
+    if (job->nmode && !left && !bad)
         deck_error(reader, card->place, "no mode is left to fit, expected fewer in HOLDOUT or more in MODES");
 }
 
@@ -115,8 +115,10 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
     struct job *job = reader->job;
     const struct card_option *option;
     int word;
-    if (reader->fit_card)
+    if (reader->fit_card) {
         deck_error(reader, card->place, "*FIT is given twice, expected once");
+        return;
+    }
     reader->fit_card = card;
     for (int i = 0; i < card->nline; i++)
         deck_error(reader, card->line[i].place, "*FIT has no data lines, expected options on the card");
@@ -130,8 +132,9 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
         job->fit.derivative = word;
     if ((option = card_option(card, "TIE")) && deck_option_word(reader, option, ties) >= 0)
         reader->tie = option->value;
+    option = card_option(card, "DERIVATIVE"); /* missing where a second *FIT takes the first one's */
     if (job->fit.derivative == ROTID_MODAL && job->fit.reduction == ROTID_REDUCTION_NONE)
-        deck_error(reader, (option = card_option(card, "DERIVATIVE"))->value_place,
+        deck_error(reader, option ? option->value_place : card->place,
                    "DERIVATIVE=MODAL needs every vector of the model, expected REDUCTION=GUYAN or IRS with it, or NELSON");
     choose_modes(reader, card);
 }

@@ -58,8 +58,8 @@ void deck_sensors(struct deck_reader *reader, const struct card *card)
 {
     static const char layout[] = "sensor id, position";
     struct rotor *rotor = &reader->job->rotor;
-    (void)deck_lines(reader, card, 1, 100000, layout);
-    for (int i = 0; i < card->nline; i++) {
+    int count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct sensor sensor;
         if (deck_count(reader, line, 2, layout) || deck_integer(reader, line, 0, "sensor id", 1, 1000000000, &sensor.id))
@@ -96,7 +96,7 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
         return;
     }
     reader->modes_card = card;
-    (void)deck_lines(reader, card, 1, 1000, layout);
+    int count = deck_lines(reader, card, 1, 1000, layout);
     job->number = POOL_ARRAY(reader->pool, int, card->nline);
     job->frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
     job->damping = POOL_ARRAY(reader->pool, double, card->nline);
@@ -105,7 +105,7 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
         reader->out_of_memory = 1;
         return;
     }
-    for (int i = 0; i < card->nline; i++) {
+    for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         int number = 0;
         double hz = 1, damping = NAN, std = NAN;
@@ -119,13 +119,15 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
             deck_error(reader, line->field[2].place, "damping ratio is %s, expected a fraction of critical damping below 1", line->field[2].text);
         if (bad)
             continue;
-        for (int k = 0; k < job->nmode; k++)
-            if (job->number[k] == number)
-                deck_error(reader, line->field[0].place, "mode %d is given twice, expected once", number);
-        if (job->nmode && number > job->number[job->nmode - 1] && hz <= job->frequency_hz[job->nmode - 1])
+        int k = 0;
+        while (k < job->nmode && number != job->number[k] && (number > job->number[k]) == (hz > job->frequency_hz[k]) && hz != job->frequency_hz[k])
+            k++;
+        if (k < job->nmode && job->number[k] == number)
+            deck_error(reader, line->field[0].place, "mode %d is given twice, expected once", number);
+        else if (k < job->nmode)
             deck_error(reader, line->field[1].place, "mode %d lies at %s Hz and mode %d at %.9g Hz, expected frequencies that rise with the number",
-                       number, line->field[1].text, job->number[job->nmode - 1], job->frequency_hz[job->nmode - 1]);
-        int k = job->nmode++;
+                       number, line->field[1].text, job->number[k], job->frequency_hz[k]);
+        k = job->nmode++;
         job->number[k] = number;
         job->frequency_hz[k] = hz;
         job->damping[k] = damping;
@@ -141,7 +143,7 @@ static int find_sensor(const struct rotor *rotor, int id)
     return -1;
 }
 
-static int new_shapes(struct deck_reader *reader)
+static void new_shapes(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     size_t components = (size_t)job->rotor.nsensor * (size_t)job->nmode;
@@ -150,11 +152,10 @@ static int new_shapes(struct deck_reader *reader)
     if (!job->shape || !job->shape_std) {
         job->shape = NULL;
         reader->out_of_memory = 1;
-        return 1;
+        return;
     }
     for (size_t i = 0; i < components; i++)
         job->shape[i] = job->shape_std[i] = NAN;
-    return 0;
 }
 
 void deck_shape(struct deck_reader *reader, const struct card *card)
@@ -173,12 +174,14 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
         deck_error(reader, option->value_place, "mode %s is not among *MODES, expected one that is", option->value);
         return;
     }
-    (void)deck_lines(reader, card, 1, 100000, layout);
-    if (!job->shape && new_shapes(reader))
+    int count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    if (!job->shape)
+        new_shapes(reader);
+    if (!job->shape)
         return;
     double *shape = job->shape + (ptrdiff_t)mode * job->rotor.nsensor, *std = job->shape_std + (ptrdiff_t)mode * job->rotor.nsensor;
     int any = 0;
-    for (int i = 0; i < card->nline; i++) {
+    for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         int id, sensor;
         double value, deviation = NAN;

@@ -156,8 +156,8 @@ void deck_disk(struct deck_reader *reader, const struct card *card)
     static const char layout[] = "position, mass [kg], diametral inertia, polar inertia [kg.m2]";
     struct rotor *rotor = &reader->job->rotor;
     const struct card_option *name = card_option(card, "NAME");
-    (void)deck_lines(reader, card, 1, name ? 1 : 100000, layout);
-    for (int i = 0; i < card->nline; i++) {
+    int count = deck_lines(reader, card, 1, name ? 1 : DECK_MOST_LINES, layout);
+    for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct disk disk = {.name = name ? name->value : NULL};
         int bad = deck_count(reader, line, 4, layout) || deck_position(reader, line->field[0].text, line->field[0].place, "position", &disk.position);
@@ -179,8 +179,8 @@ void deck_spring(struct deck_reader *reader, const struct card *card)
     static const char layout[] = "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]";
     struct rotor *rotor = &reader->job->rotor;
     const struct card_option *name = card_option(card, "NAME");
-    (void)deck_lines(reader, card, 1, name ? 1 : 100000, layout);
-    for (int i = 0; i < card->nline; i++) {
+    int count = deck_lines(reader, card, 1, name ? 1 : DECK_MOST_LINES, layout);
+    for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct spring spring = {.name = name ? name->value : NULL};
         int bad = deck_count(reader, line, 3, layout) || deck_position(reader, line->field[0].text, line->field[0].place, "position", &spring.position);

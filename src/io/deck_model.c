@@ -98,7 +98,7 @@ static struct segment *add_segment(struct deck_reader *reader, int group)
     struct rotor *rotor = &reader->job->rotor;
     struct segment *segment = DECK_APPEND(reader, rotor->segment, rotor->nsegment, reader->segment_room);
     if (segment) {
-        *segment = (struct segment){.group = group, .length = 1, .elements = 1}; /* harmless where an error follows */
+        *segment = (struct segment){.group = group, .length = 1e6, .elements = 1}; /* where an error follows: every position is inside */
         rotor->nsegment++;
     }
     return segment;
@@ -107,9 +107,8 @@ static struct segment *add_segment(struct deck_reader *reader, int group)
 void deck_shaft(struct deck_reader *reader, const struct card *card)
 {
     static const char layout[] = "length, outer diameter, inner diameter [m], elements [, outer diameter that carries stiffness]";
-    int group = add_group(reader, card);
-    (void)deck_lines(reader, card, 1, 100000, layout);
-    for (int i = 0; i < card->nline && group >= 0; i++) {
+    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    for (int i = 0; i < count && group >= 0; i++) {
         const struct data_line *line = &card->line[i];
         struct segment *s = add_segment(reader, group);
         if (!s || deck_count(reader, line, 5, layout))
@@ -133,9 +132,8 @@ void deck_shaft(struct deck_reader *reader, const struct card *card)
 void deck_beam(struct deck_reader *reader, const struct card *card)
 {
     static const char layout[] = "length, height in the bending plane, width [m], elements";
-    int group = add_group(reader, card);
-    (void)deck_lines(reader, card, 1, 100000, layout);
-    for (int i = 0; i < card->nline && group >= 0; i++) {
+    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    for (int i = 0; i < count && group >= 0; i++) {
         const struct data_line *line = &card->line[i];
         struct segment *s = add_segment(reader, group);
         if (!s || deck_count(reader, line, 4, layout))

@@ -15,6 +15,7 @@ struct reader {
     long bytes_left;
     int depth;
     const char *open_file[DECK_MOST_INCLUDES + 1];
+    struct stat open_stat[DECK_MOST_INCLUDES + 1];
     struct place keyword; /* a keyword line that ends in a comma goes on here */
     int continues;
     int out_of_memory;
@@ -86,11 +87,12 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     if (begin == end)
         return;
     const char *equals = memchr(begin, '=', (size_t)(end - begin));
-    if (!equals && isdigit((unsigned char)*begin) && card->noption) {
-        struct card_option *list = &card->option[card->noption - 1];
-        char *item = copy_span(reader, begin, end);
-        list->value = item ? pool_format(reader->pool, "%s,%s", list->value, item) : NULL;
-        reader->out_of_memory |= !list->value;
+    struct card_option *list = card->noption ? &card->option[card->noption - 1] : NULL;
+    if (!equals && list && isdigit((unsigned char)*begin) && isdigit((unsigned char)*list->value)) {
+        char *item = copy_span(reader, begin, end), *longer = item ? pool_format(reader->pool, "%s,%s", list->value, item) : NULL;
+        if (longer)
+            list->value = longer;
+        reader->out_of_memory |= !longer;
         return;
     }
     const char *name_end = equals ? equals : end, *value = equals ? equals + 1 : end, *value_end = end;
@@ -113,7 +115,7 @@ static void read_options(struct reader *reader, struct card *card, const char *l
 {
     const char *last = end, *first = begin;
     trim(&first, &last);
-    reader->continues = last > first && last[-1] == ',';
+    reader->continues = last == first || last[-1] == ',';
     while (begin <= end) {
         const char *comma = memchr(begin, ',', (size_t)(end - begin));
         read_option(reader, card, line_begin, begin, comma ? comma : end, line);
@@ -142,13 +144,18 @@ static void include(struct reader *reader, struct card card)
                     "*INCLUDE names no file, expected FILE=path");
         return;
     }
+    for (int i = 0; i < card.noption; i++)
+        if (!same_text(card.option[i].name, "FILE"))
+            message_add(reader->messages, SEVERITY_ERROR, card.option[i].place.file, card.option[i].place.line, card.option[i].place.column,
+                        "option %s of *INCLUDE is not known, expected FILE", card.option[i].name);
     const char *path = beside(reader, file->value);
     if (!path) {
         reader->out_of_memory = 1;
         return;
     }
-    for (int i = 0; i <= reader->depth; i++)
-        if (!strcmp(path, reader->open_file[i])) {
+    struct stat information; /* the same file may have several paths */
+    for (int i = 0; i <= reader->depth && !stat(path, &information); i++)
+        if (information.st_dev == reader->open_stat[i].st_dev && information.st_ino == reader->open_stat[i].st_ino) {
             message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line, file->value_place.column,
                         "%s includes itself, expected a file that is not already open", path);
             return;
@@ -161,21 +168,21 @@ static void include(struct reader *reader, struct card card)
     (void)read_file(reader, path, file->value_place);
 }
 
-static void read_keyword(struct reader *reader, const char *begin, const char *end, int line)
+static void read_keyword(struct reader *reader, const char *line_begin, const char *begin, const char *end, int line)
 {
     const char *comma = memchr(begin, ',', (size_t)(end - begin)), *name = begin + 1, *name_end = comma ? comma : end;
     trim(&name, &name_end);
     char *upper = copy_span(reader, name, name_end);
     for (char *c = upper; c && *c; c++)
         *c = (char)toupper((unsigned char)*c);
-    struct card *card = upper ? add_card(reader->pool, reader->text, upper, at(reader, begin, begin, line)) : NULL;
+    struct card *card = upper ? add_card(reader->pool, reader->text, upper, at(reader, line_begin, begin, line)) : NULL;
     if (!card) {
         reader->out_of_memory = 1;
         return;
     }
     reader->continues = 0;
     if (comma)
-        read_options(reader, card, begin, comma + 1, end, line);
+        read_options(reader, card, line_begin, comma + 1, end, line);
 }
 
 static void read_data(struct reader *reader, const char *begin, const char *end, int line)
@@ -205,6 +212,8 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
         const char *comma = memchr(piece, ',', (size_t)(end - piece)), *from = piece, *to = comma ? comma : end;
         trim(&from, &to);
         data.field[data.count] = (struct field){copy_span(reader, from, to), at(reader, begin, from, line)};
+        if (!data.field[data.count].text)
+            return;
         piece = comma ? comma + 1 : end;
     }
     if (data.count > 1 && !*data.field[data.count - 1].text) /* a comma at the end of the line */
@@ -230,18 +239,27 @@ static int read_line(struct reader *reader, const char *line_text, size_t length
             end = c;
             break;
         }
-    if (line_text == end)
+    const char *first = line_text;
+    while (first < end && isspace((unsigned char)*first))
+        first++;
+    if (first == end)
         return 0;
-    if (reader->continues) {
+    if (*first == '*') { /* also behind a comma that nothing follows */
+        if (reader->text->ncard == DECK_MOST_CARDS) {
+            message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(first - line_text) + 1,
+                        "the deck has more than %d cards, expected those of a rotor", DECK_MOST_CARDS);
+            reader->bytes_left = 0;
+            return 1;
+        }
+        read_keyword(reader, line_text, first, end, line);
+    } else if (reader->continues) {
         read_options(reader, &reader->text->card[reader->text->ncard - 1], line_text, line_text, end, line);
-    } else if (*line_text == '*') {
-        read_keyword(reader, line_text, end, line);
     } else {
         read_data(reader, line_text, end, line);
         return 0;
     }
     struct deck_text *text = reader->text;
-    if (text->ncard && !reader->continues && !strcmp(text->card[text->ncard - 1].name, "INCLUDE"))
+    if (text->ncard && !reader->continues && !reader->out_of_memory && !strcmp(text->card[text->ncard - 1].name, "INCLUDE"))
         include(reader, text->card[--text->ncard]);
     return 0;
 }
@@ -256,10 +274,11 @@ static int read_file(struct reader *reader, const char *path, struct place from)
 {
     struct stat information;
     FILE *stream = NULL;
-    if (stat(path, &information) == 0 && !S_ISDIR(information.st_mode))
-        stream = fopen(path, "rb");
-    else if (!errno || S_ISDIR(information.st_mode))
+    if (stat(path, &information) == 0) {
         errno = EISDIR;
+        if (!S_ISDIR(information.st_mode))
+            stream = fopen(path, "rb");
+    }
     if (!stream) {
         message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column, "cannot read %s: %s, expected a deck",
                     path, strerror(errno));
@@ -273,7 +292,8 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     if (from.file)
         reader->depth++;
     reader->open_file[reader->depth] = path;
-    char line_text[DECK_LINE_LENGTH + 2];
+    reader->open_stat[reader->depth] = information;
+    char line_text[DECK_LINE_LENGTH + 2] = ""; /* a carriage return may stand behind a full line, and no more */
     size_t length = 0;
     int line = 1, c, stop = 0;
     while (!stop && !reader->out_of_memory && (c = getc(stream)) != EOF) {
@@ -282,18 +302,19 @@ static int read_file(struct reader *reader, const char *path, struct place from)
             break;
         }
         if (c == '\n') {
-            if (length && line_text[length - 1] == '\r')
+            if (length && length < sizeof line_text && line_text[length - 1] == '\r')
                 length--;
             stop = length <= DECK_LINE_LENGTH && read_line(reader, line_text, length, line);
             reader->text->end = (struct place){path, line, (int)length + 1};
             line++;
             length = 0;
-        } else if (length <= DECK_LINE_LENGTH) {
+        } else if (length < sizeof line_text) {
             line_text[length++] = (char)c;
-            if (length == DECK_LINE_LENGTH + 1 && c != '\r') {
+            if (length == sizeof line_text || (length == DECK_LINE_LENGTH + 1 && c != '\r')) {
+                length = sizeof line_text;
                 message_add(reader->messages, SEVERITY_ERROR, path, line, DECK_LINE_LENGTH + 1,
                             "the line is longer than %d characters, expected a shorter one", DECK_LINE_LENGTH);
-                stop = memchr(line_text, 0, length) != NULL;
+                stop = memchr(line_text, 0, DECK_LINE_LENGTH + 1) != NULL;
             }
         }
     }
@@ -335,7 +356,7 @@ int deck_text_override(struct pool *pool, const struct override *override, struc
 {
     static const char *const single[] = {"FIT", "NOISE", "SLING", "MEASURED"};
     struct place place = {override->text, 1, 1};
-    struct card_option option = {override->option, override->value, place, place};
+    struct card_option option = {override->option, override->value, place, place, 1};
     int found = 0;
     for (int i = 0; i < text->ncard; i++)
         found |= same_text(text->card[i].name, override->card);

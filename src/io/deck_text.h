@@ -8,6 +8,7 @@
 #define DECK_LINE_LENGTH 1024
 #define DECK_MOST_BYTES (16l << 20) /* all files together: a rotor takes kilobytes */
 #define DECK_MOST_INCLUDES 16       /* depth */
+#define DECK_MOST_CARDS 5000        /* names are compared with each other */
 
 struct place {
     const char *file;
@@ -29,6 +30,7 @@ struct data_line {
 struct card_option {
     const char *name, *value; /* value "" where there is no '=' */
     struct place place, value_place;
+    int overridden; /* --set gave it */
 };
 
 struct card {

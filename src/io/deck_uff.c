@@ -251,8 +251,10 @@ static int import_modes(struct import *import)
 void deck_measured(struct deck_reader *reader, const struct card *card)
 {
     struct import import = {.reader = reader, .card = card};
-    if (reader->measured_card)
+    if (reader->measured_card) {
         deck_error(reader, card->place, "*MEASURED is given twice, expected once");
+        return;
+    }
     reader->measured_card = card;
     if (reader->modes_card) {
         deck_error(reader, card->place, "modes are given by *MODES and by *MEASURED, expected one of them");
@@ -262,14 +264,21 @@ void deck_measured(struct deck_reader *reader, const struct card *card)
     if (read_options(&import) || !file)
         return;
     const char *deck = card->place.file, *slash = strrchr(deck, '/');
-    if (card_option(card, "FILE")->place.file != deck) /* --set names it from where the user stands */
+    if (card_option(card, "FILE")->overridden) /* --set names it from where the user stands */
         slash = NULL;
     import.path = *file == '/' || !slash ? file : pool_format(reader->pool, "%.*s/%s", (int)(slash - deck), deck, file);
-    int before = reader->messages->errors, status = import.path ? uff_read(reader->pool, import.path, reader->messages, &import.file) : ROTID_ERROR_MEMORY;
+    struct message_list found;
+    message_open(&found, reader->pool);
+    int status = import.path ? uff_read(reader->pool, import.path, &found, &import.file) : ROTID_ERROR_MEMORY;
     if (status == ROTID_ERROR_MEMORY)
         reader->out_of_memory = 1;
-    if (status == ROTID_ERROR_IO && reader->messages->errors == before)
-        deck_error(reader, card_option(card, "FILE")->value_place, "cannot read %s, expected a universal file", import.path);
+    for (size_t i = 0; i < found.count; i++) {
+        const struct message *m = &found.item[i];
+        if (status == ROTID_ERROR_IO && m->severity == SEVERITY_ERROR)
+            deck_error(reader, card_option(card, "FILE")->value_place, "%s %s, expected a universal file", import.path, m->text);
+        else
+            message_add(reader->messages, m->severity, m->file, m->line, m->column, "%s", m->text);
+    }
     if (!status && !import_sensors(&import))
         (void)import_modes(&import);
 }

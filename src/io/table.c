@@ -243,9 +243,12 @@ static void print_baseline(FILE *out, const struct job *job, const rotid_fit_res
 void table_identify(FILE *out, const struct job *job, const struct identification *result, int history)
 {
     const rotid_fit_result *fit = result->fit;
+    int fitted = fit->m;
+    for (int k = 0; k < fit->m; k++)
+        fitted -= job->holdout && job->holdout[k];
     table_heading(out, job);
-    (void)fprintf(out, "%s, %s of %d mode%s, functional %s, reduction %s, objective %.10g, gradient %.1e\n\n",
-                  fit->converged ? (fit->any_at_bound ? "converged AT A BOUND" : "converged") : "NOT CONVERGED", "fit", fit->m, fit->m == 1 ? "" : "s",
+    (void)fprintf(out, "%s, fit of %d mode%s, functional %s, reduction %s, objective %.10g, gradient %.1e\n\n",
+                  fit->converged ? (fit->any_at_bound ? "converged AT A BOUND" : "converged") : "NOT CONVERGED", fitted, fitted == 1 ? "" : "s",
                   functional_name(job->fit.functional), reduction_name(job->fit.reduction), fit->objective, fit->gradient);
     print_parameters(out, job, fit);
     if (fit->nbaseline)

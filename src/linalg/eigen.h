@@ -26,7 +26,7 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
 
 struct eigen_band {
     int n, count, block, depth, started;
-    double shift;
+    double shift, largest; /* largest K_ii/M_ii: the size of the highest eigenvalue */
     struct factor factor, inertia;
     int *all;           /* [n] 0 ... n - 1: no row is left out */
     rotid_matrix shifted;

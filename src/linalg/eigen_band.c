@@ -1,6 +1,7 @@
 #include "linalg/eigen.h"
 
 #include <cblas.h>
+#include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
@@ -9,7 +10,9 @@
 #include "linalg/matrix.h"
 
 #define TOLERANCE 1e-12  /* of the residual below: a vector is then as good as its arithmetic */
-#define ACCEPTABLE 1e-7  /* where rounding stops the iteration: eigenvalues are then good to its square */
+#define ACCEPTABLE 1e-7  /* after all cycles: eigenvalues are then good to its square */
+#define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
+#define ZERO 1e-14        /* of the highest eigenvalue: below this, rounding of a rigid motion */
 #define MOST_CYCLES 60
 #define GUARDS 5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
 #define DEPTH 3  /* Krylov blocks a cycle */
@@ -125,33 +128,30 @@ static int cycle(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
 
 static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, int watched, double tolerance)
 {
-    double previous = INFINITY;
+    /* rounding stops the iteration here; above it, a residual that stays may be a partner of a repeated eigenvalue that comes late */
+    double rounding = fmin(1e-4, 16 * DBL_EPSILON * e->largest / -e->shift), worst = INFINITY, previous;
     for (int c = 0; c < MOST_CYCLES; c++) {
-        double worst = iterate(e, m, watched);
+        previous = worst;
+        worst = iterate(e, m, watched);
         if (!isfinite(worst))
             return ROTID_ERROR_EIGEN;
-        if (worst <= tolerance || (c > 1 && worst < ACCEPTABLE && worst > 0.3 * previous))
+        if (worst <= tolerance || (c > 1 && worst < rounding && worst > 0.3 * previous))
             return ROTID_OK;
-        previous = worst;
         int status = cycle(e, k, m);
         if (status)
             return status;
     }
-    return ROTID_ERROR_EIGEN;
+    return worst < ACCEPTABLE ? ROTID_OK : ROTID_ERROR_EIGEN;
 }
 
 /* A first shift far below the first mode and yet well above rounding, then, knowing the third eigenvalue (the first two may be
- * rigid-body modes at zero), one of its size: the iteration then converges about as fast as with none. */
+ * rigid-body modes at zero) or the first above it that is not zero, one of its size: the iteration then converges about as fast
+ * as with none. */
 static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     struct random_stream stream = {20240229};
-    int n = e->n, stride = k->kd + 1;
-    double largest = 0;
-    for (int i = 0; i < n; i++)
-        largest = fmax(largest, k->band[(ptrdiff_t)i * stride] / m->band[(ptrdiff_t)i * stride]);
-    if (!isfinite(largest) || largest <= 0)
-        return ROTID_ERROR_STIFFNESS;
-    e->shift = -1e-10 * largest;
+    int n = e->n;
+    e->shift = -FIRST_SHIFT * e->largest;
     for (ptrdiff_t i = 0; i < (ptrdiff_t)n * e->block; i++)
         e->ritz[i] = random_normal(&stream);
     for (int j = 0; j < e->block; j++)
@@ -161,8 +161,23 @@ static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
         status = converge(e, k, m, watched, 1e-3);
     if (status)
         return status;
-    e->shift = -0.1 * fabs(e->value[watched - 1]);
-    return e->shift < 0 ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
+    int j = e->block < 3 ? e->block - 1 : 2;
+    while (j + 1 < e->block && e->value[j] < ZERO * e->largest)
+        j++;
+    e->shift = -0.1 * fabs(e->value[j]);
+    return e->value[j] >= ZERO * e->largest ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
+}
+
+/* Refuses what no beam has, the same way whatever was solved before. */
+static int check(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int stride = k->kd + 1;
+    if (factor_compute(&e->inertia, m))
+        return ROTID_ERROR_MASS;
+    e->largest = 0;
+    for (int i = 0; i < e->n; i++)
+        e->largest = fmax(e->largest, k->band[(ptrdiff_t)i * stride] / m->band[(ptrdiff_t)i * stride]);
+    return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
 /* Are there exactly `count` eigenvalues below a shift just above the last one? Rounding limits how near it can be; a neighbour
@@ -179,8 +194,10 @@ static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_
 
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
 {
+    int status = check(e, k, m);
+    if (status)
+        return status;
     for (int attempt = 0; attempt < 2; attempt++) {
-        int status = ROTID_OK;
         if (e->started) { /* the old vectors with the new matrices: pairs first */
             status = refactor(e, k, m);
             memset(e->image, 0, (size_t)e->n * (size_t)e->block * sizeof(double));
@@ -196,6 +213,8 @@ int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_ma
         }
         if (!status)
             status = converge(e, k, m, e->count, TOLERANCE);
+        if (!status && e->value[0] < -FIRST_SHIFT * e->largest)
+            return ROTID_ERROR_STIFFNESS;
         if (!status && none_missed(e, k, m)) {
             e->started = 1;
             memcpy(lambda, e->value, (size_t)e->count * sizeof(double));

@@ -51,27 +51,32 @@ static int solve_inverse(struct eigen_dense *e, const double *k, const double *m
     return info || found != e->count ? ROTID_ERROR_EIGEN : ROTID_OK;
 }
 
-/* Before any eigenvalue is known: a shift that keeps K - s M positive definite and is small beside every diagonal ratio. */
-static double first_shift(int n, const double *k, const double *m)
+/* The solver above sees M through the wanted pairs alone, and they may be positive where M is not. */
+static int mass_is_definite(struct eigen_dense *e, const double *m)
 {
-    double least = INFINITY;
-    for (int i = 0; i < n; i++)
-        least = fmin(least, k[i + (ptrdiff_t)i * n] / m[i + (ptrdiff_t)i * n]);
-    return -1e-4 * least;
+    memcpy(e->a, m, (size_t)e->n * (size_t)e->n * sizeof(double));
+    return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', e->n, e->a, e->n) == 0;
 }
 
 int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi)
 {
-    int n = e->n, status, passes = e->shift < 0 ? 1 : 2;
-    for (int i = 0; i < n; i++)
-        if (!(m[i + (ptrdiff_t)i * n] > 0))
-            return ROTID_ERROR_MASS;
+    int n = e->n, passes = e->shift < 0 ? 1 : 2;
+    double least = INFINITY, most = 0; /* K_ii/M_ii: the lowest eigenvalue is below the one, the highest of the size of the other */
+    if (!mass_is_definite(e, m))
+        return ROTID_ERROR_MASS;
+    for (int i = 0; i < n; i++) {
+        double ratio = k[i + (ptrdiff_t)i * n] / m[i + (ptrdiff_t)i * n];
+        least = fmin(least, ratio);
+        most = fmax(most, ratio);
+    }
     if (passes == 2)
-        e->shift = first_shift(n, k, m);
-    if (!(e->shift < 0) || !isfinite(e->shift))
+        e->shift = -1e-4 * least;
+    if (!(e->shift < 0) || !isfinite(e->shift)) {
+        e->shift = 0;
         return ROTID_ERROR_STIFFNESS;
+    }
     for (int pass = 0; pass < passes; pass++) {
-        status = solve_inverse(e, k, m);
+        int status = solve_inverse(e, k, m);
         for (int j = 0; j < e->count && !status; j++) {
             int source = e->count - 1 - j;
             double mu = e->values[source], scale = 1 / sqrt(mu);
@@ -81,11 +86,15 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
             for (int i = 0; i < n; i++)
                 phi[i + (ptrdiff_t)j * n] = scale * e->vectors[i + (ptrdiff_t)source * n];
         }
+        if (!status && lambda[0] < -1e-10 * most)
+            status = ROTID_ERROR_STIFFNESS; /* a shift of before may hide what a first one shows */
         if (status)
             return status;
-        double reference = lambda[e->count < 4 ? e->count - 1 : 3]; /* past two rigid modes, whose zeros would make no shift */
-        if (reference > 0)
-            e->shift = -reference;
+        int reference = e->count < 4 ? e->count - 1 : 3; /* past two rigid modes; past more of them where there are more */
+        while (reference + 1 < e->count && lambda[reference] < 1e-13 * most)
+            reference++;
+        if (lambda[reference] >= 1e-13 * most)
+            e->shift = -lambda[reference];
     }
     return ROTID_OK;
 }

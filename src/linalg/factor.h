@@ -40,6 +40,9 @@ void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const i
 /* Returns 0, or 1 when A is not positive definite (Cholesky) or singular (LU). Allocates nothing. */
 int factor_compute(struct factor *f, const rotid_matrix *a);
 
+/* After a Cholesky factorisation of `a`: 1 where a pivot is within rounding of zero, so that A is singular but for rounding. */
+int factor_is_singular(const struct factor *f, const rotid_matrix *a);
+
 /* B [n * columns], in the order of `kept`, is overwritten by A^-1 B. */
 void factor_solve(struct factor *f, int columns, double *b);
 

@@ -154,7 +154,7 @@ int reduction_compute(struct reduction *r, const rotid_matrix *k, const rotid_ma
 {
     r->k = k;
     r->m = m;
-    if (factor_compute(&r->factor, k))
+    if (factor_compute(&r->factor, k) || factor_is_singular(&r->factor, k))
         return ROTID_ERROR_SLAVE;
     constraint_modes(r, k);
     guyan_stiffness(r, k);

@@ -43,9 +43,13 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     int full = reduction == ROTID_REDUCTION_NONE;
     *p = (struct prediction){.model = model, .reduction = reduction, .derivative = derivative};
     p->size = full ? model->n : model->nmaster;
-    p->count = !full && with_vectors && derivative == ROTID_MODAL ? p->size : count;
     if (count < 1 || count > p->size || (full && derivative == ROTID_MODAL))
         return ROTID_ERROR_ARGUMENT;
+    p->count = count;
+    if (with_vectors && derivative == ROTID_MODAL)
+        p->count = p->size;
+    else if (with_vectors && count < p->size)
+        p->count++; /* the neighbour above the last: a vector is differentiated only where none is close */
     size_t vectors = (size_t)p->size * (size_t)p->count, nparam = (size_t)model->nparam;
     p->lambda = POOL_ARRAY(pool, double, p->count);
     p->phi = POOL_ARRAY(pool, double, vectors);
@@ -81,21 +85,23 @@ int prediction_compute(struct prediction *p, const double *x)
     return status ? status : eigen_dense_solve(&p->dense, p->condensed.kc, p->condensed.mc, p->lambda, p->phi);
 }
 
-/* dK and dM by central differences, for a host that gives none. The step balances rounding against curvature. */
+/* dK and dM by central differences of fourth order, for a host that gives none. The wide step is for parameters that change little
+ * of a stiff matrix: rounding of what they leave alone is divided by it. */
 static int difference(struct prediction *p, const double *x, int q)
 {
-    int nparam = p->model->nparam;
-    memcpy(p->x, x, (size_t)nparam * sizeof *x);
-    double h = 6e-6 * (x[q] != 0 ? fabs(x[q]) : 1);
-    p->x[q] = x[q] + h;
-    int status = evaluate(p->model, p->x, &p->dk, &p->dm);
-    p->x[q] = x[q] - h;
-    if (!status)
-        status = evaluate(p->model, p->x, &p->other_k, &p->other_m);
-    if (status)
-        return status;
-    matrix_combine(0.5 / h, &p->dk, -0.5 / h, &p->other_k, &p->dk);
-    matrix_combine(0.5 / h, &p->dm, -0.5 / h, &p->other_m, &p->dm);
+    static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
+    double h = 2e-3 * (x[q] != 0 ? fabs(x[q]) : 1);
+    memcpy(p->x, x, (size_t)p->model->nparam * sizeof *x);
+    matrix_zero(&p->dk);
+    matrix_zero(&p->dm);
+    for (int i = 0; i < 4; i++) {
+        p->x[q] = x[q] + at[i] * h;
+        int status = evaluate(p->model, p->x, &p->other_k, &p->other_m);
+        if (status)
+            return status;
+        matrix_combine(1, &p->dk, weight[i] / h, &p->other_k, &p->dk);
+        matrix_combine(1, &p->dm, weight[i] / h, &p->other_m, &p->dm);
+    }
     return ROTID_OK;
 }
 

@@ -21,7 +21,7 @@ int comparison_candidates(const struct job *job)
 static int components(const struct job *job, int mode)
 {
     int count = 0;
-    for (int s = 0; s < job->rotor.nsensor; s++)
+    for (int s = 0; s < job->rotor.nsensor && job->shape; s++)
         count += isfinite(job->shape[s + (ptrdiff_t)mode * job->rotor.nsensor]);
     return count;
 }

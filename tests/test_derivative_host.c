@@ -1,0 +1,235 @@
+/* A host's own model behind rotid_model: derivatives of its modes, and what is refused. */
+#include "dense.h"
+#include "derivative_check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "linalg/matrix.h"
+#include "modal/prediction.h"
+
+/* ---- K(x) = K0 + x1 K1 + x1 x2 K2, M(x) = M0 + x2^2 M1, all of them dense */
+
+enum { host_n = 14 };
+struct host {
+    double k0[host_n * host_n], k1[host_n * host_n], k2[host_n * host_n], m0[host_n * host_n], m1[host_n * host_n];
+    int fail_matrices, fail_derivatives; /* the callback reports a failure */
+    double poison_matrices, poison_derivatives; /* added to one element */
+    rotid_model model;
+};
+static const double host_values[2] = {1.5, 0.8};
+
+static void host_put(rotid_matrix *a, double factor, const double *full)
+{
+    for (int j = 0; j < a->n; j++)
+        for (int i = j; i < a->n; i++)
+            a->band[(i - j) + j * (a->kd + 1)] += factor * full[i + j * a->n];
+}
+
+static int host_matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    const struct host *host = user;
+    host_put(stiffness, 1, host->k0);
+    host_put(stiffness, x[0], host->k1);
+    host_put(stiffness, x[0] * x[1], host->k2);
+    host_put(mass, 1, host->m0);
+    host_put(mass, x[1] * x[1], host->m1);
+    mass->band[3] += host->poison_matrices;
+    return host->fail_matrices;
+}
+
+static int host_derivatives(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    const struct host *host = user;
+    if (p == 0)
+        host_put(stiffness, 1, host->k1);
+    host_put(stiffness, p == 0 ? x[1] : x[0], host->k2);
+    if (p == 1)
+        host_put(mass, 2 * x[1], host->m1);
+    stiffness->band[3] += host->poison_derivatives;
+    return host->fail_derivatives;
+}
+
+static const rotid_model *open_host(struct pool *pool, struct host *host)
+{
+    static const int master[6] = {0, 2, 5, 8, 9, 13};
+    struct random_stream stream = {51};
+    double *parts[5] = {host->k0, host->k1, host->k2, host->m0, host->m1};
+    for (int p = 0; p < 5; p++) {
+        rotid_matrix a;
+        random_positive(pool, &stream, host_n, host_n - 1, 0, NULL, 1, &a);
+        memcpy(parts[p], dense_of(pool, &a), host_n * host_n * sizeof(double));
+    }
+    host->fail_matrices = host->fail_derivatives = 0;
+    host->poison_matrices = host->poison_derivatives = 0;
+    host->model = (rotid_model){.n = host_n, .kd = host_n - 1, .nparam = 2, .nmaster = 6, .master = master,
+                                .matrices = host_matrices, .derivatives = host_derivatives, .user = host};
+    return &host->model;
+}
+
+static void derivatives_of_a_hosts_dense_model_match_differences(void **state)
+{
+    const double steps[2] = {1e-3, 1e-3};
+    struct host host;
+    const rotid_model *model = open_host(*state, &host);
+    check_derivatives(*state, model, ROTID_REDUCTION_NONE, ROTID_NELSON, 0, 6, host_values, steps, 1e-7);
+    for (int kind = ROTID_GUYAN; kind <= ROTID_IRS; kind++) {
+        check_derivatives(*state, model, kind, ROTID_NELSON, 0, 6, host_values, steps, 1e-7);
+        check_derivatives(*state, model, kind, ROTID_MODAL, 0, 6, host_values, steps, 1e-7);
+    }
+}
+
+/* ---- refusals */
+
+static void a_callback_that_fails_or_gives_nan_is_named(void **state)
+{
+    const int wanted[7] = {1, 1, 1, 1, 1, 1, 0};
+    for (int kind = ROTID_REDUCTION_NONE; kind <= ROTID_IRS; kind++)
+        for (int vectors = 0; vectors < 2; vectors++) {
+            struct host host;
+            struct prediction p;
+            const rotid_model *model = open_host(*state, &host);
+            assert_status(prediction_new(*state, model, kind, ROTID_NELSON, 6, vectors, &p), ROTID_OK);
+            host.fail_matrices = 17;
+            assert_status(prediction_compute(&p, host_values), ROTID_ERROR_CALLBACK);
+            host.fail_matrices = 0;
+            host.poison_matrices = NAN;
+            assert_status(prediction_compute(&p, host_values), ROTID_ERROR_FINITE);
+            host.poison_matrices = -INFINITY;
+            assert_status(prediction_compute(&p, host_values), ROTID_ERROR_FINITE);
+            host.poison_matrices = 0;
+            assert_status(prediction_compute(&p, host_values), ROTID_OK);
+            host.fail_derivatives = -1;
+            assert_status(prediction_differentiate(&p, host_values, wanted, vectors), ROTID_ERROR_CALLBACK);
+            host.fail_derivatives = 0;
+            host.poison_derivatives = NAN;
+            assert_status(prediction_differentiate(&p, host_values, wanted, vectors), ROTID_ERROR_FINITE);
+            host.poison_derivatives = 0;
+            assert_status(prediction_differentiate(&p, host_values, wanted, vectors), ROTID_OK);
+            host.model.derivatives = NULL; /* the differences call `matrices` */
+            host.fail_matrices = 1;
+            assert_status(prediction_differentiate(&p, host_values, wanted, vectors), ROTID_ERROR_CALLBACK);
+            host.fail_matrices = 0;
+            host.poison_matrices = NAN;
+            assert_status(prediction_differentiate(&p, host_values, wanted, vectors), ROTID_ERROR_FINITE);
+        }
+}
+
+static void requests_out_of_range_are_refused(void **state)
+{
+    struct host host;
+    struct prediction p;
+    const rotid_model *model = open_host(*state, &host);
+    assert_status(prediction_new(*state, model, ROTID_REDUCTION_NONE, ROTID_NELSON, 0, 0, &p), ROTID_ERROR_ARGUMENT);
+    assert_status(prediction_new(*state, model, ROTID_REDUCTION_NONE, ROTID_NELSON, host_n + 1, 0, &p), ROTID_ERROR_ARGUMENT);
+    assert_status(prediction_new(*state, model, ROTID_REDUCTION_NONE, ROTID_NELSON, host_n, 0, &p), ROTID_OK);
+    assert_status(prediction_new(*state, model, ROTID_REDUCTION_NONE, ROTID_MODAL, 3, 1, &p), ROTID_ERROR_ARGUMENT);
+    assert_status(prediction_new(*state, model, ROTID_GUYAN, ROTID_NELSON, 7, 1, &p), ROTID_ERROR_ARGUMENT);
+    assert_status(prediction_new(*state, model, ROTID_IRS, ROTID_MODAL, 6, 1, &p), ROTID_OK);
+}
+
+/* ---- models whose structure makes it hard */
+
+/* Two copies of the same chain of three masses, springs x1 (2 - x2) and x1 x2: equal where x2 = 1. */
+static int twin_matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    (void)user;
+    for (int c = 0; c < 2; c++)
+        for (int i = 0; i < 3; i++) {
+            double spring = c ? x[0] * x[1] : x[0] * (2 - x[1]);
+            matrix_add(mass, 3 * c + i, 3 * c + i, 1);
+            matrix_add(stiffness, 3 * c + i, 3 * c + i, i ? 2 * spring : spring + 1);
+            if (i < 2)
+                matrix_add(stiffness, 3 * c + i, 3 * c + i + 1, -spring);
+        }
+    return 0;
+}
+
+static const int twin_master[5] = {0, 1, 2, 3, 5};
+static const rotid_model twins = {.n = 6, .kd = 1, .nparam = 2, .nmaster = 5, .master = twin_master, .matrices = twin_matrices};
+
+static void vectors_of_repeated_eigenvalues_are_not_differentiated(void **state)
+{
+    const double equal[2] = {2, 1}, near[2] = {2, 1 + 1e-9}, apart[2] = {2, 1.4};
+    for (int count = 1; count <= 6; count++) /* also where the partner lies just beyond the request */
+        for (int k = 0; k < count; k++) {
+            struct prediction p;
+            int wanted[7] = {0};
+            wanted[k] = 1;
+            assert_status(prediction_new(*state, &twins, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 1, &p), ROTID_OK);
+            assert_status(prediction_compute(&p, equal), ROTID_OK);
+            assert_status(prediction_differentiate(&p, equal, wanted, 1), ROTID_ERROR_CLOSE);
+            assert_status(prediction_compute(&p, near), ROTID_OK);
+            assert_status(prediction_differentiate(&p, near, wanted, 1), ROTID_ERROR_CLOSE);
+            assert_status(prediction_compute(&p, apart), ROTID_OK);
+            assert_status(prediction_differentiate(&p, apart, wanted, 1), ROTID_OK);
+        }
+}
+
+/* Half of each vector is zero: Nelson's method has to leave out a component that is not. */
+static void vectors_with_zeros_are_differentiated(void **state)
+{
+    const double apart[2] = {2, 1.4}, steps[2] = {1e-3, 1e-3};
+    check_derivatives(*state, &twins, ROTID_REDUCTION_NONE, ROTID_NELSON, 0, 6, apart, steps, 1e-7);
+    check_derivatives(*state, &twins, ROTID_GUYAN, ROTID_NELSON, 0, 5, apart, steps, 1e-7);
+    check_derivatives(*state, &twins, ROTID_GUYAN, ROTID_MODAL, 0, 5, apart, steps, 1e-7);
+}
+
+/* A string of 59 springs x1 with a coil between its thirds; the masses of its right half grow with x2. */
+static int string_matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    (void)user;
+    for (int i = 0; i < 59; i++) {
+        matrix_add(stiffness, i, i, 2 * x[0] + (i == 19 || i == 39 ? 0.3 : 0));
+        if (i < 58)
+            matrix_add(stiffness, i, i + 1, -x[0]);
+        matrix_add(mass, i, i, i > 30 ? 0.9 + 0.1 * x[1] : 1);
+    }
+    matrix_add(stiffness, 19, 39, -0.3);
+    return 0;
+}
+
+/* Mode 3 has its nodes at the far degrees of freedom, so its frequency is that of the thirds with those clamped, and the inner
+ * part of the bordered factors is singular there. The same string as a dense matrix has no border. */
+static void a_far_block_at_the_nodes_of_a_mode_costs_no_digits(void **state)
+{
+    static const int far[2] = {19, 39}, master[3] = {5, 20, 50};
+    const double x[2] = {1, 1};
+    const rotid_model bordered = {.n = 59, .kd = 1, .nfar = 2, .far = far, .nparam = 2, .nmaster = 3, .master = master,
+                                  .matrices = string_matrices};
+    const rotid_model full = {.n = 59, .kd = 58, .nparam = 2, .nmaster = 3, .master = master, .matrices = string_matrices};
+    const int wanted[7] = {1, 1, 1, 1, 1, 1, 0};
+    struct prediction a, b;
+    assert_status(prediction_new(*state, &bordered, ROTID_REDUCTION_NONE, ROTID_NELSON, 6, 1, &a), ROTID_OK);
+    assert_status(prediction_new(*state, &full, ROTID_REDUCTION_NONE, ROTID_NELSON, 6, 1, &b), ROTID_OK);
+    assert_status(prediction_compute(&a, x), ROTID_OK);
+    assert_status(prediction_compute(&b, x), ROTID_OK);
+    assert_close(a.phi[19 + 2 * 59], 0, 0, 1e-10);
+    assert_close(a.phi[39 + 2 * 59], 0, 0, 1e-10);
+    assert_status(prediction_differentiate(&a, x, wanted, 1), ROTID_OK);
+    assert_status(prediction_differentiate(&b, x, wanted, 1), ROTID_OK);
+    for (int k = 0; k < 6; k++) { /* with respect to x2: x1 scales K but for the coil, and some shapes do not feel it */
+        double sign = 0, difference = 0, size = 0;
+        for (int i = 0; i < 59; i++)
+            sign += a.phi[i + k * 59] * b.phi[i + k * 59];
+        for (int i = 0; i < 59; i++) {
+            double of_a = a.dphi[i + 59 * (k + a.count)], of_b = b.dphi[i + 59 * (k + b.count)] * (sign < 0 ? -1 : 1);
+            difference = fmax(difference, fabs(of_a - of_b));
+            size = fmax(size, fabs(of_b));
+        }
+        assert_close(difference, 0, 0, 1e-8 * size);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_POOL(derivatives_of_a_hosts_dense_model_match_differences),
+        WITH_POOL(a_callback_that_fails_or_gives_nan_is_named),
+        WITH_POOL(requests_out_of_range_are_refused),
+        WITH_POOL(vectors_of_repeated_eigenvalues_are_not_differentiated),
+        WITH_POOL(vectors_with_zeros_are_differentiated),
+        WITH_POOL(a_far_block_at_the_nodes_of_a_mode_costs_no_digits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
