@@ -3,6 +3,7 @@
 #include <cJSON.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void add_number(cJSON *object, const char *key, double value)
 {
@@ -15,6 +16,35 @@ static void add_number(cJSON *object, const char *key, double value)
 static void append(cJSON *array, double value)
 {
     (void)cJSON_AddItemToArray(array, isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
+}
+
+/* Bytes of the UTF-8 character that begins here, 0 where there is none (RFC 3629). */
+static size_t utf8_bytes(const unsigned char *c)
+{
+    size_t bytes = *c < 0x80 ? 1 : *c < 0xc2 ? 0 : *c < 0xe0 ? 2 : *c < 0xf0 ? 3 : *c < 0xf5 ? 4 : 0;
+    for (size_t i = 1; i < bytes; i++)
+        if ((c[i] & 0xc0) != 0x80)
+            return 0;
+    if ((*c == 0xe0 && c[1] < 0xa0) || (*c == 0xed && c[1] > 0x9f) || (*c == 0xf0 && c[1] < 0x90) || (*c == 0xf4 && c[1] > 0x8f))
+        return 0;
+    return bytes;
+}
+
+/* A text of the user, in whatever encoding: what is not UTF-8 becomes U+FFFD. */
+static cJSON *user_text(const char *text)
+{
+    char *clean = malloc(3 * strlen(text) + 1), *end = clean;
+    while (clean && *text) {
+        size_t bytes = utf8_bytes((const unsigned char *)text);
+        memcpy(end, bytes ? text : "\xef\xbf\xbd", bytes ? bytes : 3);
+        end += bytes ? bytes : 3;
+        text += bytes ? bytes : 1;
+    }
+    if (clean)
+        *end = 0;
+    cJSON *item = clean ? cJSON_CreateString(clean) : NULL;
+    free(clean);
+    return item;
 }
 
 static void add_list(cJSON *object, const char *key, int count, const double *value)
@@ -46,10 +76,10 @@ static cJSON *begin(const struct provenance *provenance, const struct job *job)
     (void)cJSON_AddNumberToObject(root, "seed", (double)provenance->seed);
     (void)cJSON_AddNumberToObject(root, "threads", provenance->threads);
     (void)cJSON_AddStringToObject(root, "command", provenance->command);
-    (void)cJSON_AddStringToObject(root, "deck", job->deck);
+    (void)cJSON_AddItemToObject(root, "deck", user_text(job->deck));
     cJSON *heading = cJSON_AddArrayToObject(root, "heading");
     for (int i = 0; i < job->nheading; i++)
-        (void)cJSON_AddItemToArray(heading, cJSON_CreateString(job->heading[i]));
+        (void)cJSON_AddItemToArray(heading, user_text(job->heading[i]));
     return root;
 }
 
@@ -58,7 +88,7 @@ static void add_notes(cJSON *root, const struct message_list *notes)
     cJSON *array = cJSON_AddArrayToObject(root, "warnings");
     for (size_t i = 0; i < notes->count; i++)
         if (notes->item[i].severity == SEVERITY_WARNING)
-            (void)cJSON_AddItemToArray(array, cJSON_CreateString(notes->item[i].text));
+            (void)cJSON_AddItemToArray(array, user_text(notes->item[i].text));
 }
 
 static char *finish(cJSON *root)
@@ -98,7 +128,7 @@ char *json_check(const struct provenance *provenance, const struct job *job, con
     }
     parameters = cJSON_AddArrayToObject(root, "parameters");
     for (int p = 0; p < job->nparameter; p++)
-        (void)cJSON_AddItemToArray(parameters, cJSON_CreateString(job->bounds[p].name));
+        (void)cJSON_AddItemToArray(parameters, user_text(job->bounds[p].name));
     add_notes(root, notes);
     return finish(root);
 }
@@ -150,7 +180,7 @@ char *json_sensitivity(const struct provenance *provenance, const struct job *jo
     list = cJSON_AddArrayToObject(root, "parameters");
     for (int p = 0; p < result->n; p++) {
         cJSON *item = cJSON_CreateObject();
-        (void)cJSON_AddStringToObject(item, "name", parameter[p].name);
+        (void)cJSON_AddItemToObject(item, "name", user_text(parameter[p].name));
         (void)cJSON_AddStringToObject(item, "unit", parameter[p].unit);
         add_number(item, "reference", result->reference[p]);
         add_list(item, "sensitivity", result->m, result->difference + (ptrdiff_t)p * result->m);
@@ -167,7 +197,7 @@ static void add_parameters(cJSON *root, const struct job *job, const rotid_fit_r
     for (int p = 0; p < fit->n; p++) {
         const double interval[2] = {fit->ci_lower[p], fit->ci_upper[p]};
         cJSON *item = cJSON_CreateObject();
-        (void)cJSON_AddStringToObject(item, "name", job->bounds[p].name);
+        (void)cJSON_AddItemToObject(item, "name", user_text(job->bounds[p].name));
         (void)cJSON_AddStringToObject(item, "unit", job->bounds[p].unit);
         add_number(item, "value", fit->x[p]);
         add_number(item, "start", job->bounds[p].start);
