@@ -6,6 +6,8 @@
 #include "modal/prediction.h"
 #include "run/client.h"
 
+#define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
+
 static double hertz(double lambda)
 {
     return lambda > 0 ? sqrt(lambda) / 6.28318530717958647692 : 0;
@@ -42,7 +44,7 @@ static int condensed_model(struct pool *pool, struct client *client, const doubl
 {
     int wanted = s->nrigid + s->count, count = wanted < s->nmaster ? wanted : s->nmaster;
     struct prediction p;
-    for (int kind = ROTID_GUYAN; kind <= ROTID_IRS; kind++) {
+    for (int kind = ROTID_GUYAN; kind <= ROTID_IRS && s->nmaster <= MOST_MASTERS; kind++) {
         if (kind == ROTID_IRS && reduction != ROTID_IRS)
             break;
         int status = prediction_new(pool, &client->model, kind, ROTID_NELSON, count, 0, &p);

@@ -11,11 +11,11 @@ struct spectrum {
     int nnode;                  /* of the axis */
     double rigid_hz[2];
     double *full_hz;                 /* [count] */
-    double *reduced_hz;              /* [count] NaN where the masters are too few */
+    double *reduced_hz;              /* [count] NaN where the masters are too few, or more than 1000 */
     double *reduction_error_percent; /* [count] reduced against full */
     double *mesh_error_percent;      /* [count] against the Richardson value of this mesh and one twice as fine */
     double *shape;                   /* [nmaster * count] full model at the masters, largest component 1 */
-    double *mass;                    /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible */
+    double *mass;                    /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */
     double *master_z;                /* [nmaster] m */
 };
 
