@@ -158,6 +158,28 @@ def main():
               shape(5, 1, (MEASURED[:, 0], zero, zero), freq=333.0, freq_step_n=1))
         check(checks, "15 + 55, nodes and sets of something else", deck, MEASURED_HZ, MEASURED, [1, 2, 3, 4])
 
+        # positions from the deck, shapes from a file without nodes
+        sensors = "*SENSORS\n" + "".join(f"{i}, {z:.9g}\n" for i, z in zip(IDS, Z))
+        write(uff, *(shape(2, k + 1, (MEASURED[:, k], zero, zero), freq=MEASURED_HZ[k]) for k in range(MODES)))
+        deck.write_text(MODEL + sensors + "*MEASURED, FILE=modes.uff\n")
+        check(checks, "55 real, sensors from the deck", deck, MEASURED_HZ, MEASURED, [1, 2, 3, 4])
+        deck.write_text(MODEL + "*MEASURED, FILE=modes.uff\n")
+        code, out, err = rotid("check", deck)
+        checks.true("55 without nodes or sensors is refused", code == 2 and "no nodes" in err and not out, (code, err[:200]))
+        deck.write_text(MODEL + "*MEASURED, FILE=modes.uff, DIRECTION=Y\n" + sensors)
+        code, out, err = rotid("check", deck)
+        checks.true("a direction without motion is refused", code == 2 and "DIRECTION" in err and not out, (code, err[:200]))
+
+        # mode 1 with some of mode 3 a quarter of a period late
+        late = MEASURED[:, 0] + 0.4j * MEASURED[:, 2]
+        phases = np.exp(1j * np.linspace(0, np.pi, 20001))
+        share = min(((late * p).imag ** 2).sum() for p in phases) / (abs(late) ** 2).sum()
+        write(uff, nodes(15, zero, zero, Z), shape(3, 1, (late, 0 * late, 0 * late), eig=eigen[0]))
+        deck.write_text(MODEL + "*MEASURED, FILE=modes.uff\n")
+        warnings = result("modes", deck)["warnings"]
+        named = any(w.startswith(f"{100 * share:.0f} % of the motion") and "out of phase" in w for w in warnings)
+        checks.true(f"motion out of phase is named: {100 * share:.0f} %", share > 0.05 and named, warnings)
+
         write(uff, nodes(15, zero, zero, 1000 * Z),
               *(shape(2, k + 1, (MEASURED[:, k], zero, zero), freq=MEASURED_HZ[k]) for k in range(MODES)))
         code, out, err = rotid("check", deck)

@@ -1,0 +1,167 @@
+/* What a person sees: the tables of every command, judged by what they must say and by numbers that stand in two places. */
+#include "support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define INPUT ROTID_SOURCE_DIR "/input/"
+
+static char text[1 << 16];
+
+/* Runs the program and keeps its standard output; returns its exit code. */
+static int run(const char *arguments)
+{
+    char command[2048];
+    (void)snprintf(command, sizeof command, "%s %s 2> /dev/null", ROTID_PROGRAM, arguments);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    size_t length = fread(text, 1, sizeof text - 1, pipe);
+    text[length] = 0;
+    int status = pclose(pipe);
+    return status < 0 ? -1 : status / 256;
+}
+
+static const char *line_with(const char *part)
+{
+    const char *found = strstr(text, part);
+    if (!found)
+        print_error("'%s' is not in:\n%s\n", part, text);
+    assert_non_null(found);
+    while (found > text && found[-1] != '\n')
+        found--;
+    return found;
+}
+
+/* Number `column`, from 0, of the table row of mode 1 to 9. */
+static double cell(int mode, int column)
+{
+    char begin[8];
+    (void)snprintf(begin, sizeof begin, "\n%4d ", mode);
+    const char *row = strstr(text, begin);
+    if (!row) {
+        (void)snprintf(begin, sizeof begin, "\n%3d ", mode);
+        row = strstr(text, begin);
+    }
+    assert_non_null(row);
+    char *end = (char *)row + strlen(begin);
+    double value = 0;
+    for (int i = 0; i <= column; i++) {
+        while (*end == ' ')
+            end++;
+        if (*end == '-' && end[1] == ' ')
+            end++;
+        else
+            value = strtod(end, &end);
+    }
+    return value;
+}
+
+static void identify_shows_measured_predicted_error_and_the_papers_own(void **state)
+{
+    (void)state;
+    static const double paper_hz[] = {418.86, 796.78, 1188.6, 1781.8, 2335.5, 2889.1}, paper[] = {-3.83, 8.38, 2.52, -1.12, -3.72, -1.00};
+    assert_int_equal(run("identify " INPUT "paper_rotor.inp"), 0);
+    (void)line_with("converged, fit of 6 modes, functional HYBRID, reduction GUYAN");
+    (void)line_with("core.E            1.15706e+11  Pa");
+    (void)line_with("NLopt LN_BOBYQA");
+    (void)line_with("the hybrid quotient equals the frequency of the condensed model");
+    for (int k = 1; k <= 6; k++) {
+        assert_close(cell(k, 2), 100 * (cell(k, 1) / cell(k, 0) - 1), 0, 0.006); /* the error is that of the two beside it */
+        assert_close(cell(k, 3), paper_hz[k - 1], 0, 0);
+        assert_close(cell(k, 4), paper[k - 1], 0, 0);
+    }
+    assert_null(strstr(text, "iteration   objective"));
+    assert_int_equal(run("identify " INPUT "paper_rotor.inp --verbose --no-baseline"), 0);
+    (void)line_with("iteration   objective");
+    assert_null(strstr(text, "NLopt"));
+}
+
+static void held_out_modes_and_widened_intervals_are_said(void **state)
+{
+    (void)state;
+    assert_int_equal(run("identify " INPUT "brake_reuss_beam.inp --no-baseline"), 0);
+    assert_non_null(strstr(line_with("1526.76"), "held out"));
+    (void)line_with("rms error of the fitted modes 12.45 %, of the modes held out 14.27 %");
+    assert_int_equal(run("identify " INPUT "solid_rotor.inp --no-baseline"), 0);
+    (void)line_with("times the stated noise: the intervals are widened by that, and the model is not adequate");
+    (void)line_with("chi2 1025 with 406 degrees of freedom");
+}
+
+static void what_is_not_determined_or_at_a_bound_is_said(void **state)
+{
+    (void)state;
+    char deck[] = "/tmp/rotid_tables_XXXXXX", arguments[128];
+    FILE *file = fdopen(mkstemp(deck), "w");
+    assert_non_null(file);
+    (void)fputs("*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n2, 0.02, 0, 30\n"
+                "*MODES\n1, 22.96\n2, 63.26\n3, 123.9\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\nbar.E, 1e10, 4e11, 2e11\nbar.G, 1e9, 9e12, 8e10\n",
+                file);
+    assert_int_equal(fclose(file), 0);
+    (void)snprintf(arguments, sizeof arguments, "identify %s --no-baseline", deck);
+    assert_int_equal(run(arguments), 1); /* a bar this slender says nothing about shear */
+    assert_true(strstr(text, "NOT DETERMINED") || strstr(text, "AT ITS BOUND"));
+    (void)snprintf(arguments, sizeof arguments, "sensitivity %s --quiet", deck);
+    assert_int_equal(run(arguments), 0);
+    assert_string_equal(text, "");
+    (void)remove(deck);
+}
+
+static void modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error(void **state)
+{
+    (void)state;
+    assert_int_equal(run("modes " INPUT "solid_steel.inp"), 0);
+    for (int k = 1; k <= 6; k++) {
+        assert_close(cell(k, 2), 100 * (cell(k, 1) / cell(k, 0) - 1), 0, 6e-4);
+        assert_close(cell(k, 5), 100 * (cell(k, 0) / cell(k, 4) - 1), 0, 6e-3);
+        assert_true(cell(k, 5) > 3 && cell(k, 5) < 6.5 && cell(k, 6) > 0.98);
+    }
+    assert_null(strstr(text, "z [m]"));
+    assert_int_equal(run("modes " INPUT "solid_steel.inp --verbose"), 0);
+    (void)line_with("    z [m]  mode 1  ");
+    (void)line_with("  2.03000");
+}
+
+static void sensitivity_shows_table_1_beside_the_paper(void **state)
+{
+    (void)state;
+    assert_int_equal(run("sensitivity " INPUT "paper_rotor.inp --at core.E=8e10,core.G=3e10,core.nu=0.3333333333 --points 3"), 0);
+    assert_non_null(strstr(line_with("373.1534"), "6.690e-01")); /* the paper's first entry beside ours */
+    (void)line_with("core.nu at 0.333333");
+    (void)line_with(" 0.500");
+    assert_int_equal(run("sensitivity " INPUT "paper_rotor.inp"), 0);
+    (void)line_with("core.E at 6e+10 Pa");
+    static const char *const wrong[] = {"--at nothing.E=1", "--at core.E=x", "--at core.E=0", "--at ,", "--step 0", "--range 2", "--points 0"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char arguments[256];
+        (void)snprintf(arguments, sizeof arguments, "sensitivity " INPUT "paper_rotor.inp %s", wrong[i]);
+        assert_int_equal(run(arguments), 2);
+        assert_string_equal(text, "");
+    }
+    assert_int_equal(run("sensitivity " INPUT "solid_steel.inp"), 2); /* nothing to identify, nothing named */
+    assert_int_equal(run("sensitivity " INPUT "solid_steel.inp --at core.G --points 1"), 0);
+}
+
+static void check_shows_mass_mesh_and_groups(void **state)
+{
+    (void)state;
+    assert_int_equal(run("check " INPUT "paper_rotor.inp"), 0);
+    assert_non_null(strstr(line_with("mass  "), "998.2755 kg"));
+    assert_non_null(strstr(line_with("centre of mass"), "1.059125 m"));
+    assert_non_null(strstr(line_with("mesh"), "176 nodes, 175 elements"));
+    assert_non_null(strstr(line_with("free motions"), "2 (modes on the supports at"));
+    assert_non_null(strstr(line_with("core  "), "1.1570e+11"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(identify_shows_measured_predicted_error_and_the_papers_own),
+        cmocka_unit_test(held_out_modes_and_widened_intervals_are_said),
+        cmocka_unit_test(what_is_not_determined_or_at_a_bound_is_said),
+        cmocka_unit_test(modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error),
+        cmocka_unit_test(sensitivity_shows_table_1_beside_the_paper),
+        cmocka_unit_test(check_shows_mass_mesh_and_groups),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
