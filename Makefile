@@ -31,9 +31,8 @@ LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm
 PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
 
 LIBRARY_ROOMS := base linalg beam modal fit run
-PROGRAM_ROOMS := io cli
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
-IO_SOURCES := $(wildcard src/io/*.c)
+IO_SOURCES := $(foreach room,uff deck report,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/deck.h"
+#include "deck/deck.h"
 #include "support.h"
 
 #define EVERY_CARD ROTID_SOURCE_DIR "/tests/data/decks/every_card.inp"

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/deck.h"
+#include "deck/deck.h"
 #include "run/compare.h"
 #include "run/identify.h"
 #include "support.h"
@@ -359,7 +359,7 @@ static void a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam(void 
     double plain[6], cone[6], rms = model_errors(INPUT "solid_steel.inp", plain);
     for (int k = 0; k < 6; k++)
         assert_true(plain[k] > 3 && plain[k] < 6.5); /* a beam is too stiff where the diameter steps */
-    assert_true(model_errors(DECKS "solid_steel_cone.inp", cone) < rms / 2);
+    assert_true(model_errors(INPUT "solid_steel_stiff.inp", cone) < rms / 2);
 }
 
 static int make_directory(void **state)

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "io/uff.h"
+#include "uff/uff.h"
 
 #ifndef ROTID_SOURCE_DIR
 #define ROTID_SOURCE_DIR "."

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "base/random.h"
-#include "io/deck.h"
+#include "deck/deck.h"
 #include "support.h"
 
 #define CORPUS      ROTID_SOURCE_DIR "/tests/data/decks/wrong"

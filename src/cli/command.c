@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/deck.h"
-#include "io/output.h"
+#include "deck/deck.h"
+#include "report/output.h"
 
 void command_print_messages(const struct command *command)
 {

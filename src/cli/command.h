@@ -2,8 +2,8 @@
 #ifndef ROTID_CLI_COMMAND_H
 #define ROTID_CLI_COMMAND_H
 
-#include "io/deck_text.h"
-#include "io/json.h"
+#include "deck/deck_text.h"
+#include "report/json.h"
 #include "run/job.h"
 
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };

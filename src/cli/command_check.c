@@ -1,5 +1,5 @@
 #include "cli/command.h"
-#include "io/table.h"
+#include "report/table.h"
 #include "run/client.h"
 
 int command_check(struct command *command)

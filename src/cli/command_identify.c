@@ -2,7 +2,7 @@
 #include <unistd.h>
 
 #include "cli/command.h"
-#include "io/table.h"
+#include "report/table.h"
 
 /* A line on the terminal that is written over, five times a second. */
 static void show_progress(void *context, const char *stage, int step)

@@ -1,5 +1,5 @@
 #include "cli/command.h"
-#include "io/table.h"
+#include "report/table.h"
 
 #define MODES_SHOWN 6
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "io/table.h"
+#include "report/table.h"
 
 #define MODES_WITHOUT_DATA 6
 

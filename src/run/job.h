@@ -1,4 +1,4 @@
-/* A job: what a deck says, resolved to numbers and indices. Filled by src/io, or by anybody who has the data in another form. */
+/* A job: what a deck says, resolved to numbers and indices. Filled by src/deck, or by anybody who has the data in another form. */
 #ifndef ROTID_RUN_JOB_H
 #define ROTID_RUN_JOB_H
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "io/uff_sets.h"
+#include "uff/uff_sets.h"
 
 void uff_clear_labels(struct uff_label_list *labels)
 {

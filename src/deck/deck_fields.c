@@ -1,4 +1,4 @@
-#include "io/deck_cards.h"
+#include "deck/deck_cards.h"
 
 #include <math.h>
 #include <stdarg.h>

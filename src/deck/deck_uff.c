@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/deck_cards.h"
-#include "io/uff.h"
+#include "deck/deck_cards.h"
+#include "uff/uff.h"
 #include "rotid.h"
 
 struct import {

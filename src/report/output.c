@@ -1,4 +1,4 @@
-#include "io/output.h"
+#include "report/output.h"
 
 #include <errno.h>
 #include <stdio.h>

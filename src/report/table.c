@@ -1,4 +1,4 @@
-#include "io/table.h"
+#include "report/table.h"
 
 #include <math.h>
 #include <string.h>

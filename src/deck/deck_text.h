@@ -1,6 +1,6 @@
 /* A deck as text: cards with their options and data lines, each piece with its place. */
-#ifndef ROTID_IO_DECK_TEXT_H
-#define ROTID_IO_DECK_TEXT_H
+#ifndef ROTID_DECK_DECK_TEXT_H
+#define ROTID_DECK_DECK_TEXT_H
 
 #include "base/message.h"
 #include "base/pool.h"

@@ -1,12 +1,12 @@
 /* The sets of a universal file in turn: between two lines '-1', a line with the number of the set and its records. */
-#include "io/uff.h"
+#include "uff/uff.h"
 
 #include <errno.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <string.h>
 
-#include "io/uff_sets.h"
+#include "uff/uff_sets.h"
 
 void uff_note_skip(struct uff_job *job, const char *format, ...)
 {

@@ -2,8 +2,8 @@
 #include <limits.h>
 #include <string.h>
 
-#include "io/uff_lines.h"
-#include "io/uff_numbers.h"
+#include "uff/uff_lines.h"
+#include "uff/uff_numbers.h"
 
 struct field {
     size_t start, length;

@@ -1,11 +1,11 @@
-#include "io/deck.h"
+#include "deck/deck.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/deck_cards.h"
+#include "deck/deck_cards.h"
 #include "rotid.h"
 
 /* Cards in the order in which they are read: what a later one refers to comes first, wherever it stands in the deck. */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/deck_cards.h"
+#include "deck/deck_cards.h"
 
 void deck_identify(struct deck_reader *reader, const struct card *card)
 {

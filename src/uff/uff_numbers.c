@@ -1,4 +1,4 @@
-#include "io/uff_numbers.h"
+#include "uff/uff_numbers.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Results as JSON: keys as in docs/schema. */
-#ifndef ROTID_IO_JSON_H
-#define ROTID_IO_JSON_H
+#ifndef ROTID_REPORT_JSON_H
+#define ROTID_REPORT_JSON_H
 
 #include "base/message.h"
 #include "run/identify.h"

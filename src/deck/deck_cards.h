@@ -1,8 +1,8 @@
 /* Shared by the readers of the cards: what has been read so far, and the reading of single fields. */
-#ifndef ROTID_IO_DECK_CARDS_H
-#define ROTID_IO_DECK_CARDS_H
+#ifndef ROTID_DECK_DECK_CARDS_H
+#define ROTID_DECK_DECK_CARDS_H
 
-#include "io/deck_text.h"
+#include "deck/deck_text.h"
 #include "run/job.h"
 
 struct deck_reader {

@@ -1,8 +1,8 @@
 /* Input decks: keyword cards as in docs/deck.md. */
-#ifndef ROTID_IO_DECK_H
-#define ROTID_IO_DECK_H
+#ifndef ROTID_DECK_DECK_H
+#define ROTID_DECK_DECK_H
 
-#include "io/deck_text.h"
+#include "deck/deck_text.h"
 #include "run/job.h"
 
 /* Reads a deck, applies the overrides, reads the measured data it names and checks everything. All errors of the deck are in the list,

@@ -3,7 +3,7 @@
 #include <limits.h>
 #include <math.h>
 
-#include "io/uff_sets.h"
+#include "uff/uff_sets.h"
 
 enum { NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, FREQUENCY_RESPONSE = 5, COMPLEX_SECOND_ORDER = 7 }; /* analysis type */
 enum { REAL_DATA = 2, COMPLEX_DATA = 5 };                                                            /* data type */

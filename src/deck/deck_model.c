@@ -1,5 +1,5 @@
 /* Cards of materials and of the shaft itself. */
-#include "io/deck_cards.h"
+#include "deck/deck_cards.h"
 
 int deck_find_material(const struct deck_reader *reader, const char *name)
 {

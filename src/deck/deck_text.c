@@ -1,4 +1,4 @@
-#include "io/deck_text.h"
+#include "deck/deck_text.h"
 
 #include <ctype.h>
 #include <errno.h>

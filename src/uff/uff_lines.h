@@ -1,6 +1,6 @@
 /* Lines of a universal file and the numbers in them. Internal to uff_*.c. */
-#ifndef ROTID_IO_UFF_LINES_H
-#define ROTID_IO_UFF_LINES_H
+#ifndef ROTID_UFF_UFF_LINES_H
+#define ROTID_UFF_UFF_LINES_H
 
 #include <stdio.h>
 

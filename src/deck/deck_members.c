@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "io/deck_cards.h"
+#include "deck/deck_cards.h"
 
 static struct group *named_group(struct deck_reader *reader, const struct card *card)
 {

@@ -1,4 +1,4 @@
-#include "io/json.h"
+#include "report/json.h"
 
 #include <cJSON.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Results as tables for a person. */
-#ifndef ROTID_IO_TABLE_H
-#define ROTID_IO_TABLE_H
+#ifndef ROTID_REPORT_TABLE_H
+#define ROTID_REPORT_TABLE_H
 
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-#include "io/uff_lines.h"
+#include "uff/uff_lines.h"
 
 #include <errno.h>
 #include <limits.h>

@@ -1,9 +1,9 @@
 /* The sets of a universal file. Internal to uff_*.c. */
-#ifndef ROTID_IO_UFF_SETS_H
-#define ROTID_IO_UFF_SETS_H
+#ifndef ROTID_UFF_UFF_SETS_H
+#define ROTID_UFF_UFF_SETS_H
 
-#include "io/uff.h"
-#include "io/uff_lines.h"
+#include "uff/uff.h"
+#include "uff/uff_lines.h"
 
 /* Node ids with their place, to find those that occur twice. */
 struct uff_label {

@@ -1,6 +1,6 @@
 /* Universal files: nodes (15, 2411) and mode shapes (55) of a modal test. */
-#ifndef ROTID_IO_UFF_H
-#define ROTID_IO_UFF_H
+#ifndef ROTID_UFF_UFF_H
+#define ROTID_UFF_UFF_H
 
 #include "base/message.h"
 #include "base/pool.h"

@@ -1,6 +1,6 @@
 /* One number as Fortran or C writes it. Internal to uff_*.c. */
-#ifndef ROTID_IO_UFF_NUMBERS_H
-#define ROTID_IO_UFF_NUMBERS_H
+#ifndef ROTID_UFF_UFF_NUMBERS_H
+#define ROTID_UFF_UFF_NUMBERS_H
 
 #include <stddef.h>
 

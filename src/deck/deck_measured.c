@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/deck_cards.h"
+#include "deck/deck_cards.h"
 
 /* "paper QUANTITY = value, value, ..." gives a reference; any other line is text. */
 static int read_reference(struct deck_reader *reader, const struct data_line *line)
