@@ -348,7 +348,7 @@ static void test_direction_worse_than_half_the_value_is_undetermined(void **stat
 }
 
 /* A part of 0.2 in a direction with a spread of 1000 % leaves 200 %. */
-static void test_no_parameter_wider_than_half_its_value_is_called_identifiable(void **state)
+static void test_no_parameter_whose_interval_holds_zero_is_called_identifiable(void **state)
 {
     static const double sigma[N] = {50, 20, 5, 0.1}, v[N] = {1, 2, -1, 3};
     (void)state;
@@ -392,7 +392,7 @@ int main(void)
         cmocka_unit_test(test_direction_without_information_is_named_and_gets_no_interval),
         cmocka_unit_test(test_small_part_in_a_direction_without_information_is_not_given_an_interval),
         cmocka_unit_test(test_direction_worse_than_half_the_value_is_undetermined),
-        cmocka_unit_test(test_no_parameter_wider_than_half_its_value_is_called_identifiable),
+        cmocka_unit_test(test_no_parameter_whose_interval_holds_zero_is_called_identifiable),
         cmocka_unit_test(test_no_degree_of_freedom_left_states_nothing),
     };
     return cmocka_run_group_tests_name("covariance", tests, NULL, NULL);

@@ -7,11 +7,11 @@
 #include "deck/deck.h"
 #include "report/output.h"
 
-void command_print_messages(const struct command *command)
+void command_print_messages(struct command *command)
 {
     static const char *const words[] = {"note: ", "warning: ", ""};
-    for (size_t i = 0; i < command->messages.count; i++) {
-        const struct message *m = &command->messages.item[i];
+    for (; command->printed < command->messages.count; command->printed++) {
+        const struct message *m = &command->messages.item[command->printed];
         if (m->severity != SEVERITY_ERROR && (command->quiet || (m->severity == SEVERITY_NOTE && !command->verbose)))
             continue;
         if (m->file)
@@ -28,9 +28,6 @@ int command_fail(struct command *command, int status)
     if (!command->messages.errors)
         (void)fprintf(stderr, "rotid: %s: %s\n", command->deck, rotid_status_text(status));
     switch (status) { /* what the input causes, and what it does not */
-    case ROTID_ERROR_MEMORY:
-    case ROTID_ERROR_LIBRARY:
-        return EXIT_INTERNAL;
     case ROTID_ERROR_SYNTAX:
     case ROTID_ERROR_ARGUMENT:
     case ROTID_ERROR_IO:
@@ -40,7 +37,7 @@ int command_fail(struct command *command, int status)
     case ROTID_ERROR_MASS:
         return EXIT_USAGE;
     default:
-        return EXIT_DOUBTFUL;
+        return EXIT_INTERNAL;
     }
 }
 
@@ -54,6 +51,7 @@ int command_read_deck(struct command *command)
         if (command->messages.item[i].severity == SEVERITY_WARNING)
             return EXIT_DONE; /* kept: they belong to the result as well */
     message_open(&command->messages, &command->pool);
+    command->printed = 0;
     return EXIT_DONE;
 }
 

@@ -18,6 +18,7 @@ struct command {
 
     struct pool pool;
     struct message_list messages;
+    size_t printed; /* of the messages */
     struct job job;
     struct provenance provenance;
 };
@@ -25,8 +26,8 @@ struct command {
 /* Reads the deck of the command; prints its errors. An exit code, EXIT_DONE to go on. */
 int command_read_deck(struct command *command);
 
-/* Prints the messages on standard error: errors always, the rest unless quiet. */
-void command_print_messages(const struct command *command);
+/* Prints the messages that are new on standard error: errors always, the rest unless quiet. */
+void command_print_messages(struct command *command);
 
 /* The exit code of a status below zero, after saying what happened. */
 int command_fail(struct command *command, int status);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/command.h"
 
@@ -161,6 +162,14 @@ static int parse_arguments(struct command *command, int argc, char **argv)
     return -1;
 }
 
+/* The result would replace it. */
+static int names_the_deck(const struct command *command)
+{
+    struct stat deck, json;
+    return command->json && strcmp(command->json, "-") && stat(command->deck, &deck) == 0 && stat(command->json, &json) == 0 &&
+           S_ISREG(deck.st_mode) && deck.st_dev == json.st_dev && deck.st_ino == json.st_ino;
+}
+
 static int run(struct command *command)
 {
     for (size_t c = 0; c < COMMANDS; c++) {
@@ -168,6 +177,8 @@ static int run(struct command *command)
             continue;
         command->provenance = (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
         build_set_threads(command->threads);
+        if (names_the_deck(command))
+            return usage("--json %s is the deck itself, expected another file", command->json);
         int code = command_read_deck(command);
         return code ? code : commands[c].run(command);
     }

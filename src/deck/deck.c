@@ -110,6 +110,9 @@ static void settle_moduli(struct deck_reader *reader)
     for (int p = 0; p < job->nparameter; p++) {
         if (job->parameter[p].kind != PARAMETER_G)
             continue;
+        if (reader->tie)
+            deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
+                       "TIE=E:G, but %s is identified without E of that group, expected E in its place", job->bounds[p].name);
         struct material *material = &job->rotor.group[job->parameter[p].index].material;
         material->g = material_shear_modulus(material);
         material->isotropic = 0;
@@ -176,6 +179,11 @@ static void check_beam(struct deck_reader *reader)
         if (beam.mesh.sensor_node[s] == beam.mesh.sensor_node[s - 1])
             deck_error(reader, reader->sensor_place[s], "sensors %d and %d lie at the same node, expected one sensor a position", job->rotor.sensor[s - 1].id,
                        job->rotor.sensor[s].id);
+    int modes = status ? 0 : beam.mesh.ndof - 2; /* elastic ones, where two motions are free */
+    for (int k = 0; k < job->nmode && !status; k++)
+        if (job->number[k] > modes)
+            deck_error(reader, (reader->modes_card ? reader->modes_card : reader->measured_card)->place,
+                       "mode %d is measured and the mesh has %d, expected more elements, or mode numbers that count from 1", job->number[k], modes);
     pool_close(&scratch);
 }
 

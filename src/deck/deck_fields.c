@@ -52,7 +52,7 @@ static int parse_number(struct deck_reader *reader, const char *text, struct pla
     char *end;
     double number = strtod(text, &end);
     if (end == text || *end) {
-        deck_error(reader, place, "'%s' is not a number, expected %s", text, what);
+        deck_error(reader, place, "'%s' is not a number, expected one for %s", text, what);
         return 1;
     }
     if (!isfinite(number) || (range == POSITIVE && number <= 0) || (range == NOT_NEGATIVE && number < 0)) {

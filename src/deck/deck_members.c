@@ -29,9 +29,20 @@ void deck_perforation(struct deck_reader *reader, const struct card *card)
             deck_error(reader, card->place, "group %s is a *BEAM, expected a round *SHAFT", group->name);
             return;
         }
-    (void)deck_integer(reader, &card->line[0], 0, "number of holes", 3, 10000, &group->holes);
-    (void)deck_number(reader, &card->line[0], 1, "hole diameter [m]", POSITIVE, &group->hole_diameter);
-    (void)deck_number(reader, &card->line[0], 2, "pitch radius [m]", POSITIVE, &group->hole_pitch);
+    const struct data_line *line = &card->line[0];
+    int bad = deck_integer(reader, line, 0, "number of holes", 3, 10000, &group->holes);
+    bad |= deck_number(reader, line, 1, "hole diameter [m]", POSITIVE, &group->hole_diameter);
+    bad |= deck_number(reader, line, 2, "pitch radius [m]", POSITIVE, &group->hole_pitch);
+    for (int s = 0; s < reader->job->rotor.nsegment && !bad; s++) {
+        const struct segment *segment = &reader->job->rotor.segment[s];
+        if (&reader->job->rotor.group[segment->group] != group)
+            continue;
+        if (2 * group->hole_pitch + group->hole_diameter > segment->outer || 2 * group->hole_pitch - group->hole_diameter < segment->inner) {
+            deck_error(reader, line->field[2].place, "holes of %s m on a radius of %s m do not lie within the section, expected them between %.6g and %.6g m of diameter",
+                       line->field[1].text, line->field[2].text, segment->inner, segment->outer);
+            return;
+        }
+    }
 }
 
 void deck_preload(struct deck_reader *reader, const struct card *card)
@@ -133,6 +144,11 @@ void deck_bars(struct deck_reader *reader, const struct card *card)
     bad |= deck_integer(reader, line, 3, "number of elements", 2, DECK_MOST_ELEMENTS, &bars.elements);
     if (!bad && bars.elements % 2) {
         deck_error(reader, line->field[3].place, "number of elements is %d, expected an even number: half to either side of the centre", bars.elements);
+        bad = 1;
+    }
+    if (!bad && (bars.center - bars.length / 2 < -1e-5 * reader->length || bars.center + bars.length / 2 > reader->length * (1 + 1e-5))) {
+        deck_error(reader, card_option(card, "LENGTH")->value_place, "bars of %s m reach beyond the rotor, expected them inside 0 to %.6g m",
+                   card_option(card, "LENGTH")->value, reader->length);
         bad = 1;
     }
     struct bars *added = bad ? NULL : DECK_APPEND(reader, rotor->bars, rotor->nbars, reader->bars_room);

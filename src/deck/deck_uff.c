@@ -116,6 +116,12 @@ static int compare_shapes(const void *left, const void *right)
     return ((*a)->frequency_hz > (*b)->frequency_hz) - ((*a)->frequency_hz < (*b)->frequency_hz);
 }
 
+/* A complex eigenvalue comes with its conjugate; two real modes of one frequency are two modes. */
+static int is_conjugate(const struct uff_shape *a, const struct uff_shape *b)
+{
+    return a->is_complex && b->is_complex && fabs(a->frequency_hz - b->frequency_hz) <= 1e-9 * a->frequency_hz;
+}
+
 /* Modes by rising frequency, without the second of each conjugate pair. */
 static int choose_modes(struct import *import, const struct uff_shape **chosen)
 {
@@ -131,7 +137,7 @@ static int choose_modes(struct import *import, const struct uff_shape **chosen)
     if (count)
         qsort(chosen, (size_t)count, sizeof *chosen, compare_shapes);
     for (int k = 0; k < count; k++)
-        if (!kept || chosen[k]->frequency_hz - chosen[kept - 1]->frequency_hz > 1e-9 * chosen[k]->frequency_hz)
+        if (!kept || !is_conjugate(chosen[k], chosen[kept - 1]))
             chosen[kept++] = chosen[k];
     if (kept < count)
         deck_note(import->reader, in_file(import, chosen[0]->line), "%d shapes repeat the frequency of another and are left out, as conjugates of it",

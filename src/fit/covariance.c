@@ -7,7 +7,7 @@
 #include "linalg/least_squares.h"
 
 #define RANK 1e-10       /* singular values below this part of the largest are rounding */
-#define UNDETERMINED 0.5 /* relative standard deviation: the 95 % interval is then as wide as the value to either side */
+#define UNDETERMINED 0.5 /* relative standard deviation along a direction: the data then allow about as much change as there is value */
 #define TAKES_PART 0.3   /* component of a unit direction */
 #define FREE 1e-6        /* a component of a direction without any information that still leaves a parameter without an interval */
 
@@ -66,7 +66,7 @@ static void outer_covariance(int n, const double *direction, const double *inner
 }
 
 /* Which directions, and with them which parameters, the data leave open. */
-static void judge_directions(const struct covariance_input *in, const double *inner, double variance, rotid_fit_result *result)
+static void judge_directions(const struct covariance_input *in, const double *inner, double variance, double t, rotid_fit_result *result)
 {
     int n = in->n;
     for (int p = 0; p < n; p++)
@@ -86,9 +86,11 @@ static void judge_directions(const struct covariance_input *in, const double *in
         }
         result->any_undetermined |= result->direction_undetermined[j];
     }
-    for (int p = 0; p < n; p++) /* a small part in a very wide direction, or in many */
-        if (result->std[p] > UNDETERMINED * fabs(in->x[p]))
+    for (int p = 0; p < n; p++)
+        if (t * result->std[p] > fabs(in->x[p])) { /* the 95 % interval holds zero */
             result->identifiable[p] = 0;
+            result->any_undetermined = 1;
+        }
 }
 
 int covariance_compute(const struct covariance_input *in, rotid_fit_result *result, double *work)
@@ -117,8 +119,8 @@ int covariance_compute(const struct covariance_input *in, rotid_fit_result *resu
     outer_covariance(n, result->direction, inner, variance, cov);
     for (int p = 0; p < n; p++)
         result->std[p] = in->fixed[p] ? NAN : fabs(in->x[p]) * sqrt(cov[p + (ptrdiff_t)p * n]);
-    judge_directions(in, inner, variance, result);
     double t = quantile_student_95(in->noise_std && result->widened_by <= 1 ? 0 : result->dof);
+    judge_directions(in, inner, variance, t, result);
     for (int p = 0; p < n; p++) {
         result->ci_lower[p] = in->x[p] - t * result->std[p];
         result->ci_upper[p] = in->x[p] + t * result->std[p];

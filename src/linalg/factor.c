@@ -204,8 +204,8 @@ int factor_is_singular(const struct factor *f, const rotid_matrix *a)
         int place = f->position[a->far[p]];
         if (place == INT_MIN)
             continue;
-        double pivot = f->schur[(-1 - place) * (f->nf + 1)];
-        if (pivot * pivot <= rounding * (a->band[(ptrdiff_t)a->far[p] * (a->kd + 1)] + a->block[p * (a->nfar + 1)]))
+        double pivot = f->schur[(ptrdiff_t)(-1 - place) * (f->nf + 1)];
+        if (pivot * pivot <= rounding * (a->band[(ptrdiff_t)a->far[p] * (a->kd + 1)] + a->block[(ptrdiff_t)p * (a->nfar + 1)]))
             return 1;
     }
     return 0;

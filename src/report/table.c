@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "fit/quantile.h"
+
 void table_heading(FILE *out, const struct job *job)
 {
     for (int i = 0; i < job->nheading; i++)
@@ -16,7 +18,7 @@ void table_notes(FILE *out, const struct message_list *notes)
 {
     int any = 0;
     for (size_t i = 0; i < notes->count; i++)
-        if (notes->item[i].severity == SEVERITY_WARNING) {
+        if (notes->item[i].severity == SEVERITY_WARNING && !notes->item[i].file) { /* with a place: said on standard error already */
             (void)fprintf(out, "%snote: %s\n", any ? "" : "\n", notes->item[i].text);
             any = 1;
         }
@@ -209,9 +211,14 @@ static void print_parameters(FILE *out, const struct job *job, const rotid_fit_r
     if (fit->variance_from_residuals && fit->dof > 0)
         (void)fprintf(out, "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them on the measurement\n",
                       fit->dof);
-    if (fit->widened_by > 1)
-        (void)fprintf(out, "the misfit is %.3g times the stated noise: the intervals are widened by that, and the model is not adequate for these data\n",
-                      fit->widened_by);
+    if (fit->widened_by > 1) {
+        double chance = chi_square_tail(fit->chi2, fit->dof); /* half of all adequate models have a misfit above the noise */
+        (void)fprintf(out, "the misfit is %.3g times the stated noise: the intervals are widened by that", fit->widened_by);
+        if (chance < 0.01)
+            (void)fprintf(out, ", and the model is not adequate for these data\n");
+        else
+            (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests\n", 100 * chance);
+    }
 }
 
 static void print_history(FILE *out, const rotid_fit_result *fit)

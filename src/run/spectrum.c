@@ -13,13 +13,15 @@ static double hertz(double lambda)
     return lambda > 0 ? sqrt(lambda) / 6.28318530717958647692 : 0;
 }
 
-/* Full model on a mesh `refine` times as fine. */
+/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. */
 static int full_model(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x,
-                      int refine, int count, struct client *client, struct prediction *prediction)
+                      int refine, int *count, struct client *client, struct prediction *prediction)
 {
     int failed, status = client_open(pool, rotor, nparameter, parameter, refine, client, &failed);
+    int most = status ? 0 : client->model.n - client->model.nrigid;
+    *count = *count < most ? *count : most;
     if (!status)
-        status = prediction_new(pool, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + count, 0, prediction);
+        status = prediction_new(pool, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + *count, 0, prediction);
     return status ? status : prediction_compute(prediction, x);
 }
 
@@ -70,9 +72,9 @@ int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparamete
     struct prediction p, q;
     if (!client || !fine)
         return ROTID_ERROR_MEMORY;
-    int status = full_model(pool, rotor, nparameter, parameter, x, 1, count, client, &p);
+    int status = full_model(pool, rotor, nparameter, parameter, x, 1, &count, client, &p);
     if (!status)
-        status = full_model(pool, rotor, nparameter, parameter, x, 2, count, fine, &q);
+        status = full_model(pool, rotor, nparameter, parameter, x, 2, &count, fine, &q);
     if (status)
         return status;
     *s = (struct spectrum){.nrigid = client->model.nrigid, .count = count, .nmaster = client->model.nmaster, .nnode = client->beam.mesh.naxis};

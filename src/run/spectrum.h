@@ -19,7 +19,7 @@ struct spectrum {
     double *master_z;                /* [nmaster] m */
 };
 
-/* At the values x [nparameter] of the parameters. reduction: ROTID_GUYAN or ROTID_IRS. Statuses of the prediction and of client_open. */
+/* At the values x [nparameter] of the parameters; fewer than `count` modes where the model has fewer. reduction: ROTID_GUYAN or ROTID_IRS. Statuses of the prediction and of client_open. */
 int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x,
                      int reduction, int count, struct spectrum *spectrum);
 

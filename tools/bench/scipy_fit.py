@@ -23,7 +23,7 @@ from scipy.optimize import least_squares
 from scipy.sparse import csr_array
 
 # Provenance. Measured frequencies: paper, Table 3 (real). Core nu and start: paper, section 5.2. Springs: paper, equation 44
-# for 998 kg, rounded. Geometry, densities, tie rods, point positions: stated surrogate of cases/paper_rotor (the paper has none).
+# for 998 kg, rounded. Geometry, densities, tie rods, point positions: stated surrogate of input/paper_rotor.inp (the paper has none).
 MEASURED_HZ = np.array([435.55, 735.16, 1159.4, 1802.0, 2425.8, 2918.4])
 SECTIONS = (  # length [m], diameter [m], elements
     (0.132750, 0.098602, 14), (0.123268, 0.197920, 13), (0.123268, 0.228314, 13), (0.123268, 0.193377, 13),
