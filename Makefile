@@ -17,6 +17,8 @@ CC         ?= cc
 CFLAGS     ?= -O2 -g
 WITH_NLOPT ?= 1
 PYTHON     ?= python3
+CLANG_TIDY ?= clang-tidy
+CLANG_FORMAT ?= clang-format
 
 PACKAGES := lapacke openblas
 ifeq ($(WITH_NLOPT),1)
@@ -96,10 +98,10 @@ coverage:
 	@sh tools/coverage $(BUILD)/coverage
 
 lint:
-	clang-tidy --quiet $(LIBRARY_SOURCES) $(IO_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
+	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(IO_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
 
 format:
-	clang-format -i $(wildcard src/*/*.[ch] include/*.h tests/*.[ch] tools/*/*.[ch])
+	$(CLANG_FORMAT) -i $(wildcard src/*/*.[ch] include/*.h tests/*.[ch] tools/oracle/*.[ch])
 
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include

@@ -29,28 +29,28 @@ extern "C" {
 /* ------------------------------------------------------------------------------------------------ status */
 
 /* name, value, text */
-#define ROTID_STATUS_LIST(X)                                                                                                  \
-    X(ROTID_OK, 0, "done")                                                                                                    \
-    X(ROTID_STOP_GRADIENT, 1, "the gradient vanished")                                                                        \
-    X(ROTID_STOP_STEP, 2, "the step became negligible")                                                                       \
-    X(ROTID_STOP_OBJECTIVE, 3, "the decrease that is left is below rounding")                                     \
-    X(ROTID_STOP_ITERATIONS, 4, "the iteration limit was reached")                                                            \
-    X(ROTID_STOP_STALLED, 5, "no step lowers the objective")                                                                  \
-    X(ROTID_STOP_CANCELLED, 6, "cancelled")                                                                                   \
-    X(ROTID_ERROR_ARGUMENT, -1, "an argument is out of its range")                                                            \
-    X(ROTID_ERROR_MEMORY, -2, "out of memory")                                                                                \
-    X(ROTID_ERROR_MASS, -3, "the mass matrix is not positive definite")                                                       \
-    X(ROTID_ERROR_SLAVE, -4, "the stiffness of the slave degrees of freedom is not positive definite")                        \
-    X(ROTID_ERROR_STIFFNESS, -5, "the stiffness matrix is not positive semidefinite")                                         \
-    X(ROTID_ERROR_EIGEN, -6, "the eigenvalue iteration did not converge")                                                     \
-    X(ROTID_ERROR_CLOSE, -7, "two eigenvalues are too close for their vectors to be differentiated")                          \
-    X(ROTID_ERROR_UNPAIRED, -8, "a measured mode has no partner in the model")                                                \
-    X(ROTID_ERROR_RANK, -9, "the Jacobian has no usable column")                                                              \
-    X(ROTID_ERROR_CALLBACK, -10, "a callback reported a failure")                                                             \
-    X(ROTID_ERROR_FINITE, -11, "a value is not finite")                                                                       \
-    X(ROTID_ERROR_SECTION, -12, "the section is not an annulus: its squared inner diameter would be negative")                \
-    X(ROTID_ERROR_SYNTAX, -13, "the input is malformed")                                                                      \
-    X(ROTID_ERROR_IO, -14, "a file cannot be read or written")                                                                \
+#define ROTID_STATUS_LIST(X)                                                                                                     \
+    X(ROTID_OK, 0, "done")                                                                                                       \
+    X(ROTID_STOP_GRADIENT, 1, "the gradient vanished")                                                                           \
+    X(ROTID_STOP_STEP, 2, "the step became negligible")                                                                          \
+    X(ROTID_STOP_OBJECTIVE, 3, "the decrease that is left is below rounding")                                                    \
+    X(ROTID_STOP_ITERATIONS, 4, "the iteration limit was reached")                                                               \
+    X(ROTID_STOP_STALLED, 5, "no step lowers the objective")                                                                     \
+    X(ROTID_STOP_CANCELLED, 6, "cancelled")                                                                                      \
+    X(ROTID_ERROR_ARGUMENT, -1, "an argument is out of its range")                                                               \
+    X(ROTID_ERROR_MEMORY, -2, "out of memory")                                                                                   \
+    X(ROTID_ERROR_MASS, -3, "the mass matrix is not positive definite")                                                          \
+    X(ROTID_ERROR_SLAVE, -4, "the stiffness of the slave degrees of freedom is not positive definite")                           \
+    X(ROTID_ERROR_STIFFNESS, -5, "the stiffness matrix is not positive semidefinite")                                            \
+    X(ROTID_ERROR_EIGEN, -6, "the eigenvalue iteration did not converge")                                                        \
+    X(ROTID_ERROR_CLOSE, -7, "two eigenvalues are too close for their vectors to be differentiated")                             \
+    X(ROTID_ERROR_UNPAIRED, -8, "a measured mode has no partner in the model")                                                   \
+    X(ROTID_ERROR_RANK, -9, "the Jacobian has no usable column")                                                                 \
+    X(ROTID_ERROR_CALLBACK, -10, "a callback reported a failure")                                                                \
+    X(ROTID_ERROR_FINITE, -11, "a value is not finite")                                                                          \
+    X(ROTID_ERROR_SECTION, -12, "the section is not an annulus: its squared inner diameter would be negative")                   \
+    X(ROTID_ERROR_SYNTAX, -13, "the input is malformed")                                                                         \
+    X(ROTID_ERROR_IO, -14, "a file cannot be read or written")                                                                   \
     X(ROTID_ERROR_LIBRARY, -15, "a library reported a failure that should not occur")
 
 enum {
@@ -101,8 +101,8 @@ typedef struct rotid_model {
     int nmaster;       /* number of sensors */
     const int *master; /* [nmaster] degree of freedom of each sensor, distinct, increasing */
     int (*matrices)(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass);
-    /* dK/dx_p and dM/dx_p; NULL: central differences of fourth order of `matrices` over x_p (1 +- 0.004), which must be valid there; 1e-9
-     * accurate for parameters that act strongly, 1e-7 for weak ones */
+    /* dK/dx_p and dM/dx_p; NULL: central differences of fourth order of `matrices` over x_p (1 +- 0.004), which must be valid
+     * there; 1e-9 accurate for parameters that act strongly, 1e-7 for weak ones */
     int (*derivatives)(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass);
     void *user;
 } rotid_model;
@@ -111,12 +111,12 @@ typedef struct rotid_model {
  * before use. */
 typedef struct rotid_measured {
     int nmode;
-    const int *number;            /* [nmode] mode of the model that each is paired with, counted from 1 after the rigid ones */
-    const double *frequency_hz;   /* [nmode] > 0 */
-    const double *frequency_std;  /* [nmode] relative standard deviation > 0, or NULL where the noise is not known */
-    const double *shape;          /* [nmaster * nmode] column-major at the masters, NaN where not measured; or NULL */
-    const double *shape_std;      /* [nmaster * nmode] relative to the largest component of the mode; or NULL */
-    const int *holdout;           /* [nmode] nonzero: predicted and compared, not fitted; or NULL */
+    const int *number;           /* [nmode] mode of the model that each is paired with, counted from 1 after the rigid ones */
+    const double *frequency_hz;  /* [nmode] > 0 */
+    const double *frequency_std; /* [nmode] relative standard deviation > 0, or NULL where the noise is not known */
+    const double *shape;         /* [nmaster * nmode] column-major at the masters, NaN where not measured; or NULL */
+    const double *shape_std;     /* [nmaster * nmode] relative to the largest component of the mode; or NULL */
+    const int *holdout;          /* [nmode] nonzero: predicted and compared, not fitted; or NULL */
 } rotid_measured;
 
 typedef struct rotid_parameter {
@@ -160,8 +160,8 @@ typedef struct rotid_baseline {
 
 /* Everything is owned by the result and released with it. n = nparam, m = nmode of the measured data. */
 typedef struct rotid_fit_result {
-    int status;        /* why the iteration ended: ROTID_STOP_... */
-    int converged;     /* a minimum was reached: inside the bounds or pressed against one */
+    int status;    /* why the iteration ended: ROTID_STOP_... */
+    int converged; /* a minimum was reached: inside the bounds or pressed against one */
     int any_at_bound, any_undetermined;
     int n, m, nresidual, dof;
     double objective, gradient, chi2, chi2_per_dof; /* chi2 is NaN where the noise is not known */
@@ -216,27 +216,28 @@ ROTID_API void rotid_element_stiffness(double ei, double kgs, double l, double *
 ROTID_API void rotid_element_geometric(double force, double phi, double l, double *stiffness);
 ROTID_API void rotid_element_mass(double rhos, double rhoi, double phi, double l, double *mass);
 
-/* ------------------------------------------------------------------------------------------------ building blocks: least squares */
+/* ------------------------------------------------------------------------------------------------ building blocks: least squares
+ */
 
-/* At x [n], one of the two: the residual r [m] (jacobian is NULL), or the jacobian [m * n] column-major, dr_i/dx_j (r is NULL), always at
- * the point whose residual was asked for last, so that what both need is computed once. Returns 0, or nonzero where x has no residual: at
- * the start that ends the call, later the step is refused and a shorter one tried. */
+/* At x [n], one of the two: the residual r [m] (jacobian is NULL), or the jacobian [m * n] column-major, dr_i/dx_j (r is NULL),
+ * always at the point whose residual was asked for last, so that what both need is computed once. Returns 0, or nonzero where x
+ * has no residual: at the start that ends the call, later the step is refused and a shorter one tried. */
 typedef int (*rotid_residual)(void *user, int m, int n, const double *x, double *r, double *jacobian);
 
 typedef struct rotid_lm_iteration {
     int iteration;
     double objective, mu, gain_ratio;
-    double cosine;                     /* largest |J_j' r|/(D_j |r|): the cosine between r and a column of J, or less */
-    const double *x, *gradient;        /* [n] the accepted point, J' r */
+    double cosine;              /* largest |J_j' r|/(D_j |r|): the cosine between r and a column of J, or less */
+    const double *x, *gradient; /* [n] the accepted point, J' r */
 } rotid_lm_iteration;
 
 /* Zero takes the default in brackets. */
 typedef struct rotid_lm_options {
-    int max_iterations;         /* [100] */
-    double gradient_tolerance;  /* [1e-10] on |J_j' r|/(D_j |r|) */
-    double step_tolerance;      /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
-    double objective_tolerance; /* [1e-16] predicted decrease over the objective */
-    double initial_damping;     /* [1e-3] */
+    int max_iterations;                                            /* [100] */
+    double gradient_tolerance;                                     /* [1e-10] on |J_j' r|/(D_j |r|) */
+    double step_tolerance;                                         /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
+    double objective_tolerance;                                    /* [1e-16] predicted decrease over the objective */
+    double initial_damping;                                        /* [1e-3] */
     int (*trace)(void *user, const rotid_lm_iteration *iteration); /* NULL, or told of every accepted point; nonzero cancels */
     void *trace_user;
 } rotid_lm_options;

@@ -173,8 +173,8 @@ void exact_open(const struct rotor *rotor, struct exact *exact)
     }
     for (int i = 0; i < rotor->nspring; i++) {
         const struct spring *spring = &rotor->spring[i];
-        exact->point[exact->system.points++] = (struct oracle_point){
-            .z = spring->position, .spring = spring->lateral, .rotational_spring = spring->rotational};
+        exact->point[exact->system.points++] =
+            (struct oracle_point){.z = spring->position, .spring = spring->lateral, .rotational_spring = spring->rotational};
     }
     if (rotor->sling > 0)
         add_sling(rotor, exact);

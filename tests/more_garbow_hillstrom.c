@@ -3,7 +3,7 @@
 #include <math.h>
 
 #define RESIDUAL(name) static int name(void *user, int m, int n, const double *x, double *r, double *jacobian)
-#define J(i, j)        jacobian[(i) + (j) * m]
+#define J(i, j)        jacobian[(i) + (j)*m]
 
 /* what an overflow looks like to a caller: no residual there */
 static int unusable(int count, const double *values)

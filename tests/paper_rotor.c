@@ -29,13 +29,24 @@ struct rotor *paper_rotor(enum bundle_model model, int self_equilibrated)
     groups[0] = (struct group){.name = "left", .material = steel};
     groups[1] = (struct group){.name = "core", .material = core};
     groups[2] = (struct group){.name = "right", .material = steel};
-    rotor = (struct rotor){.ngroup = 3, .group = groups, .nsegment = STEPS, .segment = segments, .ntierod = 1, .tierod = &rod,
-                           .nspring = 2, .spring = springs, .nsensor = PAPER_SENSORS, .sensor = sensors};
+    rotor = (struct rotor){.ngroup = 3,
+                           .group = groups,
+                           .nsegment = STEPS,
+                           .segment = segments,
+                           .ntierod = 1,
+                           .tierod = &rod,
+                           .nspring = 2,
+                           .spring = springs,
+                           .nsensor = PAPER_SENSORS,
+                           .sensor = sensors};
     double node[200], z = 0, from, to;
     int count = 0;
     for (int s = 0; s < STEPS; s++) {
-        segments[s] = (struct segment){.group = steps[s].group, .elements = steps[s].elements, .length = steps[s].length,
-                                       .outer = steps[s].diameter, .stiff_outer = steps[s].diameter};
+        segments[s] = (struct segment){.group = steps[s].group,
+                                       .elements = steps[s].elements,
+                                       .length = steps[s].length,
+                                       .outer = steps[s].diameter,
+                                       .stiff_outer = steps[s].diameter};
         for (int e = 0; e < steps[s].elements; e++)
             node[count++] = z + steps[s].length * e / steps[s].elements;
         z += steps[s].length;
@@ -44,8 +55,17 @@ struct rotor *paper_rotor(enum bundle_model model, int self_equilibrated)
     for (int k = 0; k < PAPER_SENSORS; k++)
         sensors[k] = (struct sensor){k + 1, node[(int)lround(175.0 * k / 67)]};
     rotor_group_span(&rotor, 1, &from, &to);
-    rod = (struct tierod){.name = "ties", .material = steel, .from = from, .to = to, .model = model, .self_equilibrated = self_equilibrated,
-                          .number = 12, .elements = 1, .diameter = 0.032, .pitch = 0.13364, .tension = 150e3};
+    rod = (struct tierod){.name = "ties",
+                          .material = steel,
+                          .from = from,
+                          .to = to,
+                          .model = model,
+                          .self_equilibrated = self_equilibrated,
+                          .number = 12,
+                          .elements = 1,
+                          .diameter = 0.032,
+                          .pitch = 0.13364,
+                          .tension = 150e3};
     springs[0] = (struct spring){"left", 0, 9790, 0};
     springs[1] = (struct spring){"right", z, 2000, 0};
     return &rotor;

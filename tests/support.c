@@ -8,8 +8,8 @@ void assert_close_at(double value, double expected, double rtol, double atol, co
     double difference = fabs(value - expected);
     if (difference <= rtol * fabs(expected) + atol)
         return;
-    print_error("%s = %.17g, expected %.17g: off by %.3g, relative %.3g, allowed %.3g relative + %.3g\n", text, value, expected, difference,
-                difference / fabs(expected), rtol, atol);
+    print_error("%s = %.17g, expected %.17g: off by %.3g, relative %.3g, allowed %.3g relative + %.3g\n", text, value, expected,
+                difference, difference / fabs(expected), rtol, atol);
     _fail(file, line);
 }
 

@@ -14,10 +14,10 @@
 
 #include "support.h"
 
-#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
-#define BRAKE ROTID_SOURCE_DIR "/input/brake_reuss_beam.inp"
+#define PAPER       ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+#define BRAKE       ROTID_SOURCE_DIR "/input/brake_reuss_beam.inp"
 #define ONE_ELEMENT ROTID_SOURCE_DIR "/tests/data/decks/one_element.inp" /* fewer modes than are shown or looked through */
-#define STEEL ROTID_SOURCE_DIR "/input/solid_steel.inp"
+#define STEEL       ROTID_SOURCE_DIR "/input/solid_steel.inp"
 
 #define MODEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 20\n"
 #define MODES "*MODES\n1, 500\n2, 1300\n3, 2400\n"

@@ -112,26 +112,27 @@ static void an_override_replaces_or_adds_an_option_on_every_such_card(void **sta
 
 #define NODE_AT(id, place) "         " id "         0         0         8 " place "\n"
 /* nodes 7, 3, 5 and one that no shape knows */
-#define NODES(a, b, c)     "    -1\n    15\n" NODE_AT("7", a) NODE_AT("3", b) NODE_AT("5", c) NODE_AT("9", ".5 .5 .5") "    -1\n"
-#define ALONG_Z            NODES("0 0 0.1", "0 0 0.9", "0 0 0.4")
+#define NODES(a, b, c) "    -1\n    15\n" NODE_AT("7", a) NODE_AT("3", b) NODE_AT("5", c) NODE_AT("9", ".5 .5 .5") "    -1\n"
+#define ALONG_Z        NODES("0 0 0.1", "0 0 0.9", "0 0 0.4")
 
-#define SHAPE(kind, numbers, mode, a, b, c) \
-    "    -1\n    55\n1\n2\n3\n4\n5\n" kind "\n" numbers "\n" mode "\n" \
+#define SHAPE(kind, numbers, mode, a, b, c)                                                                                      \
+    "    -1\n    55\n1\n2\n3\n4\n5\n" kind "\n" numbers "\n" mode "\n"                                                           \
     "         7\n" a "\n         3\n" b "\n         5\n" c "\n    -1\n"
-#define KIND(analysis, characteristic, type, values) \
+#define KIND(analysis, characteristic, type, values)                                                                             \
     "         1         " analysis "         " characteristic "         8         " type "         " values
 #define NUMBERS(reals, mode) "         2         " reals "         1         " mode
 /* three values a node */
 #define REAL(mode, hz, damping, a, b, c) SHAPE(KIND("2", "2", "2", "3"), NUMBERS("4", mode), hz " 1. " damping " 0.", a, b, c)
 /* one complex value a node */
-#define COMPLEX(mode, lambda, a, b, c)   SHAPE(KIND("3", "1", "5", "1"), NUMBERS("6", mode), lambda " 1. 0. 1. 0.", a, b, c)
+#define COMPLEX(mode, lambda, a, b, c) SHAPE(KIND("3", "1", "5", "1"), NUMBERS("6", mode), lambda " 1. 0. 1. 0.", a, b, c)
 
 static void nodes_that_carry_shapes_become_sensors(void **state)
 {
     (void)state;
     struct reading r;
-    read_measured(&r, "", ALONG_Z REAL("4", "1300.", "0.", "1. 0. 0.", "-2. 0. 0.", "3. 0. 0.")
-                              REAL("2", "500.", "0.02", ".1 0. 0.", ".2 0. 0.", ".3 0. 0."));
+    read_measured(&r, "",
+                  ALONG_Z REAL("4", "1300.", "0.", "1. 0. 0.", "-2. 0. 0.", "3. 0. 0.")
+                      REAL("2", "500.", "0.02", ".1 0. 0.", ".2 0. 0.", ".3 0. 0."));
     const struct sensor *sensor = r.job.rotor.sensor;
     assert_true(r.job.rotor.nsensor == 3 && r.job.nmode == 2);
     assert_true(sensor[0].id == 7 && sensor[0].position == 0.1 && sensor[1].id == 5 && sensor[1].position == 0.4);
@@ -149,8 +150,9 @@ static void mode_numbers_that_do_not_rise_are_counted_anew(void **state)
 {
     (void)state;
     struct reading r;
-    read_measured(&r, "", ALONG_Z REAL("4", "500.", "0.", "1. 0. 0.", "2. 0. 0.", "3. 0. 0.")
-                              REAL("1", "1300.", "0.", "1. 0. 0.", "-2. 0. 0.", "3. 0. 0."));
+    read_measured(&r, "",
+                  ALONG_Z REAL("4", "500.", "0.", "1. 0. 0.", "2. 0. 0.", "3. 0. 0.")
+                      REAL("1", "1300.", "0.", "1. 0. 0.", "-2. 0. 0.", "3. 0. 0."));
     assert_true(r.job.nmode == 2 && r.job.number[0] == 1 && r.job.number[1] == 2);
     pool_close(&r.pool);
 }
@@ -197,8 +199,9 @@ static void complex_shapes_are_turned_real_and_conjugates_dropped(void **state)
 {
     (void)state;
     struct reading r; /* (1, 2, -1) times 3 + 4i, in the order of the file 7, 3, 5; the eigenvalue is -30 +- 3000i */
-    read_measured(&r, ", DIRECTION=Y", ALONG_Z COMPLEX("1", "-30. 3000.", "3. 4.", "-3. -4.", "6. 8.")
-                                           COMPLEX("2", "-30. -3000.", "3. -4.", "-3. 4.", "6. -8."));
+    read_measured(&r, ", DIRECTION=Y",
+                  ALONG_Z COMPLEX("1", "-30. 3000.", "3. 4.", "-3. -4.", "6. 8.")
+                      COMPLEX("2", "-30. -3000.", "3. -4.", "-3. 4.", "6. -8."));
     assert_int_equal(r.job.nmode, 1);
     assert_close(r.job.frequency_hz[0], hypot(30, 3000) / 6.283185307179586, 1e-14, 0);
     assert_close(r.job.damping[0], 30 / hypot(30, 3000), 1e-14, 0);

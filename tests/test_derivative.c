@@ -11,7 +11,7 @@
 
 /* The left spring is stiff enough to be felt by the bending modes. */
 enum { nparam = 7 };
-static const struct parameter seven[nparam] = {{PARAMETER_E, 1},       {PARAMETER_G, 1},        {PARAMETER_NU, 1},
+static const struct parameter seven[nparam] = {{PARAMETER_E, 1},       {PARAMETER_G, 1},       {PARAMETER_NU, 1},
                                                {PARAMETER_RHO, 1},     {PARAMETER_TENSION, 0}, {PARAMETER_TIEROD_E, 0},
                                                {PARAMETER_SPRING_K, 0}};
 static const double rotor_values[nparam] = {0.6e11, 0.3e11, 0.28, 7380.66, 150e3, 2.1e11, 1e8};

@@ -13,7 +13,7 @@
 enum { host_n = 14 };
 struct host {
     double k0[host_n * host_n], k1[host_n * host_n], k2[host_n * host_n], m0[host_n * host_n], m1[host_n * host_n];
-    int fail_matrices, fail_derivatives; /* the callback reports a failure */
+    int fail_matrices, fail_derivatives;        /* the callback reports a failure */
     double poison_matrices, poison_derivatives; /* added to one element */
     rotid_model model;
 };
@@ -62,8 +62,14 @@ static const rotid_model *open_host(struct pool *pool, struct host *host)
     }
     host->fail_matrices = host->fail_derivatives = 0;
     host->poison_matrices = host->poison_derivatives = 0;
-    host->model = (rotid_model){.n = host_n, .kd = host_n - 1, .nparam = 2, .nmaster = 6, .master = master,
-                                .matrices = host_matrices, .derivatives = host_derivatives, .user = host};
+    host->model = (rotid_model){.n = host_n,
+                                .kd = host_n - 1,
+                                .nparam = 2,
+                                .nmaster = 6,
+                                .master = master,
+                                .matrices = host_matrices,
+                                .derivatives = host_derivatives,
+                                .user = host};
     return &host->model;
 }
 
@@ -195,8 +201,8 @@ static void a_far_block_at_the_nodes_of_a_mode_costs_no_digits(void **state)
 {
     static const int far[2] = {19, 39}, master[3] = {5, 20, 50};
     const double x[2] = {1, 1};
-    const rotid_model bordered = {.n = 59, .kd = 1, .nfar = 2, .far = far, .nparam = 2, .nmaster = 3, .master = master,
-                                  .matrices = string_matrices};
+    const rotid_model bordered = {
+        .n = 59, .kd = 1, .nfar = 2, .far = far, .nparam = 2, .nmaster = 3, .master = master, .matrices = string_matrices};
     const rotid_model full = {.n = 59, .kd = 58, .nparam = 2, .nmaster = 3, .master = master, .matrices = string_matrices};
     const int wanted[7] = {1, 1, 1, 1, 1, 1, 0};
     struct prediction a, b;

@@ -177,10 +177,8 @@ static void a_pencil_that_is_not_of_a_structure_is_an_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_POOL(a_part_and_all_pairs_agree_with_the_banded_solver),
-        WITH_POOL(any_number_of_rigid_motions_is_served),
-        WITH_POOL(repeated_eigenvalues_are_found_for_any_request),
-        WITH_POOL(the_solution_before_does_not_show),
+        WITH_POOL(a_part_and_all_pairs_agree_with_the_banded_solver), WITH_POOL(any_number_of_rigid_motions_is_served),
+        WITH_POOL(repeated_eigenvalues_are_found_for_any_request),    WITH_POOL(the_solution_before_does_not_show),
         WITH_POOL(a_pencil_that_is_not_of_a_structure_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

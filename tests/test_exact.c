@@ -131,8 +131,8 @@ static struct rotor *identified_rotor(void)
 static void oracle_agrees_with_the_matrix_exponential(void **state)
 {
     (void)state;
-    static const double expected[] = {416.2978321479,  794.9331931309,  1187.7662703982, 1771.3895878451,
-                                      2255.2820616733, 2859.1468944284};
+    static const double expected[] = {416.2978321479,  794.9331931309,  1187.7662703982,
+                                      1771.3895878451, 2255.2820616733, 2859.1468944284};
     struct exact exact;
     double hz[EXACT_MODES];
     exact_open(identified_rotor(), &exact);
@@ -262,7 +262,7 @@ static void paper_rotor_has_the_exact_shapes(void **state)
 
 /* ---- random rotors ---- */
 
-#define RANDOM_ROTORS 20
+#define RANDOM_ROTORS   20
 #define RANDOM_ELEMENTS 40 /* in every segment; two Richardson meshes are then within 4e-7 of the truth */
 
 struct random_rotor {
@@ -332,20 +332,33 @@ static void attach(struct random_stream *stream, int index, struct random_rotor 
     struct material material = random_material(stream);
     material.isotropic = 1; /* of the oracle's builders */
     rotor->ntierod = fabs(a - b) > 0.1;
-    r->rod = (struct tierod){.name = "rods", .material = material, .from = fmin(a, b), .to = fmax(a, b),
-                             .model = index % 2 ? BUNDLE_RODS : BUNDLE_TUBE, .self_equilibrated = index / 2 % 2,
-                             .number = 3 + below(stream, 12), .elements = 1, .diameter = between(stream, 0.01, 0.035),
-                             .pitch = between(stream, 0.08, 0.15), .tension = between(stream, 0, 1e5)};
+    r->rod = (struct tierod){.name = "rods",
+                             .material = material,
+                             .from = fmin(a, b),
+                             .to = fmax(a, b),
+                             .model = index % 2 ? BUNDLE_RODS : BUNDLE_TUBE,
+                             .self_equilibrated = index / 2 % 2,
+                             .number = 3 + below(stream, 12),
+                             .elements = 1,
+                             .diameter = between(stream, 0.01, 0.035),
+                             .pitch = between(stream, 0.08, 0.15),
+                             .tension = between(stream, 0, 1e5)};
 }
 
 static void random_rotor(struct random_stream *stream, int index, struct random_rotor *r)
 {
     *r = (struct random_rotor){0};
     int perforated = index % 3 == 0;
-    r->rotor = (struct rotor){.ngroup = 3, .group = r->group, .nsegment = 3 + below(stream, 5), .segment = r->segment,
-                              .tierod = &r->rod, .disk = r->disk, .spring = r->spring};
+    r->rotor = (struct rotor){.ngroup = 3,
+                              .group = r->group,
+                              .nsegment = 3 + below(stream, 5),
+                              .segment = r->segment,
+                              .tierod = &r->rod,
+                              .disk = r->disk,
+                              .spring = r->spring};
     for (int g = 0; g < 3; g++) /* tension only: a compressed free rotor has no stable equilibrium */
-        r->group[g] = (struct group){.name = "group", .material = random_material(stream),
+        r->group[g] = (struct group){.name = "group",
+                                     .material = random_material(stream),
                                      .preload = random_uniform(stream) < 0.3 ? between(stream, 0, 2e6) : 0};
     for (int s = 0; s < r->rotor.nsegment; s++) {
         int group = 3 * s / r->rotor.nsegment;

@@ -25,16 +25,21 @@ static const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1}, core = 
 
 static void lay(struct bench *b, int group, double length, double diameter, int elements)
 {
-    b->segment[b->rotor.nsegment++] = (struct segment){
-        .group = group, .elements = elements, .length = length, .outer = diameter, .stiff_outer = diameter};
+    b->segment[b->rotor.nsegment++] =
+        (struct segment){.group = group, .elements = elements, .length = length, .outer = diameter, .stiff_outer = diameter};
 }
 
 static void open_empty(struct bench *b)
 {
-    *b = (struct bench){.group = {{.name = "left", .material = steel}, {.name = "core", .material = core},
-                                  {.name = "right", .material = steel}}};
-    b->rotor = (struct rotor){.ngroup = 3, .group = b->group, .segment = b->segment, .tierod = b->rod, .bars = &b->bars,
-                              .disk = b->disk, .spring = b->spring};
+    *b = (struct bench){
+        .group = {{.name = "left", .material = steel}, {.name = "core", .material = core}, {.name = "right", .material = steel}}};
+    b->rotor = (struct rotor){.ngroup = 3,
+                              .group = b->group,
+                              .segment = b->segment,
+                              .tierod = b->rod,
+                              .bars = &b->bars,
+                              .disk = b->disk,
+                              .spring = b->spring};
 }
 
 /* 0 left 0.55 core 1.15 right 1.65 m */
@@ -61,8 +66,16 @@ static void add_spring(struct bench *b, double position, double lateral, double 
 
 static void add_rods(struct bench *b, enum bundle_model model, double from, double to)
 {
-    b->rod[b->rotor.ntierod++] = (struct tierod){.name = "rods", .material = steel, .from = from, .to = to, .model = model,
-                                                 .number = 8, .elements = 1, .diameter = 0.03, .pitch = 0.1, .tension = 2e5};
+    b->rod[b->rotor.ntierod++] = (struct tierod){.name = "rods",
+                                                 .material = steel,
+                                                 .from = from,
+                                                 .to = to,
+                                                 .model = model,
+                                                 .number = 8,
+                                                 .elements = 1,
+                                                 .diameter = 0.03,
+                                                 .pitch = 0.1,
+                                                 .tension = 2e5};
 }
 
 /* The meshes of `with` come to its exact frequencies, all of them up to the sixth above two of rigid bodies or suspension, of
@@ -271,8 +284,7 @@ static void symmetric_branch_hz(const struct bench *b, double *hz)
     exact_open(&b->rotor, &exact);
     memcpy(segment, exact.segment, 3 * sizeof *segment);
     segment[2].length /= 2;
-    segment[3] =
-        exact_bundle(bars->model, &bars->material, bars->number, bars->diameter, bars->pitch, bars->length / 2, &pitch);
+    segment[3] = exact_bundle(bars->model, &bars->material, bars->number, bars->diameter, bars->pitch, bars->length / 2, &pitch);
     struct oracle_point joint = {.z = segment[0].length + segment[1].length + segment[2].length};
     struct oracle_system half = {.segments = 4, .segment = segment, .points = 1, .point = &joint};
     joint.rotational_spring = INFINITY;
@@ -300,8 +312,15 @@ static void bars_held_at_their_centre(void **state)
         lay(&b, 1, 0.8, 0.26, 80);
         lay(&b, 2, 0.3, 0.2, 40);
         lay(&b, 2, 0.2, 0.12, 40);
-        b.bars = (struct bars){.name = "bars", .material = {"copper", 1.2e11, 0, 0.34, 8900, 1}, .center = 0.9, .length = 0.7,
-                               .model = (enum bundle_model)model, .number = 20, .elements = 80, .diameter = 0.03, .pitch = 0.11};
+        b.bars = (struct bars){.name = "bars",
+                               .material = {"copper", 1.2e11, 0, 0.34, 8900, 1},
+                               .center = 0.9,
+                               .length = 0.7,
+                               .model = (enum bundle_model)model,
+                               .number = 20,
+                               .elements = 80,
+                               .diameter = 0.03,
+                               .pitch = 0.11};
         exact_open(&b.rotor, &exact);
         exact_hz(&exact, 3, EXACT_MODES, bare);
         b.rotor.nbars = 1;
@@ -346,7 +365,7 @@ static void solid_rotor(void **state)
     static const struct {
         int group, elements;
         double length, diameter;
-    } steps[] = {{0, 24, 0.25, 0.14}, {0, 24, 0.25, 0.2}, {0, 19, 0.2, 0.26}, {1, 66, 0.7, 0.36},
+    } steps[] = {{0, 24, 0.25, 0.14}, {0, 24, 0.25, 0.2},  {0, 19, 0.2, 0.26}, {1, 66, 0.7, 0.36},
                  {2, 19, 0.2, 0.26},  {2, 22, 0.23, 0.18}, {2, 19, 0.2, 0.13}};
     struct bench b;
     struct exact exact;

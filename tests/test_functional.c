@@ -52,8 +52,12 @@ static const rotid_model *measure(struct pool *pool, double shape_noise, uint64_
         }
         data->holdout[k] = 0;
     }
-    data->measured = (rotid_measured){.nmode = nmode, .number = numbers_of_modes, .frequency_hz = data->hz,
-                                      .frequency_std = data->frequency_std, .shape = data->shape, .shape_std = data->shape_std};
+    data->measured = (rotid_measured){.nmode = nmode,
+                                      .number = numbers_of_modes,
+                                      .frequency_hz = data->hz,
+                                      .frequency_std = data->frequency_std,
+                                      .shape = data->shape,
+                                      .shape_std = data->shape_std};
     return model;
 }
 
@@ -302,8 +306,16 @@ static void measured_data_out_of_range_are_refused(void **state)
     memcpy(number, numbers_of_modes, sizeof number);
     data.measured.number = number;
     data.measured.holdout = data.holdout;
-    double *values[] = {&data.hz[1], &data.hz[1], &data.hz[1], &data.hz[1], &data.frequency_std[4], &data.frequency_std[4],
-                        &data.frequency_std[4], &data.shape_std[40], &data.shape_std[40], &data.shape_std[40]};
+    double *values[] = {&data.hz[1],
+                        &data.hz[1],
+                        &data.hz[1],
+                        &data.hz[1],
+                        &data.frequency_std[4],
+                        &data.frequency_std[4],
+                        &data.frequency_std[4],
+                        &data.shape_std[40],
+                        &data.shape_std[40],
+                        &data.shape_std[40]};
     const double bad[] = {0, -1, NAN, INFINITY, 0, -1e-3, NAN, 0, -0.01, NAN};
     for (int kind = ROTID_HYBRID; kind <= ROTID_LIKELIHOOD; kind++) {
         assert_status(status_of(*state, kind, ROTID_GUYAN, model, &data.measured), ROTID_OK);

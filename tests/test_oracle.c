@@ -325,9 +325,8 @@ static void tip_mass(void **state)
 static void rigid_beam_on_springs(void **state)
 {
     struct oracle_segment s = bar(2.0, 0);
-    struct oracle_point springs[3] = {{.z = 0.0, .spring = 9790.0},
-                                      {.z = 2.0, .spring = 2000.0},
-                                      {.z = 1.4, .rotational_spring = 70.0}};
+    struct oracle_point springs[3] = {
+        {.z = 0.0, .spring = 9790.0}, {.z = 2.0, .spring = 2000.0}, {.z = 1.4, .rotational_spring = 70.0}};
     struct oracle_system system = {.segments = 1, .segment = &s, .points = 3, .point = springs};
     double l = s.length, mass = s.mass * l, inertia = mass * l * l / 12.0 + s.inertia * l, hz[3];
 
@@ -579,7 +578,7 @@ static void finite_elements_bound_from_above(void **state)
     int n = 2 * (elements + 1) + 1;
     for (int i = 0; i <= elements; i++)
         hinge_node = fabs(z[i] - 0.55) < 1e-9 ? i : hinge_node;
-    /* theta on the right of the hinge is the last degree of freedom */
+        /* theta on the right of the hinge is the last degree of freedom */
 #define DOF(node, which, right) ((which) == 1 && (right) && (node) == hinge_node ? n - 1 : 2 * (node) + (which))
     for (int i = 0; i < elements + 2; i++) {
         double k[16], m[16];

@@ -60,7 +60,8 @@ static double cell(int mode, int column)
 static void identify_shows_measured_predicted_error_and_the_papers_own(void **state)
 {
     (void)state;
-    static const double paper_hz[] = {418.86, 796.78, 1188.6, 1781.8, 2335.5, 2889.1}, paper[] = {-3.83, 8.38, 2.52, -1.12, -3.72, -1.00};
+    static const double paper_hz[] = {418.86, 796.78, 1188.6, 1781.8, 2335.5, 2889.1},
+                        paper[] = {-3.83, 8.38, 2.52, -1.12, -3.72, -1.00};
     assert_int_equal(run("identify " INPUT "paper_rotor.inp"), 0);
     (void)line_with("converged, fit of 6 modes, functional HYBRID, reduction GUYAN");
     (void)line_with("core.E            1.15706e+11  Pa");
@@ -95,7 +96,8 @@ static void what_is_not_determined_or_at_a_bound_is_said(void **state)
     FILE *file = fdopen(mkstemp(deck), "w");
     assert_non_null(file);
     (void)fputs("*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n2, 0.02, 0, 30\n"
-                "*MODES\n1, 22.96\n2, 63.26\n3, 123.9\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\nbar.E, 1e10, 4e11, 2e11\nbar.G, 1e9, 9e12, 8e10\n",
+                "*MODES\n1, 22.96\n2, 63.26\n3, 123.9\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\nbar.E, 1e10, 4e11, 2e11\nbar.G, 1e9, "
+                "9e12, 8e10\n",
                 file);
     assert_int_equal(fclose(file), 0);
     (void)snprintf(arguments, sizeof arguments, "identify %s --no-baseline", deck);
@@ -131,7 +133,8 @@ static void sensitivity_shows_table_1_beside_the_paper(void **state)
     (void)line_with(" 0.500");
     assert_int_equal(run("sensitivity " INPUT "paper_rotor.inp"), 0);
     (void)line_with("core.E at 6e+10 Pa");
-    static const char *const wrong[] = {"--at nothing.E=1", "--at core.E=x", "--at core.E=0", "--at ,", "--step 0", "--range 2", "--points 0"};
+    static const char *const wrong[] = {"--at nothing.E=1", "--at core.E=x", "--at core.E=0", "--at ,",
+                                        "--step 0",         "--range 2",     "--points 0"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char arguments[256];
         (void)snprintf(arguments, sizeof arguments, "sensitivity " INPUT "paper_rotor.inp %s", wrong[i]);

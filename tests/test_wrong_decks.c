@@ -61,8 +61,8 @@ static void write_file(const char *path, const char *bytes, size_t length)
 /* ------------------------------------------------------------------------------------------------ the program */
 
 struct outcome {
-    int code;  /* 128 + signal where a signal ended it */
-    char *err; /* to be freed */
+    int code;       /* 128 + signal where a signal ended it */
+    char *err;      /* to be freed */
     size_t written; /* to standard output */
 };
 

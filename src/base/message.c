@@ -8,7 +8,8 @@ void message_open(struct message_list *list, struct pool *pool)
     *list = (struct message_list){.pool = pool};
 }
 
-void message_add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format, ...)
+void message_add(struct message_list *list, enum severity severity, const char *file, int line, int column, const char *format,
+                 ...)
 {
     char text[1024];
     va_list values;

@@ -19,7 +19,7 @@ void pool_close(struct pool *pool);
  * valid pointer. */
 void *pool_get(struct pool *pool, size_t count, size_t size);
 
-#define POOL_NEW(pool, type) ((type *)pool_get((pool), 1, sizeof(type)))
+#define POOL_NEW(pool, type)          ((type *)pool_get((pool), 1, sizeof(type)))
 #define POOL_ARRAY(pool, type, count) ((type *)pool_get((pool), (size_t)(count), sizeof(type)))
 
 /* Room for one more element in a growing array of *capacity elements of which count are used: doubles it (copying) when

@@ -3,8 +3,8 @@
 const char *rotid_status_text(int status)
 {
     switch (status) {
-#define STATUS_TEXT(name, value, text) \
-    case value:                        \
+#define STATUS_TEXT(name, value, text)                                                                                           \
+    case value:                                                                                                                  \
         return text;
         ROTID_STATUS_LIST(STATUS_TEXT)
 #undef STATUS_TEXT
@@ -16,8 +16,8 @@ const char *rotid_status_text(int status)
 const char *rotid_status_name(int status)
 {
     switch (status) {
-#define STATUS_NAME(name, value, text) \
-    case value:                        \
+#define STATUS_NAME(name, value, text)                                                                                           \
+    case value:                                                                                                                  \
         return #name;
         ROTID_STATUS_LIST(STATUS_NAME)
 #undef STATUS_NAME

@@ -43,8 +43,8 @@ int parameter_find(const struct rotor *rotor, const char *name, struct parameter
 /* Its value in the rotor, to read or to set. G of an isotropic material is not stored: give the group a G of its own first. */
 double *parameter_value(const struct rotor *rotor, struct parameter parameter);
 
-/* The beam of a rotor, with end springs from the sling added (44). `parameter` [nparameter] is kept. refine >= 1 cuts every element.
- * ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group in *failed (groups, then tie rods, then bars). */
+/* The beam of a rotor, with end springs from the sling added (44). `parameter` [nparameter] is kept. refine >= 1 cuts every
+ * element. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group in *failed (groups, then tie rods, then bars). */
 int beam_build(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, int refine,
                struct beam *beam, int *failed);
 
@@ -61,8 +61,8 @@ struct mass_properties {
 
 void beam_mass_properties(const struct beam *beam, struct mass_properties *properties);
 
-/* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential energy in
- * springs and axial forces instead of bending. Statuses of eigen_band_solve. */
+/* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
+ * energy in springs and axial forces instead of bending. Statuses of eigen_band_solve. */
 int beam_count_rigid(struct pool *pool, struct beam *beam, const double *x, int *nrigid);
 
 #endif

@@ -35,8 +35,8 @@ static int build_sections(struct beam *beam, int *failed)
         else
             section_round(segment->outer, segment->inner, segment->stiff_outer, &beam->section[s]);
         *failed = segment->group;
-        if (group->holes && section_perforate(group->holes, group->hole_diameter, group->hole_pitch, segment->stiff_outer,
-                                              &beam->section[s]))
+        if (group->holes &&
+            section_perforate(group->holes, group->hole_diameter, group->hole_pitch, segment->stiff_outer, &beam->section[s]))
             return ROTID_ERROR_SECTION;
     }
     for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
@@ -96,7 +96,7 @@ int beam_count_rigid(struct pool *pool, struct beam *beam, const double *x, int 
     int n = mesh->ndof, wanted = n < 4 ? n : 4; /* plane bending has two rigid motions: the third mode is always elastic */
     rotid_matrix k, m;
     struct eigen_band eigen;
-    double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted * (size_t)n), *work = POOL_ARRAY(pool, double, n);
+    double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, n);
     int status = phi && work ? matrix_new(pool, n, mesh->kd, mesh->nfar, mesh->far, &k) : ROTID_ERROR_MEMORY;
     if (!status)
         status = matrix_new(pool, n, mesh->kd, mesh->nfar, mesh->far, &m);

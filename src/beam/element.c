@@ -26,8 +26,8 @@ static void stiffness_entries(double phi, double l, struct entries *p, struct en
     *dp = (struct entries){0, 0, 0, 0, l * l, -l * l};
 }
 
-/* (A.4) times 60 (1 + phi)^2 l / F. Printed with 36 + 60 phi + 30 phi^2 in the corner, which stores 0.40 of the energy F l theta^2/2 of
- * a rigid rotation at phi = 0; the entries below follow from the integral of v'^2 (docs/errata.md). */
+/* (A.4) times 60 (1 + phi)^2 l / F. Printed with 36 + 60 phi + 30 phi^2 in the corner, which stores 0.40 of the energy F l
+ * theta^2/2 of a rigid rotation at phi = 0; the entries below follow from the integral of v'^2 (docs/errata.md). */
 static void geometric_entries(double phi, double l, struct entries *p, struct entries *dp)
 {
     double a = 72 + 120 * phi + 60 * phi * phi, da = 120 + 120 * phi;
@@ -40,14 +40,10 @@ static void geometric_entries(double phi, double l, struct entries *p, struct en
 static void translation_entries(double phi, double l, struct entries *p, struct entries *dp)
 {
     double q = phi * phi;
-    *p = (struct entries){312 + 588 * phi + 280 * q,
-                          -(44 + 77 * phi + 35 * q) * l,
-                          108 + 252 * phi + 140 * q,
-                          (26 + 63 * phi + 35 * q) * l,
-                          (8 + 14 * phi + 7 * q) * l * l,
-                          -(6 + 14 * phi + 7 * q) * l * l};
-    *dp = (struct entries){588 + 560 * phi,         -(77 + 70 * phi) * l,      252 + 280 * phi,
-                           (63 + 70 * phi) * l,     (14 + 14 * phi) * l * l,   -(14 + 14 * phi) * l * l};
+    *p = (struct entries){312 + 588 * phi + 280 * q,    -(44 + 77 * phi + 35 * q) * l,  108 + 252 * phi + 140 * q,
+                          (26 + 63 * phi + 35 * q) * l, (8 + 14 * phi + 7 * q) * l * l, -(6 + 14 * phi + 7 * q) * l * l};
+    *dp = (struct entries){588 + 560 * phi,     -(77 + 70 * phi) * l,    252 + 280 * phi,
+                           (63 + 70 * phi) * l, (14 + 14 * phi) * l * l, -(14 + 14 * phi) * l * l};
 }
 
 /* (B.2) times 840 (1 + phi)^2 / (rho I l) */

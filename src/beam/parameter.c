@@ -7,21 +7,19 @@ static const struct {
     enum { OF_GROUP, OF_TIEROD, OF_SPRING, OF_DISK } owner;
     const char *suffix, *unit;
 } table[] = {
-    {PARAMETER_E, OF_GROUP, "E", "Pa"},
-    {PARAMETER_G, OF_GROUP, "G", "Pa"},
-    {PARAMETER_NU, OF_GROUP, "nu", "1"},
-    {PARAMETER_RHO, OF_GROUP, "rho", "kg/m3"},
-    {PARAMETER_TIEROD_E, OF_TIEROD, "E", "Pa"},
-    {PARAMETER_TENSION, OF_TIEROD, "tension", "N"},
-    {PARAMETER_SPRING_K, OF_SPRING, "k", "N/m"},
-    {PARAMETER_SPRING_K_ROT, OF_SPRING, "k_rot", "N.m/rad"},
-    {PARAMETER_DISK_MASS, OF_DISK, "mass", "kg"},
-    {PARAMETER_DISK_INERTIA, OF_DISK, "inertia", "kg.m2"},
+    {PARAMETER_E, OF_GROUP, "E", "Pa"},           {PARAMETER_G, OF_GROUP, "G", "Pa"},
+    {PARAMETER_NU, OF_GROUP, "nu", "1"},          {PARAMETER_RHO, OF_GROUP, "rho", "kg/m3"},
+    {PARAMETER_TIEROD_E, OF_TIEROD, "E", "Pa"},   {PARAMETER_TENSION, OF_TIEROD, "tension", "N"},
+    {PARAMETER_SPRING_K, OF_SPRING, "k", "N/m"},  {PARAMETER_SPRING_K_ROT, OF_SPRING, "k_rot", "N.m/rad"},
+    {PARAMETER_DISK_MASS, OF_DISK, "mass", "kg"}, {PARAMETER_DISK_INERTIA, OF_DISK, "inertia", "kg.m2"},
 };
 
 static int count_of(const struct rotor *rotor, int owner)
 {
-    return owner == OF_GROUP ? rotor->ngroup : owner == OF_TIEROD ? rotor->ntierod : owner == OF_SPRING ? rotor->nspring : rotor->ndisk;
+    return owner == OF_GROUP    ? rotor->ngroup
+           : owner == OF_TIEROD ? rotor->ntierod
+           : owner == OF_SPRING ? rotor->nspring
+                                : rotor->ndisk;
 }
 
 static const char *name_of(const struct rotor *rotor, int owner, int index)

@@ -9,13 +9,13 @@ void axis_quantities(const struct beam *beam, int e, struct element *element)
     const struct group *group = &rotor->group[rotor->segment[s].group];
     const struct material *material = &group->material;
     double unused, middle = (mesh->z[e] + mesh->z[e + 1]) / 2;
-    *element = (struct element){
-        .ei = material->e * section->stiff_inertia,
-        .kgs = section_shear_coefficient(section, material->nu, &unused) * material_shear_modulus(material) * section->stiff_area,
-        .rhos = material->rho * section->mass_area,
-        .rhoi = material->rho * section->mass_inertia,
-        .force = beam->elastic_only ? 0 : group->preload,
-        .length = mesh->z[e + 1] - mesh->z[e]};
+    *element = (struct element){.ei = material->e * section->stiff_inertia,
+                                .kgs = section_shear_coefficient(section, material->nu, &unused) *
+                                       material_shear_modulus(material) * section->stiff_area,
+                                .rhos = material->rho * section->mass_area,
+                                .rhoi = material->rho * section->mass_inertia,
+                                .force = beam->elastic_only ? 0 : group->preload,
+                                .length = mesh->z[e + 1] - mesh->z[e]};
     for (int t = 0; t < rotor->ntierod && !beam->elastic_only; t++) {
         const struct tierod *rod = &rotor->tierod[t];
         if (rod->self_equilibrated && rod->from < middle && middle < rod->to)
@@ -65,8 +65,8 @@ int axis_direction(const struct beam *beam, struct parameter parameter, int e, s
     return material_direction(&rotor->group[group].material, &beam->section[s], parameter.kind, d);
 }
 
-static struct section bundle_section(enum bundle_model model, int number, double diameter, double pitch, const struct section *tube,
-                                     double *pitch_inertia)
+static struct section bundle_section(enum bundle_model model, int number, double diameter, double pitch,
+                                     const struct section *tube, double *pitch_inertia)
 {
     double area, own;
     section_rods(number, diameter, pitch, &area, &own, pitch_inertia);
@@ -78,12 +78,12 @@ static struct section bundle_section(enum bundle_model model, int number, double
 static struct element bundle_element(const struct material *material, const struct section *section, double length)
 {
     double unused;
-    return (struct element){
-        .ei = material->e * section->stiff_inertia,
-        .kgs = section_shear_coefficient(section, material->nu, &unused) * material_shear_modulus(material) * section->stiff_area,
-        .rhos = material->rho * section->mass_area,
-        .rhoi = material->rho * section->mass_inertia,
-        .length = length};
+    return (struct element){.ei = material->e * section->stiff_inertia,
+                            .kgs = section_shear_coefficient(section, material->nu, &unused) * material_shear_modulus(material) *
+                                   section->stiff_area,
+                            .rhos = material->rho * section->mass_area,
+                            .rhoi = material->rho * section->mass_inertia,
+                            .length = length};
 }
 
 static double tierod_length(const struct beam *beam, int tierod)
@@ -104,8 +104,7 @@ void tierod_quantities(const struct beam *beam, int tierod, double length, struc
         *stretch = (struct stretch){rod->material.e * pitch / whole, rod->material.rho * pitch * whole};
 }
 
-int tierod_direction(const struct beam *beam, struct parameter parameter, int tierod, struct element *d,
-                     struct stretch *dstretch)
+int tierod_direction(const struct beam *beam, struct parameter parameter, int tierod, struct element *d, struct stretch *dstretch)
 {
     const struct tierod *rod = &beam->rotor.tierod[tierod];
     *d = (struct element){0};

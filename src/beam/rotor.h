@@ -1,5 +1,5 @@
-/* A rotor as the deck describes it: groups of segments laid end to end, and what is attached to them. Positions are metres from the
- * left end, resolved and inside [0, length]. */
+/* A rotor as the deck describes it: groups of segments laid end to end, and what is attached to them. Positions are metres from
+ * the left end, resolved and inside [0, length]. */
 #ifndef ROTID_BEAM_ROTOR_H
 #define ROTID_BEAM_ROTOR_H
 

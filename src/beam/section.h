@@ -9,7 +9,8 @@ struct section {
     double ratio;                     /* inner over outer diameter of a round section */
 };
 
-/* Round section; outer > inner >= 0 and stiff_outer > inner [m]. A stiffness diameter smaller than the outer one leaves the mass. */
+/* Round section; outer > inner >= 0 and stiff_outer > inner [m]. A stiffness diameter smaller than the outer one leaves the mass.
+ */
 void section_round(double outer, double inner, double stiff_outer, struct section *section);
 /* height lies in the bending plane. */
 void section_rectangular(double height, double width, struct section *section);
@@ -17,8 +18,9 @@ void section_rectangular(double height, double width, struct section *section);
 int section_equivalent(double area, double inertia, struct section *section);
 
 /* Takes `number` >= 3 evenly spaced holes of diameter d on the pitch radius e out of a round section: each hole has
- * I = pi d^4/64 + S e^2/2 on average over the angle, exactly so for 3 or more. Holes outside the stiffness diameter cost mass only.
- * The shear coefficient stays that of the section without holes: the equivalent annulus of (6) would move it. ROTID_OK or ROTID_ERROR_SECTION where less than nothing would be left. */
+ * I = pi d^4/64 + S e^2/2 on average over the angle, exactly so for 3 or more. Holes outside the stiffness diameter cost mass
+ * only. The shear coefficient stays that of the section without holes: the equivalent annulus of (6) would move it. ROTID_OK or
+ * ROTID_ERROR_SECTION where less than nothing would be left. */
 int section_perforate(int number, double d, double e, double stiff_outer, struct section *section);
 
 /* Area and second moment of `number` round rods of diameter d at pitch radius e: S = N pi d^2/4, own = N pi d^4/64,

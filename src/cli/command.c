@@ -43,7 +43,8 @@ int command_fail(struct command *command, int status)
 
 int command_read_deck(struct command *command)
 {
-    int status = deck_read(&command->pool, command->deck, command->noverride, command->override, &command->messages, &command->job);
+    int status =
+        deck_read(&command->pool, command->deck, command->noverride, command->override, &command->messages, &command->job);
     if (status)
         return command_fail(command, status);
     command_print_messages(command);

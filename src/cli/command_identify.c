@@ -24,7 +24,8 @@ int command_identify(struct command *command)
     struct job *job = &command->job;
     double last = 0;
     int terminal = isatty(STDERR_FILENO) && !command->quiet;
-    const rotid_environment environment = {.cancelled = command_cancelled, .progress = terminal ? show_progress : NULL, .context = &last};
+    const rotid_environment environment = {
+        .cancelled = command_cancelled, .progress = terminal ? show_progress : NULL, .context = &last};
     struct identification result;
     int status = identify_run(&command->pool, job, command->baseline, &environment, &command->messages, &result);
     if (terminal)

@@ -26,8 +26,8 @@ static int select_listed(struct command *command, struct selection *s)
         rotid_parameter *named = &s->named[s->n];
         named->name = item;
         if (parameter_find(rotor, item, &s->parameter[s->n], &named->unit)) {
-            message_add(&command->messages, SEVERITY_ERROR, "--at", 1, (int)(item - list) + 1, "%s is no parameter of this deck, expected one such as core.E",
-                        item);
+            message_add(&command->messages, SEVERITY_ERROR, "--at", 1, (int)(item - list) + 1,
+                        "%s is no parameter of this deck, expected one such as core.E", item);
             return ROTID_ERROR_SYNTAX;
         }
         if (s->parameter[s->n].kind == PARAMETER_G) { /* from here on a modulus of its own */
@@ -37,14 +37,15 @@ static int select_listed(struct command *command, struct selection *s)
         }
         s->x[s->n] = equals ? strtod(equals + 1, &end) : *parameter_value(rotor, s->parameter[s->n]);
         if ((equals && (end == equals + 1 || *end)) || !isfinite(s->x[s->n]) || s->x[s->n] == 0) {
-            message_add(&command->messages, SEVERITY_ERROR, "--at", 1, (int)(item - list) + 1, "%s has no reference value, expected a number that is not zero",
-                        item);
+            message_add(&command->messages, SEVERITY_ERROR, "--at", 1, (int)(item - list) + 1,
+                        "%s has no reference value, expected a number that is not zero", item);
             return ROTID_ERROR_SYNTAX;
         }
         s->n++;
     }
     if (list && !s->n) {
-        message_add(&command->messages, SEVERITY_ERROR, "--at", 1, 1, "no parameter is named, expected NAME or NAME=VALUE, separated by commas");
+        message_add(&command->messages, SEVERITY_ERROR, "--at", 1, 1,
+                    "no parameter is named, expected NAME or NAME=VALUE, separated by commas");
         return ROTID_ERROR_SYNTAX;
     }
     return list ? ROTID_OK : ROTID_ERROR_MEMORY;
@@ -56,8 +57,8 @@ static int select_parameters(struct command *command, struct selection *s)
     size_t room = (size_t)job->nparameter + 1;
     for (const char *c = command->at; c && *c; c++)
         room += *c == ',';
-    *s = (struct selection){0, POOL_ARRAY(&command->pool, struct parameter, room), POOL_ARRAY(&command->pool, rotid_parameter, room),
-                            POOL_ARRAY(&command->pool, double, room)};
+    *s = (struct selection){0, POOL_ARRAY(&command->pool, struct parameter, room),
+                            POOL_ARRAY(&command->pool, rotid_parameter, room), POOL_ARRAY(&command->pool, double, room)};
     if (!s->parameter || !s->named || !s->x)
         return ROTID_ERROR_MEMORY;
     if (command->at)
@@ -69,7 +70,8 @@ static int select_parameters(struct command *command, struct selection *s)
     }
     s->n = job->nparameter;
     if (!s->n) {
-        message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1, "nothing to vary, expected *IDENTIFY in the deck or --at NAME=VALUE,...");
+        message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
+                    "nothing to vary, expected *IDENTIFY in the deck or --at NAME=VALUE,...");
         return ROTID_ERROR_SYNTAX;
     }
     return ROTID_OK;

@@ -61,8 +61,21 @@ static int usage(const char *format, const char *value)
     return EXIT_USAGE;
 }
 
-enum { OPTION_JSON = 256, OPTION_SET, OPTION_QUIET, OPTION_VERBOSE, OPTION_NO_BASELINE, OPTION_AT, OPTION_STEP, OPTION_RANGE, OPTION_POINTS,
-       OPTION_THREADS, OPTION_SEED, OPTION_VERSION, OPTION_HELP };
+enum {
+    OPTION_JSON = 256,
+    OPTION_SET,
+    OPTION_QUIET,
+    OPTION_VERBOSE,
+    OPTION_NO_BASELINE,
+    OPTION_AT,
+    OPTION_STEP,
+    OPTION_RANGE,
+    OPTION_POINTS,
+    OPTION_THREADS,
+    OPTION_SEED,
+    OPTION_VERSION,
+    OPTION_HELP
+};
 
 static int number(const char *option, const char *text, double least, double most, int whole, double *value)
 {
@@ -132,14 +145,20 @@ static int take_option(struct command *command, int option, const char *value)
 
 static int parse_arguments(struct command *command, int argc, char **argv)
 {
-    static const struct option options[] = {
-        {"json", required_argument, NULL, OPTION_JSON},       {"set", required_argument, NULL, OPTION_SET},
-        {"quiet", no_argument, NULL, OPTION_QUIET},           {"verbose", no_argument, NULL, OPTION_VERBOSE},
-        {"no-baseline", no_argument, NULL, OPTION_NO_BASELINE}, {"at", required_argument, NULL, OPTION_AT},
-        {"step", required_argument, NULL, OPTION_STEP},       {"range", required_argument, NULL, OPTION_RANGE},
-        {"points", required_argument, NULL, OPTION_POINTS},   {"threads", required_argument, NULL, OPTION_THREADS},
-        {"seed", required_argument, NULL, OPTION_SEED},       {"version", no_argument, NULL, OPTION_VERSION},
-        {"help", no_argument, NULL, OPTION_HELP},             {NULL, 0, NULL, 0}};
+    static const struct option options[] = {{"json", required_argument, NULL, OPTION_JSON},
+                                            {"set", required_argument, NULL, OPTION_SET},
+                                            {"quiet", no_argument, NULL, OPTION_QUIET},
+                                            {"verbose", no_argument, NULL, OPTION_VERBOSE},
+                                            {"no-baseline", no_argument, NULL, OPTION_NO_BASELINE},
+                                            {"at", required_argument, NULL, OPTION_AT},
+                                            {"step", required_argument, NULL, OPTION_STEP},
+                                            {"range", required_argument, NULL, OPTION_RANGE},
+                                            {"points", required_argument, NULL, OPTION_POINTS},
+                                            {"threads", required_argument, NULL, OPTION_THREADS},
+                                            {"seed", required_argument, NULL, OPTION_SEED},
+                                            {"version", no_argument, NULL, OPTION_VERSION},
+                                            {"help", no_argument, NULL, OPTION_HELP},
+                                            {NULL, 0, NULL, 0}};
     int option;
     command->override = POOL_ARRAY(&command->pool, struct override, argc);
     if (!command->override)
@@ -175,7 +194,8 @@ static int run(struct command *command)
     for (size_t c = 0; c < COMMANDS; c++) {
         if (strcmp(command->name, commands[c].name))
             continue;
-        command->provenance = (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
+        command->provenance =
+            (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
         build_set_threads(command->threads);
         if (names_the_deck(command))
             return usage("--json %s is the deck itself, expected another file", command->json);

@@ -37,7 +37,7 @@ static const struct {
     {"FIT", deck_fit, 5, {"FUNCTIONAL", "REDUCTION", "MODES", "HOLDOUT", "DERIVATIVE", "TIE", NULL}},
 };
 
-#define CARDS (sizeof table / sizeof *table)
+#define CARDS      (sizeof table / sizeof *table)
 #define LAST_PHASE 5
 
 static void check_names(struct deck_reader *reader, const struct card *card)
@@ -57,7 +57,8 @@ static void check_names(struct deck_reader *reader, const struct card *card)
         for (int o = 0, length = 0; table[t].options[o]; o++)
             length += snprintf(list + length, sizeof list - (size_t)length, "%s%s", o ? ", " : "", table[t].options[o]);
         if (!known)
-            deck_error(reader, card->option[i].place, "option %s of *%s is not known, expected %s", card->option[i].name, card->name, list);
+            deck_error(reader, card->option[i].place, "option %s of *%s is not known, expected %s", card->option[i].name,
+                       card->name, list);
     }
 }
 
@@ -65,9 +66,11 @@ static void check_materials(struct deck_reader *reader)
 {
     for (int m = 0; m < reader->nmaterial; m++) {
         if (!(reader->material_complete[m] & 1))
-            deck_error(reader, reader->material_place[m], "material %s has no *ELASTIC, expected one behind *MATERIAL", reader->material[m].name);
+            deck_error(reader, reader->material_place[m], "material %s has no *ELASTIC, expected one behind *MATERIAL",
+                       reader->material[m].name);
         if (!(reader->material_complete[m] & 2))
-            deck_error(reader, reader->material_place[m], "material %s has no *DENSITY, expected one behind *MATERIAL", reader->material[m].name);
+            deck_error(reader, reader->material_place[m], "material %s has no *DENSITY, expected one behind *MATERIAL",
+                       reader->material[m].name);
     }
 }
 
@@ -99,7 +102,8 @@ static void settle_moduli(struct deck_reader *reader)
         job->rotor.group[job->parameter[p].index].material.isotropic = 1;
         for (int q = 0; q < job->nparameter; q++)
             if (job->parameter[q].kind == PARAMETER_G && job->parameter[q].index == job->parameter[p].index) {
-                deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)", job->bounds[q].name, job->bounds[p].name);
+                deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)",
+                          job->bounds[q].name, job->bounds[p].name);
                 memmove(job->parameter + q, job->parameter + q + 1, (size_t)(job->nparameter - q - 1) * sizeof *job->parameter);
                 memmove(job->bounds + q, job->bounds + q + 1, (size_t)(job->nparameter - q - 1) * sizeof *job->bounds);
                 job->nparameter--;
@@ -140,9 +144,13 @@ static void choose_functional(struct deck_reader *reader)
     if (!job->has_fit)
         job->fit.functional = known ? ROTID_LIKELIHOOD : ROTID_HYBRID;
     if (job->nmode && job->fit.functional == ROTID_LIKELIHOOD && !known)
-        deck_error(reader, place, "FUNCTIONAL=LIKELIHOOD weighs by the noise of the frequencies, expected *NOISE, FREQUENCY=relative standard deviation");
+        deck_error(reader, place,
+                   "FUNCTIONAL=LIKELIHOOD weighs by the noise of the frequencies, expected *NOISE, FREQUENCY=relative standard "
+                   "deviation");
     if (job->fit.functional == ROTID_LIKELIHOOD && job->shape && !job_knows_shape_noise(job)) {
-        deck_note(reader, place, "the shapes pair the modes and are not fitted: their noise is not known (*NOISE, SHAPE=relative standard deviation)");
+        deck_note(
+            reader, place,
+            "the shapes pair the modes and are not fitted: their noise is not known (*NOISE, SHAPE=relative standard deviation)");
     }
 }
 
@@ -154,8 +162,10 @@ static void check_masters(struct deck_reader *reader)
     for (int k = 0; k < job->nmode; k++)
         highest = job->number[k] > highest ? job->number[k] : highest;
     if (job->fit.reduction != ROTID_REDUCTION_NONE && job->rotor.nsensor && job->rotor.nsensor < 2 * highest)
-        deck_error(reader, place, "%d sensors are too few to condense onto for mode %d, expected at least twice as many as modes, or REDUCTION=NONE",
-                   job->rotor.nsensor, highest);
+        deck_error(
+            reader, place,
+            "%d sensors are too few to condense onto for mode %d, expected at least twice as many as modes, or REDUCTION=NONE",
+            job->rotor.nsensor, highest);
 }
 
 /* Builds the beam once, for what only the mesh and the sections can tell. */
@@ -169,21 +179,26 @@ static void check_beam(struct deck_reader *reader)
     int status = beam_build(&scratch, &job->rotor, 0, NULL, 1, &beam, &failed);
     if (status == ROTID_ERROR_SECTION) {
         int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
-        struct place place = rod < 0 ? reader->group_place[failed] : bars < 0 ? reader->tierod_place[rod] : reader->bars_place[bars];
-        deck_error(reader, place, rod < 0 ? "the holes leave nothing of a section of this group, expected fewer or smaller ones"
-                                          : "the rods have no equivalent cylinder (its squared inner diameter would be negative), expected a larger pitch radius or MODEL=RODS");
+        struct place place = rod < 0    ? reader->group_place[failed]
+                             : bars < 0 ? reader->tierod_place[rod]
+                                        : reader->bars_place[bars];
+        deck_error(reader, place,
+                   rod < 0 ? "the holes leave nothing of a section of this group, expected fewer or smaller ones"
+                           : "the rods have no equivalent cylinder (its squared inner diameter would be negative), expected a "
+                             "larger pitch radius or MODEL=RODS");
     } else if (status) {
         reader->out_of_memory = 1;
     }
     for (int s = 1; s < job->rotor.nsensor && !status; s++)
         if (beam.mesh.sensor_node[s] == beam.mesh.sensor_node[s - 1])
-            deck_error(reader, reader->sensor_place[s], "sensors %d and %d lie at the same node, expected one sensor a position", job->rotor.sensor[s - 1].id,
-                       job->rotor.sensor[s].id);
+            deck_error(reader, reader->sensor_place[s], "sensors %d and %d lie at the same node, expected one sensor a position",
+                       job->rotor.sensor[s - 1].id, job->rotor.sensor[s].id);
     int modes = status ? 0 : beam.mesh.ndof - 2; /* elastic ones, where two motions are free */
     for (int k = 0; k < job->nmode && !status; k++)
         if (job->number[k] > modes)
             deck_error(reader, (reader->modes_card ? reader->modes_card : reader->measured_card)->place,
-                       "mode %d is measured and the mesh has %d, expected more elements, or mode numbers that count from 1", job->number[k], modes);
+                       "mode %d is measured and the mesh has %d, expected more elements, or mode numbers that count from 1",
+                       job->number[k], modes);
     pool_close(&scratch);
 }
 
@@ -194,7 +209,8 @@ static void check_elements(struct deck_reader *reader)
     for (int s = 0; s < rotor->nsegment; s++)
         elements += rotor->segment[s].elements;
     if (elements > DECK_MOST_ELEMENTS)
-        deck_error(reader, reader->group_place[rotor->ngroup - 1], "the rotor has %ld elements, expected at most %d", elements, DECK_MOST_ELEMENTS);
+        deck_error(reader, reader->group_place[rotor->ngroup - 1], "the rotor has %ld elements, expected at most %d", elements,
+                   DECK_MOST_ELEMENTS);
 }
 
 static void read_cards(struct deck_reader *reader)

@@ -13,13 +13,14 @@ struct deck_reader {
     int nmaterial;
     size_t material_room, group_room, segment_room, tierod_room, bars_room, disk_room, spring_room, sensor_room, parameter_room;
     struct material *material;
-    int *material_complete;      /* bit 1: elastic constants, bit 2: density */
+    int *material_complete; /* bit 1: elastic constants, bit 2: density */
     struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
-    size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room, bounds_room;
-    double length;               /* of the rotor, once all groups are read */
+    size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,
+        bounds_room;
+    double length; /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape;
     const struct card *measured_card, *modes_card, *fit_card, *identify_card, *noise_card;
-    const char *tie;             /* FIT, TIE=E:G */
+    const char *tie; /* FIT, TIE=E:G */
     int out_of_memory;
 };
 
@@ -33,8 +34,10 @@ void *deck_append(struct deck_reader *reader, void **array, int count, size_t *r
 enum range { ANY, NOT_NEGATIVE, POSITIVE };
 
 /* Number i of a data line within the range; `what` names it in the error ("outer diameter [m]"). 0, or 1 after an error. */
-int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range, double *value);
-int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most, int *value);
+int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range,
+                double *value);
+int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most,
+                 int *value);
 /* Field i is there and not empty. */
 int deck_has(const struct data_line *line, int i);
 /* No more than `most` fields; otherwise an error that says what a line of this card holds. */
@@ -47,14 +50,15 @@ const char *deck_option(struct deck_reader *reader, const struct card *card, con
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value);
 /* Index of the option's value in a list of words that ends with NULL; -1 after an error. */
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
-/* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than `most`. */
+/* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than
+ * `most`. */
 int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout);
 
 /* Index of a material, -1 where there is none of that name. */
 int deck_find_material(const struct deck_reader *reader, const char *name);
 
 #define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods, of the rotor */
-#define DECK_MOST_LINES 10000    /* of a card; sensors are compared with each other */
+#define DECK_MOST_LINES    10000 /* of a card; sensors are compared with each other */
 
 /* The readers of the cards, by file. */
 void deck_material(struct deck_reader *reader, const struct card *card);

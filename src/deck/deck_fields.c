@@ -47,7 +47,8 @@ static const char *range_text(enum range range)
     return range == POSITIVE ? "a number above zero" : range == NOT_NEGATIVE ? "a number not below zero" : "a number";
 }
 
-static int parse_number(struct deck_reader *reader, const char *text, struct place place, const char *what, enum range range, double *value)
+static int parse_number(struct deck_reader *reader, const char *text, struct place place, const char *what, enum range range,
+                        double *value)
 {
     char *end;
     double number = strtod(text, &end);
@@ -68,7 +69,8 @@ int deck_has(const struct data_line *line, int i)
     return i < line->count && *line->field[i].text;
 }
 
-int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range, double *value)
+int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range,
+                double *value)
 {
     if (!deck_has(line, i)) {
         deck_error(reader, i < line->count ? line->field[i].place : line->end, "a value is missing, expected %s", what);
@@ -77,13 +79,15 @@ int deck_number(struct deck_reader *reader, const struct data_line *line, int i,
     return parse_number(reader, line->field[i].text, line->field[i].place, what, range, value);
 }
 
-int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most, int *value)
+int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most,
+                 int *value)
 {
     double number;
     if (deck_number(reader, line, i, what, ANY, &number))
         return 1;
     if (number != floor(number) || number < least || number > most) {
-        deck_error(reader, line->field[i].place, "%s is %s, expected a whole number from %d to %d", what, line->field[i].text, least, most);
+        deck_error(reader, line->field[i].place, "%s is %s, expected a whole number from %d to %d", what, line->field[i].text,
+                   least, most);
         return 1;
     }
     *value = (int)number;
@@ -125,7 +129,8 @@ int deck_position(struct deck_reader *reader, const char *text, struct place pla
         }
         int is_start = same_text(which, "start"), is_end = same_text(which, "end");
         if (!is_start && !is_end) {
-            deck_error(reader, place, "'%s' is no position, expected %s: metres from the left end, start, end, or GROUP.start, GROUP.end", text,
+            deck_error(reader, place,
+                       "'%s' is no position, expected %s: metres from the left end, start, end, or GROUP.start, GROUP.end", text,
                        what);
             return 1;
         }

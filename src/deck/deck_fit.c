@@ -17,11 +17,13 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         int found = parameter_find(&job->rotor, bounds.name, &parameter, &bounds.unit);
         if (found == 1)
             deck_error(reader, line->field[0].place,
-                       "%s is no parameter, expected NAME.E, .G, .nu, .rho of a group, NAME.E, .tension of a tie rod, NAME.k, .k_rot of a spring, "
+                       "%s is no parameter, expected NAME.E, .G, .nu, .rho of a group, NAME.E, .tension of a tie rod, NAME.k, "
+                       ".k_rot of a spring, "
                        "NAME.mass, .inertia of a disk",
                        bounds.name);
         if (found == 2)
-            deck_error(reader, line->field[0].place, "%s: there is a thing of that name and it has no such parameter, expected another one behind the dot",
+            deck_error(reader, line->field[0].place,
+                       "%s: there is a thing of that name and it has no such parameter, expected another one behind the dot",
                        bounds.name);
         int bad = deck_count(reader, line, 4, layout) || found;
         bad |= deck_number(reader, line, 1, "lower bound", ANY, &bounds.lower);
@@ -30,17 +32,20 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         if (bad)
             continue;
         if (bounds.lower >= bounds.upper)
-            deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected the lower one first", bounds.name, line->field[1].text,
-                       line->field[2].text);
+            deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected the lower one first", bounds.name,
+                       line->field[1].text, line->field[2].text);
         else if (!(bounds.lower < bounds.start && bounds.start < bounds.upper))
-            deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds", bounds.name, line->field[3].text);
+            deck_error(reader, line->field[3].place, "the start of %s is %s, expected a value between its bounds", bounds.name,
+                       line->field[3].text);
         else if (bounds.start == 0)
-            deck_error(reader, line->field[3].place, "the start of %s is zero, expected another value: it is the scale of the parameter", bounds.name);
+            deck_error(reader, line->field[3].place,
+                       "the start of %s is zero, expected another value: it is the scale of the parameter", bounds.name);
         else if (bounds.lower < 0 && parameter.kind != PARAMETER_TENSION && parameter.kind != PARAMETER_NU)
-            deck_error(reader, line->field[1].place, "the lower bound of %s is %s, expected zero or more", bounds.name, line->field[1].text);
+            deck_error(reader, line->field[1].place, "the lower bound of %s is %s, expected zero or more", bounds.name,
+                       line->field[1].text);
         else if (parameter.kind == PARAMETER_NU && (bounds.lower < -1 || bounds.upper > 0.5))
-            deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected them inside -1 to 0.5", bounds.name, line->field[1].text,
-                       line->field[2].text);
+            deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected them inside -1 to 0.5",
+                       bounds.name, line->field[1].text, line->field[2].text);
         for (int p = 0; p < job->nparameter; p++)
             if (job->parameter[p].kind == parameter.kind && job->parameter[p].index == parameter.index)
                 deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
@@ -72,7 +77,8 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
         while (*end == ' ')
             end++;
         if (bad || (*end && *end != ',') || first < 1 || last > 1000) {
-            deck_error(reader, option->value_place, "%s=%s is no list of modes, expected numbers and ranges such as 1-4,6", option->name, option->value);
+            deck_error(reader, option->value_place, "%s=%s is no list of modes, expected numbers and ranges such as 1-4,6",
+                       option->name, option->value);
             return 1;
         }
         for (long number = first; number <= last; number++) {
@@ -82,7 +88,8 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
                     found = flag[k] = 1;
             missing |= !found;
             if (!found)
-                deck_error(reader, option->value_place, "mode %ld of %s is not measured, expected modes that are", number, option->name);
+                deck_error(reader, option->value_place, "mode %ld of %s is not measured, expected modes that are", number,
+                           option->name);
         }
         text = *end ? end + 1 : end;
     } while (*text);
@@ -110,7 +117,8 @@ static void choose_modes(struct deck_reader *reader, const struct card *card)
 
 void deck_fit(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const functionals[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL}, *const reductions[] = {"NONE", "GUYAN", "IRS", NULL},
+    static const char *const functionals[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL},
+                             *const reductions[] = {"NONE", "GUYAN", "IRS", NULL},
                              *const derivatives[] = {"NELSON", "MODAL", NULL}, *const ties[] = {"E:G", NULL};
     struct job *job = reader->job;
     const struct card_option *option;

@@ -30,7 +30,8 @@ static int read_reference(struct deck_reader *reader, const struct data_line *li
         while (*rest == ' ' || (!i && *rest == ','))
             rest = *rest == ',' ? "" : rest + 1;
         if (rest == text || *rest || !isfinite(reference->value[i])) {
-            deck_error(reader, line->field[i].place, "the reference has a value that is not a number, expected paper QUANTITY = number, number, ...");
+            deck_error(reader, line->field[i].place,
+                       "the reference has a value that is not a number, expected paper QUANTITY = number, number, ...");
             return 1;
         }
     }
@@ -116,17 +117,20 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
         if (deck_has(line, 3))
             bad |= deck_number(reader, line, 3, "standard deviation of the frequency [Hz]", POSITIVE, &std);
         if (isfinite(damping) && damping >= 1)
-            deck_error(reader, line->field[2].place, "damping ratio is %s, expected a fraction of critical damping below 1", line->field[2].text);
+            deck_error(reader, line->field[2].place, "damping ratio is %s, expected a fraction of critical damping below 1",
+                       line->field[2].text);
         if (bad)
             continue;
         int k = 0;
-        while (k < job->nmode && number != job->number[k] && (number > job->number[k]) == (hz > job->frequency_hz[k]) && hz != job->frequency_hz[k])
+        while (k < job->nmode && number != job->number[k] && (number > job->number[k]) == (hz > job->frequency_hz[k]) &&
+               hz != job->frequency_hz[k])
             k++;
         if (k < job->nmode && job->number[k] == number)
             deck_error(reader, line->field[0].place, "mode %d is given twice, expected once", number);
         else if (k < job->nmode)
-            deck_error(reader, line->field[1].place, "mode %d lies at %s Hz and mode %d at %.9g Hz, expected frequencies that rise with the number",
-                       number, line->field[1].text, job->number[k], job->frequency_hz[k]);
+            deck_error(reader, line->field[1].place,
+                       "mode %d lies at %s Hz and mode %d at %.9g Hz, expected frequencies that rise with the number", number,
+                       line->field[1].text, job->number[k], job->frequency_hz[k]);
         k = job->nmode++;
         job->number[k] = number;
         job->frequency_hz[k] = hz;
@@ -179,7 +183,8 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
         new_shapes(reader);
     if (!job->shape)
         return;
-    double *shape = job->shape + (ptrdiff_t)mode * job->rotor.nsensor, *std = job->shape_std + (ptrdiff_t)mode * job->rotor.nsensor;
+    double *shape = job->shape + (ptrdiff_t)mode * job->rotor.nsensor,
+           *std = job->shape_std + (ptrdiff_t)mode * job->rotor.nsensor;
     int any = 0;
     for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
@@ -201,7 +206,8 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
         any |= value != 0;
     }
     if (!any && card->nline)
-        deck_error(reader, card->place, "the shape of mode %s is zero everywhere, expected at least one component that is not", option->value);
+        deck_error(reader, card->place, "the shape of mode %s is zero everywhere, expected at least one component that is not",
+                   option->value);
 }
 
 void deck_noise(struct deck_reader *reader, const struct card *card)
@@ -211,7 +217,9 @@ void deck_noise(struct deck_reader *reader, const struct card *card)
         deck_error(reader, card->place, "*NOISE is given twice, expected once");
     reader->noise_card = card;
     if (!frequency && !shape)
-        deck_error(reader, card->place, "*NOISE has no value, expected FREQUENCY=relative standard deviation, SHAPE=the same of the largest component");
+        deck_error(
+            reader, card->place,
+            "*NOISE has no value, expected FREQUENCY=relative standard deviation, SHAPE=the same of the largest component");
     if (frequency)
         (void)deck_option_number(reader, frequency, POSITIVE, &reader->noise_frequency);
     if (shape)

@@ -12,7 +12,8 @@ static struct group *named_group(struct deck_reader *reader, const struct card *
         if (same_text(rotor->group[g].name, name))
             return &rotor->group[g];
     if (name)
-        deck_error(reader, card_option(card, "GROUP")->value_place, "group %s is not defined, expected the name of a *SHAFT or *BEAM", name);
+        deck_error(reader, card_option(card, "GROUP")->value_place,
+                   "group %s is not defined, expected the name of a *SHAFT or *BEAM", name);
     return NULL;
 }
 
@@ -25,7 +26,8 @@ void deck_perforation(struct deck_reader *reader, const struct card *card)
     if (group->holes)
         deck_error(reader, card->place, "group %s is perforated twice, expected one *PERFORATION a group", group->name);
     for (int s = 0; s < reader->job->rotor.nsegment; s++)
-        if (&reader->job->rotor.group[reader->job->rotor.segment[s].group] == group && reader->job->rotor.segment[s].rectangular) {
+        if (&reader->job->rotor.group[reader->job->rotor.segment[s].group] == group &&
+            reader->job->rotor.segment[s].rectangular) {
             deck_error(reader, card->place, "group %s is a *BEAM, expected a round *SHAFT", group->name);
             return;
         }
@@ -37,8 +39,11 @@ void deck_perforation(struct deck_reader *reader, const struct card *card)
         const struct segment *segment = &reader->job->rotor.segment[s];
         if (&reader->job->rotor.group[segment->group] != group)
             continue;
-        if (2 * group->hole_pitch + group->hole_diameter > segment->outer || 2 * group->hole_pitch - group->hole_diameter < segment->inner) {
-            deck_error(reader, line->field[2].place, "holes of %s m on a radius of %s m do not lie within the section, expected them between %.6g and %.6g m of diameter",
+        if (2 * group->hole_pitch + group->hole_diameter > segment->outer ||
+            2 * group->hole_pitch - group->hole_diameter < segment->inner) {
+            deck_error(reader, line->field[2].place,
+                       "holes of %s m on a radius of %s m do not lie within the section, expected them between %.6g and %.6g m "
+                       "of diameter",
                        line->field[1].text, line->field[2].text, segment->inner, segment->outer);
             return;
         }
@@ -62,7 +67,8 @@ static int bundle_material(struct deck_reader *reader, const struct card *card, 
     const char *of = deck_option(reader, card, "MATERIAL", "name of a material");
     int index = of ? deck_find_material(reader, of) : -1;
     if (of && index < 0)
-        deck_error(reader, card_option(card, "MATERIAL")->value_place, "material %s is not defined, expected the name of a *MATERIAL", of);
+        deck_error(reader, card_option(card, "MATERIAL")->value_place,
+                   "material %s is not defined, expected the name of a *MATERIAL", of);
     if (index < 0)
         return 1;
     *material = reader->material[index];
@@ -113,7 +119,8 @@ void deck_tierod(struct deck_reader *reader, const struct card *card)
     }
     if (!bad && rod.elements > 1)
         deck_note(reader, line->field[4].place,
-                  "rods in %d elements have modes of their own, which may lie among those of the rotor and shift the mode numbers; one element is the "
+                  "rods in %d elements have modes of their own, which may lie among those of the rotor and shift the mode "
+                  "numbers; one element is the "
                   "usual choice",
                   rod.elements);
     struct tierod *added = bad ? NULL : DECK_APPEND(reader, rotor->tierod, rotor->ntierod, reader->tierod_room);
@@ -143,12 +150,15 @@ void deck_bars(struct deck_reader *reader, const struct card *card)
     bad |= deck_number(reader, line, 2, "pitch radius [m]", POSITIVE, &bars.pitch);
     bad |= deck_integer(reader, line, 3, "number of elements", 2, DECK_MOST_ELEMENTS, &bars.elements);
     if (!bad && bars.elements % 2) {
-        deck_error(reader, line->field[3].place, "number of elements is %d, expected an even number: half to either side of the centre", bars.elements);
+        deck_error(reader, line->field[3].place,
+                   "number of elements is %d, expected an even number: half to either side of the centre", bars.elements);
         bad = 1;
     }
-    if (!bad && (bars.center - bars.length / 2 < -1e-5 * reader->length || bars.center + bars.length / 2 > reader->length * (1 + 1e-5))) {
-        deck_error(reader, card_option(card, "LENGTH")->value_place, "bars of %s m reach beyond the rotor, expected them inside 0 to %.6g m",
-                   card_option(card, "LENGTH")->value, reader->length);
+    if (!bad &&
+        (bars.center - bars.length / 2 < -1e-5 * reader->length || bars.center + bars.length / 2 > reader->length * (1 + 1e-5))) {
+        deck_error(reader, card_option(card, "LENGTH")->value_place,
+                   "bars of %s m reach beyond the rotor, expected them inside 0 to %.6g m", card_option(card, "LENGTH")->value,
+                   reader->length);
         bad = 1;
     }
     struct bars *added = bad ? NULL : DECK_APPEND(reader, rotor->bars, rotor->nbars, reader->bars_room);
@@ -156,10 +166,12 @@ void deck_bars(struct deck_reader *reader, const struct card *card)
     if (!added || !place)
         return;
     /* clamped-free fundamental of a half bar, Euler-Bernoulli: 1.8751^2/(2 pi (L/2)^2) sqrt(E I / rho S) */
-    double radius = bars.diameter / 4, hz = 0.5596 * sqrt(bars.material.e / bars.material.rho) * radius / (bars.length * bars.length / 4);
+    double radius = bars.diameter / 4,
+           hz = 0.5596 * sqrt(bars.material.e / bars.material.rho) * radius / (bars.length * bars.length / 4);
     if (bars.model == BUNDLE_RODS && hz < 5000)
         deck_note(reader, card->place,
-                  "bars fixed at their centre alone have a mode of their own near %.0f Hz, which may lie among those of the rotor and shift the mode "
+                  "bars fixed at their centre alone have a mode of their own near %.0f Hz, which may lie among those of the "
+                  "rotor and shift the mode "
                   "numbers; MODEL=TUBE has none so low",
                   hz);
     *added = bars;
@@ -176,7 +188,8 @@ void deck_disk(struct deck_reader *reader, const struct card *card)
     for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct disk disk = {.name = name ? name->value : NULL};
-        int bad = deck_count(reader, line, 4, layout) || deck_position(reader, line->field[0].text, line->field[0].place, "position", &disk.position);
+        int bad = deck_count(reader, line, 4, layout) ||
+                  deck_position(reader, line->field[0].text, line->field[0].place, "position", &disk.position);
         bad |= deck_number(reader, line, 1, "mass [kg]", NOT_NEGATIVE, &disk.mass);
         if (deck_has(line, 2))
             bad |= deck_number(reader, line, 2, "diametral inertia [kg.m2]", NOT_NEGATIVE, &disk.diametral);
@@ -199,7 +212,8 @@ void deck_spring(struct deck_reader *reader, const struct card *card)
     for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct spring spring = {.name = name ? name->value : NULL};
-        int bad = deck_count(reader, line, 3, layout) || deck_position(reader, line->field[0].text, line->field[0].place, "position", &spring.position);
+        int bad = deck_count(reader, line, 3, layout) ||
+                  deck_position(reader, line->field[0].text, line->field[0].place, "position", &spring.position);
         bad |= deck_number(reader, line, 1, "lateral stiffness [N/m]", NOT_NEGATIVE, &spring.lateral);
         if (deck_has(line, 2))
             bad |= deck_number(reader, line, 2, "rotational stiffness [N.m/rad]", NOT_NEGATIVE, &spring.rotational);

@@ -35,7 +35,8 @@ static struct material *current_material(struct deck_reader *reader, const struc
     }
     int last = reader->nmaterial - 1;
     if (reader->material_complete[last] & bit)
-        deck_error(reader, card->place, "*%s is given twice for material %s, expected once", card->name, reader->material[last].name);
+        deck_error(reader, card->place, "*%s is given twice for material %s, expected once", card->name,
+                   reader->material[last].name);
     reader->material_complete[last] |= bit;
     return &reader->material[last];
 }
@@ -57,7 +58,8 @@ void deck_elastic(struct deck_reader *reader, const struct card *card)
     bad |= deck_number(reader, line, last, "Poisson ratio nu", ANY, &material->nu);
     material->isotropic = !shear;
     if (!bad && !(material->nu > -1 && material->nu <= 0.5))
-        deck_error(reader, line->field[last].place, "Poisson ratio nu is %s, expected above -1 and at most 0.5", line->field[last].text);
+        deck_error(reader, line->field[last].place, "Poisson ratio nu is %s, expected above -1 and at most 0.5",
+                   line->field[last].text);
 }
 
 void deck_density(struct deck_reader *reader, const struct card *card)
@@ -73,10 +75,12 @@ void deck_density(struct deck_reader *reader, const struct card *card)
 static int add_group(struct deck_reader *reader, const struct card *card)
 {
     struct rotor *rotor = &reader->job->rotor;
-    const char *name = deck_option(reader, card, "NAME", "name"), *of = deck_option(reader, card, "MATERIAL", "name of a material");
+    const char *name = deck_option(reader, card, "NAME", "name"),
+               *of = deck_option(reader, card, "MATERIAL", "name of a material");
     int material = of ? deck_find_material(reader, of) : -1;
     if (of && material < 0)
-        deck_error(reader, card_option(card, "MATERIAL")->value_place, "material %s is not defined, expected the name of a *MATERIAL", of);
+        deck_error(reader, card_option(card, "MATERIAL")->value_place,
+                   "material %s is not defined, expected the name of a *MATERIAL", of);
     for (int g = 0; name && g < rotor->ngroup; g++)
         if (same_text(rotor->group[g].name, name)) {
             deck_error(reader, card_option(card, "NAME")->value_place, "the name %s is given twice, expected a new one", name);
@@ -98,7 +102,8 @@ static struct segment *add_segment(struct deck_reader *reader, int group)
     struct rotor *rotor = &reader->job->rotor;
     struct segment *segment = DECK_APPEND(reader, rotor->segment, rotor->nsegment, reader->segment_room);
     if (segment) {
-        *segment = (struct segment){.group = group, .length = 1e6, .elements = 1}; /* where an error follows: every position is inside */
+        *segment =
+            (struct segment){.group = group, .length = 1e6, .elements = 1}; /* where an error follows: every position is inside */
         rotor->nsegment++;
     }
     return segment;
@@ -121,11 +126,13 @@ void deck_shaft(struct deck_reader *reader, const struct card *card)
         if (deck_has(line, 4))
             bad |= deck_number(reader, line, 4, "outer diameter that carries stiffness [m]", POSITIVE, &s->stiff_outer);
         if (!bad && s->inner >= s->outer)
-            deck_error(reader, line->field[2].place, "inner diameter %s m is not below the outer diameter %s m, expected a smaller one",
-                       line->field[2].text, line->field[1].text);
+            deck_error(reader, line->field[2].place,
+                       "inner diameter %s m is not below the outer diameter %s m, expected a smaller one", line->field[2].text,
+                       line->field[1].text);
         else if (!bad && (s->stiff_outer > s->outer || s->stiff_outer <= s->inner))
             deck_error(reader, line->field[4].place,
-                       "the diameter that carries stiffness is %s m, expected above the inner and at most the outer diameter", line->field[4].text);
+                       "the diameter that carries stiffness is %s m, expected above the inner and at most the outer diameter",
+                       line->field[4].text);
     }
 }
 

@@ -81,7 +81,8 @@ static struct place at(const struct reader *reader, const char *line_begin, cons
 }
 
 /* One piece of a keyword line: NAME=VALUE, NAME, or, behind a list such as MODES=1,2, the next item of the list. */
-static void read_option(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end, int line)
+static void read_option(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end,
+                        int line)
 {
     trim(&begin, &end);
     if (begin == end)
@@ -100,9 +101,9 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     trim(&name, &name_end);
     trim(&value, &value_end);
     struct card_option option = {.name = copy_span(reader, name, name_end),
-                            .value = copy_span(reader, value, value_end),
-                            .place = at(reader, line_begin, name, line),
-                            .value_place = at(reader, line_begin, value, line)};
+                                 .value = copy_span(reader, value, value_end),
+                                 .place = at(reader, line_begin, name, line),
+                                 .value_place = at(reader, line_begin, value, line)};
     if (!option.name || !option.value)
         return;
     if (card_option(card, option.name))
@@ -111,7 +112,8 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     reader->out_of_memory |= add_option(reader->pool, card, option);
 }
 
-static void read_options(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end, int line)
+static void read_options(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end,
+                         int line)
 {
     const char *last = end, *first = begin;
     trim(&first, &last);
@@ -146,8 +148,8 @@ static void include(struct reader *reader, struct card card)
     }
     for (int i = 0; i < card.noption; i++)
         if (!same_text(card.option[i].name, "FILE"))
-            message_add(reader->messages, SEVERITY_ERROR, card.option[i].place.file, card.option[i].place.line, card.option[i].place.column,
-                        "option %s of *INCLUDE is not known, expected FILE", card.option[i].name);
+            message_add(reader->messages, SEVERITY_ERROR, card.option[i].place.file, card.option[i].place.line,
+                        card.option[i].place.column, "option %s of *INCLUDE is not known, expected FILE", card.option[i].name);
     const char *path = beside(reader, file->value);
     if (!path) {
         reader->out_of_memory = 1;
@@ -156,8 +158,8 @@ static void include(struct reader *reader, struct card card)
     struct stat information; /* the same file may have several paths */
     for (int i = 0; i <= reader->depth && !stat(path, &information); i++)
         if (information.st_dev == reader->open_stat[i].st_dev && information.st_ino == reader->open_stat[i].st_ino) {
-            message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line, file->value_place.column,
-                        "%s includes itself, expected a file that is not already open", path);
+            message_add(reader->messages, SEVERITY_ERROR, file->value_place.file, file->value_place.line,
+                        file->value_place.column, "%s includes itself, expected a file that is not already open", path);
             return;
         }
     if (reader->depth >= DECK_MOST_INCLUDES) {
@@ -202,7 +204,8 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     int count = 1;
     for (const char *c = begin; c < end; c++)
         count += *c == ',';
-    struct data_line data = {.place = at(reader, begin, first, line), .end = at(reader, begin, last, line), .text = copy_span(reader, first, last)};
+    struct data_line data = {
+        .place = at(reader, begin, first, line), .end = at(reader, begin, last, line), .text = copy_span(reader, first, last)};
     data.field = POOL_ARRAY(reader->pool, struct field, count);
     if (!grown || !data.field || !data.text) {
         reader->out_of_memory = 1;
@@ -280,8 +283,8 @@ static int read_file(struct reader *reader, const char *path, struct place from)
             stream = fopen(path, "rb");
     }
     if (!stream) {
-        message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column, "cannot read %s: %s, expected a deck",
-                    path, strerror(errno));
+        message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
+                    "cannot read %s: %s, expected a deck", path, strerror(errno));
         return ROTID_ERROR_IO;
     }
     if (S_ISREG(information.st_mode) && information.st_size > reader->bytes_left) {
@@ -367,7 +370,8 @@ int deck_text_override(struct pool *pool, const struct override *override, struc
             found = 1;
         }
     if (!found) {
-        message_add(messages, SEVERITY_ERROR, place.file, 1, 1, "the deck has no card *%s, expected one that it has", override->card);
+        message_add(messages, SEVERITY_ERROR, place.file, 1, 1, "the deck has no card *%s, expected one that it has",
+                    override->card);
         return ROTID_ERROR_SYNTAX;
     }
     for (int i = 0; i < text->ncard; i++) {

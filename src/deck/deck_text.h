@@ -5,10 +5,10 @@
 #include "base/message.h"
 #include "base/pool.h"
 
-#define DECK_LINE_LENGTH 1024
-#define DECK_MOST_BYTES (16l << 20) /* all files together: a rotor takes kilobytes */
-#define DECK_MOST_INCLUDES 16       /* depth */
-#define DECK_MOST_CARDS 5000        /* names are compared with each other */
+#define DECK_LINE_LENGTH   1024
+#define DECK_MOST_BYTES    (16l << 20) /* all files together: a rotor takes kilobytes */
+#define DECK_MOST_INCLUDES 16          /* depth */
+#define DECK_MOST_CARDS    5000        /* names are compared with each other */
 
 struct place {
     const char *file;

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "deck/deck_cards.h"
-#include "uff/uff.h"
 #include "rotid.h"
+#include "uff/uff.h"
 
 struct import {
     struct deck_reader *reader;
@@ -75,11 +75,13 @@ static int import_sensors(struct import *import)
     if (!file->node_count) {
         if (rotor->nsensor)
             return 0;
-        deck_error(reader, in_file(import, 1), "the file has no nodes (sets 15, 2411), expected them, or a *SENSORS card in the deck");
+        deck_error(reader, in_file(import, 1),
+                   "the file has no nodes (sets 15, 2411), expected them, or a *SENSORS card in the deck");
         return 1;
     }
     if (rotor->nsensor) {
-        deck_error(reader, import->card->place, "sensors are given by *SENSORS and by the nodes of %s, expected one of them", import->path);
+        deck_error(reader, import->card->place, "sensors are given by *SENSORS and by the nodes of %s, expected one of them",
+                   import->path);
         return 1;
     }
     rotor->sensor = POOL_ARRAY(reader->pool, struct sensor, file->node_count);
@@ -95,7 +97,8 @@ static int import_sensors(struct import *import)
         double z = import->origin + (import->flip ? -1 : 1) * import->scale * file->node[i].x[import->axis];
         if (!(z >= -1e-5 * reader->length && z <= reader->length * (1 + 1e-5))) {
             deck_error(reader, in_file(import, 1),
-                       "node %d lies at %.6g m of the model, outside the rotor, expected 0 to %.6g m: check AXIS, ORIGIN, FLIP, SCALE and the unit",
+                       "node %d lies at %.6g m of the model, outside the rotor, expected 0 to %.6g m: check AXIS, ORIGIN, FLIP, "
+                       "SCALE and the unit",
                        file->node[i].id, z, reader->length);
             bad = 1;
             continue;
@@ -140,13 +143,13 @@ static int choose_modes(struct import *import, const struct uff_shape **chosen)
         if (!kept || !is_conjugate(chosen[k], chosen[kept - 1]))
             chosen[kept++] = chosen[k];
     if (kept < count)
-        deck_note(import->reader, in_file(import, chosen[0]->line), "%d shapes repeat the frequency of another and are left out, as conjugates of it",
-                  count - kept);
+        deck_note(import->reader, in_file(import, chosen[0]->line),
+                  "%d shapes repeat the frequency of another and are left out, as conjugates of it", count - kept);
     return kept;
 }
 
-/* The real vector nearest to a complex one: turned by the phase that makes its real part largest. Returns the part of the motion that is
- * out of phase. */
+/* The real vector nearest to a complex one: turned by the phase that makes its real part largest. Returns the part of the motion
+ * that is out of phase. */
 static double turn_to_real(int n, const double *real, const double *imag, double *out)
 {
     double complex square = 0;
@@ -179,8 +182,8 @@ static void place_components(struct import *import, const struct uff_shape *shap
         missing += !found;
     }
     if (missing)
-        deck_error(import->reader, in_file(import, shape->line), "%d nodes of this shape have no position, expected all of them among the sensors",
-                   missing);
+        deck_error(import->reader, in_file(import, shape->line),
+                   "%d nodes of this shape have no position, expected all of them among the sensors", missing);
 }
 
 static int import_shape(struct import *import, const struct uff_shape *shape, double *target)
@@ -188,10 +191,12 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
     struct deck_reader *reader = import->reader;
     int component = shape->component_count == 1 ? 0 : import->component;
     if (component >= shape->component_count) {
-        deck_error(reader, in_file(import, shape->line), "the shape has %d values a node, expected DIRECTION to be one of them", shape->component_count);
+        deck_error(reader, in_file(import, shape->line), "the shape has %d values a node, expected DIRECTION to be one of them",
+                   shape->component_count);
         return 1;
     }
-    double *real = POOL_ARRAY(reader->pool, double, shape->node_count), *imag = POOL_ARRAY(reader->pool, double, shape->node_count);
+    double *real = POOL_ARRAY(reader->pool, double, shape->node_count),
+           *imag = POOL_ARRAY(reader->pool, double, shape->node_count);
     if (!real || !imag) {
         reader->out_of_memory = 1;
         return 1;
@@ -203,14 +208,15 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
         largest = fmax(largest, hypot(real[i], imag[i]));
     }
     if (largest == 0) {
-        deck_error(reader, in_file(import, shape->line), "the shape at %.6g Hz is zero everywhere in this direction, expected another DIRECTION",
-                   shape->frequency_hz);
+        deck_error(reader, in_file(import, shape->line),
+                   "the shape at %.6g Hz is zero everywhere in this direction, expected another DIRECTION", shape->frequency_hz);
         return 1;
     }
     if (shape->imag) {
         double left = turn_to_real(shape->node_count, real, imag, real);
         if (left > 0.05)
-            deck_note(reader, in_file(import, shape->line), "%.0f %% of the motion of the shape at %.6g Hz is out of phase and left out", 100 * left,
+            deck_note(reader, in_file(import, shape->line),
+                      "%.0f %% of the motion of the shape at %.6g Hz is out of phase and left out", 100 * left,
                       shape->frequency_hz);
     }
     place_components(import, shape, real, target);

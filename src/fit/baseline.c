@@ -18,8 +18,8 @@ int baseline_count(int nparam)
     return 0;
 }
 
-int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter, const rotid_environment *environment,
-                 double *work, rotid_baseline *out)
+int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter,
+                 const rotid_environment *environment, double *work, rotid_baseline *out)
 {
     (void)keep, (void)functional, (void)parameter, (void)environment, (void)work, (void)out;
     return ROTID_OK;
@@ -165,8 +165,8 @@ static void judge(int n, struct problem *problem, rotid_baseline *out)
     out->objective = sum / 2;
 }
 
-int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter, const rotid_environment *environment,
-                 double *work, rotid_baseline *out)
+int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter,
+                 const rotid_environment *environment, double *work, rotid_baseline *out)
 {
     int n = functional->prediction.model->nparam, status = ROTID_OK, count = 0;
     double *space = POOL_ARRAY(keep, double, 3 * n);

@@ -11,7 +11,7 @@ int baseline_count(int nparam);
 
 /* Minimises the functional with each algorithm in x/|start| within the bounds. out [baseline_count(n)], x of each on `keep`.
  * work [nresidual * (n + 1)]. ROTID_OK, MEMORY, or CANCELLED as soon as the environment says so. */
-int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter, const rotid_environment *environment,
-                 double *work, rotid_baseline *out);
+int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter,
+                 const rotid_environment *environment, double *work, rotid_baseline *out);
 
 #endif

@@ -4,8 +4,8 @@
 
 #define SATURATED 1e-6
 
-/* The paper scales x by its start before it applies (30); y is the same with and without. The exponential is always of a negative number,
- * so that it underflows to zero, which is the bound, and never overflows. */
+/* The paper scales x by its start before it applies (30); y is the same with and without. The exponential is always of a negative
+ * number, so that it underflows to zero, which is the bound, and never overflows. */
 double bounds_to_x(const rotid_parameter *parameter, double chi, double y)
 {
     double span = parameter->upper - parameter->lower;

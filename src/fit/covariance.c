@@ -6,10 +6,11 @@
 #include "fit/quantile.h"
 #include "linalg/least_squares.h"
 
-#define RANK 1e-10       /* singular values below this part of the largest are rounding */
-#define UNDETERMINED 0.5 /* relative standard deviation along a direction: the data then allow about as much change as there is value */
-#define TAKES_PART 0.3   /* component of a unit direction */
-#define FREE 1e-6        /* a component of a direction without any information that still leaves a parameter without an interval */
+#define RANK 1e-10 /* singular values below this part of the largest are rounding */
+#define UNDETERMINED                                                                                                             \
+    0.5 /* relative standard deviation along a direction: the data then allow about as much change as there is value */
+#define TAKES_PART 0.3  /* component of a unit direction */
+#define FREE       1e-6 /* a component of a direction without any information that still leaves a parameter without an interval */
 
 size_t covariance_workspace(int m, int n)
 {
@@ -19,8 +20,8 @@ size_t covariance_workspace(int m, int n)
 
 /* inner [n * n] := sum over rows of s_i^2 J_i' J_i in the basis of the right singular vectors, divided by the singular values:
  * S^-1 U' diag(s^2) U S^-1, without U. Directions below the rank are left zero. */
-static void inner_covariance(const struct covariance_input *in, const double *jacobian, const rotid_fit_result *result, double *inner,
-                             double *row)
+static void inner_covariance(const struct covariance_input *in, const double *jacobian, const rotid_fit_result *result,
+                             double *inner, double *row)
 {
     int m = in->m, n = in->n;
     memset(inner, 0, (size_t)n * (size_t)n * sizeof *inner);
@@ -66,7 +67,8 @@ static void outer_covariance(int n, const double *direction, const double *inner
 }
 
 /* Which directions, and with them which parameters, the data leave open. */
-static void judge_directions(const struct covariance_input *in, const double *inner, double variance, double t, rotid_fit_result *result)
+static void judge_directions(const struct covariance_input *in, const double *inner, double variance, double t,
+                             rotid_fit_result *result)
 {
     int n = in->n;
     for (int p = 0; p < n; p++)

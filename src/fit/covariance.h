@@ -16,10 +16,10 @@ struct covariance_input {
 
 size_t covariance_workspace(int m, int n);
 
-/* Fills covariance ... widened_by, chi2 and dof of the result, with Student's t where the variance comes from the residuals and the
- * sandwich (J'J)^-1 J' S J (J'J)^-1 where the functional does not weigh by the noise S it is given. Directions that the
- * data determine to no better than half of the parameters' own size are called undetermined, and parameters whose 95 % interval holds zero
- * not identifiable. ROTID_OK or ROTID_ERROR_LIBRARY. */
+/* Fills covariance ... widened_by, chi2 and dof of the result, with Student's t where the variance comes from the residuals and
+ * the sandwich (J'J)^-1 J' S J (J'J)^-1 where the functional does not weigh by the noise S it is given. Directions that the data
+ * determine to no better than half of the parameters' own size are called undetermined, and parameters whose 95 % interval holds
+ * zero not identifiable. ROTID_OK or ROTID_ERROR_LIBRARY. */
 int covariance_compute(const struct covariance_input *input, rotid_fit_result *result, double *work);
 
 #endif

@@ -73,7 +73,8 @@ static int trace(void *user, const rotid_lm_iteration *now)
     fit->accepted = now->x;
     double *x = result->history_x + (ptrdiff_t)row * n, step = 0, gradient = 0;
     for (int p = 0; p < n; p++) {
-        double unit = fabs(fit->parameter[p].start), slope = bounds_slope(&fit->parameter[p], fit->options.bijection_chi, now->x[p]);
+        double unit = fabs(fit->parameter[p].start),
+               slope = bounds_slope(&fit->parameter[p], fit->options.bijection_chi, now->x[p]);
         x[p] = bounds_to_x(&fit->parameter[p], fit->options.bijection_chi, now->x[p]);
         if (slope != 0)
             gradient = fmax(gradient, fabs(now->gradient[p] / slope * unit));
@@ -91,12 +92,14 @@ static int trace(void *user, const rotid_lm_iteration *now)
 static int check_arguments(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
                            const rotid_fit_options *options)
 {
-    if (!model || !parameter || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n || model->nfar < 0 ||
-        model->nparam < 1 || model->nrigid < 0 || model->nmaster < 0 || !model->matrices || measured->nmode < 1 || !measured->number ||
-        !measured->frequency_hz || (model->nmaster && !model->master) || (model->nfar && !model->far))
+    if (!model || !parameter || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n ||
+        model->nfar < 0 || model->nparam < 1 || model->nrigid < 0 || model->nmaster < 0 || !model->matrices ||
+        measured->nmode < 1 || !measured->number || !measured->frequency_hz || (model->nmaster && !model->master) ||
+        (model->nfar && !model->far))
         return ROTID_ERROR_ARGUMENT;
-    if (options->functional < ROTID_HYBRID || options->functional > ROTID_LIKELIHOOD || options->reduction < ROTID_REDUCTION_NONE ||
-        options->reduction > ROTID_IRS || options->derivative < ROTID_NELSON || options->derivative > ROTID_MODAL)
+    if (options->functional < ROTID_HYBRID || options->functional > ROTID_LIKELIHOOD ||
+        options->reduction < ROTID_REDUCTION_NONE || options->reduction > ROTID_IRS || options->derivative < ROTID_NELSON ||
+        options->derivative > ROTID_MODAL)
         return ROTID_ERROR_ARGUMENT;
     for (int s = 0; s < model->nmaster; s++)
         if (model->master[s] < 0 || model->master[s] >= model->n || (s && model->master[s] <= model->master[s - 1]))
@@ -134,13 +137,14 @@ static int new_result(struct pool *keep, int n, int m, int iterations, rotid_fit
     result->history = POOL_ARRAY(keep, rotid_fit_iteration, rows);
     result->history_x = POOL_ARRAY(keep, double, rows *(size_t)n);
     result->baseline = POOL_ARRAY(keep, rotid_baseline, baseline_count(n));
-    return result->at_bound && result->identifiable && result->direction_undetermined && result->covariance && result->correlation &&
-                   result->direction && result->history && result->history_x && result->baseline
+    return result->at_bound && result->identifiable && result->direction_undetermined && result->covariance &&
+                   result->correlation && result->direction && result->history && result->history_x && result->baseline
                ? ROTID_OK
                : ROTID_ERROR_MEMORY;
 }
 
-/* Standard deviations of the residuals: of the noise the user states, in the units of the functional. NULL where it is not known. */
+/* Standard deviations of the residuals: of the noise the user states, in the units of the functional. NULL where it is not known.
+ */
 static const double *residual_noise(const struct fit *fit, double *std)
 {
     const rotid_measured *measured = fit->functional.measured;
@@ -150,7 +154,8 @@ static const double *residual_noise(const struct fit *fit, double *std)
     for (int i = 0; i < fit->functional.nresidual; i++)
         std[i] = 1;
     for (int k = 0; k < measured->nmode && fit->options.functional != ROTID_LIKELIHOOD; k++)
-        if (!measured->holdout || !measured->holdout[k]) /* r = 1 - lambda/w^2 moves by twice, 1 - w~/w^ by once the relative error of w^ */
+        if (!measured->holdout ||
+            !measured->holdout[k]) /* r = 1 - lambda/w^2 moves by twice, 1 - w~/w^ by once the relative error of w^ */
             std[row++] = (fit->options.functional == ROTID_HYBRID ? 2 : 1) * measured->frequency_std[k];
     return std;
 }
@@ -253,7 +258,8 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
                                      .x = result->x,
                                      .fixed = result->at_bound};
     status = covariance_compute(&input, result, rest);
-    /* a stop on the limit, or where rounding left no step that lowers f, may still be at the minimum: the step that is left decides */
+    /* a stop on the limit, or where rounding left no step that lowers f, may still be at the minimum: the step that is left
+     * decides */
     result->converged = result->status != ROTID_STOP_CANCELLED && !pulled_inside &&
                         (result->status == ROTID_STOP_GRADIENT || step_left(fit, gradient) < 1e-6);
     return status;
@@ -263,7 +269,8 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
 {
     const rotid_fit_options *options = &fit->options;
     int n = model->nparam;
-    int status = functional_new(pool, options->functional, options->reduction, options->derivative, model, measured, &fit->functional);
+    int status =
+        functional_new(pool, options->functional, options->reduction, options->derivative, model, measured, &fit->functional);
     if (!status)
         status = new_result(keep, n, measured->nmode, options->max_iterations, fit->result);
     if (status)
@@ -273,7 +280,7 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     fit->x = POOL_ARRAY(pool, double, n);
     fit->y = POOL_ARRAY(pool, double, n);
     fit->r = POOL_ARRAY(pool, double, m);
-    fit->jacobian = POOL_ARRAY(pool, double, (size_t)m * (size_t)n);
+    fit->jacobian = POOL_ARRAY(pool, double, (size_t)m *(size_t)n);
     fit->work = POOL_ARRAY(pool, double, lm_work > end_work ? lm_work : end_work);
     if (!fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
         return ROTID_ERROR_MEMORY;
@@ -302,8 +309,8 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     return status;
 }
 
-int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured, const rotid_fit_options *options,
-              const rotid_environment *environment, rotid_fit_result **result)
+int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
+              const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
 {
     if (!result)
         return ROTID_ERROR_ARGUMENT;
@@ -319,7 +326,8 @@ int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const 
     keep = made ? POOL_NEW(&first, struct pool) : NULL;
     status = ROTID_ERROR_MEMORY;
     if (keep) {
-        struct fit fit = {.parameter = parameter, .environment = environment, .options = *options, .result = made, .n = model->nparam};
+        struct fit fit = {
+            .parameter = parameter, .environment = environment, .options = *options, .result = made, .n = model->nparam};
         rotid_fit_options standard;
         rotid_fit_defaults(&standard);
         if (fit.options.max_iterations <= 0)

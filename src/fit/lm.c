@@ -4,10 +4,10 @@
 #include "linalg/least_squares.h"
 #include "rotid.h"
 
-#define MU_MOST 1e16   /* beyond it a step is below rounding */
-#define MU_LEAST 1e-24 /* its root against D is far below any rounding of J, and yet keeps the QR regular */
-#define FLAT 1e-8      /* predicted decrease over objective below which the noise of a computed objective can hide the decrease */
-#define FLAT_TRIES 5 /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
+#define MU_MOST    1e16  /* beyond it a step is below rounding */
+#define MU_LEAST   1e-24 /* its root against D is far below any rounding of J, and yet keeps the QR regular */
+#define FLAT       1e-8 /* predicted decrease over objective below which the noise of a computed objective can hide the decrease */
+#define FLAT_TRIES 5    /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
 
 struct lm {
     int m, n;
@@ -63,13 +63,16 @@ static int linearise(struct lm *lm)
         usable += square > 0;
         if (sqrt(square) > lm->norm[j])
             lm->norm[j] = sqrt(square);
-        lm->scale[j] = lm->norm[j] > 0 ? lm->norm[j] : 1; /* where a column has been zero so far any scale keeps the system regular */
+        lm->scale[j] =
+            lm->norm[j] > 0 ? lm->norm[j] : 1; /* where a column has been zero so far any scale keeps the system regular */
         if (!isfinite(square))
             return ROTID_ERROR_FINITE;
-        if (length > 0 && square > 0) /* with the norm of the column here, not with D: where J has shrunk by 1e10 D would end the iteration */
+        if (length > 0 &&
+            square > 0) /* with the norm of the column here, not with D: where J has shrunk by 1e10 D would end the iteration */
             lm->result->cosine = fmax(lm->result->cosine, fabs(lm->gradient[j]) / (sqrt(square) * length));
     }
-    return usable || length == 0 || lm->result->jacobians > 1 ? ROTID_OK : ROTID_ERROR_RANK; /* J = 0 later: the gradient has vanished */
+    return usable || length == 0 || lm->result->jacobians > 1 ? ROTID_OK
+                                                              : ROTID_ERROR_RANK; /* J = 0 later: the gradient has vanished */
 }
 
 /* h'(mu D^2 h - g)/2, the decrease that the linear model promises */
@@ -99,8 +102,8 @@ static int negligible(const struct lm *lm)
     return 1;
 }
 
-/* A damped step from x. Returns 0 with the trial point and its residual in place, a stop reason, or an error. *refused: the trial has no
- * residual. */
+/* A damped step from x. Returns 0 with the trial point and its residual in place, a stop reason, or an error. *refused: the trial
+ * has no residual. */
 static int try_step(struct lm *lm, double *predicted, int *refused)
 {
     if (least_squares_damped_step(lm->m, lm->n, lm->jacobian, lm->r, lm->mu, lm->scale, lm->step, lm->work))
@@ -124,13 +127,14 @@ static void accept(struct lm *lm)
     lm->result->objective = half_square(lm->m, lm->r);
 }
 
-/* Near the minimum the decrease drowns in the rounding of r long before the gradient does (Hager and Zhang 2005 make the same point
- * for line searches): the step is then judged by the gradient. Returns 0 with the trial accepted and linearised, STOP_OBJECTIVE with
- * everything as it was, or an error. */
+/* Near the minimum the decrease drowns in the rounding of r long before the gradient does (Hager and Zhang 2005 make the same
+ * point for line searches): the step is then judged by the gradient. Returns 0 with the trial accepted and linearised,
+ * STOP_OBJECTIVE with everything as it was, or an error. */
 static int accept_by_gradient(struct lm *lm)
 {
     size_t m = (size_t)lm->m, n = (size_t)lm->n;
-    double *x = lm->old, *gradient = x + n, *r = gradient + n, *jacobian = r + m, cosine = lm->result->cosine, f = lm->result->objective;
+    double *x = lm->old, *gradient = x + n, *r = gradient + n, *jacobian = r + m, cosine = lm->result->cosine,
+           f = lm->result->objective;
     memcpy(x, lm->x, n * sizeof *x);
     memcpy(gradient, lm->gradient, n * sizeof *x);
     memcpy(r, lm->r, m * sizeof *x);
@@ -226,8 +230,8 @@ static double or_default(double value, double standard)
     return value > 0 ? value : standard;
 }
 
-int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r, double *jacobian,
-             double *work, rotid_lm_result *result)
+int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
+             double *jacobian, double *work, rotid_lm_result *result)
 {
     if (m < 1 || n < 1 || !residual || !x || !r || !jacobian || !work || !result || !all_finite(n, x))
         return ROTID_ERROR_ARGUMENT;

@@ -12,7 +12,8 @@ static double beta_fraction(double a, double b, double x)
     h = d;
     for (int k = 1; k < 500; k++) {
         for (int odd = 0; odd < 2; odd++) {
-            double t = odd ? -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 2 * k + 1)) : k * (b - k) * x / ((a + 2 * k - 1) * (a + 2 * k));
+            double t = odd ? -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 2 * k + 1))
+                           : k * (b - k) * x / ((a + 2 * k - 1) * (a + 2 * k));
             d = 1 + t * d;
             c = 1 + t / c;
             d = 1 / (fabs(d) < DBL_MIN ? DBL_MIN : d);

@@ -6,8 +6,8 @@
 #include "linalg/factor.h"
 #include "rotid.h"
 
-/* ---- dense: the condensed problem (LAPACK dsygvx, dsygvd), solved as M phi = mu (K - s M) phi with a shift s < 0: rounding is then
- * relative to the lowest eigenvalues, which are the ones that are wanted, instead of to the highest */
+/* ---- dense: the condensed problem (LAPACK dsygvx, dsygvd), solved as M phi = mu (K - s M) phi with a shift s < 0: rounding is
+ * then relative to the lowest eigenvalues, which are the ones that are wanted, instead of to the highest */
 
 struct eigen_dense {
     int n, count;
@@ -19,7 +19,8 @@ struct eigen_dense {
 /* For the lowest `count` of n pairs. ROTID_OK or ROTID_ERROR_MEMORY. */
 int eigen_dense_new(struct pool *pool, int n, int count, struct eigen_dense *e);
 
-/* k, m [n * n] are kept. lambda [count], phi [n * count]. ROTID_OK, ROTID_ERROR_MASS, ROTID_ERROR_STIFFNESS or ROTID_ERROR_EIGEN. */
+/* k, m [n * n] are kept. lambda [count], phi [n * count]. ROTID_OK, ROTID_ERROR_MASS, ROTID_ERROR_STIFFNESS or ROTID_ERROR_EIGEN.
+ */
 int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi);
 
 /* ---- banded: the full chain, in O(n) */
@@ -28,7 +29,7 @@ struct eigen_band {
     int n, count, block, depth, started;
     double shift, largest; /* largest K_ii/M_ii: the size of the highest eigenvalue */
     struct factor factor, inertia;
-    int *all;           /* [n] 0 ... n - 1: no row is left out */
+    int *all; /* [n] 0 ... n - 1: no row is left out */
     rotid_matrix shifted;
     double *basis;      /* [n * block * depth], M-orthonormal */
     double *mass_basis; /* M basis */
@@ -42,9 +43,9 @@ struct eigen_band {
 /* For the lowest `count` pairs of matrices structured as `structure`. ROTID_OK or ROTID_ERROR_MEMORY. */
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e);
 
-/* Block Krylov iteration on (K - s M)^-1 M with a shift s < 0, Rayleigh-Ritz on K, warm-started from the pairs of the call before;
- * a Sturm count at the end proves that none was missed. K positive semidefinite, M positive definite.
- * lambda [count], phi [n * count]. ROTID_OK, ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
+/* Block Krylov iteration on (K - s M)^-1 M with a shift s < 0, Rayleigh-Ritz on K, warm-started from the pairs of the call
+ * before; a Sturm count at the end proves that none was missed. K positive semidefinite, M positive definite. lambda [count], phi
+ * [n * count]. ROTID_OK, ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
 #endif

@@ -9,13 +9,13 @@
 #include "base/random.h"
 #include "linalg/matrix.h"
 
-#define TOLERANCE 1e-12  /* of the residual below: a vector is then as good as its arithmetic */
-#define ACCEPTABLE 1e-7  /* after all cycles: eigenvalues are then good to its square */
+#define TOLERANCE   1e-12 /* of the residual below: a vector is then as good as its arithmetic */
+#define ACCEPTABLE  1e-7  /* after all cycles: eigenvalues are then good to its square */
 #define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
-#define ZERO 1e-14        /* of the highest eigenvalue: below this, rounding of a rigid motion */
+#define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 #define MOST_CYCLES 60
-#define GUARDS 5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
-#define DEPTH 3  /* Krylov blocks a cycle */
+#define GUARDS      5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
+#define DEPTH       3 /* Krylov blocks a cycle */
 
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e)
 {
@@ -23,12 +23,12 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
     *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH};
     int width = block * DEPTH;
     e->all = POOL_ARRAY(pool, int, n);
-    e->basis = POOL_ARRAY(pool, double, (size_t)n * (size_t)width);
-    e->mass_basis = POOL_ARRAY(pool, double, (size_t)n * (size_t)width);
-    e->ritz = POOL_ARRAY(pool, double, (size_t)n * (size_t)block);
-    e->image = POOL_ARRAY(pool, double, (size_t)n * (size_t)block);
+    e->basis = POOL_ARRAY(pool, double, (size_t)n *(size_t)width);
+    e->mass_basis = POOL_ARRAY(pool, double, (size_t)n *(size_t)width);
+    e->ritz = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
+    e->image = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
     e->value = POOL_ARRAY(pool, double, width);
-    e->projected = POOL_ARRAY(pool, double, (size_t)width * (size_t)width);
+    e->projected = POOL_ARRAY(pool, double, (size_t)width *(size_t)width);
     e->work = POOL_ARRAY(pool, double, 2 * n > 34 * width ? 2 * n : 34 * width);
     if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->value || !e->projected || !e->work)
         return ROTID_ERROR_MEMORY;
@@ -128,7 +128,8 @@ static int cycle(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
 
 static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, int watched, double tolerance)
 {
-    /* rounding stops the iteration here; above it, a residual that stays may be a partner of a repeated eigenvalue that comes late */
+    /* rounding stops the iteration here; above it, a residual that stays may be a partner of a repeated eigenvalue that comes
+     * late */
     double rounding = fmin(1e-4, 16 * DBL_EPSILON * e->largest / -e->shift), worst = INFINITY, previous;
     for (int c = 0; c < MOST_CYCLES; c++) {
         previous = worst;

@@ -14,15 +14,15 @@ int eigen_dense_new(struct pool *pool, int n, int count, struct eigen_dense *e)
         (void)LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', n, &none, n, &none, n, &none, &best, -1, &ibest, -1);
         e->liwork = (int)ibest;
     } else {
-        (void)LAPACKE_dsygvx_work(LAPACK_COL_MAJOR, 1, 'V', 'I', 'L', n, &none, n, &none, n, 0, 0, 1, count, 0, &found, &none, &none,
-                                  n, &best, -1, &ibest, &ibest);
+        (void)LAPACKE_dsygvx_work(LAPACK_COL_MAJOR, 1, 'V', 'I', 'L', n, &none, n, &none, n, 0, 0, 1, count, 0, &found, &none,
+                                  &none, n, &best, -1, &ibest, &ibest);
         e->liwork = 5 * n;
     }
     e->lwork = (int)best;
     e->a = POOL_ARRAY(pool, double, square);
     e->b = POOL_ARRAY(pool, double, square);
     e->values = POOL_ARRAY(pool, double, n);
-    e->vectors = POOL_ARRAY(pool, double, (size_t)n * (size_t)count);
+    e->vectors = POOL_ARRAY(pool, double, (size_t)n *(size_t)count);
     e->work = POOL_ARRAY(pool, double, e->lwork);
     e->iwork = POOL_ARRAY(pool, int, e->liwork);
     e->ifail = POOL_ARRAY(pool, int, n);
@@ -39,12 +39,13 @@ static int solve_inverse(struct eigen_dense *e, const double *k, const double *m
         e->b[i] = k[i] - e->shift * m[i];
     lapack_int info, found = e->count;
     if (e->count == n) {
-        info = LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', n, e->a, n, e->b, n, e->values, e->work, e->lwork, e->iwork, e->liwork);
+        info = LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', n, e->a, n, e->b, n, e->values, e->work, e->lwork, e->iwork,
+                                   e->liwork);
         memcpy(e->vectors, e->a, square * sizeof(double));
     } else {
         double abstol = 2 * LAPACKE_dlamch_work('S'); /* eigenvalues to full accuracy want this (LAPACK Users' Guide, dsygvx) */
-        info = LAPACKE_dsygvx_work(LAPACK_COL_MAJOR, 1, 'V', 'I', 'L', n, e->a, n, e->b, n, 0, 0, n - e->count + 1, n, abstol, &found,
-                                   e->values, e->vectors, n, e->work, e->lwork, e->iwork, e->ifail);
+        info = LAPACKE_dsygvx_work(LAPACK_COL_MAJOR, 1, 'V', 'I', 'L', n, e->a, n, e->b, n, 0, 0, n - e->count + 1, n, abstol,
+                                   &found, e->values, e->vectors, n, e->work, e->lwork, e->iwork, e->ifail);
     }
     if (info > n)
         return ROTID_ERROR_STIFFNESS;
@@ -61,7 +62,8 @@ static int mass_is_definite(struct eigen_dense *e, const double *m)
 int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi)
 {
     int n = e->n, passes = e->shift < 0 ? 1 : 2;
-    double least = INFINITY, most = 0; /* K_ii/M_ii: the lowest eigenvalue is below the one, the highest of the size of the other */
+    double least = INFINITY,
+           most = 0; /* K_ii/M_ii: the lowest eigenvalue is below the one, the highest of the size of the other */
     if (!mass_is_definite(e, m))
         return ROTID_ERROR_MASS;
     for (int i = 0; i < n; i++) {

@@ -16,21 +16,20 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->position = POOL_ARRAY(pool, int, structure->n);
     f->inner = POOL_ARRAY(pool, int, n);
     f->outer = POOL_ARRAY(pool, int, outer);
-    f->band = POOL_ARRAY(pool, double, (size_t)f->lda * (size_t)n);
-    f->coupling = POOL_ARRAY(pool, double, (size_t)n * outer);
-    f->x = POOL_ARRAY(pool, double, (size_t)n * outer);
-    f->schur = POOL_ARRAY(pool, double, outer * outer);
+    f->band = POOL_ARRAY(pool, double, (size_t)f->lda *(size_t)n);
+    f->coupling = POOL_ARRAY(pool, double, (size_t)n *outer);
+    f->x = POOL_ARRAY(pool, double, (size_t)n *outer);
+    f->schur = POOL_ARRAY(pool, double, outer *outer);
     f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
-    f->work = POOL_ARRAY(pool, double, LANES * (size_t)n);
+    f->work = POOL_ARRAY(pool, double, LANES *(size_t)n);
     f->column = POOL_ARRAY(pool, double, n);
-    f->outer_work = POOL_ARRAY(pool, double, LANES * outer);
+    f->outer_work = POOL_ARRAY(pool, double, LANES *outer);
     f->first = POOL_ARRAY(pool, int, outer);
     f->last = POOL_ARRAY(pool, int, outer);
     f->band_pivot = POOL_ARRAY(pool, int, n);
     f->schur_pivot = POOL_ARRAY(pool, int, outer);
     if (!f->position || !f->inner || !f->outer || !f->band || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work ||
-        !f->column || !f->outer_work || !f->first || !f->last || !f->band_pivot ||
-        !f->schur_pivot)
+        !f->column || !f->outer_work || !f->first || !f->last || !f->band_pivot || !f->schur_pivot)
         return ROTID_ERROR_MEMORY;
     factor_keep(f, structure, n, kept);
     return ROTID_OK;
@@ -97,8 +96,9 @@ static void gather(struct factor *f, const rotid_matrix *a)
         }
 }
 
-/* LL' x = b for LANES right-hand sides at once, interleaved: b[i * LANES + lane]. The recurrences of one right-hand side wait for each
- * other; those of eight fill the arithmetic units, which makes the many solves of a condensation several times as fast as one by one. */
+/* LL' x = b for LANES right-hand sides at once, interleaved: b[i * LANES + lane]. The recurrences of one right-hand side wait for
+ * each other; those of eight fill the arithmetic units, which makes the many solves of a condensation several times as fast as
+ * one by one. */
 static void cholesky_solve(const struct factor *f, double *restrict b)
 {
     for (int j = 0; j < f->nr; j++) {

@@ -26,8 +26,8 @@ struct factor {
     double *schur;    /* [nf * nf] factored */
     double *work;     /* [8 n], right-hand sides interleaved */
     double *column, *outer_work; /* [n], [8 nf] */
-    int *first, *last; /* [nf] range of the rows of A_rf that are not zero */
-    double *schur_work; /* [4 nf] */
+    int *first, *last;           /* [nf] range of the rows of A_rf that are not zero */
+    double *schur_work;          /* [4 nf] */
     int *band_pivot, *schur_pivot;
 };
 

@@ -26,7 +26,8 @@ int reduction_new(struct pool *pool, int kind, const rotid_matrix *structure, in
     r->c1 = POOL_ARRAY(pool, double, nc);
     r->c2 = POOL_ARRAY(pool, double, nc);
     r->c3 = POOL_ARRAY(pool, double, nc);
-    if (!r->slave || !r->nonzero || !r->t || !r->kc || !r->mc || !r->image || !r->u1 || !r->u2 || !r->u3 || !r->slaves || !r->c1 || !r->c2 || !r->c3)
+    if (!r->slave || !r->nonzero || !r->t || !r->kc || !r->mc || !r->image || !r->u1 || !r->u2 || !r->u3 || !r->slaves ||
+        !r->c1 || !r->c2 || !r->c3)
         return ROTID_ERROR_MEMORY;
     r->psi = r->t;
     r->kg = r->kc;
@@ -128,7 +129,8 @@ static void guyan_stiffness(struct reduction *r, const rotid_matrix *k)
     }
     for (int c = 0; c < nc; c++) /* symmetric but for rounding, which the eigen-solvers would see */
         for (int b = c + 1; b < nc; b++)
-            r->kg[b + (ptrdiff_t)c * nc] = r->kg[c + (ptrdiff_t)b * nc] = (r->kg[b + (ptrdiff_t)c * nc] + r->kg[c + (ptrdiff_t)b * nc]) / 2;
+            r->kg[b + (ptrdiff_t)c * nc] = r->kg[c + (ptrdiff_t)b * nc] =
+                (r->kg[b + (ptrdiff_t)c * nc] + r->kg[c + (ptrdiff_t)b * nc]) / 2;
 }
 
 static int improve(struct reduction *r, const rotid_matrix *k, const rotid_matrix *m)
@@ -206,7 +208,8 @@ static void guyan_derivative_project(struct reduction *r, const rotid_matrix *dk
 }
 
 /* x [nc] := dM_g y [nc], given psi_y = Psi y: (41) corrected. Uses u1, u2, u3. */
-static void guyan_mass_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *psi_y, double *x)
+static void guyan_mass_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *psi_y,
+                                  double *x)
 {
     matrix_multiply(r->m, 1, psi_y, r->u2);
     guyan_derivative_project(r, dk, r->u2, x);
@@ -255,7 +258,8 @@ static void irs_derivative_expand(struct reduction *r, const rotid_matrix *dk, c
 
 /* dT' u = dPsi' u + W' [Psi' (dM - M S dK) s + dPsi' M s] + dW' Psi' M s, s = S u,
  * dW' v = dK_g b - W' dM_g b, b = M_g^-1 v; W' q = K_g M_g^-1 q */
-static void irs_derivative_project(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *u, double *x)
+static void irs_derivative_project(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *u,
+                                   double *x)
 {
     int n = r->n, nc = r->nc;
     double *s = r->image, *ms = r->image + n, *t = r->image + 2 * (ptrdiff_t)n;
@@ -305,7 +309,8 @@ void reduction_derivative_project(struct reduction *r, const rotid_matrix *dk, c
 
 /* y [nc] := (T' dA T + dT' A T + T' A dT) x, with u = T x and du = dT x */
 static void congruence_derivative(struct reduction *r, const rotid_matrix *a, const rotid_matrix *da, const rotid_matrix *dk,
-                                  const rotid_matrix *dm, const double *u, const double *du, double *y, double *row, double *column)
+                                  const rotid_matrix *dm, const double *u, const double *du, double *y, double *row,
+                                  double *column)
 {
     matrix_multiply(a, 1, u, row);
     reduction_derivative_project(r, dk, dm, row, y);
@@ -317,8 +322,8 @@ static void congruence_derivative(struct reduction *r, const rotid_matrix *a, co
     cblas_daxpy(r->nc, 1, column, 1, y, 1);
 }
 
-void reduction_derivative_multiply(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *x, double *kx,
-                                   double *mx, double *work)
+void reduction_derivative_multiply(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *x,
+                                   double *kx, double *mx, double *work)
 {
     double *u = work, *du = work + r->n, *row = du + r->n, *column = row + r->n;
     reduction_expand(r, x, u);
@@ -327,8 +332,8 @@ void reduction_derivative_multiply(struct reduction *r, const rotid_matrix *dk, 
     congruence_derivative(r, r->m, dm, dk, dm, u, du, mx, row, column);
 }
 
-double reduction_eigenvalue_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, double lambda, const double *x,
-                                       const struct reduction_mode *mode)
+double reduction_eigenvalue_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, double lambda,
+                                       const double *x, const struct reduction_mode *mode)
 {
     int n = r->n;
     matrix_multiply(dk, 1, mode->u, r->u2);

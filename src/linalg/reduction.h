@@ -14,16 +14,16 @@ struct reduction {
     int kind; /* ROTID_GUYAN or ROTID_IRS */
     int n, nc, ni;
     const int *master;
-    int *slave, *nonzero;            /* [ni], [n] */
-    const rotid_matrix *k, *m;       /* of the last reduction_compute: kept by the caller */
-    struct factor factor;            /* K_ii */
-    double *t;                       /* [n * nc] */
-    double *kc, *mc;                 /* [nc * nc] K~, M~ */
-    double *psi, *kg, *mg;           /* IRS: [n * nc] and [nc * nc]; Guyan: the same as t, kc, mc */
-    double *mg_factor, *w;           /* IRS: [nc * nc] */
-    double *image;                   /* [n * max(nc, 3)] */
-    double *u1, *u2, *u3, *slaves;   /* [n] */
-    double *c1, *c2, *c3;            /* [nc] */
+    int *slave, *nonzero;          /* [ni], [n] */
+    const rotid_matrix *k, *m;     /* of the last reduction_compute: kept by the caller */
+    struct factor factor;          /* K_ii */
+    double *t;                     /* [n * nc] */
+    double *kc, *mc;               /* [nc * nc] K~, M~ */
+    double *psi, *kg, *mg;         /* IRS: [n * nc] and [nc * nc]; Guyan: the same as t, kc, mc */
+    double *mg_factor, *w;         /* IRS: [nc * nc] */
+    double *image;                 /* [n * max(nc, 3)] */
+    double *u1, *u2, *u3, *slaves; /* [n] */
+    double *c1, *c2, *c3;          /* [nc] */
 };
 
 /* `master` [nc], increasing, is kept, not copied. ROTID_OK or ROTID_ERROR_MEMORY. */
@@ -41,14 +41,15 @@ void reduction_project(const struct reduction *r, const double *u, double *x);
 /* u [n] := dT x for the derivatives dK, dM */
 void reduction_derivative_expand(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *x, double *u);
 /* x [nc] := dT' u [n] */
-void reduction_derivative_project(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *u, double *x);
+void reduction_derivative_project(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *u,
+                                  double *x);
 
 /* kx [nc] := dK~ x, mx [nc] := dM~ x, (40, 41) corrected; work [3 n + nc]. */
-void reduction_derivative_multiply(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *x, double *kx,
-                                   double *mx, double *work);
+void reduction_derivative_multiply(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, const double *x,
+                                   double *kx, double *mx, double *work);
 
-/* What an eigenpair (lambda, x) of the condensed problem needs for the derivative of lambda by any number of parameters: u = T x, the
- * residual (K - lambda M) u of the full model, and S times it. Vectors [n], supplied by the caller. */
+/* What an eigenpair (lambda, x) of the condensed problem needs for the derivative of lambda by any number of parameters: u = T x,
+ * the residual (K - lambda M) u of the full model, and S times it. Vectors [n], supplied by the caller. */
 struct reduction_mode {
     double *u, *residual, *adjoint, *scratch;
 };
@@ -56,7 +57,7 @@ struct reduction_mode {
 void reduction_mode_prepare(struct reduction *r, double lambda, const double *x, struct reduction_mode *mode);
 
 /* dlambda = x' (dK~ - lambda dM~) x = u' (dK - lambda dM) u + 2 (K - lambda M) u . dT x, for x' M~ x = 1: (36). */
-double reduction_eigenvalue_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, double lambda, const double *x,
-                                       const struct reduction_mode *mode);
+double reduction_eigenvalue_derivative(struct reduction *r, const rotid_matrix *dk, const rotid_matrix *dm, double lambda,
+                                       const double *x, const struct reduction_mode *mode);
 
 #endif

@@ -7,7 +7,7 @@
 int symmetric_new(struct pool *pool, int n, struct symmetric *s)
 {
     *s = (struct symmetric){.n = n, .lwork = 32 * n};
-    s->a = POOL_ARRAY(pool, double, (size_t)n * (size_t)n);
+    s->a = POOL_ARRAY(pool, double, (size_t)n *(size_t)n);
     s->work = POOL_ARRAY(pool, double, s->lwork);
     s->pivot = POOL_ARRAY(pool, int, n);
     return s->a && s->work && s->pivot ? ROTID_OK : ROTID_ERROR_MEMORY;

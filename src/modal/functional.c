@@ -51,8 +51,8 @@ static int count_components(const struct functional *f, int mode)
     return count;
 }
 
-int functional_new(struct pool *pool, int kind, int reduction, int derivative, const rotid_model *model, const rotid_measured *measured,
-                   struct functional *f)
+int functional_new(struct pool *pool, int kind, int reduction, int derivative, const rotid_model *model,
+                   const rotid_measured *measured, struct functional *f)
 {
     int nmode = measured->nmode, nmaster = model->nmaster, highest = 0;
     *f = (struct functional){.kind = kind, .measured = measured};
@@ -64,8 +64,8 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
     int count = model->nrigid + highest, size = reduction == ROTID_REDUCTION_NONE ? model->n : nmaster;
     if (count > size)
         return ROTID_ERROR_UNPAIRED;
-    /* condensed, the hybrid quotient is formed with the measured shape as (15) has it; of the full model no measured shape is known at
-     * every degree of freedom, and the quotient is the eigenvalue either way */
+    /* condensed, the hybrid quotient is formed with the measured shape as (15) has it; of the full model no measured shape is
+     * known at every degree of freedom, and the quotient is the eigenvalue either way */
     f->with_vectors = measured->shape && (kind == ROTID_LIKELIHOOD || reduction != ROTID_REDUCTION_NONE);
     status = prediction_new(pool, model, reduction, derivative, count, f->with_vectors, &f->prediction);
     f->wanted = POOL_ARRAY(pool, int, f->prediction.count);
@@ -73,7 +73,7 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
     f->omega = POOL_ARRAY(pool, double, nmode);
     f->quotient = POOL_ARRAY(pool, double, nmode);
     f->work = POOL_ARRAY(pool, double, 2 * nmaster);
-    f->shape = measured->shape ? POOL_ARRAY(pool, double, (size_t)nmaster * (size_t)nmode) : NULL;
+    f->shape = measured->shape ? POOL_ARRAY(pool, double, (size_t)nmaster *(size_t)nmode) : NULL;
     if (status)
         return status;
     if (!f->wanted || !f->pair || !f->omega || !f->quotient || !f->work || (measured->shape && !f->shape))
@@ -174,8 +174,8 @@ static double frequency_residual_derivative(const struct functional *f, int mode
     }
 }
 
-/* Residuals (a phi_j - phi^_j)/s_j with the best scale a = b/c, b = sum phi_j phi^_j/s_j^2, c = sum phi_j^2/s_j^2. With q >= 0 their
- * derivatives: a dphi_j + da phi_j, da = (db - a dc)/c. */
+/* Residuals (a phi_j - phi^_j)/s_j with the best scale a = b/c, b = sum phi_j phi^_j/s_j^2, c = sum phi_j^2/s_j^2. With q >= 0
+ * their derivatives: a dphi_j + da phi_j, da = (db - a dc)/c. */
 static void shape_residuals(const struct functional *f, int mode, int q, double *r)
 {
     const struct prediction *p = &f->prediction;

@@ -19,12 +19,13 @@ struct functional {
     double *work;     /* [2 nmaster] */
 };
 
-/* Checks the measured data and makes room. ROTID_OK, MEMORY, ARGUMENT (data out of range), UNPAIRED (a mode number beyond the model). */
-int functional_new(struct pool *pool, int kind, int reduction, int derivative, const rotid_model *model, const rotid_measured *measured,
-                   struct functional *f);
+/* Checks the measured data and makes room. ROTID_OK, MEMORY, ARGUMENT (data out of range), UNPAIRED (a mode number beyond the
+ * model). */
+int functional_new(struct pool *pool, int kind, int reduction, int derivative, const rotid_model *model,
+                   const rotid_measured *measured, struct functional *f);
 
-/* r [nresidual] at x, frequencies of all fitted modes first, then shapes mode by mode. Allocates nothing. Statuses of the prediction,
- * and UNPAIRED where a shape is orthogonal to its partner. */
+/* r [nresidual] at x, frequencies of all fitted modes first, then shapes mode by mode. Allocates nothing. Statuses of the
+ * prediction, and UNPAIRED where a shape is orthogonal to its partner. */
 int functional_residual(struct functional *f, const double *x, double *r);
 
 /* dr/dx [nresidual * nparam] at the x of the last functional_residual. */

@@ -53,8 +53,8 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     size_t vectors = (size_t)p->size * (size_t)p->count, nparam = (size_t)model->nparam;
     p->lambda = POOL_ARRAY(pool, double, p->count);
     p->phi = POOL_ARRAY(pool, double, vectors);
-    p->dlambda = POOL_ARRAY(pool, double, (size_t)p->count * nparam);
-    p->dphi = POOL_ARRAY(pool, double, with_vectors ? vectors * nparam : 0);
+    p->dlambda = POOL_ARRAY(pool, double, (size_t)p->count *nparam);
+    p->dphi = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
     p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->x = POOL_ARRAY(pool, double, nparam);
@@ -85,8 +85,8 @@ int prediction_compute(struct prediction *p, const double *x)
     return status ? status : eigen_dense_solve(&p->dense, p->condensed.kc, p->condensed.mc, p->lambda, p->phi);
 }
 
-/* dK and dM by central differences of fourth order, for a host that gives none. The wide step is for parameters that change little
- * of a stiff matrix: rounding of what they leave alone is divided by it. */
+/* dK and dM by central differences of fourth order, for a host that gives none. The wide step is for parameters that change
+ * little of a stiff matrix: rounding of what they leave alone is divided by it. */
 static int difference(struct prediction *p, const double *x, int q)
 {
     static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
@@ -193,7 +193,8 @@ static void differentiate_vector(struct prediction *p, int k, int q)
         nelson_dense_solve(&p->nelson_dense, phi, m_phi, right, constant, p->dphi + place);
 }
 
-/* Vectors: the factors belong to a mode and serve all parameters, so dK and dM are asked for again for each mode; they cost less. */
+/* Vectors: the factors belong to a mode and serve all parameters, so dK and dM are asked for again for each mode; they cost less.
+ */
 static int differentiate_vectors(struct prediction *p, const double *x, int k)
 {
     int status = prepare_vector(p, k);

@@ -11,8 +11,8 @@
 struct prediction {
     const rotid_model *model;
     int reduction, derivative;
-    int count;       /* pairs computed, rigid ones included */
-    int size;        /* length of a vector: nmaster when condensed, n when full */
+    int count; /* pairs computed, rigid ones included */
+    int size;  /* length of a vector: nmaster when condensed, n when full */
     rotid_matrix k, m, dk, dm, other_k, other_m;
     struct reduction condensed;
     struct reduction_mode *mode; /* [count], condensed */

@@ -103,8 +103,8 @@ void json_free(char *text)
     cJSON_free(text);
 }
 
-char *json_check(const struct provenance *provenance, const struct job *job, const struct mass_properties *mass, const struct spectrum *spectrum,
-                 const struct message_list *notes)
+char *json_check(const struct provenance *provenance, const struct job *job, const struct mass_properties *mass,
+                 const struct spectrum *spectrum, const struct message_list *notes)
 {
     const struct rotor *rotor = &job->rotor;
     cJSON *root = begin(provenance, job), *sensors, *parameters;
@@ -144,8 +144,8 @@ static void add_measured_mode(cJSON *item, const struct job *job, const struct c
     (void)cJSON_AddBoolToObject(item, "holdout", job->holdout && job->holdout[k]);
 }
 
-char *json_modes(const struct provenance *provenance, const struct job *job, const struct spectrum *s, const struct comparison *compared,
-                 const struct message_list *notes)
+char *json_modes(const struct provenance *provenance, const struct job *job, const struct spectrum *s,
+                 const struct comparison *compared, const struct message_list *notes)
 {
     cJSON *root = begin(provenance, job), *modes;
     (void)cJSON_AddStringToObject(root, "reduction", job->fit.reduction == ROTID_IRS ? "IRS" : "GUYAN");
@@ -276,7 +276,10 @@ char *json_identify(const struct provenance *provenance, const struct job *job, 
 {
     const rotid_fit_result *fit = result->fit;
     cJSON *root = begin(provenance, job);
-    (void)cJSON_AddStringToObject(root, "status", !fit->converged ? "not_converged" : fit->any_at_bound ? "at_bound" : "converged");
+    (void)cJSON_AddStringToObject(root, "status",
+                                  !fit->converged     ? "not_converged"
+                                  : fit->any_at_bound ? "at_bound"
+                                                      : "converged");
     (void)cJSON_AddStringToObject(root, "functional", functional_name(job->fit.functional));
     (void)cJSON_AddStringToObject(root, "reduction", reduction_name(job->fit.reduction));
     (void)cJSON_AddStringToObject(root, "derivative", derivative_name(job->fit.derivative));

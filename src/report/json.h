@@ -15,10 +15,10 @@ struct provenance {
 };
 
 /* Each returns a text to be freed with json_free, or NULL where memory is out. */
-char *json_check(const struct provenance *provenance, const struct job *job, const struct mass_properties *mass, const struct spectrum *spectrum,
-                 const struct message_list *notes);
-char *json_modes(const struct provenance *provenance, const struct job *job, const struct spectrum *spectrum, const struct comparison *compared,
-                 const struct message_list *notes);
+char *json_check(const struct provenance *provenance, const struct job *job, const struct mass_properties *mass,
+                 const struct spectrum *spectrum, const struct message_list *notes);
+char *json_modes(const struct provenance *provenance, const struct job *job, const struct spectrum *spectrum,
+                 const struct comparison *compared, const struct message_list *notes);
 char *json_sensitivity(const struct provenance *provenance, const struct job *job, const rotid_parameter *parameter,
                        const struct sensitivity_options *options, const struct sensitivity *result);
 char *json_identify(const struct provenance *provenance, const struct job *job, const struct identification *result,

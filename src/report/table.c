@@ -18,7 +18,8 @@ void table_notes(FILE *out, const struct message_list *notes)
 {
     int any = 0;
     for (size_t i = 0; i < notes->count; i++)
-        if (notes->item[i].severity == SEVERITY_WARNING && !notes->item[i].file) { /* with a place: said on standard error already */
+        if (notes->item[i].severity == SEVERITY_WARNING &&
+            !notes->item[i].file) { /* with a place: said on standard error already */
             (void)fprintf(out, "%snote: %s\n", any ? "" : "\n", notes->item[i].text);
             any = 1;
         }
@@ -61,8 +62,8 @@ void table_check(FILE *out, const struct job *job, const struct mass_properties 
     for (int i = 0; i < spectrum->nrigid; i++)
         (void)fprintf(out, "%s%.3f", i ? ", " : " (modes on the supports at ", spectrum->rigid_hz[i]);
     (void)fprintf(out, "%s\n", spectrum->nrigid ? " Hz)" : "");
-    (void)fprintf(out, "fit             %12s, reduction %s, %d parameter%s\n\n", functional_name(job->fit.functional), reduction_name(job->fit.reduction),
-                  job->nparameter, job->nparameter == 1 ? "" : "s");
+    (void)fprintf(out, "fit             %12s, reduction %s, %d parameter%s\n\n", functional_name(job->fit.functional),
+                  reduction_name(job->fit.reduction), job->nparameter, job->nparameter == 1 ? "" : "s");
     (void)fprintf(out, "group          from [m]     to [m]      E [Pa]      G [Pa]     nu   rho [kg/m3]\n");
     for (int g = 0; g < rotor->ngroup; g++) {
         const struct material *material = &rotor->group[g].material;
@@ -78,8 +79,8 @@ void table_modes(FILE *out, const struct job *job, const struct spectrum *s, con
     table_heading(out, job);
     for (int i = 0; i < s->nrigid; i++)
         (void)fprintf(out, "rotor on its supports: %.4f Hz\n", s->rigid_hz[i]);
-    (void)fprintf(out, "%smode   full model   %-6s [Hz]  reduction   mesh      measured    error     NCO\n", s->nrigid ? "\n" : "",
-                  job->fit.reduction == ROTID_IRS ? "IRS" : "Guyan");
+    (void)fprintf(out, "%smode   full model   %-6s [Hz]  reduction   mesh      measured    error     NCO\n",
+                  s->nrigid ? "\n" : "", job->fit.reduction == ROTID_IRS ? "IRS" : "Guyan");
     (void)fprintf(out, "           [Hz]                     [%%]       [%%]         [Hz]      [%%]\n");
     for (int j = 0; j < s->count; j++) {
         int measured = -1;
@@ -111,20 +112,23 @@ void table_modes(FILE *out, const struct job *job, const struct spectrum *s, con
     }
 }
 
-void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter, const struct sensitivity_options *options,
-                       const struct sensitivity *r)
+void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter,
+                       const struct sensitivity_options *options, const struct sensitivity *r)
 {
     table_heading(out, job);
-    (void)fprintf(out, "sensitivity of E_k = 1 - R*_k/w_k^2 to the relative value of each parameter, %g %% steps, reduction %s\n\n", 100 * options->step,
-                  reduction_name(job->fit.reduction));
+    (void)fprintf(out,
+                  "sensitivity of E_k = 1 - R*_k/w_k^2 to the relative value of each parameter, %g %% steps, reduction %s\n\n",
+                  100 * options->step, reduction_name(job->fit.reduction));
     for (int p = 0; p < r->n; p++) {
         char quantity[128];
         (void)snprintf(quantity, sizeof quantity, "sensitivity %s", parameter[p].name);
         const struct reference *paper = job_reference(job, quantity);
-        (void)fprintf(out, "%s at %.6g %s\n", parameter[p].name, r->reference[p], strcmp(parameter[p].unit, "1") ? parameter[p].unit : "");
+        (void)fprintf(out, "%s at %.6g %s\n", parameter[p].name, r->reference[p],
+                      strcmp(parameter[p].unit, "1") ? parameter[p].unit : "");
         (void)fprintf(out, "mode   frequency [Hz]   step        limit       %s\n", paper ? "paper (magnitude)" : "");
         for (int k = 0; k < r->m; k++) {
-            (void)fprintf(out, "%3d  %14.4f  %+.4e %+.4e", k + 1, r->hz[k], r->difference[k + (ptrdiff_t)p * r->m], r->derivative[k + (ptrdiff_t)p * r->m]);
+            (void)fprintf(out, "%3d  %14.4f  %+.4e %+.4e", k + 1, r->hz[k], r->difference[k + (ptrdiff_t)p * r->m],
+                          r->derivative[k + (ptrdiff_t)p * r->m]);
             if (isfinite(reference_value(paper, k)))
                 (void)fprintf(out, "  %.3e", reference_value(paper, k));
             (void)fputc('\n', out);
@@ -152,7 +156,8 @@ static void print_modes(FILE *out, const struct job *job, const struct identific
     int count = 0, nheld = 0;
     for (int k = 0; k < fit->m; k++)
         shapes |= isfinite(result->compared.nco[k]);
-    (void)fprintf(out, "mode   measured  predicted    error%s  reduction    mesh%s\n", paper ? "      paper    paper" : "", shapes ? "     NCO    MAC" : "");
+    (void)fprintf(out, "mode   measured  predicted    error%s  reduction    mesh%s\n", paper ? "      paper    paper" : "",
+                  shapes ? "     NCO    MAC" : "");
     (void)fprintf(out, "           [Hz]       [Hz]      [%%]%s        [%%]     [%%]\n", paper ? "       [Hz]      [%]" : "");
     for (int k = 0; k < fit->m; k++) {
         int j = result->compared.number[k] - 1, is_held = job->holdout && job->holdout[k];
@@ -209,7 +214,9 @@ static void print_parameters(FILE *out, const struct job *job, const rotid_fit_r
         (void)fprintf(out, "\n");
     }
     if (fit->variance_from_residuals && fit->dof > 0)
-        (void)fprintf(out, "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them on the measurement\n",
+        (void)fprintf(out,
+                      "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them "
+                      "on the measurement\n",
                       fit->dof);
     if (fit->widened_by > 1) {
         double chance = chi_square_tail(fit->chi2, fit->dof); /* half of all adequate models have a misfit above the noise */
@@ -225,8 +232,8 @@ static void print_history(FILE *out, const rotid_fit_result *fit)
 {
     (void)fprintf(out, "\niteration   objective         gradient    mu         gain      step\n");
     for (int i = 0; i < fit->nhistory; i++)
-        (void)fprintf(out, "%6d      %.10e  %.2e    %.2e  %8.3f  %.2e\n", fit->history[i].iteration, fit->history[i].objective, fit->history[i].gradient,
-                      fit->history[i].mu, fit->history[i].gain_ratio, fit->history[i].step);
+        (void)fprintf(out, "%6d      %.10e  %.2e    %.2e  %8.3f  %.2e\n", fit->history[i].iteration, fit->history[i].objective,
+                      fit->history[i].gradient, fit->history[i].mu, fit->history[i].gain_ratio, fit->history[i].step);
 }
 
 static void print_baseline(FILE *out, const struct job *job, const rotid_fit_result *fit)
@@ -234,7 +241,8 @@ static void print_baseline(FILE *out, const struct job *job, const rotid_fit_res
     (void)fprintf(out, "\n%-20s %14s %11s %9s", "minimiser", "objective", "evaluations", "ms");
     for (int p = 0; p < fit->n; p++)
         (void)fprintf(out, " %13s", job->bounds[p].name);
-    (void)fprintf(out, "   result\n%-20s %14.8e %11d %9.2f", "Levenberg-Marquardt", fit->objective, fit->evaluations, 1e3 * fit->seconds);
+    (void)fprintf(out, "   result\n%-20s %14.8e %11d %9.2f", "Levenberg-Marquardt", fit->objective, fit->evaluations,
+                  1e3 * fit->seconds);
     for (int p = 0; p < fit->n; p++)
         (void)fprintf(out, " %13.7g", fit->x[p]);
     (void)fprintf(out, "   %s\n", rotid_status_text(fit->status));
@@ -255,8 +263,9 @@ void table_identify(FILE *out, const struct job *job, const struct identificatio
         fitted -= job->holdout && job->holdout[k];
     table_heading(out, job);
     (void)fprintf(out, "%s, fit of %d mode%s, functional %s, reduction %s, objective %.10g, gradient %.1e\n\n",
-                  fit->converged ? (fit->any_at_bound ? "converged AT A BOUND" : "converged") : "NOT CONVERGED", fitted, fitted == 1 ? "" : "s",
-                  functional_name(job->fit.functional), reduction_name(job->fit.reduction), fit->objective, fit->gradient);
+                  fit->converged ? (fit->any_at_bound ? "converged AT A BOUND" : "converged") : "NOT CONVERGED", fitted,
+                  fitted == 1 ? "" : "s", functional_name(job->fit.functional), reduction_name(job->fit.reduction),
+                  fit->objective, fit->gradient);
     print_parameters(out, job, fit);
     if (fit->nbaseline)
         print_baseline(out, job, fit);
@@ -265,8 +274,10 @@ void table_identify(FILE *out, const struct job *job, const struct identificatio
     (void)fputc('\n', out);
     print_modes(out, job, result);
     if (job->fit.functional != ROTID_LIKELIHOOD)
-        (void)fprintf(out, "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies alone\n",
-                      job->fit.reduction == ROTID_REDUCTION_NONE ? "model" : "condensed model");
+        (void)fprintf(
+            out,
+            "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies alone\n",
+            job->fit.reduction == ROTID_REDUCTION_NONE ? "model" : "condensed model");
     if (isfinite(fit->chi2_per_dof))
         (void)fprintf(out, "chi2 %.4g with %d degrees of freedom\n", fit->chi2, fit->dof);
 }

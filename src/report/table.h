@@ -12,9 +12,10 @@ void table_heading(FILE *out, const struct job *job);
 void table_notes(FILE *out, const struct message_list *notes);
 void table_check(FILE *out, const struct job *job, const struct mass_properties *mass, const struct spectrum *spectrum);
 /* shapes: with the shape of every mode at every sensor. */
-void table_modes(FILE *out, const struct job *job, const struct spectrum *spectrum, const struct comparison *compared, int shapes);
-void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter, const struct sensitivity_options *options,
-                       const struct sensitivity *result);
+void table_modes(FILE *out, const struct job *job, const struct spectrum *spectrum, const struct comparison *compared,
+                 int shapes);
+void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter,
+                       const struct sensitivity_options *options, const struct sensitivity *result);
 /* history: with the iterations. */
 void table_identify(FILE *out, const struct job *job, const struct identification *result, int history);
 

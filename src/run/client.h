@@ -12,9 +12,9 @@ struct client {
     rotid_model model; /* user points to this struct: do not copy it */
 };
 
-/* The model of a rotor with the given parameters at their values in the rotor; masters are the lateral degrees of freedom at the sensors,
- * without sensors all of the axis. Statuses of beam_build and
- * beam_count_rigid, ROTID_ERROR_ARGUMENT where two sensors fall on one node; *failed as for beam_build. */
+/* The model of a rotor with the given parameters at their values in the rotor; masters are the lateral degrees of freedom at the
+ * sensors, without sensors all of the axis. Statuses of beam_build and beam_count_rigid, ROTID_ERROR_ARGUMENT where two sensors
+ * fall on one node; *failed as for beam_build. */
 int client_open(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, int refine,
                 struct client *client, int *failed);
 

@@ -26,14 +26,16 @@ static int components(const struct job *job, int mode)
     return count;
 }
 
-/* Correlation [nmode * candidates]; zero for modes whose shape has fewer components than there are candidates: so few cannot tell them
- * apart. */
-static double *correlations(struct pool *pool, const struct job *job, const struct spectrum *spectrum, int candidates, double *work)
+/* Correlation [nmode * candidates]; zero for modes whose shape has fewer components than there are candidates: so few cannot tell
+ * them apart. */
+static double *correlations(struct pool *pool, const struct job *job, const struct spectrum *spectrum, int candidates,
+                            double *work)
 {
-    double *correlation = POOL_ARRAY(pool, double, (size_t)job->nmode * (size_t)candidates);
+    double *correlation = POOL_ARRAY(pool, double, (size_t)job->nmode *(size_t)candidates);
     for (int k = 0; k < job->nmode && correlation; k++)
         for (int j = 0; j < candidates && components(job, k) >= candidates; j++)
-            correlation[k + (ptrdiff_t)j * job->nmode] = spectrum_correlation(spectrum, job->shape + (ptrdiff_t)k * spectrum->nmaster, j, work);
+            correlation[k + (ptrdiff_t)j * job->nmode] =
+                spectrum_correlation(spectrum, job->shape + (ptrdiff_t)k * spectrum->nmaster, j, work);
     return correlation;
 }
 
@@ -42,16 +44,19 @@ static void note(struct message_list *notes, const char *format, int mode, doubl
     message_add(notes, SEVERITY_WARNING, NULL, 0, 0, format, mode, first, partner, second);
 }
 
-static void say_what_is_odd(const struct job *job, const struct spectrum *spectrum, const struct comparison *c, struct message_list *notes)
+static void say_what_is_odd(const struct job *job, const struct spectrum *spectrum, const struct comparison *c,
+                            struct message_list *notes)
 {
     int highest = 0;
     for (int k = 0; k < c->nmode; k++) {
         highest = c->number[k] > highest ? c->number[k] : highest;
         if (c->number[k] != job->number[k])
-            note(notes, "measured mode %d at %.6g Hz is mode %d of the model by its shape (NCO %.2f)", job->number[k], job->frequency_hz[k],
-                 c->number[k], c->nco[k]);
+            note(notes, "measured mode %d at %.6g Hz is mode %d of the model by its shape (NCO %.2f)", job->number[k],
+                 job->frequency_hz[k], c->number[k], c->nco[k]);
         else if (isfinite(c->nco[k]) && c->nco[k] < PAIRING_LEAST && components(job, k) >= comparison_candidates(job))
-            note(notes, "measured mode %d at %.6g Hz has no partner in the model by its shape: mode %d, which has its number, correlates by %.2f only",
+            note(notes,
+                 "measured mode %d at %.6g Hz has no partner in the model by its shape: mode %d, which has its number, "
+                 "correlates by %.2f only",
                  job->number[k], job->frequency_hz[k], c->number[k], c->nco[k]);
     }
     for (int j = 1; j <= highest && j <= spectrum->count; j++) {
@@ -59,7 +64,8 @@ static void say_what_is_odd(const struct job *job, const struct spectrum *spectr
         for (int k = 0; k < c->nmode; k++)
             found |= c->number[k] == j;
         if (!found)
-            message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "mode %d of the model at %.6g Hz was not measured", j, spectrum->full_hz[j - 1]);
+            message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "mode %d of the model at %.6g Hz was not measured", j,
+                        spectrum->full_hz[j - 1]);
     }
 }
 
@@ -83,14 +89,16 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
     int clash = pair_modes(nmode, candidates, correlation, c->number, c->basis, used);
     if (clash) {
         message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
-                    "measured mode %d at %.6g Hz has the number of a mode that the shape of another one claims, expected modes that differ",
+                    "measured mode %d at %.6g Hz has the number of a mode that the shape of another one claims, expected modes "
+                    "that differ",
                     job->number[clash - 1], job->frequency_hz[clash - 1]);
         return ROTID_ERROR_UNPAIRED;
     }
     for (int k = 0; k < nmode; k++) {
         const double *shape = job->shape ? job->shape + (ptrdiff_t)k * spectrum->nmaster : NULL;
         int has = shape && components(job, k) > 1 && c->number[k] <= spectrum->count;
-        c->mac[k] = has ? rotid_mac(spectrum->nmaster, shape, spectrum->shape + (ptrdiff_t)(c->number[k] - 1) * spectrum->nmaster) : NAN;
+        c->mac[k] =
+            has ? rotid_mac(spectrum->nmaster, shape, spectrum->shape + (ptrdiff_t)(c->number[k] - 1) * spectrum->nmaster) : NAN;
         c->nco[k] = has && spectrum->mass ? spectrum_correlation(spectrum, shape, c->number[k] - 1, work) : NAN;
     }
     say_what_is_odd(job, spectrum, c, notes);

@@ -18,8 +18,9 @@ struct comparison {
 int comparison_highest(const struct job *job);
 int comparison_candidates(const struct job *job);
 
-/* Pairs by the shapes where they can tell, else by number. Notes say which modes look like no mode of the model, which modes of the model
- * nobody measured, and which pairings the shapes changed. ROTID_OK, MEMORY or UNPAIRED (two modes claim one partner; the notes say which). */
+/* Pairs by the shapes where they can tell, else by number. Notes say which modes look like no mode of the model, which modes of
+ * the model nobody measured, and which pairings the shapes changed. ROTID_OK, MEMORY or UNPAIRED (two modes claim one partner;
+ * the notes say which). */
 int comparison_make(struct pool *pool, const struct job *job, const struct spectrum *spectrum, struct message_list *notes,
                     struct comparison *comparison);
 

@@ -32,7 +32,8 @@ static int fit_once(struct pool *pool, const struct job *job, const struct compa
                     const rotid_environment *environment, struct mass_properties *mass, rotid_fit_result **fit)
 {
     struct client *client = POOL_NEW(pool, struct client);
-    int failed, status = client ? client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, client, &failed) : ROTID_ERROR_MEMORY;
+    int failed, status = client ? client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, client, &failed)
+                                : ROTID_ERROR_MEMORY;
     if (status)
         return status;
     int shapes = uses_shapes(job);
@@ -52,8 +53,8 @@ static int fit_once(struct pool *pool, const struct job *job, const struct compa
     return status;
 }
 
-int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment, struct message_list *notes,
-                 struct identification *out)
+int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
+                 struct message_list *notes, struct identification *out)
 {
     *out = (struct identification){0};
     int status = check(job, notes), candidates = comparison_candidates(job);
@@ -96,7 +97,9 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
         return status;
     }
     if (memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number))
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "the pairing of the modes still changes with the fitted model: do not trust this result");
-    out->shapes_fitted = uses_shapes(job) && !(job->fit.functional != ROTID_LIKELIHOOD && job->fit.reduction == ROTID_REDUCTION_NONE);
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "the pairing of the modes still changes with the fitted model: do not trust this result");
+    out->shapes_fitted =
+        uses_shapes(job) && !(job->fit.functional != ROTID_LIKELIHOOD && job->fit.reduction == ROTID_REDUCTION_NONE);
     return ROTID_OK;
 }

@@ -13,10 +13,9 @@ struct identification {
     struct mass_properties mass;
 };
 
-/* baseline: NLopt as well. Notes and reasons go to the list. Statuses of rotid_fit and of comparison_make, ROTID_ERROR_ARGUMENT where the
- * job has nothing to identify or nothing measured (the list says which). */
-int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment, struct message_list *notes,
-                 struct identification *out);
-
+/* baseline: NLopt as well. Notes and reasons go to the list. Statuses of rotid_fit and of comparison_make, ROTID_ERROR_ARGUMENT
+ * where the job has nothing to identify or nothing measured (the list says which). */
+int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
+                 struct message_list *notes, struct identification *out);
 
 #endif

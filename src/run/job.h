@@ -1,4 +1,5 @@
-/* A job: what a deck says, resolved to numbers and indices. Filled by src/deck, or by anybody who has the data in another form. */
+/* A job: what a deck says, resolved to numbers and indices. Filled by src/deck, or by anybody who has the data in another form.
+ */
 #ifndef ROTID_RUN_JOB_H
 #define ROTID_RUN_JOB_H
 
@@ -24,20 +25,20 @@ struct job {
 
     struct rotor rotor;
 
-    int nmode;              /* measured */
-    int *number;            /* [nmode] elastic mode of the model, from 1; the shapes may decide otherwise */
-    double *frequency_hz;   /* [nmode] */
-    double *damping;        /* [nmode] ratio, NaN where there is none */
-    double *frequency_std;  /* [nmode] relative, NaN where there is none; the NOISE card is already applied */
-    double *shape;          /* [nsensor * nmode] NaN where not measured, or NULL */
-    double *shape_std;      /* [nsensor * nmode] relative to the largest component, NaN where there is none; or NULL */
-    int *holdout;           /* [nmode] */
+    int nmode;             /* measured */
+    int *number;           /* [nmode] elastic mode of the model, from 1; the shapes may decide otherwise */
+    double *frequency_hz;  /* [nmode] */
+    double *damping;       /* [nmode] ratio, NaN where there is none */
+    double *frequency_std; /* [nmode] relative, NaN where there is none; the NOISE card is already applied */
+    double *shape;         /* [nsensor * nmode] NaN where not measured, or NULL */
+    double *shape_std;     /* [nsensor * nmode] relative to the largest component, NaN where there is none; or NULL */
+    int *holdout;          /* [nmode] */
 
     int nparameter;
-    struct parameter *parameter;  /* [nparameter] */
-    rotid_parameter *bounds;      /* [nparameter] with name and unit */
+    struct parameter *parameter; /* [nparameter] */
+    rotid_parameter *bounds;     /* [nparameter] with name and unit */
 
-    int has_fit;            /* a FIT card states functional or reduction */
+    int has_fit; /* a FIT card states functional or reduction */
     rotid_fit_options fit;
 };
 

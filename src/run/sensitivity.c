@@ -21,8 +21,9 @@ static int allocate(struct pool *pool, int n, int m, int points, struct sensitiv
     out->difference = POOL_ARRAY(pool, double, square);
     out->derivative = POOL_ARRAY(pool, double, square);
     out->relative = POOL_ARRAY(pool, double, points);
-    out->curve = POOL_ARRAY(pool, double, square * (size_t)points);
-    return out->reference && out->hz && out->difference && out->derivative && out->relative && out->curve ? ROTID_OK : ROTID_ERROR_MEMORY;
+    out->curve = POOL_ARRAY(pool, double, square *(size_t)points);
+    return out->reference && out->hz && out->difference && out->derivative && out->relative && out->curve ? ROTID_OK
+                                                                                                          : ROTID_ERROR_MEMORY;
 }
 
 int sensitivity_run(struct pool *pool, const struct job *job, int n, const struct parameter *parameter, const double *x0,
@@ -63,7 +64,8 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
         for (int k = 0; k < m && !status; k++)
             out->difference[k + (ptrdiff_t)q * m] = residual(&p, nrigid, lambda, k) / options->step;
         for (int i = 0; i < options->points && !status; i++) {
-            out->relative[i] = 1 - options->range + (options->points > 1 ? 2 * options->range * i / (options->points - 1) : options->range);
+            out->relative[i] =
+                1 - options->range + (options->points > 1 ? 2 * options->range * i / (options->points - 1) : options->range);
             x[q] = x0[q] * out->relative[i];
             int failed_here = prediction_compute(&p, x);
             for (int k = 0; k < m; k++) {

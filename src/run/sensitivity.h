@@ -21,8 +21,8 @@ struct sensitivity {
     double *curve;      /* [m * points * n] E_k^2/2 */
 };
 
-/* Around the values x0 [n] of the parameters, with the reduction of the job's FIT. Statuses of the prediction; at points of a curve where the
- * model has no modes the curve is NaN. */
+/* Around the values x0 [n] of the parameters, with the reduction of the job's FIT. Statuses of the prediction; at points of a
+ * curve where the model has no modes the curve is NaN. */
 int sensitivity_run(struct pool *pool, const struct job *job, int n, const struct parameter *parameter, const double *x0,
                     const struct sensitivity_options *options, struct sensitivity *out);
 

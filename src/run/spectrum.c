@@ -14,14 +14,15 @@ static double hertz(double lambda)
 }
 
 /* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. */
-static int full_model(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x,
-                      int refine, int *count, struct client *client, struct prediction *prediction)
+static int full_model(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
+                      const double *x, int refine, int *count, struct client *client, struct prediction *prediction)
 {
     int failed, status = client_open(pool, rotor, nparameter, parameter, refine, client, &failed);
     int most = status ? 0 : client->model.n - client->model.nrigid;
     *count = *count < most ? *count : most;
     if (!status)
-        status = prediction_new(pool, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + *count, 0, prediction);
+        status = prediction_new(pool, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + *count, 0,
+                                prediction);
     return status ? status : prediction_compute(prediction, x);
 }
 
@@ -65,8 +66,8 @@ static int condensed_model(struct pool *pool, struct client *client, const doubl
     return ROTID_OK;
 }
 
-int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x,
-                     int reduction, int count, struct spectrum *s)
+int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
+                     const double *x, int reduction, int count, struct spectrum *s)
 {
     struct client *client = POOL_NEW(pool, struct client), *fine = POOL_NEW(pool, struct client);
     struct prediction p, q;
@@ -77,12 +78,13 @@ int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparamete
         status = full_model(pool, rotor, nparameter, parameter, x, 2, &count, fine, &q);
     if (status)
         return status;
-    *s = (struct spectrum){.nrigid = client->model.nrigid, .count = count, .nmaster = client->model.nmaster, .nnode = client->beam.mesh.naxis};
+    *s = (struct spectrum){
+        .nrigid = client->model.nrigid, .count = count, .nmaster = client->model.nmaster, .nnode = client->beam.mesh.naxis};
     double **arrays[] = {&s->full_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
             return ROTID_ERROR_MEMORY;
-    s->shape = POOL_ARRAY(pool, double, (size_t)s->nmaster * (size_t)count);
+    s->shape = POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count);
     s->master_z = POOL_ARRAY(pool, double, s->nmaster);
     if (!s->shape || !s->master_z)
         return ROTID_ERROR_MEMORY;
@@ -93,7 +95,8 @@ int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparamete
         s->reduced_hz[j] = NAN;
     status = condensed_model(pool, client, x, reduction, s);
     for (int j = 0; j < count && !status; j++) {
-        double coarse = hertz(p.lambda[s->nrigid + j]), finer = hertz(q.lambda[fine->model.nrigid + j]), limit = finer + (finer - coarse) / 3;
+        double coarse = hertz(p.lambda[s->nrigid + j]), finer = hertz(q.lambda[fine->model.nrigid + j]),
+               limit = finer + (finer - coarse) / 3;
         s->full_hz[j] = coarse;
         s->mesh_error_percent[j] = 100 * (coarse / limit - 1);
         s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / coarse - 1);

@@ -15,13 +15,14 @@ struct spectrum {
     double *reduction_error_percent; /* [count] reduced against full */
     double *mesh_error_percent;      /* [count] against the Richardson value of this mesh and one twice as fine */
     double *shape;                   /* [nmaster * count] full model at the masters, largest component 1 */
-    double *mass;                    /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */
-    double *master_z;                /* [nmaster] m */
+    double *mass;     /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */
+    double *master_z; /* [nmaster] m */
 };
 
-/* At the values x [nparameter] of the parameters; fewer than `count` modes where the model has fewer. reduction: ROTID_GUYAN or ROTID_IRS. Statuses of the prediction and of client_open. */
-int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x,
-                     int reduction, int count, struct spectrum *spectrum);
+/* At the values x [nparameter] of the parameters; fewer than `count` modes where the model has fewer. reduction: ROTID_GUYAN or
+ * ROTID_IRS. Statuses of the prediction and of client_open. */
+int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
+                     const double *x, int reduction, int count, struct spectrum *spectrum);
 
 /* NCO of a measured shape [nmaster] with mode j of the full model by the condensed mass; MAC where there is no such matrix.
  * work [nmaster]. */

@@ -14,7 +14,7 @@ struct uff_shape {       /* one set 55 */
     int line;            /* of the '-1' that opens the set, from 1 */
     int analysis_type;   /* 2 normal mode; 3, 7 complex eigenvalue; 5 frequency response */
     int number;          /* of the mode, or with analysis type 5 of the frequency; from record 7 */
-    double frequency_hz;  /* 0: a mode that does not oscillate */
+    double frequency_hz; /* 0: a mode that does not oscillate */
     double damping;      /* viscous ratio, of a complex eigenvalue -Re lambda/|lambda|; 0 where the file has none */
     int is_complex;      /* imag given */
     int component_count; /* values per node, 1 to 6 */

@@ -126,7 +126,8 @@ static int report(struct uff_lines *lines, const struct uff_form *form, const ch
     int column = (int)field.start + 1;
     uff_excerpt(lines->text + field.start, field.length, excerpt);
     if (fault == UFF_FAULT_RANGE)
-        return uff_fail(lines, column, "%s: %s is too large for a 32-bit integer; expected %s", what, excerpt, count_numbers(form, numbers));
+        return uff_fail(lines, column, "%s: %s is too large for a 32-bit integer; expected %s", what, excerpt,
+                        count_numbers(form, numbers));
     if (fault == UFF_FAULT_NOT_FINITE)
         return uff_fail(lines, column, "%s: %s is not a finite number; expected %s", what, excerpt, count_numbers(form, numbers));
     return uff_fail(lines, column, "%s: '%s' is not %s; expected %s", what, excerpt, is_integer ? "an integer" : "a real",

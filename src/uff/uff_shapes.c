@@ -98,7 +98,8 @@ static int read_mode(struct uff_job *job, struct uff_shape *shape)
         shape->frequency_hz = shape->damping = 0; /* it does not oscillate: as a rigid-body mode, which has zero here */
     if (shape->frequency_hz >= 0 && isfinite(shape->frequency_hz))
         return ROTID_OK;
-    message_add(lines->messages, SEVERITY_ERROR, lines->path, line, 1, "set 55: record 8: the frequency is negative or not finite, expected zero or more");
+    message_add(lines->messages, SEVERITY_ERROR, lines->path, line, 1,
+                "set 55: record 8: the frequency is negative or not finite, expected zero or more");
     return ROTID_ERROR_SYNTAX;
 }
 

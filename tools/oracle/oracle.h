@@ -95,8 +95,8 @@ struct oracle_tie {
     double length;       /* m */
     double young;        /* Pa */
     double poisson;
-    double density;      /* kg/m3 */
-    double tension;      /* of one rod [N] */
+    double density; /* kg/m3 */
+    double tension; /* of one rod [N] */
 };
 
 /* Shear coefficient of a circular section after Cowper; ratio = inner over outer diameter, 0 for a full one. */

@@ -7,8 +7,8 @@
 void oracle_station_jump(const struct oracle_station *station, double lambda, double jump[2])
 {
     jump[0] = station->spring - lambda * station->mass;
-    jump[1] = station->rotational_spring[0] + station->rotational_spring[1] -
-              lambda * (station->inertia[0] + station->inertia[1]);
+    jump[1] =
+        station->rotational_spring[0] + station->rotational_spring[1] - lambda * (station->inertia[0] + station->inertia[1]);
 }
 
 void oracle_member_transfer(const struct oracle_model *model, int cell, double lambda, double product[16])
@@ -161,4 +161,3 @@ int oracle_evaluate(struct oracle_model *model, double lambda, int *negative, do
     *negative -= extra;
     return ORACLE_OK;
 }
-

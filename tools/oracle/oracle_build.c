@@ -97,9 +97,9 @@ int oracle_beam_element(const struct oracle_segment *segment, double stiffness[1
         }
         for (int i = 0; i < 4; i++) {
             for (int j = 0; j < 4; j++) {
-                stiffness[4 * i + j] += w * (segment->bending * curvature[i] * curvature[j] +
-                                             segment->axial * slope[i] * slope[j] +
-                                             shear_energy * coefficient[12 + i] * coefficient[12 + j]);
+                stiffness[4 * i + j] +=
+                    w * (segment->bending * curvature[i] * curvature[j] + segment->axial * slope[i] * slope[j] +
+                         shear_energy * coefficient[12 + i] * coefficient[12 + j]);
                 mass[4 * i + j] += w * (segment->mass * v[i] * v[j] + segment->inertia * theta[i] * theta[j]);
             }
         }

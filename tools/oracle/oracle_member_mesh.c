@@ -16,7 +16,7 @@ static const double pi = 3.14159265358979323846;
 
 /* What bounds the lowest resonance of a member with one or both ends held. */
 struct extent {
-    double length, bending, shear, mass, inertia, compression; /* the least EI, kGS and the largest rhoS, rhoI, -F in it */
+    double length, bending, shear, mass, inertia, compression;     /* the least EI, kGS and the largest rhoS, rhoI, -F in it */
     double lumped_mass, lumped_inertia, spring, rotational_spring; /* sums */
 };
 
@@ -25,8 +25,8 @@ static void extend(struct extent *extent, const struct oracle_segment *segment, 
                    const struct oracle_station *station)
 {
     if (extent->length == 0.0) {
-        *extent = (struct extent){length, segment->bending, segment->shear, segment->mass, segment->inertia, -segment->axial,
-                                  0.0, 0.0, 0.0, 0.0};
+        *extent = (struct extent){
+            length, segment->bending, segment->shear, segment->mass, segment->inertia, -segment->axial, 0.0, 0.0, 0.0, 0.0};
         return;
     }
     extent->length += length;
@@ -56,8 +56,8 @@ static void extend(struct extent *extent, const struct oracle_segment *segment, 
 static double lower_bound(const struct extent *e, double bend, double wave, double point)
 {
     double c = 1.0 / e->shear + bend * bend / e->bending;
-    double kinetic = wave * wave * (e->mass * c + e->inertia / e->bending) +
-                     point * (e->lumped_mass * c + e->lumped_inertia / e->bending);
+    double kinetic =
+        wave * wave * (e->mass * c + e->inertia / e->bending) + point * (e->lumped_mass * c + e->lumped_inertia / e->bending);
 
     if (e->compression * c >= 1.0)
         return 0.0;

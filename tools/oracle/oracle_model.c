@@ -188,4 +188,3 @@ int oracle_model_build(const struct oracle_system *system, struct oracle_model *
     measure(model);
     return ORACLE_OK;
 }
-
