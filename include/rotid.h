@@ -195,6 +195,7 @@ typedef struct rotid_fit_result {
  * Statuses: every ROTID_ERROR_ but SYNTAX and IO. Memory: O(nmaster^2 + n kd). The iteration itself allocates nothing. */
 ROTID_API int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
                         const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result);
+/* NULL is allowed. The allocator of the environment that the fit was given has to exist until then. */
 ROTID_API void rotid_fit_free(rotid_fit_result *result);
 
 /* ------------------------------------------------------------------------------------------------ building blocks: the beam */
@@ -227,14 +228,14 @@ typedef int (*rotid_residual)(void *user, int m, int n, const double *x, double 
 typedef struct rotid_lm_iteration {
     int iteration;
     double objective, mu, gain_ratio;
-    double cosine;              /* largest |J_j' r|/(D_j |r|): the cosine between r and a column of J, or less */
+    double cosine;              /* largest cosine between r and a column of J */
     const double *x, *gradient; /* [n] the accepted point, J' r */
 } rotid_lm_iteration;
 
 /* Zero takes the default in brackets. */
 typedef struct rotid_lm_options {
     int max_iterations;                                            /* [100] */
-    double gradient_tolerance;                                     /* [1e-10] on |J_j' r|/(D_j |r|) */
+    double gradient_tolerance;                                     /* [1e-10] on that cosine */
     double step_tolerance;                                         /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
     double objective_tolerance;                                    /* [1e-16] predicted decrease over the objective */
     double initial_damping;                                        /* [1e-3] */
