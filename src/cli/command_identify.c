@@ -1,16 +1,13 @@
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "cli/command.h"
 #include "report/table.h"
 
 /* A line on the terminal that is written over, five times a second. */
 static void show_progress(void *context, const char *stage, int step)
 {
-    double *last = context;
-    struct timespec now;
-    (void)timespec_get(&now, TIME_UTC);
-    double seconds = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    double *last = context, seconds = clock_seconds();
     if (*last == 0)
         *last = seconds; /* a run shorter than that shows nothing */
     if (seconds - *last < 0.2)

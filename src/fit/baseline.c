@@ -2,8 +2,8 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "fit/bounds.h"
 
 #ifndef WITH_NLOPT
@@ -92,13 +92,6 @@ static double objective(unsigned n, const double *scaled, double *gradient, void
     return sum / 2 / problem->unit;
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    (void)timespec_get(&now, TIME_UTC);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Sets up, runs and takes down one algorithm; NLopt's own codes are kept. */
 static int run_one(int a, int n, struct problem *problem, double *bounds, rotid_baseline *out)
 {
@@ -123,9 +116,9 @@ static int run_one(int a, int n, struct problem *problem, double *bounds, rotid_
     (void)nlopt_set_xtol_rel(optimiser, 1e-8);
     (void)nlopt_set_ftol_rel(optimiser, 1e-15);
     (void)nlopt_set_maxeval(optimiser, 5000);
-    double begin = seconds_now();
+    double begin = clock_seconds();
     nlopt_result result = nlopt_optimize(optimiser, out->x, &value);
-    out->seconds = seconds_now() - begin;
+    out->seconds = clock_seconds() - begin;
     nlopt_destroy(optimiser);
     for (int p = 0; p < n; p++)
         out->x[p] *= fabs(problem->parameter[p].start);

@@ -6,11 +6,10 @@
 #include "fit/quantile.h"
 #include "linalg/least_squares.h"
 
-#define RANK 1e-10 /* singular values below this part of the largest are rounding */
-#define UNDETERMINED                                                                                                             \
-    0.5 /* relative standard deviation along a direction: the data then allow about as much change as there is value */
-#define TAKES_PART 0.3  /* component of a unit direction */
-#define FREE       1e-6 /* a component of a direction without any information that still leaves a parameter without an interval */
+#define RANK         1e-10 /* singular values below this part of the largest are rounding */
+#define UNDETERMINED 0.5   /* relative standard deviation along a direction: about as much change is allowed as there is value */
+#define TAKES_PART   0.3   /* component of a unit direction */
+#define FREE         1e-6 /* a component of a direction without any information that still leaves a parameter without an interval */
 
 size_t covariance_workspace(int m, int n)
 {

@@ -1,8 +1,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/pool.h"
 #include "fit/baseline.h"
 #include "fit/bounds.h"
@@ -32,13 +32,6 @@ void rotid_fit_defaults(rotid_fit_options *options)
                                    .gradient_tolerance = 1e-10,
                                    .step_tolerance = 1e-12,
                                    .bijection_chi = 0.05};
-}
-
-static double seconds_now(void)
-{
-    struct timespec now;
-    (void)timespec_get(&now, TIME_UTC);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* rotid_residual in the unbounded variables y */
@@ -200,7 +193,7 @@ static void compare_modes(struct fit *fit)
     const rotid_measured *measured = f->measured;
     int nmaster = f->prediction.model->nmaster;
     for (int k = 0; k < measured->nmode; k++) {
-        fit->result->predicted_hz[k] = sqrt(f->prediction.lambda[f->pair[k]]) / 6.28318530717958647692;
+        fit->result->predicted_hz[k] = prediction_hz(&f->prediction, f->pair[k]);
         fit->result->residual[k] = functional_frequency_residual(f, k);
         fit->result->mac[k] = NAN;
         if (!f->shape)
@@ -293,9 +286,9 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
                                    .trace = trace,
                                    .trace_user = fit};
     rotid_lm_result lm;
-    double begin = seconds_now();
+    double begin = clock_seconds();
     status = rotid_lm(m, n, residual, fit, &lm_options, fit->y, fit->r, fit->jacobian, fit->work, &lm);
-    fit->result->seconds = seconds_now() - begin;
+    fit->result->seconds = clock_seconds() - begin;
     if (status < 0)
         return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
     status = conclude(fit, &lm);

@@ -227,6 +227,11 @@ int prediction_differentiate(struct prediction *p, const double *x, const int *w
     return status;
 }
 
+double prediction_hz(const struct prediction *p, int k)
+{
+    return p->lambda[k] > 0 ? sqrt(p->lambda[k]) / 6.28318530717958647692 : 0;
+}
+
 double prediction_at_sensor(const struct prediction *p, int k, int s)
 {
     int row = p->reduction == ROTID_REDUCTION_NONE ? p->model->master[s] : s;

@@ -39,6 +39,9 @@ int prediction_compute(struct prediction *p, const double *x);
  * prediction_compute. Statuses: CALLBACK, FINITE, CLOSE. */
 int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors);
 
+/* Frequency of pair k [Hz]; 0 where its eigenvalue is not above zero. */
+double prediction_hz(const struct prediction *p, int k);
+
 /* Component of pair k at sensor s. */
 double prediction_at_sensor(const struct prediction *p, int k, int s);
 /* The component of dphi_k/dx_q there. */

@@ -48,7 +48,7 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
     for (int k = 0; k < m && !status; k++) {
         wanted[nrigid + k] = 1;
         lambda[k] = p.lambda[nrigid + k];
-        out->hz[k] = sqrt(lambda[k]) / 6.28318530717958647692;
+        out->hz[k] = prediction_hz(&p, nrigid + k);
     }
     if (!status)
         status = prediction_differentiate(&p, x0, wanted, 0);

@@ -8,11 +8,6 @@
 
 #define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
-static double hertz(double lambda)
-{
-    return lambda > 0 ? sqrt(lambda) / 6.28318530717958647692 : 0;
-}
-
 /* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. */
 static int full_model(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
                       const double *x, int refine, int *count, struct client *client, struct prediction *prediction)
@@ -61,7 +56,7 @@ static int condensed_model(struct pool *pool, struct client *client, const doubl
         if (kind == ROTID_GUYAN)
             s->mass = p.condensed.mc;
         for (int j = 0; j < s->count && kind == reduction; j++)
-            s->reduced_hz[j] = s->nrigid + j < count ? hertz(p.lambda[s->nrigid + j]) : NAN;
+            s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) : NAN;
     }
     return ROTID_OK;
 }
@@ -89,13 +84,13 @@ int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparamete
     if (!s->shape || !s->master_z)
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < s->nrigid; j++)
-        s->rigid_hz[j] = hertz(p.lambda[j]);
+        s->rigid_hz[j] = prediction_hz(&p, j);
     keep_shapes(client, &p, s);
     for (int j = 0; j < count; j++)
         s->reduced_hz[j] = NAN;
     status = condensed_model(pool, client, x, reduction, s);
     for (int j = 0; j < count && !status; j++) {
-        double coarse = hertz(p.lambda[s->nrigid + j]), finer = hertz(q.lambda[fine->model.nrigid + j]),
+        double coarse = prediction_hz(&p, s->nrigid + j), finer = prediction_hz(&q, fine->model.nrigid + j),
                limit = finer + (finer - coarse) / 3;
         s->full_hz[j] = coarse;
         s->mesh_error_percent[j] = 100 * (coarse / limit - 1);
