@@ -47,3 +47,19 @@ void failing_allocator_open(struct failing_allocator *failing, long fail_at)
 {
     *failing = (struct failing_allocator){{allocate, release, failing}, fail_at, 0, 0};
 }
+
+struct pool test_pool;
+
+int open_test_pool(void **state)
+{
+    (void)state;
+    pool_open(&test_pool, NULL);
+    return 0;
+}
+
+int close_test_pool(void **state)
+{
+    (void)state;
+    pool_close(&test_pool);
+    return 0;
+}

@@ -30,6 +30,11 @@ struct failing_allocator {
 };
 void failing_allocator_open(struct failing_allocator *failing, long fail_at);
 
+/* A pool for one test at a time, as setup and teardown of cmocka. */
+extern struct pool test_pool;
+int open_test_pool(void **state);
+int close_test_pool(void **state);
+
 /* A status by its name in failure messages. */
 #define assert_status(status, expected) assert_string_equal(rotid_status_name(status), #expected)
 

@@ -42,29 +42,13 @@ static struct element properties(const struct rotor *rotor)
                             shaft.preload,  segment.length};
 }
 
-static struct pool pool;
-
-static int open_pool(void **state)
-{
-    (void)state;
-    pool_open(&pool, NULL);
-    return 0;
-}
-
-static int close_pool(void **state)
-{
-    (void)state;
-    pool_close(&pool);
-    return 0;
-}
-
 static void assemble(const struct rotor *rotor, struct beam *beam, rotid_matrix *k, rotid_matrix *m)
 {
     int failed;
-    assert_status(beam_build(&pool, rotor, 0, NULL, 1, beam, &failed), ROTID_OK);
+    assert_status(beam_build(&test_pool, rotor, 0, NULL, 1, beam, &failed), ROTID_OK);
     const struct mesh *mesh = &beam->mesh;
-    assert_status(matrix_new(&pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, k), ROTID_OK);
-    assert_status(matrix_new(&pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, m), ROTID_OK);
+    assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, k), ROTID_OK);
+    assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, m), ROTID_OK);
     beam_assemble(beam, NULL, k, m);
 }
 
@@ -74,8 +58,8 @@ static void eigenvalues(const struct rotor *rotor, int count, double *lambda)
     struct eigen_band eigen;
     rotid_matrix k, m;
     assemble(rotor, &beam, &k, &m);
-    double *phi = POOL_ARRAY(&pool, double, count *k.n);
-    assert_status(eigen_band_new(&pool, &k, count, &eigen), ROTID_OK);
+    double *phi = POOL_ARRAY(&test_pool, double, count *k.n);
+    assert_status(eigen_band_new(&test_pool, &k, count, &eigen), ROTID_OK);
     assert_status(eigen_band_solve(&eigen, &k, &m, lambda, phi), ROTID_OK);
 }
 
@@ -87,9 +71,9 @@ static void pinned_eigenvalues(const struct rotor *rotor, int count, double *lam
     rotid_matrix k, m;
     assemble(rotor, &beam, &k, &m);
     int n = k.n, kept = n - 2;
-    double *unit = POOL_ARRAY(&pool, double, n), *column = POOL_ARRAY(&pool, double, n),
-           *phi = POOL_ARRAY(&pool, double, kept *count);
-    double *dense[2] = {POOL_ARRAY(&pool, double, kept *kept), POOL_ARRAY(&pool, double, kept *kept)};
+    double *unit = POOL_ARRAY(&test_pool, double, n), *column = POOL_ARRAY(&test_pool, double, n),
+           *phi = POOL_ARRAY(&test_pool, double, kept *count);
+    double *dense[2] = {POOL_ARRAY(&test_pool, double, kept *kept), POOL_ARRAY(&test_pool, double, kept *kept)};
     for (int j = 1, c = 0; j < n; j++) {
         if (j == n - 2)
             continue;
@@ -103,7 +87,7 @@ static void pinned_eigenvalues(const struct rotor *rotor, int count, double *lam
         }
         c++;
     }
-    assert_status(eigen_dense_new(&pool, kept, count, &eigen), ROTID_OK);
+    assert_status(eigen_dense_new(&test_pool, kept, count, &eigen), ROTID_OK);
     assert_status(eigen_dense_solve(&eigen, dense[0], dense[1], lambda, phi), ROTID_OK);
 }
 
@@ -307,11 +291,11 @@ static double critical_load(struct rotor *rotor)
     struct factor factor;
     rotid_matrix k, m;
     assemble(rotor, &beam, &k, &m);
-    int *kept = POOL_ARRAY(&pool, int, k.n), count = 0;
+    int *kept = POOL_ARRAY(&test_pool, int, k.n), count = 0;
     for (int i = 1; i < k.n; i++)
         if (i != k.n - 2)
             kept[count++] = i;
-    assert_status(factor_new(&pool, FACTOR_CHOLESKY, &k, count, kept, &factor), ROTID_OK);
+    assert_status(factor_new(&test_pool, FACTOR_CHOLESKY, &k, count, kept, &factor), ROTID_OK);
     struct element e = properties(rotor);
     double low = 0, high = 4 * pi * pi * e.ei / (e.length * e.length);
     for (int i = 0; i < 50; i++) {
@@ -344,7 +328,7 @@ static void pinned_column_buckles_at_engessers_load(void **state)
     }
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_pool, close_pool)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
 
 int main(void)
 {

@@ -7,22 +7,6 @@
 #include "paper_rotor.h"
 #include "support.h"
 
-static struct pool pool;
-
-static int open_pool(void **state)
-{
-    (void)state;
-    pool_open(&pool, NULL);
-    return 0;
-}
-
-static int close_pool(void **state)
-{
-    (void)state;
-    pool_close(&pool);
-    return 0;
-}
-
 /* The paper's rotor with a group of each shape of section, bars, a disk and holes, so that every branch has something to
  * differentiate: the left shaft is bored, the right one rectangular, the core perforated. */
 static struct rotor *workshop(enum bundle_model model, int self_equilibrated, int rod_elements)
@@ -79,7 +63,7 @@ static double largest(const rotid_matrix *a, const rotid_matrix *b)
 static rotid_matrix zero_like(const struct mesh *mesh)
 {
     rotid_matrix a;
-    assert_status(matrix_new(&pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &a), ROTID_OK);
+    assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &a), ROTID_OK);
     return a;
 }
 
@@ -157,7 +141,7 @@ static void differentiate_all(enum bundle_model model, int self_equilibrated, in
     }
     for (int c = 0; c < CASES; c++)
         assert_int_equal(parameter_find(rotor, cases[c].name, &parameter[c], &unit), 0);
-    assert_status(beam_build(&pool, rotor, CASES, parameter, 1, &beam, &failed), ROTID_OK);
+    assert_status(beam_build(&test_pool, rotor, CASES, parameter, 1, &beam, &failed), ROTID_OK);
     for (int c = 0; c < CASES; c++) {
         int isotropic = parameter[c].kind == PARAMETER_E && rotor->group[parameter[c].index].material.isotropic;
         double error = error_of(&beam, c, isotropic ? 1 : cases[c].wanted);
@@ -204,7 +188,7 @@ static void derivatives_times_values_sum_up_to_the_matrices(void **state)
             assert_int_equal(parameter_find(rotor, name[p], &parameter[p], &unit), 0);
             x[p] = *parameter_value(rotor, parameter[p]);
         }
-        assert_status(beam_build(&pool, rotor, count, parameter, 1, &beam, &failed), ROTID_OK);
+        assert_status(beam_build(&test_pool, rotor, count, parameter, 1, &beam, &failed), ROTID_OK);
         rotid_matrix k = zero_like(&beam.mesh), m = zero_like(&beam.mesh), dk = zero_like(&beam.mesh), dm = zero_like(&beam.mesh);
         rotid_matrix sum_k = zero_like(&beam.mesh), sum_m = zero_like(&beam.mesh);
         beam_assemble(&beam, x, &k, &m);
@@ -221,7 +205,7 @@ static void derivatives_times_values_sum_up_to_the_matrices(void **state)
         weightless->group[0].preload = 0;
         weightless->nbars = 0;
         weightless->tierod[0].material.rho = 0;
-        assert_status(beam_build(&pool, weightless, 0, NULL, 1, &beam, &failed), ROTID_OK);
+        assert_status(beam_build(&test_pool, weightless, 0, NULL, 1, &beam, &failed), ROTID_OK);
         matrix_zero(&k);
         matrix_zero(&m);
         beam_assemble(&beam, NULL, &k, &m);
@@ -235,7 +219,7 @@ static void parameters_move_the_beams_own_copy_of_the_rotor(void **state)
     struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 1);
     struct beam beam;
     int failed;
-    assert_status(beam_build(&pool, rotor, 2, paper_parameters, 1, &beam, &failed), ROTID_OK);
+    assert_status(beam_build(&test_pool, rotor, 2, paper_parameters, 1, &beam, &failed), ROTID_OK);
     rotid_matrix k = zero_like(&beam.mesh), m = zero_like(&beam.mesh);
     beam_assemble(&beam, (double[]){0.9e11, 0.2e11}, &k, &m);
     assert_close(beam.rotor.group[1].material.e, 0.9e11, 0, 0);
@@ -276,15 +260,15 @@ static void impossible_sections_name_their_group_or_bundle(void **state)
     int failed;
     struct rotor *rotor = workshop(BUNDLE_TUBE, 1, 1);
     rotor->group[1].holes = 400;
-    assert_status(beam_build(&pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
+    assert_status(beam_build(&test_pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
     assert_int_equal(failed, 1);
     rotor = workshop(BUNDLE_TUBE, 1, 1);
     rotor->tierod[0].pitch = 0.02; /* twelve rods of 32 mm in there are more than a disc */
-    assert_status(beam_build(&pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
+    assert_status(beam_build(&test_pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
     assert_int_equal(failed, rotor->ngroup);
     rotor = workshop(BUNDLE_TUBE, 1, 1);
     rotor->bars[0].pitch = 0.01;
-    assert_status(beam_build(&pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
+    assert_status(beam_build(&test_pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
     assert_int_equal(failed, rotor->ngroup + rotor->ntierod);
 }
 
@@ -312,7 +296,7 @@ static void no_memory_is_reported_at_every_allocation_of_a_build(void **state)
     assert_true(n > 20);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_pool, close_pool)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
 
 int main(void)
 {

@@ -10,33 +10,18 @@
 
 static const double pi = 3.14159265358979323846;
 
-static struct pool pool;
 static struct beam beam;
 static rotid_matrix k, m;
 static double *work;
 
-static int open_pool(void **state)
-{
-    (void)state;
-    pool_open(&pool, NULL);
-    return 0;
-}
-
-static int close_pool(void **state)
-{
-    (void)state;
-    pool_close(&pool);
-    return 0;
-}
-
 static void assemble(const struct rotor *rotor, int nparameter, const struct parameter *parameter, const double *x)
 {
     int failed;
-    assert_status(beam_build(&pool, rotor, nparameter, parameter, 1, &beam, &failed), ROTID_OK);
+    assert_status(beam_build(&test_pool, rotor, nparameter, parameter, 1, &beam, &failed), ROTID_OK);
     const struct mesh *mesh = &beam.mesh;
-    assert_status(matrix_new(&pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &k), ROTID_OK);
-    assert_status(matrix_new(&pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &m), ROTID_OK);
-    work = POOL_ARRAY(&pool, double, mesh->ndof);
+    assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &k), ROTID_OK);
+    assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &m), ROTID_OK);
+    work = POOL_ARRAY(&test_pool, double, mesh->ndof);
     beam_assemble(&beam, x, &k, &m);
 }
 
@@ -65,7 +50,7 @@ static struct rotor *dressed(enum bundle_model model, int self_equilibrated, int
 static double *rigid(double translation, double rotation, double about)
 {
     const struct mesh *mesh = &beam.mesh;
-    double *u = POOL_ARRAY(&pool, double, mesh->ndof), *z = POOL_ARRAY(&pool, double, mesh->nnode);
+    double *u = POOL_ARRAY(&test_pool, double, mesh->ndof), *z = POOL_ARRAY(&test_pool, double, mesh->nnode);
     memcpy(z, mesh->z, (size_t)mesh->naxis * sizeof *z);
     for (int i = 0; i < beam.rotor.ntierod; i++) {
         const struct chain *chain = &mesh->tierod[i];
@@ -144,7 +129,7 @@ static void limited_stiffness_diameter_weakens_the_shaft_and_leaves_its_mass(voi
     struct rotor *rotor = paper_rotor(BUNDLE_RODS, 1);
     assemble(rotor, 0, NULL, NULL);
     beam_mass_properties(&beam, &whole);
-    double *bent = POOL_ARRAY(&pool, double, k.n), before;
+    double *bent = POOL_ARRAY(&test_pool, double, k.n), before;
     bent[2 * 20] = 1; /* node 20 lies in the second segment */
     before = energy(&k, bent);
     rotor->segment[1].stiff_outer *= 0.8;
@@ -158,11 +143,11 @@ static void limited_stiffness_diameter_weakens_the_shaft_and_leaves_its_mass(voi
 /* Largest force that a displacement meets, relative to the sum of the absolute terms of its row. */
 static double largest_force(const double *u)
 {
-    double worst = 0, *force = POOL_ARRAY(&pool, double, k.n), *size = POOL_ARRAY(&pool, double, k.n),
-           *most = POOL_ARRAY(&pool, double, k.n);
+    double worst = 0, *force = POOL_ARRAY(&test_pool, double, k.n), *size = POOL_ARRAY(&test_pool, double, k.n),
+           *most = POOL_ARRAY(&test_pool, double, k.n);
     matrix_multiply(&k, 1, u, force);
     rotid_matrix absolute;
-    assert_status(matrix_new(&pool, k.n, k.kd, k.nfar, k.far, &absolute), ROTID_OK);
+    assert_status(matrix_new(&test_pool, k.n, k.kd, k.nfar, k.far, &absolute), ROTID_OK);
     for (int i = 0; i < k.n * (k.kd + 1); i++)
         absolute.band[i] = fabs(k.band[i]);
     for (int i = 0; i < k.nfar * k.nfar; i++)
@@ -203,12 +188,12 @@ static void unbalanced_tension_stores_force_times_length_in_a_rotation(void **st
         beam_mass_properties(&beam, &p);
         const struct chain *chain = &beam.mesh.tierod[0];
         double force = 12 * 150e3, length = beam.mesh.z[chain->last_end] - beam.mesh.z[chain->first_end];
-        double *u = rigid(0, 1, p.center), *held = POOL_ARRAY(&pool, double, k.n), *phi = POOL_ARRAY(&pool, double, 3 * k.n);
+        double *u = rigid(0, 1, p.center), *held = POOL_ARRAY(&test_pool, double, k.n), *phi = POOL_ARRAY(&test_pool, double, 3 * k.n);
         assert_close(energy(&k, u), force * length, 1e-7, 0); /* rounding of K, whose entries are 1e11 */
         matrix_multiply(&k, 1, u, held);
         assert_close(held[2 * chain->first_end], force, 1e-5, 0);
         assert_close(held[2 * chain->last_end], -force, 1e-5, 0);
-        assert_status(eigen_band_new(&pool, &k, 3, &eigen), ROTID_OK);
+        assert_status(eigen_band_new(&test_pool, &k, 3, &eigen), ROTID_OK);
         assert_status(eigen_band_solve(&eigen, &k, &m, lambda, phi), ROTID_OK);
         print_message("swing over N T L/J %.6f, balanced force %.3e N\n", lambda[1] / (force * length / p.inertia),
                       held[2 * chain->last_end]);
@@ -227,8 +212,8 @@ static void rods_alone(enum bundle_model model, int elements, rotid_matrix *rods
     rotor->tierod[0].elements = elements;
     rotor->tierod[0].tension = 0;
     assemble(rotor, 1, &parameter, &e);
-    assert_status(matrix_new(&pool, k.n, k.kd, k.nfar, k.far, rods), ROTID_OK);
-    assert_status(matrix_new(&pool, k.n, k.kd, k.nfar, k.far, &unused), ROTID_OK);
+    assert_status(matrix_new(&test_pool, k.n, k.kd, k.nfar, k.far, rods), ROTID_OK);
+    assert_status(matrix_new(&test_pool, k.n, k.kd, k.nfar, k.far, &unused), ROTID_OK);
     beam_differentiate(&beam, 0, rods, &unused);
     matrix_combine(e, rods, 0, rods, rods);
 }
@@ -246,7 +231,7 @@ static void relative_rotation_of_the_ends_stretches_and_bends_the_rods(void **st
             rotid_matrix rods;
             rods_alone((enum bundle_model)model, elements, &rods);
             const struct chain *chain = &beam.mesh.tierod[0];
-            double *u = POOL_ARRAY(&pool, double, k.n), length = beam.mesh.z[chain->last_end] - beam.mesh.z[chain->first_end];
+            double *u = POOL_ARRAY(&test_pool, double, k.n), length = beam.mesh.z[chain->last_end] - beam.mesh.z[chain->first_end];
             for (int i = 0; i <= elements; i++) {
                 int node = i == 0 ? chain->first_end : i == elements ? chain->last_end : chain->inner + i - 1;
                 double s = (double)i / elements;
@@ -268,7 +253,7 @@ static void relative_shift_of_the_ends_meets_the_tube_but_hardly_the_rods(void *
         rotid_matrix rods;
         rods_alone((enum bundle_model)model, 1, &rods);
         const struct chain *chain = &beam.mesh.tierod[0];
-        double *u = POOL_ARRAY(&pool, double, k.n), l = beam.mesh.z[chain->last_end] - beam.mesh.z[chain->first_end];
+        double *u = POOL_ARRAY(&test_pool, double, k.n), l = beam.mesh.z[chain->last_end] - beam.mesh.z[chain->first_end];
         double inertia = model == BUNDLE_RODS ? own : own + pitch, e = 2.1e11, g = e / 2.6;
         double shear = rotid_shear_coefficient_annulus(0.3, model == BUNDLE_RODS ? 0 : inner / outer) * g * area;
         u[2 * chain->last_end] = 1;
@@ -287,7 +272,7 @@ static void bars_add_mass_but_no_stiffness_to_the_axis(void **state)
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         struct rotor *rotor = dressed((enum bundle_model)model, 1, 1);
         assemble(rotor, 0, NULL, NULL);
-        double *u = POOL_ARRAY(&pool, double, k.n), with[2];
+        double *u = POOL_ARRAY(&test_pool, double, k.n), with[2];
         for (int i = 0; i < beam.mesh.naxis; i++) {
             u[2 * i] = sin(3 * beam.mesh.z[i]);
             u[2 * i + 1] = -3 * cos(3 * beam.mesh.z[i]);
@@ -334,7 +319,7 @@ static int count_rigid(const struct rotor *rotor)
 {
     int nrigid = -1;
     assemble(rotor, 0, NULL, NULL);
-    assert_status(beam_count_rigid(&pool, &beam, NULL, &nrigid), ROTID_OK);
+    assert_status(beam_count_rigid(&test_pool, &beam, NULL, &nrigid), ROTID_OK);
     return nrigid;
 }
 
@@ -377,7 +362,7 @@ static void rigid_modes_become_bending_modes_one_by_one_as_springs_stiffen(void 
     assert_int_equal(last, 0);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_pool, close_pool)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
 
 int main(void)
 {

@@ -11,22 +11,6 @@
 
 static const double pi = 3.14159265358979323846;
 
-static struct pool pool;
-
-static int open_pool(void **state)
-{
-    (void)state;
-    pool_open(&pool, NULL);
-    return 0;
-}
-
-static int close_pool(void **state)
-{
-    (void)state;
-    pool_close(&pool);
-    return 0;
-}
-
 /* ---- (A.4) */
 
 static void printed_geometric(double force, double phi, double l, double *kg)
@@ -97,8 +81,8 @@ static double buckling_over_engesser(geometric_matrix *geometric)
     for (int i = 1; i < n; i++)
         if (i != n - 2)
             kept[count++] = i;
-    assert_status(matrix_new(&pool, n, 3, 0, NULL, &k), ROTID_OK);
-    assert_status(factor_new(&pool, FACTOR_CHOLESKY, &k, count, kept, &factor), ROTID_OK);
+    assert_status(matrix_new(&test_pool, n, 3, 0, NULL, &k), ROTID_OK);
+    assert_status(factor_new(&test_pool, FACTOR_CHOLESKY, &k, count, kept, &factor), ROTID_OK);
     for (int step = 0; step < 50; step++) {
         double load = (low + high) / 2, flexural[16], kg[16];
         rotid_element_stiffness(ei, kgs, l, flexural);
@@ -188,12 +172,12 @@ static void eq44_gives_9790_and_2002_where_table_2_has_9450_and_1930(void **stat
     int failed;
     rotor->nspring = 0;
     rotor->sling = 1;
-    assert_status(beam_build(&pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_OK);
+    assert_status(beam_build(&test_pool, rotor, 0, NULL, 1, &beam, &failed), ROTID_OK);
     assert_close(beam.rotor.spring[0].lateral, ke, 1e-3, 0); /* its own mass is 998.28 kg */
     assert_close(beam.rotor.spring[1].lateral, kl, 1e-3, 0);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_pool, close_pool)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
 
 int main(void)
 {

@@ -12,22 +12,6 @@
 #include "paper_rotor.h"
 #include "support.h"
 
-static struct pool pool;
-
-static int open_pool(void **state)
-{
-    (void)state;
-    pool_open(&pool, NULL);
-    return 0;
-}
-
-static int close_pool(void **state)
-{
-    (void)state;
-    pool_close(&pool);
-    return 0;
-}
-
 /* Fourth-order differences: derivative = sum of weight[s] f(x + step[s] h)/(12 h) */
 static const double step[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
 
@@ -75,7 +59,7 @@ static void pairs_at(const struct dense *d, double x, const double *like, double
     struct eigen_dense eigen;
     double k[N * N], m[N * N];
     matrices_at(d, x, k, m);
-    assert_status(eigen_dense_new(&pool, N, N, &eigen), ROTID_OK);
+    assert_status(eigen_dense_new(&test_pool, N, N, &eigen), ROTID_OK);
     assert_status(eigen_dense_solve(&eigen, k, m, lambda, phi), ROTID_OK);
     for (int j = 0; j < N && like; j++) {
         double same = 0;
@@ -169,7 +153,7 @@ static void eq38_needs_the_transpose_that_is_not_printed(void **state)
     (void)state;
     double worst = 0, off_printed = 0, off_dropped = 0;
     struct nelson_dense nelson;
-    assert_status(nelson_dense_new(&pool, N, &nelson), ROTID_OK);
+    assert_status(nelson_dense_new(&test_pool, N, &nelson), ROTID_OK);
     for (uint64_t seed = 1; seed <= 4; seed++)
         for (int mode = 0; mode < N; mode++) {
             struct dense d = random_problem(seed);
@@ -228,22 +212,22 @@ static void open_condensed(int parameter, struct condensed *c)
 {
     const double h = 1e-3;
     int failed;
-    assert_status(beam_build(&pool, paper_rotor(BUNDLE_TUBE, 1), 2, paper_parameters, 1, &c->beam, &failed), ROTID_OK);
+    assert_status(beam_build(&test_pool, paper_rotor(BUNDLE_TUBE, 1), 2, paper_parameters, 1, &c->beam, &failed), ROTID_OK);
     const struct mesh *mesh = &c->beam.mesh;
     rotid_matrix *all[] = {&c->k, &c->m, &c->dk, &c->dm};
     for (int i = 0; i < 4; i++)
-        assert_status(matrix_new(&pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, all[i]), ROTID_OK);
+        assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, all[i]), ROTID_OK);
     c->parameter = parameter;
     c->n = mesh->ndof;
     c->nc = PAPER_SENSORS;
-    c->master = POOL_ARRAY(&pool, int, c->nc);
+    c->master = POOL_ARRAY(&test_pool, int, c->nc);
     for (int i = 0; i < c->nc; i++)
         c->master[i] = 2 * mesh->sensor_node[i];
-    assert_status(reduction_new(&pool, ROTID_GUYAN, &c->k, c->nc, c->master, &c->r), ROTID_OK);
+    assert_status(reduction_new(&test_pool, ROTID_GUYAN, &c->k, c->nc, c->master, &c->r), ROTID_OK);
     size_t tall = (size_t)c->n * (size_t)c->nc, square = (size_t)c->nc * (size_t)c->nc;
-    c->dpsi = POOL_ARRAY(&pool, double, tall);
-    c->dkc = POOL_ARRAY(&pool, double, square);
-    c->dmc = POOL_ARRAY(&pool, double, square);
+    c->dpsi = POOL_ARRAY(&test_pool, double, tall);
+    c->dkc = POOL_ARRAY(&test_pool, double, square);
+    c->dmc = POOL_ARRAY(&test_pool, double, square);
     for (int s = 0; s < 4; s++) {
         double factor = weight[s] / (12 * h * paper_start[parameter]);
         at(c, step[s] * h);
@@ -259,9 +243,9 @@ static void open_condensed(int parameter, struct condensed *c)
 /* d psi [n * nc]: -K_ii^-1 (dK_ic + sign dK_ii phi_c) on the slaves, zero on the masters; printed with sign = -1 */
 static double *constraint_derivative(struct condensed *c, double sign)
 {
-    double *dpsi = POOL_ARRAY(&pool, double, c->n * c->nc), *u = POOL_ARRAY(&pool, double, c->n),
-           *force = POOL_ARRAY(&pool, double, c->n);
-    double *right = POOL_ARRAY(&pool, double, c->r.ni);
+    double *dpsi = POOL_ARRAY(&test_pool, double, c->n * c->nc), *u = POOL_ARRAY(&test_pool, double, c->n),
+           *force = POOL_ARRAY(&test_pool, double, c->n);
+    double *right = POOL_ARRAY(&test_pool, double, c->r.ni);
     for (int j = 0; j < c->nc; j++) {
         for (int i = 0; i < c->n; i++)
             u[i] = sign * c->psi[i + (ptrdiff_t)j * c->n];
@@ -280,7 +264,7 @@ static double *constraint_derivative(struct condensed *c, double sign)
 /* left' A right [nc * nc] */
 static double *congruence(const struct condensed *c, const double *left, const rotid_matrix *a, const double *right)
 {
-    double *product = POOL_ARRAY(&pool, double, c->nc * c->nc), *image = POOL_ARRAY(&pool, double, c->n);
+    double *product = POOL_ARRAY(&test_pool, double, c->nc * c->nc), *image = POOL_ARRAY(&test_pool, double, c->n);
     for (int j = 0; j < c->nc; j++) {
         matrix_multiply(a, 1, right + (ptrdiff_t)j * c->n, image);
         for (int i = 0; i < c->nc; i++)
@@ -305,7 +289,7 @@ static void eq39_has_a_plus_between_its_terms(void **state)
         struct condensed c;
         open_condensed(parameter, &c);
         size_t tall = (size_t)c.n * (size_t)c.nc;
-        double *unit = POOL_ARRAY(&pool, double, c.nc), *from_library = POOL_ARRAY(&pool, double, tall);
+        double *unit = POOL_ARRAY(&test_pool, double, c.nc), *from_library = POOL_ARRAY(&test_pool, double, tall);
         for (int j = 0; j < c.nc; j++) {
             unit[j] = 1;
             reduction_derivative_expand(&c.r, &c.dk, &c.dm, unit, from_library + (ptrdiff_t)j * c.n);
@@ -349,7 +333,7 @@ static void eq41_is_symmetric_in_its_second_term_where_printed_is_not(void **sta
         size_t square = (size_t)c.nc * (size_t)c.nc;
         const double *dpsi = constraint_derivative(&c, 1);
         double *corrected = congruence(&c, c.psi, &c.dm, c.psi), *cross = congruence(&c, c.psi, &c.m, dpsi);
-        double *printed = POOL_ARRAY(&pool, double, square), left[PAPER_SENSORS], right[PAPER_SENSORS];
+        double *printed = POOL_ARRAY(&test_pool, double, square), left[PAPER_SENSORS], right[PAPER_SENSORS];
         double product[2] = {0}, same[2] = {0}, asymmetry = 0; /* left' dM~ right and left' dM~ left: corrected, printed */
         for (int i = 0; i < c.nc; i++) {
             left[i] = random_normal(&stream);
@@ -377,7 +361,7 @@ static void eq41_is_symmetric_in_its_second_term_where_printed_is_not(void **sta
     }
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_pool, close_pool)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
 
 int main(void)
 {

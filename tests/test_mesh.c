@@ -52,27 +52,11 @@ static void add_rod(struct rotor *rotor, double from, double to, int elements)
                                              .pitch = 0.04};
 }
 
-static struct pool pool;
-
 static struct mesh build(const struct rotor *rotor, int refine)
 {
     struct mesh mesh;
-    assert_status(mesh_build(&pool, rotor, refine, &mesh), ROTID_OK);
+    assert_status(mesh_build(&test_pool, rotor, refine, &mesh), ROTID_OK);
     return mesh;
-}
-
-static int open_pool(void **state)
-{
-    (void)state;
-    pool_open(&pool, NULL);
-    return 0;
-}
-
-static int close_pool(void **state)
-{
-    (void)state;
-    pool_close(&pool);
-    return 0;
 }
 
 static void bare_rotor_keeps_the_nodes_of_its_segments(void **state)
@@ -328,7 +312,7 @@ static void no_memory_is_reported_at_every_allocation(void **state)
     assert_true(n > 5);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_pool, close_pool)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
 
 int main(void)
 {
