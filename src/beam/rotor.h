@@ -63,8 +63,10 @@ struct sensor {
     double position;
 };
 
+struct effect; /* beam/effect.h */
+
 struct rotor {
-    int ngroup, nsegment, ntierod, nbars, ndisk, nspring, nsensor;
+    int ngroup, nsegment, ntierod, nbars, ndisk, nspring, nsensor, neffect;
     struct group *group;
     struct segment *segment; /* in order along the axis, those of a group together */
     struct tierod *tierod;
@@ -72,6 +74,7 @@ struct rotor {
     struct disk *disk;
     struct spring *spring;
     struct sensor *sensor; /* by increasing position */
+    struct effect *effect; /* causes that are part of the model */
     double sling;          /* length, 0 where there is none */
 };
 

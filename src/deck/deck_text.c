@@ -21,14 +21,6 @@ struct reader {
     int out_of_memory;
 };
 
-int same_text(const char *a, const char *b)
-{
-    for (; *a && *b; a++, b++)
-        if (toupper((unsigned char)*a) != toupper((unsigned char)*b))
-            return 0;
-    return *a == *b;
-}
-
 const struct card_option *card_option(const struct card *card, const char *name)
 {
     for (int i = 0; i < card->noption; i++)

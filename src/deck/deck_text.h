@@ -4,6 +4,7 @@
 
 #include "base/message.h"
 #include "base/pool.h"
+#include "base/text.h"
 
 #define DECK_LINE_LENGTH   1024
 #define DECK_MOST_BYTES    (16l << 20) /* all files together: a rotor takes kilobytes */
@@ -66,7 +67,5 @@ int deck_text_override(struct pool *pool, const struct override *override, struc
 
 /* The option of that name, or NULL. */
 const struct card_option *card_option(const struct card *card, const char *name);
-
-int same_text(const char *a, const char *b); /* without regard to case */
 
 #endif

@@ -6,6 +6,7 @@
 #include "base/message.h"
 #include "base/pool.h"
 #include "beam/beam.h"
+#include "beam/effect.h"
 #include "beam/rotor.h"
 #include "rotid.h"
 
@@ -14,6 +15,27 @@ struct reference {
     const char *quantity; /* "error_percent", "predicted_hz", "sensitivity core.E" */
     int count;
     double *value;
+};
+
+/* A fault of the measurement chain, as a CAUSE card states it or the diagnosis finds it: see the causes of that class. */
+struct correction {
+    const char *name, *id; /* of the card; of the cause: "sensor_gain" */
+    int nsensor, sensor[2]; /* ids */
+    const char *block;      /* noise_level: "SHAPE" or "FREQUENCY", else NULL */
+    double value;           /* gain, shift [m], factor; 1 where the cause has none */
+};
+
+/* A candidate that the user wants judged: an effect of which some parameters are fixed and the others are searched. */
+struct suspect {
+    struct effect effect;
+    int fixed[EFFECT_MOST_PARAMETERS];
+};
+
+/* The measured data as they were read, where corrections have been applied to those of the job. */
+struct job_raw {
+    int nsensor;
+    struct sensor *sensor;
+    double *shape, *shape_std, *frequency_std;
 };
 
 struct job {
@@ -33,6 +55,13 @@ struct job {
     double *shape;         /* [nsensor * nmode] NaN where not measured, or NULL */
     double *shape_std;     /* [nsensor * nmode] relative to the largest component, NaN where there is none; or NULL */
     int *holdout;          /* [nmode] */
+
+    int ncorrection; /* already applied to the above; raw is NULL where there are none */
+    struct correction *correction;
+    struct job_raw *raw;
+
+    int nsuspect; /* CAUSE cards with SUSPECT: candidates for `diagnose`, no part of the model */
+    struct suspect *suspect;
 
     int nparameter;
     struct parameter *parameter; /* [nparameter] */

@@ -1,0 +1,57 @@
+/* What a cause changes in the beam. The beam knows only these hooks; the causes themselves live in src/diagnose/causes.
+ * An effect at its neutral values changes nothing. Every hook gives values (p < 0) or their derivatives with respect to its
+ * parameter p (p >= 0), and returns 0 where the effect leaves the thing alone or the derivative vanishes; the output is then not
+ * touched. A hook an effect has no use for is NULL. */
+#ifndef ROTID_BEAM_EFFECT_H
+#define ROTID_BEAM_EFFECT_H
+
+#include "beam/rotor.h"
+
+#define EFFECT_MOST_PARAMETERS 4
+
+struct effect_span { /* an element of the axis */
+    int group, segment;
+    double from, to; /* m */
+};
+
+/* Factors on the quantities of an element, none of which depends on the material's own values: E, G and rho of a group can be
+ * identified beside them. Neutral: 1 each; derivatives: 0 each. */
+struct effect_factors {
+    double ei, kgs, rhos, rhoi;
+};
+
+struct effect_bundle {     /* of tie rods */
+    double young, tension; /* factors on E (and on G with it) and on the tension */
+    int as_rods;           /* nonzero: coupled as RODS whatever the deck says; not differentiated */
+};
+
+struct effect_point { /* a lumped mass anywhere on the axis: deflection and rotation there follow from the element's shape */
+    double z, mass, inertia; /* m, kg, kg.m2 */
+};
+
+struct effect_parameter_name {
+    const char *name, *unit;
+};
+
+struct effect_kind {
+    const char *id; /* of method and deck: "stiffness_local" */
+    int nparameter;
+    struct effect_parameter_name parameter[EFFECT_MOST_PARAMETERS];
+    int (*axis)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                struct effect_factors *factors);
+    int (*tierod)(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle);
+    int (*spring)(const struct effect *effect, const struct rotor *rotor, int spring, int p, double *factor);
+    int (*point)(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point);
+    /* rotational spring in series at the end of group `target` [rad/(N.m)]; massless */
+    int (*joint)(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility);
+};
+
+struct effect {
+    const char *name; /* of the CAUSE card */
+    const struct effect_kind *kind;
+    int target;  /* index of the group, tie rod, spring or sensor; of the group left of an interface; -1: none */
+    int variant; /* of the kind, such as the shape of a soft zone */
+    double value[EFFECT_MOST_PARAMETERS];
+};
+
+#endif

@@ -1,0 +1,67 @@
+#include "diagnose/causes/catalogue.h"
+
+#include <stddef.h>
+
+#include "base/text.h"
+
+/* One line a cause, in the order of reports: numbers, measurement chain, physics. Adding a cause: its file, and a line here. */
+#define CATALOGUE(X)                                                                                                             \
+    X(mesh)                                                                                                                      \
+    X(guyan_reduction)                                                                                                           \
+    X(sensor_gain)                                                                                                               \
+    X(sensor_sign)                                                                                                               \
+    X(sensor_swap)                                                                                                               \
+    X(sensor_position)                                                                                                           \
+    X(duplicate_channel)                                                                                                         \
+    X(noise_level)                                                                                                               \
+    X(mode_pairing)                                                                                                              \
+    X(step_stiffness)                                                                                                            \
+    X(stiffness_gradient)                                                                                                        \
+    X(stiffness_profile)                                                                                                         \
+    X(stiffness_local)                                                                                                           \
+    X(joint)                                                                                                                     \
+    X(support)                                                                                                                   \
+    X(added_mass)                                                                                                                \
+    X(density)                                                                                                                   \
+    X(stiffness)                                                                                                                 \
+    X(tie_stiffness)                                                                                                             \
+    X(tie_tension)                                                                                                               \
+    X(tie_shear)                                                                                                                 \
+    X(shear_coefficient)                                                                                                         \
+    X(accelerometer_mass)
+
+#define DECLARE(id) extern const struct cause_kind cause_##id;
+CATALOGUE(DECLARE)
+#undef DECLARE
+
+static const struct cause_kind *const table[] = {
+#define ENTER(id) &cause_##id,
+    CATALOGUE(ENTER)
+#undef ENTER
+};
+
+int catalogue_count(void)
+{
+    return (int)(sizeof table / sizeof *table);
+}
+
+const struct cause_kind *catalogue_item(int i)
+{
+    return table[i];
+}
+
+const struct cause_kind *catalogue_find(const char *id)
+{
+    for (int i = 0; i < catalogue_count(); i++)
+        if (same_text(table[i]->id, id))
+            return table[i];
+    return NULL;
+}
+
+const struct cause_kind *catalogue_of(const struct effect *effect)
+{
+    for (int i = 0; i < catalogue_count(); i++)
+        if (table[i]->effect == effect->kind)
+            return table[i];
+    return NULL;
+}

@@ -1,0 +1,57 @@
+/* One cause of the catalogue: what the diagnosis needs to look for it, to judge it and to speak of it. Physical causes act on the
+ * beam through the hooks of `effect`; causes of the measurement chain and of the numbers act on the data or on nothing. */
+#ifndef ROTID_DIAGNOSE_CAUSES_CAUSE_H
+#define ROTID_DIAGNOSE_CAUSES_CAUSE_H
+
+#include "beam/effect.h"
+#include "beam/rotor.h"
+#include "run/job.h"
+
+enum cause_class { CAUSE_NUMERICAL, CAUSE_DATA, CAUSE_PHYSICAL };
+
+enum cause_target { /* what a CAUSE card names, and what the scan enumerates */
+    TARGET_NONE,
+    TARGET_GROUP,     /* GROUP= */
+    TARGET_INTERFACE, /* BETWEEN=left,right: two groups that follow each other */
+    TARGET_SPRING,    /* AT= name of a spring */
+    TARGET_TIEROD,    /* AT= name of a tie rod */
+    TARGET_SENSOR,    /* SENSOR= id */
+    TARGET_SENSORS,   /* SENSOR= two ids */
+    TARGET_BLOCK,     /* AT=SHAPE or FREQUENCY */
+    TARGET_MODES
+};
+
+struct cause_parameter {
+    double neutral; /* the effect vanishes here */
+    double typical; /* a size worth looking for: start of a fit where the scan gives none, point of a secant */
+    int one_sided;  /* 1: physical only above neutral, -1: only below, 0: both */
+};
+
+struct cause_kind {
+    const char *id;
+    enum cause_class class;
+    enum cause_target target;
+    const struct effect_kind *effect; /* NULL for other than physical causes */
+    struct cause_parameter parameter[EFFECT_MOST_PARAMETERS];
+    int size;            /* index of the parameter that is the size; the others are places and widths */
+    int place;           /* index of the parameter that is a place z, or -1 */
+    int width;           /* index of the parameter that is a width, or -1 */
+    int secant;          /* no derivative at neutral: the scan uses the difference to `typical` */
+    const char *variant[4]; /* words of option SHAPE= (stiffness_local) or MOUNT= (accelerometer_mass), NULL at the end */
+    const char *variant_option; /* "SHAPE", "MOUNT" or NULL */
+    /* the cause is an approximation: what it leaves, relative to frequencies and to the largest component of a shape */
+    double discrepancy_frequency, discrepancy_shape;
+    /* whether the cause makes sense for this target; identified [ngroup]: E or G of the group is free. NULL: always */
+    int (*applies)(const struct rotor *rotor, int target, const int *identified);
+    /* physical bounds of parameter p, lower < upper */
+    void (*bounds)(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper);
+    /* causes of the measurement chain: the value a CAUSE card gives ("gain", "1"), NULL where it gives none; and what takes the
+     * fault out of the data of a job, whose arrays may be changed in place. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_ARGUMENT */
+    struct effect_parameter_name value;
+    int (*correct)(struct pool *pool, struct job *job, const struct correction *correction);
+    /* half lines of text for reports */
+    const char *sentence; /* what it is: "a zone softer than its surroundings" */
+    const char *check;    /* how to tell it apart in the workshop: "weigh the end pieces" */
+};
+
+#endif
