@@ -32,6 +32,18 @@ void pool_close(struct pool *pool)
     pool->last = NULL;
 }
 
+void pool_absorb(struct pool *pool, struct pool *other)
+{
+    union header *oldest = other->last;
+    while (oldest && oldest->previous)
+        oldest = oldest->previous;
+    if (!oldest)
+        return;
+    oldest->previous = pool->last;
+    pool->last = other->last;
+    other->last = NULL;
+}
+
 void *pool_get(struct pool *pool, size_t count, size_t size)
 {
     if (size && count > (SIZE_MAX - sizeof(union header)) / size)

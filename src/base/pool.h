@@ -15,6 +15,9 @@ struct pool {
 void pool_open(struct pool *pool, const rotid_allocator *allocator);
 void pool_close(struct pool *pool);
 
+/* The pool takes over the blocks of another one, which is empty then; both have the same allocator. */
+void pool_absorb(struct pool *pool, struct pool *other);
+
 /* count * size zeroed bytes aligned for any type; NULL when memory is out or the product overflows. Zero bytes give a
  * valid pointer. */
 void *pool_get(struct pool *pool, size_t count, size_t size);

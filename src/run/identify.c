@@ -7,15 +7,6 @@
 
 #define ROUNDS 3 /* of fitting and pairing, should the pairs change with the model */
 
-static int check(const struct job *job, struct message_list *notes)
-{
-    if (!job->nparameter)
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck names nothing to identify, expected a card *IDENTIFY");
-    if (!job->nmode)
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes, expected *MODES or *MEASURED");
-    return job->nparameter && job->nmode ? ROTID_OK : ROTID_ERROR_ARGUMENT;
-}
-
 /* Which measured shapes the functional gets: with LIKELIHOOD those whose noise is known. */
 static int uses_shapes(const struct job *job)
 {
@@ -28,8 +19,9 @@ static int compute_spectrum(struct pool *pool, const struct job *job, const doub
     return spectrum_compute(pool, &job->rotor, job->nparameter, job->parameter, x, reduction, count, spectrum);
 }
 
-static int fit_once(struct pool *pool, const struct job *job, const struct comparison *compared, const rotid_fit_options *options,
-                    const rotid_environment *environment, struct mass_properties *mass, rotid_fit_result **fit)
+int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
+                 const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
+                 rotid_fit_result **fit)
 {
     struct client *client = POOL_NEW(pool, struct client);
     int failed, status = client ? client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, client, &failed)
@@ -38,14 +30,14 @@ static int fit_once(struct pool *pool, const struct job *job, const struct compa
         return status;
     int shapes = uses_shapes(job);
     rotid_measured measured = {.nmode = job->nmode,
-                               .number = compared->number,
+                               .number = number,
                                .frequency_hz = job->frequency_hz,
                                .frequency_std = job_knows_frequency_noise(job) ? job->frequency_std : NULL,
                                .shape = shapes ? job->shape : NULL,
                                .shape_std = shapes && job_knows_shape_noise(job) ? job->shape_std : NULL,
-                               .holdout = job->holdout};
+                               .holdout = holdout};
     status = rotid_fit(&client->model, job->bounds, &measured, options, environment, fit);
-    if (!status) { /* the beam stands at the last point that was evaluated; the mass wants the best one */
+    if (!status && mass) { /* the beam stands at the last point that was evaluated; the mass wants the best one */
         for (int p = 0; p < job->nparameter; p++)
             *parameter_value(&client->beam.rotor, job->parameter[p]) = (*fit)->x[p];
         beam_mass_properties(&client->beam, mass);
@@ -57,10 +49,12 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
                  struct message_list *notes, struct identification *out)
 {
     *out = (struct identification){0};
-    int status = check(job, notes), candidates = comparison_candidates(job);
+    int status, candidates = comparison_candidates(job);
     double *start = POOL_ARRAY(pool, double, job->nparameter);
-    if (status || !start)
-        return status ? status : ROTID_ERROR_MEMORY;
+    if (!job->nmode)
+        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes, expected *MODES or *MEASURED");
+    if (!job->nmode || !start)
+        return start ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
     for (int p = 0; p < job->nparameter; p++)
         start[p] = job->bounds[p].start;
     struct comparison before;
@@ -79,7 +73,7 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
     for (int round = 1;; round++) {
         rotid_fit_free(out->fit);
         out->fit = NULL;
-        status = fit_once(pool, job, &before, &options, environment, &out->mass, &out->fit);
+        status = identify_fit(pool, job, before.number, job->holdout, &options, environment, &out->mass, &out->fit);
         if (!status)
             status = compute_spectrum(pool, job, out->fit->x, candidates, &out->spectrum);
         message_open(&quiet, pool);

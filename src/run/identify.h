@@ -13,8 +13,14 @@ struct identification {
     struct mass_properties mass;
 };
 
-/* baseline: NLopt as well. Notes and reasons go to the list. Statuses of rotid_fit and of comparison_make, ROTID_ERROR_ARGUMENT
- * where the job has nothing to identify or nothing measured (the list says which). */
+/* One fit of a job with the pairing `number` [nmode] and the modes `holdout` [nmode] left out; no notes, no spectrum. mass may be
+ * NULL. Statuses of rotid_fit and client_open. */
+int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
+                 const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
+                 rotid_fit_result **fit);
+
+/* With nothing to identify the model is compared as it stands. baseline: NLopt as well. Notes and reasons go to the list. Statuses
+ * of rotid_fit and of comparison_make, ROTID_ERROR_ARGUMENT where nothing is measured (the list says so). */
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out);
 

@@ -1,0 +1,96 @@
+/* Which measurement would settle an ambiguity: the models that cannot be told apart by these data are asked for what was not
+ * measured yet, and where they differ most against the noise. */
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/engine.h"
+#include "diagnose/leave_out.h"
+#include "modal/prediction.h"
+#include "run/client.h"
+
+#define MORE_MODES 3 /* above the highest measured one */
+#define MOST_SET   6
+
+struct future { /* of one model */
+    int count;
+    double hz[32];
+};
+
+/* Frequencies of the model of a refit up to some modes beyond those measured. */
+static int foresee(struct pool *pool, const struct job *job, const double *x, int count, struct future *future)
+{
+    struct client client;
+    struct prediction p;
+    int failed, status = client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, &client, &failed);
+    future->count = count;
+    if (!status)
+        status = prediction_new(pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + count, 0, &p);
+    if (!status)
+        status = prediction_compute(&p, x);
+    for (int k = 0; k < count && !status; k++)
+        future->hz[k] = prediction_hz(&p, client.model.nrigid + k);
+    return status;
+}
+
+static double typical_noise(const struct job *job)
+{
+    double sum = 0;
+    for (int k = 0; k < job->nmode; k++)
+        sum += job->frequency_std[k] * job->frequency_std[k];
+    return sqrt(sum / job->nmode);
+}
+
+static const char *sentence(struct engine *engine, const struct candidate *first, const struct candidate *second, int mode,
+                            double hz_first, double hz_second, double apart)
+{
+    const struct job *job = &engine->job;
+    int has_shapes = job->shape && job_knows_shape_noise(job);
+    const char *shapes = has_shapes ? "" : "measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); ";
+    if (apart < 1)
+        return pool_format(engine->pool, "%smore modes will not separate %s from %s; to settle it, %s", shapes, first->cause->id,
+                           second->cause->id, first->cause->check);
+    return pool_format(engine->pool,
+                       "%smeasure mode %d: %.6g Hz if it is %s, %.6g Hz if it is %s (%.1f standard deviations apart); or %s", shapes,
+                       mode, hz_first, first->cause->id, hz_second, second->cause->id, apart, first->cause->check);
+}
+
+const char *advise(struct engine *engine, const struct diagnosis_round *round, const struct round_result *last)
+{
+    const struct job *job = &engine->job;
+    struct future future[MOST_SET];
+    const struct candidate *member[MOST_SET];
+    int count = 0, highest = 0, set = round->nset > 1 ? round->nset : 2;
+    for (int k = 0; k < job->nmode; k++)
+        highest = engine->number[k] > highest ? engine->number[k] : highest;
+    int modes = highest + MORE_MODES < 32 ? highest + MORE_MODES : 32;
+    for (int i = 0; i < round->ncandidate && i < set && count < MOST_SET; i++)
+        for (int r = 0; r < last->nrefit; r++) {
+            const struct refit *refit = &last->refit[r];
+            if (!refit->fit || refit->chi2 != round->candidate[i].chi2)
+                continue;
+            struct pool scratch;
+            pool_open(&scratch, engine->pool->allocator);
+            if (!foresee(&scratch, &refit->job, refit->fit->x, modes, &future[count]))
+                member[count++] = &round->candidate[i];
+            pool_close(&scratch);
+            break;
+        }
+    if (count < 2)
+        return pool_format(engine->pool, "%smore modes and more points along the rotor; %s",
+                           job->shape && job_knows_shape_noise(job) ? "" : "measure mode shapes, ",
+                           count ? member[0]->cause->check : "the geometry, masses and materials of the deck are worth checking");
+    int best_mode = highest;
+    double best = 0, noise = typical_noise(job);
+    for (int k = 0; k < modes; k++) {
+        int measured = 0;
+        for (int m = 0; m < job->nmode; m++)
+            measured |= engine->number[m] == k + 1 && !engine->holdout[m];
+        double apart = fabs(future[0].hz[k] - future[1].hz[k]) / (noise * future[0].hz[k]);
+        if (!measured && apart > best) {
+            best = apart;
+            best_mode = k;
+        }
+    }
+    int k = best_mode < modes ? best_mode : modes - 1;
+    return sentence(engine, member[0], member[1], k + 1, future[0].hz[k], future[1].hz[k], best);
+}

@@ -1,0 +1,196 @@
+/* Faults of the measurement chain and the level of the noise: found by the checks, said, taken out of the judged data. */
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/sensor.h"
+#include "diagnose/engine.h"
+#include "diagnose/noise_check.h"
+#include "diagnose/sensor_check.h"
+
+#define MOST_FAULTS 8
+#define FALSE_ALARM 0.005
+
+int data_add_finding(struct engine *engine, const struct data_finding *finding)
+{
+    struct diagnosis *out = engine->out;
+    struct data_finding *more = POOL_ARRAY(engine->pool, struct data_finding, out->ndata_finding + 1);
+    if (!more || !finding->text)
+        return ROTID_ERROR_MEMORY;
+    if (out->ndata_finding)
+        memcpy(more, out->data_finding, (size_t)out->ndata_finding * sizeof *more);
+    more[out->ndata_finding++] = *finding;
+    out->data_finding = more;
+    return ROTID_OK;
+}
+
+static const char *fault_id[] = {[FAULT_GAIN] = "sensor_gain",         [FAULT_SIGN] = "sensor_sign",
+                                 [FAULT_SWAP] = "sensor_swap",         [FAULT_POSITION] = "sensor_position",
+                                 [FAULT_DUPLICATE] = "duplicate_channel", [FAULT_DEAD] = "duplicate_channel"};
+
+static const char *describe(struct pool *pool, enum sensor_fault_kind kind, double value, const int *id)
+{
+    switch (kind) {
+    case FAULT_GAIN:
+        return pool_format(pool, "sensor %d reads %.3g times what it should; its components are divided by that", id[0],
+                           value);
+    case FAULT_SIGN:
+        return pool_format(pool, "sensor %d has the wrong sign; it is turned", id[0]);
+    case FAULT_SWAP:
+        return pool_format(pool, "sensors %d and %d are exchanged; they are put back", id[0], id[1]);
+    case FAULT_POSITION:
+        return pool_format(pool, "sensor %d sits %.0f mm further %s than stated; it is moved", id[0], 1e3 * fabs(value),
+                           value > 0 ? "right" : "left");
+    case FAULT_DUPLICATE:
+        return pool_format(pool, "sensor %d records what sensor %d records; it is left out", id[0], id[1]);
+    default:
+        return pool_format(pool, "sensor %d is dead; it is left out", id[0]);
+    }
+}
+
+/* shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one */
+static int shape_data(struct engine *engine, struct columns *columns, struct shape_data *data)
+{
+    struct pool *pool = engine->pool;
+    const struct job *job = &engine->job;
+    const struct mesh *mesh = &columns->client.beam.mesh;
+    const struct prediction *p = &columns->functional.prediction;
+    int nsensor = job->rotor.nsensor, nmode = columns->nmode;
+    double *z = POOL_ARRAY(pool, double, nsensor), *shape = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
+           *std = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
+           *axis = POOL_ARRAY(pool, double, (size_t)mesh->naxis *(size_t)nmode);
+    if (!z || !shape || !std || !axis)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < nsensor; s++)
+        z[s] = job->rotor.sensor[s].position;
+    for (int m = 0; m < nmode; m++) {
+        const struct columns_mode *mode = &columns->mode[m];
+        ptrdiff_t from = (ptrdiff_t)mode->k * nsensor, to = (ptrdiff_t)m * nsensor;
+        memcpy(shape + to, columns->functional.shape + from, (size_t)nsensor * sizeof *shape);
+        memcpy(std + to, job->shape_std + from, (size_t)nsensor * sizeof *std);
+        for (int i = 0; i < mesh->naxis; i++)
+            axis[i + (ptrdiff_t)m * mesh->naxis] = mode->scale * p->phi[2 * i + (ptrdiff_t)mode->pair * p->size];
+    }
+    *data = (struct shape_data){nsensor, nmode, z, shape, std, mesh->naxis, mesh->z, axis};
+    return ROTID_OK;
+}
+
+static int correct(struct engine *engine, const struct data_finding *finding, const struct correction *found)
+{
+    struct job *job = &engine->job;
+    struct correction *more = POOL_ARRAY(engine->pool, struct correction, job->ncorrection + 1), correction = *found;
+    correction.name = pool_format(engine->pool, "fault_%d", job->ncorrection + 1);
+    correction.id = finding->cause->id;
+    int status = more && correction.name ? data_add_finding(engine, finding) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = corrections_keep_raw(engine->pool, job);
+    if (!status)
+        status = correction_apply(engine->pool, job, &correction);
+    if (status)
+        return status;
+    if (job->ncorrection)
+        memcpy(more, job->correction, (size_t)job->ncorrection * sizeof *more);
+    more[job->ncorrection++] = correction;
+    job->correction = more;
+    return ROTID_OK;
+}
+
+static int correct_fault(struct engine *engine, const struct sensor_fault *fault)
+{
+    struct job *job = &engine->job;
+    enum sensor_fault_kind kind = fault->kind == FAULT_GAIN && fault->value < 0 ? FAULT_SIGN : fault->kind;
+    int two = fault->other >= 0, nsensor = job->rotor.nsensor;
+    struct data_finding finding = {.cause = catalogue_find(fault_id[kind]),
+                                   .nsensor = 1 + two,
+                                   .value = kind == FAULT_GAIN || kind == FAULT_POSITION ? fault->value : NAN,
+                                   .std = fault->std,
+                                   .chi2_drop = fault->chi2_drop};
+    finding.sensor[0] = job->rotor.sensor[fault->sensor].id;
+    finding.sensor[1] = two ? job->rotor.sensor[fault->other].id : 0;
+    finding.text = describe(engine->pool, kind, fault->value, finding.sensor);
+    if (kind == FAULT_DEAD) { /* nothing to put right: as if it had not been there */
+        for (int k = 0; k < job->nmode; k++)
+            job->shape[fault->sensor + (ptrdiff_t)k * nsensor] = NAN;
+        return data_add_finding(engine, &finding);
+    }
+    struct correction correction = {.nsensor = 1 + two,
+                                    .sensor = {finding.sensor[0], finding.sensor[1]},
+                                    .value = isfinite(finding.value) ? finding.value : 1};
+    return correct(engine, &finding, &correction);
+}
+
+static int correct_noise(struct engine *engine, const struct noise_estimate *noise)
+{
+    double factor = noise->coloured ? fmax(1, noise->smooth_factor) : noise->factor;
+    struct data_finding finding = {
+        .cause = catalogue_find("noise_level"), .block = "SHAPE", .value = factor, .std = noise->std * factor, .chi2_drop = NAN};
+    finding.text =
+        noise->coloured
+            ? pool_format(engine->pool,
+                          "neighbouring sensors share their noise: the smooth part of it is %.2f times the stated level, which "
+                          "is used",
+                          factor)
+            : pool_format(engine->pool, "the noise of the shapes is %.2f times the stated one, which is used", factor);
+    const struct correction correction = {.block = "SHAPE", .value = factor};
+    return correct(engine, &finding, &correction);
+}
+
+/* The level of the noise by what no cause can produce. */
+static int check_noise(struct engine *engine, const struct scan *scan, struct noise_estimate *noise)
+{
+    int first = scan->nfrequency, rows = scan->nrow - first, columns = scan->nbasis + scan->nitem;
+    *noise = (struct noise_estimate){.factor = 1};
+    double *part = POOL_ARRAY(engine->pool, double, (size_t)rows *(size_t)columns);
+    if (!part)
+        return ROTID_ERROR_MEMORY;
+    for (int j = 0; j < columns && rows > 0; j++)
+        memcpy(part + (ptrdiff_t)j * rows,
+               (j < scan->nbasis ? scan->basis + (ptrdiff_t)j * scan->nrow : scan->column + (ptrdiff_t)(j - scan->nbasis) * scan->nrow) +
+                   first,
+               (size_t)rows * sizeof *part);
+    return rows > 0 ? noise_check(engine->pool, rows, columns, scan->r + first, part, noise) : ROTID_OK;
+}
+
+int data_clean(struct engine *engine, const struct scan *scan, int *changed)
+{
+    struct job *job = &engine->job;
+    struct noise_estimate noise;
+    *changed = 0;
+    if (!job->shape || !job_knows_shape_noise(job))
+        return ROTID_OK;
+    int status = check_noise(engine, scan, &noise), nfault = 0;
+    struct columns columns;
+    struct shape_data data;
+    struct sensor_fault fault[MOST_FAULTS];
+    if (!status)
+        status = columns_open(engine->pool, job, engine->number, engine->holdout, NULL, engine->fit->x, &columns);
+    if (!status)
+        status = shape_data(engine, &columns, &data);
+    if (status)
+        return status;
+    if (noise.usable && noise.misstated) { /* the faults are judged by the noise that is there */
+        double *std = POOL_ARRAY(engine->pool, double, (size_t)data.nsensor *(size_t)data.nmode);
+        if (!std)
+            return ROTID_ERROR_MEMORY;
+        for (ptrdiff_t i = 0; i < (ptrdiff_t)data.nsensor * data.nmode; i++)
+            std[i] = data.std[i] * noise.factor;
+        data.std = std;
+    }
+    status = sensor_check(engine->pool, &data, FALSE_ALARM, MOST_FAULTS, fault, &nfault);
+    for (int i = 0; i < nfault && !status; i++) {
+        /* a moved sensor changes the order: later faults are given by their place in the order at the time of the check */
+        struct sensor_fault now = fault[i];
+        double z = data.z[fault[i].sensor], other = fault[i].other >= 0 ? data.z[fault[i].other] : NAN;
+        for (int s = 0; s < job->rotor.nsensor; s++) {
+            now.sensor = job->rotor.sensor[s].position == z ? s : now.sensor;
+            now.other = job->rotor.sensor[s].position == other ? s : now.other;
+        }
+        status = correct_fault(engine, &now);
+        *changed = 1;
+    }
+    if (!status && noise.usable && (noise.misstated || noise.coloured)) {
+        status = correct_noise(engine, &noise);
+        *changed = 1;
+    }
+    return status;
+}

@@ -1,0 +1,220 @@
+#include "diagnose/columns.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "linalg/matrix.h"
+
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* (K - lambda M)^+ on M phi and on the unit vectors of the sensors; the component that Nelson leaves out stays zero, and with zeros
+ * for M phi and Q nothing is added along phi: that is the caller's. */
+static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *unit, struct columns_mode *mode)
+{
+    const struct prediction *p = &c->functional.prediction;
+    int n = p->size;
+    const double *phi = p->phi + (ptrdiff_t)mode->pair * n;
+    int status = nelson_band_prepare(nelson, &p->k, &p->m, p->lambda[mode->pair], phi);
+    if (status)
+        return status;
+    matrix_multiply(&p->m, 1, phi, mode->m_phi);
+    nelson_band_solve(nelson, 1, phi, zero, mode->m_phi, zero, mode->adjoint_m);
+    memset(unit, 0, (size_t)n * (size_t)mode->sensors * sizeof *unit);
+    for (int i = 0; i < mode->sensors; i++)
+        unit[c->client.model.master[mode->sensor[i]] + (ptrdiff_t)i * n] = 1;
+    if (mode->sensors)
+        nelson_band_solve(nelson, mode->sensors, phi, zero, unit, zero, mode->adjoint);
+    return ROTID_OK;
+}
+
+static int open_mode(struct pool *pool, struct columns *c, int k, struct columns_mode *mode)
+{
+    const struct functional *f = &c->functional;
+    const rotid_measured *measured = &c->measured;
+    int nmaster = c->client.model.nmaster, n = f->prediction.size;
+    *mode = (struct columns_mode){.k = k, .pair = f->pair[k]};
+    int *sensor = POOL_ARRAY(pool, int, nmaster);
+    if (!sensor)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < nmaster && f->shape && measured->shape_std; s++)
+        if (isfinite(f->shape[s + (ptrdiff_t)k * nmaster]))
+            sensor[mode->sensors++] = s;
+    mode->sensor = sensor;
+    mode->m_phi = POOL_ARRAY(pool, double, n);
+    mode->adjoint_m = POOL_ARRAY(pool, double, n);
+    mode->adjoint = POOL_ARRAY(pool, double, (size_t)n *(size_t)mode->sensors);
+    mode->weighted = POOL_ARRAY(pool, double, mode->sensors);
+    if (!mode->m_phi || !mode->adjoint_m || !mode->adjoint || !mode->weighted)
+        return ROTID_ERROR_MEMORY;
+    double b = 0;
+    for (int i = 0; i < mode->sensors; i++) {
+        ptrdiff_t at = sensor[i] + (ptrdiff_t)k * nmaster;
+        mode->weighted[i] = prediction_at_sensor(&f->prediction, mode->pair, sensor[i]) / measured->shape_std[at];
+        mode->square += mode->weighted[i] * mode->weighted[i];
+        b += mode->weighted[i] * f->shape[at] / measured->shape_std[at];
+    }
+    mode->scale = mode->square > 0 ? b / mode->square : 0;
+    return ROTID_OK;
+}
+
+static int open_model(struct pool *pool, const struct job *job, const struct effect *extra, struct columns *c)
+{
+    struct rotor rotor = job->rotor;
+    int effects = rotor.neffect, nparameter = job->nparameter, failed;
+    int added = extra ? EFFECT_MOST_PARAMETERS : 0;
+    struct effect *effect = POOL_ARRAY(pool, struct effect, effects + 1);
+    struct parameter *parameter = POOL_ARRAY(pool, struct parameter, nparameter + added);
+    if (!effect || !parameter)
+        return ROTID_ERROR_MEMORY;
+    if (effects)
+        memcpy(effect, rotor.effect, (size_t)effects * sizeof *effect);
+    if (nparameter)
+        memcpy(parameter, job->parameter, (size_t)nparameter * sizeof *parameter);
+    if (extra)
+        effect[rotor.neffect++] = *extra;
+    for (int i = 0; i < added; i++)
+        parameter[nparameter + i] = (struct parameter){.kind = PARAMETER_EFFECT, .index = effects, .component = i};
+    rotor.effect = effect;
+    return client_open(pool, &rotor, nparameter + added, parameter, 1, &c->client, &failed);
+}
+
+int columns_open(struct pool *pool, const struct job *job, const int *number, const int *holdout, const struct effect *extra,
+                 const double *x, struct columns *c)
+{
+    *c = (struct columns){.job = job};
+    int status = open_model(pool, job, extra, c);
+    if (status)
+        return status;
+    int n = c->client.model.n, nparam = c->client.model.nparam, shapes = job->shape && job_knows_shape_noise(job);
+    c->measured = (rotid_measured){.nmode = job->nmode,
+                                   .number = number,
+                                   .frequency_hz = job->frequency_hz,
+                                   .frequency_std = job->frequency_std,
+                                   .shape = shapes ? job->shape : NULL,
+                                   .shape_std = shapes ? job->shape_std : NULL,
+                                   .holdout = holdout};
+    status = functional_new(pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &c->client.model, &c->measured,
+                            &c->functional);
+    if (status)
+        return status;
+    c->nrow = c->functional.nresidual;
+    c->mode = POOL_ARRAY(pool, struct columns_mode, job->nmode);
+    c->x = POOL_ARRAY(pool, double, nparam);
+    c->r = POOL_ARRAY(pool, double, c->nrow);
+    int most = c->client.model.nmaster > 1 ? c->client.model.nmaster : 1;
+    double *vectors = POOL_ARRAY(pool, double, 3 * (size_t)n), *zero = POOL_ARRAY(pool, double, n > most ? n : most),
+           *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
+    if (!c->mode || !c->x || !c->r || !vectors || !zero || !unit)
+        return ROTID_ERROR_MEMORY;
+    c->dk_phi = vectors;
+    c->dm_phi = vectors + n;
+    c->right = vectors + 2 * (ptrdiff_t)n;
+    for (int p = 0; p < nparam; p++)
+        c->x[p] = x && p < job->nparameter ? x[p] : *parameter_value(&c->client.beam.rotor, c->client.beam.parameter[p]);
+    const rotid_matrix *k = &c->functional.prediction.k;
+    status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dk);
+    if (!status)
+        status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dm);
+    struct nelson_band nelson;
+    if (!status)
+        status = nelson_band_new(pool, k, most, &nelson);
+    if (!status)
+        status = functional_residual(&c->functional, c->x, c->r);
+    for (int m = 0; m < job->nmode && !status; m++) {
+        if (holdout && holdout[m])
+            continue;
+        struct columns_mode *mode = &c->mode[c->nmode++];
+        status = open_mode(pool, c, m, mode);
+        if (!status)
+            status = solve_adjoints(c, &nelson, zero, unit, mode);
+    }
+    return status;
+}
+
+/* takes the direction of the scale out of a column's part of one mode: the best scale follows every change */
+static void project_scale(const struct columns_mode *mode, double *part)
+{
+    if (!(mode->square > 0))
+        return;
+    double along = dot(mode->sensors, mode->weighted, part) / mode->square;
+    for (int i = 0; i < mode->sensors; i++)
+        part[i] -= along * mode->weighted[i];
+}
+
+/* The derivative of the best scale also turns the residual itself: with r = a u - m, u = phi/s, a = u'm/u'u and du,
+ * dr = a (I - P) du - u (du' r)/(u'u), where P projects on u. */
+static void shape_part(const struct columns *c, const struct columns_mode *mode, double *dphi, const double *r, double *part)
+{
+    const double *std = c->measured.shape_std + (ptrdiff_t)mode->k * c->client.model.nmaster;
+    double along = 0;
+    for (int i = 0; i < mode->sensors; i++) {
+        dphi[i] /= std[mode->sensor[i]];
+        along += dphi[i] * r[i];
+        part[i] = mode->scale * dphi[i];
+    }
+    project_scale(mode, part);
+    for (int i = 0; i < mode->sensors; i++)
+        part[i] -= mode->weighted[i] * along / mode->square;
+}
+
+int columns_parameter(struct columns *c, int p, double *column)
+{
+    const rotid_model *model = &c->client.model;
+    const struct prediction *prediction = &c->functional.prediction;
+    int n = model->n, row = c->nmode;
+    matrix_zero(&c->dk);
+    matrix_zero(&c->dm);
+    if (model->derivatives(model->user, c->x, p, &c->dk, &c->dm))
+        return ROTID_ERROR_CALLBACK;
+    for (int m = 0; m < c->nmode; m++) {
+        const struct columns_mode *mode = &c->mode[m];
+        const double *phi = prediction->phi + (ptrdiff_t)mode->pair * n;
+        double lambda = prediction->lambda[mode->pair];
+        matrix_multiply(&c->dk, 1, phi, c->dk_phi);
+        matrix_multiply(&c->dm, 1, phi, c->dm_phi);
+        double mass = dot(n, phi, c->dm_phi), dlambda = dot(n, phi, c->dk_phi) - lambda * mass;
+        for (int i = 0; i < n; i++)
+            c->right[i] = -(c->dk_phi[i] - dlambda * mode->m_phi[i] - lambda * c->dm_phi[i]);
+        column[m] = dlambda / (2 * sqrt(lambda) * c->functional.omega[mode->k] * c->measured.frequency_std[mode->k]);
+        double along = -0.5 * mass - dot(n, mode->adjoint_m, c->right), *dphi = c->dk_phi;
+        for (int i = 0; i < mode->sensors; i++)
+            c->dm_phi[i] = dot(n, mode->adjoint + (ptrdiff_t)i * n, c->right) + along * phi[model->master[mode->sensor[i]]];
+        memcpy(dphi, c->dm_phi, (size_t)mode->sensors * sizeof *dphi);
+        shape_part(c, mode, dphi, c->r + row, column + row);
+        row += mode->sensors;
+    }
+    return ROTID_OK;
+}
+
+void columns_probe(struct columns *c, const struct effect *effect)
+{
+    struct rotor *rotor = &c->client.beam.rotor;
+    rotor->effect[rotor->neffect - 1] = *effect;
+    for (int i = 0; i < EFFECT_MOST_PARAMETERS; i++)
+        c->x[c->job->nparameter + i] = effect->value[i];
+}
+
+int columns_residual(struct columns *c, const double *x, double *r)
+{
+    return functional_residual(&c->functional, x, r);
+}
+
+void columns_sensor(const struct columns *c, int s, const double *d, double *column)
+{
+    int row = c->nmode;
+    memset(column, 0, (size_t)c->nrow * sizeof *column);
+    for (int m = 0; m < c->nmode; m++) {
+        const struct columns_mode *mode = &c->mode[m];
+        for (int i = 0; i < mode->sensors; i++)
+            if (mode->sensor[i] == s)
+                column[row + i] = d[m] / c->measured.shape_std[s + (ptrdiff_t)mode->k * c->client.model.nmaster];
+        project_scale(mode, column + row);
+        row += mode->sensors;
+    }
+}

@@ -1,0 +1,153 @@
+/* The end of a diagnosis: the extended model fitted to the end, the gain on what was and was not fitted, and the verdict. */
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/engine.h"
+#include "diagnose/leave_out.h"
+#include "fit/quantile.h"
+
+static int quality(struct engine *engine, const struct job *job, const struct identification *identified, struct fit_quality *q)
+{
+    const rotid_fit_result *fit = identified->fit;
+    double unused, standardised;
+    *q = (struct fit_quality){.nco_min = NAN};
+    fitted_errors(job, engine->holdout, fit, 0, &q->frequency_rms_percent, &q->frequency_max_percent, &q->shape_rms);
+    fitted_errors(job, engine->holdout, fit, 1, &q->holdout_frequency_rms_percent, &unused, &q->holdout_shape_rms);
+    q->chi2_per_dof = fit->chi2_per_dof;
+    for (int k = 0; k < job->nmode; k++)
+        if (isfinite(identified->compared.nco[k]))
+            q->nco_min = fmin(isfinite(q->nco_min) ? q->nco_min : 2, identified->compared.nco[k]);
+    struct job started;
+    int status = job_started_at(engine->pool, job, fit->x, &started);
+    const struct job *models[1] = {&started};
+    if (!status)
+        status = modes_in_turn(engine, 1, models, &q->mode_out_frequency_rms_percent, &q->mode_out_shape_rms);
+    return status ? status : sensor_out(engine->pool, job, engine->holdout, fit, &standardised, &q->sensor_out_shape_rms);
+}
+
+/* Values and intervals of the named causes in the final fit. */
+static void settle_causes(struct diagnosis *out)
+{
+    const struct job *job = &out->extended_job;
+    const rotid_fit_result *fit = out->extended.fit;
+    for (int c = 0; c < out->ncause; c++) {
+        struct candidate *cause = &out->cause[c];
+        for (int e = 0; e < job->rotor.neffect; e++) {
+            if (strcmp(job->rotor.effect[e].name, cause->effect.name))
+                continue;
+            effect_at(job, e, fit->x, &cause->effect);
+            for (int p = 0; p < fit->n; p++) {
+                const struct parameter *q = &job->parameter[p];
+                if (q->kind != PARAMETER_EFFECT || q->index != e)
+                    continue;
+                cause->std[q->component] = fit->std[p];
+                cause->ci_lower[q->component] = fit->ci_lower[p];
+                cause->ci_upper[q->component] = fit->ci_upper[p];
+            }
+        }
+    }
+}
+
+static const char *describe(struct pool *pool, const struct candidate *c)
+{
+    const struct cause_kind *cause = c->cause;
+    const char *text = pool_format(pool, "%s%s%s", cause->id, c->target[0] ? " of " : "", c->target);
+    for (int p = 0; p < c->nparameter && text; p++)
+        text = pool_format(pool, "%s%s%s %.3g%s%s", text, p ? ", " : " (", cause->effect->parameter[p].name, c->effect.value[p],
+                           strcmp(cause->effect->parameter[p].unit, "1") ? " " : "",
+                           strcmp(cause->effect->parameter[p].unit, "1") ? cause->effect->parameter[p].unit : "");
+    return c->nparameter && text ? pool_format(pool, "%s)", text) : text;
+}
+
+static const char *list(struct pool *pool, int count, const struct candidate *c)
+{
+    const char *text = "";
+    for (int i = 0; i < count && text; i++) {
+        const char *one = describe(pool, &c[i]);
+        text = one ? pool_format(pool, "%s%s%s", text, !i ? "" : i + 1 == count ? " and " : ", ", one) : NULL;
+    }
+    return text;
+}
+
+/* Parameters of the base model that the data leave open, as half a sentence. */
+static const char *open_parameters(struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    const rotid_fit_result *fit = out->base.fit;
+    const char *text = "";
+    for (int p = 0; p < fit->n && text; p++) {
+        if (fit->identifiable[p])
+            continue;
+        text = pool_format(engine->pool, "%s%s%s (95 %% interval %.3g to %.3g %s)", text, out->undetermined ? ", " : "",
+                           out->job.bounds[p].name, fit->ci_lower[p], fit->ci_upper[p], out->job.bounds[p].unit);
+        out->undetermined++;
+    }
+    if (!text || !out->undetermined)
+        return text;
+    return pool_format(engine->pool, " The data do not determine %s.", text);
+}
+
+static const char *verdict_sentence(struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    struct pool *pool = engine->pool;
+    const struct diagnosis_round *last = out->nround ? &out->round[out->nround - 1] : NULL;
+    const char *causes = list(pool, out->ncause, out->cause), *others = list(pool, out->nalternative, out->alternative);
+    const char *open = open_parameters(engine), *faults = "";
+    if (out->ndata_finding)
+        faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->ndata_finding,
+                             out->ndata_finding == 1 ? "" : "s", out->ndata_finding == 1 ? "was" : "were");
+    if (!causes || !others || !open || !faults)
+        return NULL;
+    switch (out->kind) {
+    case VERDICT_ADEQUATE:
+        return pool_format(pool, "The model explains the data within their noise (p = %.2g).%s%s", out->p_value, faults, open);
+    case VERDICT_NAMED:
+        return pool_format(pool, "The model lacks %s; with %s it %s (p = %.2g before).%s%s", causes, out->ncause > 1 ? "them" : "it",
+                           out->adequate_after ? "explains the data within their noise"
+                           : out->nalternative ? "leaves a rest that more than one cause would explain"
+                                               : "still leaves more than noise",
+                           out->p_value, faults, open);
+    case VERDICT_AMBIGUOUS:
+        return pool_format(pool,
+                           "The model does not explain the data (p = %.2g), and the data cannot tell which of %s it is%s.%s%s",
+                           out->p_value, others, engine->confident ? "" : ", nor with confidence that it is any", faults, open);
+    default:
+        return pool_format(pool,
+                           "The model does not explain the data (p = %.2g, chi2 %.3g for %d degrees of freedom), and nothing in the "
+                           "catalogue earns its parameters.%s%s",
+                           out->p_value, last ? out->round[0].chi2 : NAN, last ? out->round[0].dof : 0, faults, open);
+    }
+}
+
+int conclude(struct engine *engine, const struct round_result *last)
+{
+    struct diagnosis *out = engine->out;
+    int status = engine_stage(engine, "final model, causes", out->ncause);
+    if (!status)
+        status = quality(engine, &out->job, &out->base, &out->before);
+    out->after = out->before;
+    if (!status && out->ncause) {
+        out->extended_job = engine->job;
+        out->extended_job.frequency_std = engine->stated_std;
+        struct message_list quiet;
+        message_open(&quiet, engine->pool);
+        status = identify_run(engine->pool, &out->extended_job, 0, engine->environment, &quiet, &out->extended);
+        if (!status) {
+            settle_causes(out);
+            status = job_started_at(engine->pool, &out->extended_job, out->extended.fit->x, &out->extended_job);
+        }
+        for (int e = 0; e < out->extended_job.rotor.neffect && !status; e++)
+            effect_at(&out->extended_job, e, out->extended.fit->x, &out->extended_job.rotor.effect[e]);
+        if (!status)
+            status = quality(engine, &out->extended_job, &out->extended, &out->after);
+    }
+    engine_step(engine, "gain");
+    if (!status && last && last->scan.ncandidate)
+        status = detectable_sizes(engine, last);
+    engine_step(engine, "blind spots");
+    if (status)
+        return status;
+    out->sentence = verdict_sentence(engine);
+    return out->sentence ? ROTID_OK : ROTID_ERROR_MEMORY;
+}

@@ -1,0 +1,200 @@
+/* The data that are judged: a copy of the job's, with a noise, without what cannot be judged, and without faults. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/engine.h"
+
+#define ASSUMED_FREQUENCY_NOISE 0.003 /* of a hammer test with care, where the deck states none */
+#define LEAST_MODES             3     /* fewer cannot carry a name: with two moduli free nothing is left over */
+#define LEAST_SPAN              0.5   /* of the rotor's length, by the sensors */
+
+static void *copy(struct pool *pool, const void *source, size_t count, size_t size)
+{
+    void *to = pool_get(pool, count, size);
+    if (to && source && count)
+        memcpy(to, source, count * size);
+    return to;
+}
+
+static int copy_data(struct pool *pool, struct job *job)
+{
+    size_t components = (size_t)job->rotor.nsensor * (size_t)job->nmode;
+    job->rotor.sensor = copy(pool, job->rotor.sensor, (size_t)job->rotor.nsensor, sizeof *job->rotor.sensor);
+    job->number = copy(pool, job->number, (size_t)job->nmode, sizeof *job->number);
+    job->frequency_hz = copy(pool, job->frequency_hz, (size_t)job->nmode, sizeof *job->frequency_hz);
+    job->damping = copy(pool, job->damping, (size_t)job->nmode, sizeof *job->damping);
+    job->frequency_std = copy(pool, job->frequency_std, (size_t)job->nmode, sizeof *job->frequency_std);
+    job->holdout = copy(pool, job->holdout, (size_t)job->nmode, sizeof *job->holdout);
+    if (!job->rotor.sensor || !job->number || !job->frequency_hz || !job->damping || !job->frequency_std || !job->holdout)
+        return ROTID_ERROR_MEMORY;
+    if (job->shape) {
+        job->shape = copy(pool, job->shape, components, sizeof *job->shape);
+        job->shape_std = copy(pool, job->shape_std, components, sizeof *job->shape_std);
+        if (!job->shape || !job->shape_std)
+            return ROTID_ERROR_MEMORY;
+    }
+    return ROTID_OK;
+}
+
+static int compare(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+static void remove_mode(struct job *job, int k)
+{
+    int nsensor = job->rotor.nsensor, behind = job->nmode - k - 1;
+    memmove(job->number + k, job->number + k + 1, (size_t)behind * sizeof *job->number);
+    memmove(job->frequency_hz + k, job->frequency_hz + k + 1, (size_t)behind * sizeof *job->frequency_hz);
+    memmove(job->damping + k, job->damping + k + 1, (size_t)behind * sizeof *job->damping);
+    memmove(job->frequency_std + k, job->frequency_std + k + 1, (size_t)behind * sizeof *job->frequency_std);
+    memmove(job->holdout + k, job->holdout + k + 1, (size_t)behind * sizeof *job->holdout);
+    if (job->shape) {
+        size_t bytes = (size_t)behind * (size_t)nsensor * sizeof *job->shape;
+        memmove(job->shape + (ptrdiff_t)k * nsensor, job->shape + (ptrdiff_t)(k + 1) * nsensor, bytes);
+        memmove(job->shape_std + (ptrdiff_t)k * nsensor, job->shape_std + (ptrdiff_t)(k + 1) * nsensor, bytes);
+    }
+    job->nmode--;
+}
+
+/* A nearly axisymmetric rotor has each mode twice: two measured modes of one shape and nearly one frequency. The second goes. */
+static int drop_doubles(struct engine *engine)
+{
+    struct job *job = &engine->job;
+    int nsensor = job->rotor.nsensor;
+    for (int k = 1; k < job->nmode && job->shape && nsensor > 3; k++) {
+        const double *shape = job->shape + (ptrdiff_t)k * nsensor;
+        double apart = job->frequency_hz[k] / job->frequency_hz[k - 1] - 1;
+        if (fabs(apart) > 0.03 || rotid_mac(nsensor, shape - nsensor, shape) < 0.8)
+            continue;
+        struct data_finding finding = {.cause = catalogue_find("mode_pairing"),
+                                       .nmode = 2,
+                                       .mode = {job->number[k - 1], job->number[k]},
+                                       .value = NAN,
+                                       .std = NAN,
+                                       .chi2_drop = NAN};
+        finding.text = pool_format(engine->pool,
+                                   "measured modes %d and %d (%.6g and %.6g Hz) have one shape: a mode measured twice, or the "
+                                   "pair of a rotor that is not quite round; the second is left out",
+                                   job->number[k - 1], job->number[k], job->frequency_hz[k - 1], job->frequency_hz[k]);
+        int status = data_add_finding(engine, &finding);
+        if (status)
+            return status;
+        remove_mode(job, k);
+        for (int l = k--; l + 1 < job->nmode + 1 && l < job->nmode; l++)
+            job->number[l]--;
+    }
+    return ROTID_OK;
+}
+
+/* Frequencies in rad/s lie 2 pi above those of the model in every mode; no wrong modulus does that to all of them alike. */
+static int look_like_radians(struct engine *engine)
+{
+    const struct job *job = &engine->job;
+    struct spectrum spectrum;
+    struct pool scratch;
+    double ratio[64];
+    int count = 0, highest = comparison_highest(job);
+    double *x = POOL_ARRAY(engine->pool, double, job->nparameter);
+    if (!x)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < job->nparameter; p++)
+        x[p] = job->bounds[p].start;
+    pool_open(&scratch, engine->pool->allocator);
+    int status = spectrum_compute(&scratch, &job->rotor, job->nparameter, job->parameter, x, ROTID_GUYAN, highest, &spectrum);
+    for (int k = 0; k < job->nmode && !status && count < 64; k++)
+        if (job->number[k] <= spectrum.count)
+            ratio[count++] = job->frequency_hz[k] / spectrum.full_hz[job->number[k] - 1];
+    pool_close(&scratch);
+    if (status || !count)
+        return status;
+    qsort(ratio, (size_t)count, sizeof *ratio, compare);
+    double middle = ratio[count / 2] / 6.283185307;
+    if (middle > 0.7 && middle < 1.45 && ratio[0] > 0.7 * ratio[count / 2] && ratio[count - 1] < 1.45 * ratio[count / 2]) {
+        message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
+                    "the measured frequencies are %.3g times those of the model in every mode, expected hertz: these look like "
+                    "rad/s",
+                    ratio[count / 2]);
+        return ROTID_ERROR_ARGUMENT;
+    }
+    return ROTID_OK;
+}
+
+static int count_fitted(const struct job *job)
+{
+    int count = 0;
+    for (int k = 0; k < job->nmode; k++)
+        count += !job->holdout[k];
+    return count;
+}
+
+/* What keeps the data from carrying a name, said once. */
+static void judge_amount(struct engine *engine)
+{
+    const struct job *job = &engine->job;
+    const struct rotor *rotor = &job->rotor;
+    engine->confident = 1;
+    if (count_fitted(job) < LEAST_MODES) {
+        engine->confident = 0;
+        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "%d fitted mode%s cannot carry a name for what is wrong, expected at least %d", count_fitted(job),
+                    count_fitted(job) == 1 ? "" : "s", LEAST_MODES);
+    }
+    if (engine->out->frequency_noise_assumed) {
+        engine->confident = 0;
+        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "the deck states no noise of the frequencies (*NOISE, FREQUENCY=): %.2g %% are assumed, so only relative "
+                    "statements can be made",
+                    100 * ASSUMED_FREQUENCY_NOISE);
+    }
+    if (job->shape && job_knows_shape_noise(job) && rotor->nsensor &&
+        rotor->sensor[rotor->nsensor - 1].position - rotor->sensor[0].position < LEAST_SPAN * rotor_length(rotor)) {
+        engine->confident = 0;
+        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "the sensors cover %.0f %% of the rotor, expected at least %.0f %%: what lies elsewhere cannot be placed",
+                    100 * (rotor->sensor[rotor->nsensor - 1].position - rotor->sensor[0].position) / rotor_length(rotor),
+                    100 * LEAST_SPAN);
+    }
+}
+
+int data_prepare(struct engine *engine, const struct job *job)
+{
+    struct diagnosis *out = engine->out;
+    engine->job = *job;
+    if (!job->nmode) {
+        message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
+                    "the deck has no measured modes, expected *MODES or *MEASURED");
+        return ROTID_ERROR_ARGUMENT;
+    }
+    int status = copy_data(engine->pool, &engine->job);
+    if (status)
+        return status;
+    struct job *judged = &engine->job;
+    judged->fit.functional = ROTID_LIKELIHOOD;
+    judged->fit.reduction = ROTID_REDUCTION_NONE;
+    judged->fit.derivative = ROTID_NELSON;
+    if (!job_knows_frequency_noise(job)) {
+        out->frequency_noise_assumed = 1;
+        for (int k = 0; k < judged->nmode; k++)
+            if (!isfinite(judged->frequency_std[k]))
+                judged->frequency_std[k] = ASSUMED_FREQUENCY_NOISE;
+    }
+    status = look_like_radians(engine);
+    if (!status)
+        status = drop_doubles(engine);
+    if (status)
+        return status;
+    int fitted = count_fitted(judged), shapes = judged->shape && job_knows_shape_noise(judged);
+    if (!shapes && fitted <= judged->nparameter) {
+        message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
+                    "%d frequencies for %d parameters leave nothing to judge the model by, expected more modes, or shapes with "
+                    "*NOISE, SHAPE=",
+                    fitted, judged->nparameter);
+        return ROTID_ERROR_ARGUMENT;
+    }
+    judge_amount(engine);
+    return ROTID_OK;
+}

@@ -1,0 +1,154 @@
+/* What a round concludes from its fits. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/engine.h"
+#include "fit/quantile.h"
+
+#define WORSE     1.1 /* held-out modes predicted worse than this factor speak against a cause */
+#define MUCH_LESS 0.7 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
+
+double candidate_score(const struct candidate *c)
+{
+    int free = 0;
+    for (int p = 0; p < c->nparameter; p++)
+        free += !c->fixed[p];
+    return c->chi2 + PARAMETER_PENALTY * (free ? free : 1);
+}
+
+static int compare(const void *left, const void *right)
+{
+    const struct candidate *a = left, *b = right;
+    if (a->refitted != b->refitted)
+        return b->refitted - a->refitted;
+    double x = a->refitted ? candidate_score(a) : -a->predicted_drop, y = b->refitted ? candidate_score(b) : -b->predicted_drop;
+    return (x > y) - (x < y);
+}
+
+/* Chi2 of the measured noise against a model that is wrong: by how much the best of what is left exceeds its noise, 1 where it does
+ * not. Margins grow with it, as in quasi-likelihood. */
+static double dispersion(const struct before *before, const struct candidate *best, double left_frequency)
+{
+    int dof = before->dof - best->nparameter;
+    double whole = dof > 0 ? best->chi2 / dof : 1, block = left_frequency / before->nfrequency;
+    double factor = dof > 0 && chi_square_tail(best->chi2, dof) < 0.01 ? whole : 1;
+    if (chi_square_tail(left_frequency, before->nfrequency) < 0.01)
+        factor = fmax(factor, block);
+    return fmax(1, factor);
+}
+
+/* Minus twice the log-likelihood that frequencies gain when their noise is larger than stated, at its best size:
+ * chi2 - m - m ln(chi2/m). A rival of every physical cause that shows in the frequencies alone. */
+static double noise_drop(const struct before *before)
+{
+    double m = before->nfrequency, ratio = before->chi2_frequency / m;
+    return ratio > 1 ? before->chi2_frequency - m - m * log(ratio) : 0;
+}
+
+static const char *reason(const struct engine *engine, const struct before *before, const struct diagnosis_round *round,
+                          const struct candidate *c)
+{
+    struct pool *pool = engine->pool;
+    if (!c->refitted)
+        return "promises too little";
+    if (!isfinite(c->chi2))
+        return "no fit of it converged";
+    if (c->at_bound)
+        return pool_format(pool, "its size ends at the physical bound");
+    if (!(c->chi2_drop > round->threshold))
+        return pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value);
+    if (isfinite(c->holdout_rms) && c->holdout_rms > WORSE * before->holdout_rms)
+        return pool_format(pool, "modes held out get worse: %.2g %% after %.2g %%", c->holdout_rms, before->holdout_rms);
+    int worse = isfinite(c->mode_out_rms) && c->mode_out_rms > WORSE * before->mode_out_rms,
+        no_better = !(isfinite(c->sensor_out_rms) && c->sensor_out_rms < before->sensor_out_rms);
+    double noise = 0;
+    for (int k = 0; k < engine->job.nmode; k++)
+        noise = fmax(noise, 100 * engine->job.frequency_std[k]);
+    if (worse && c->mode_out_rms > 2 * noise && no_better)
+        return pool_format(pool, "modes left out in turn get worse: %.2g %% after %.2g %%", c->mode_out_rms, before->mode_out_rms);
+    return NULL;
+}
+
+/* frequencies whose noise is larger than stated, as a candidate among the others */
+static void add_noise(const struct before *before, struct diagnosis_round *round, double *left)
+{
+    struct candidate *c = &round->candidate[round->ncandidate];
+    double drop = noise_drop(before);
+    if (!(drop > round->threshold / 2))
+        return;
+    *c = (struct candidate){.cause = catalogue_find("noise_level"),
+                            .target = "FREQUENCY",
+                            .nparameter = 1,
+                            .refitted = 1,
+                            .predicted_drop = drop,
+                            .chi2 = before->chi2 - drop,
+                            .chi2_drop = drop,
+                            .bic = before->chi2 - drop + log(before->dof),
+                            .p_value = NAN,
+                            .holdout_rms = NAN,
+                            .mode_out_rms = NAN,
+                            .sensor_out_rms = NAN,
+                            .cosine = NAN};
+    c->effect.value[0] = sqrt(before->chi2_frequency / before->nfrequency);
+    for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
+        c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
+    left[round->ncandidate++] = before->nfrequency;
+}
+
+int decide(const struct engine *engine, const struct before *before, const double *left, struct diagnosis_round *round)
+{
+    struct pool *pool = engine->pool;
+    double *leaves = POOL_ARRAY(pool, double, round->ncandidate + 1);
+    if (!leaves)
+        return ROTID_ERROR_MEMORY;
+    if (round->ncandidate)
+        memcpy(leaves, left, (size_t)round->ncandidate * sizeof *leaves);
+    add_noise(before, round, leaves);
+    struct candidate *best = NULL;
+    double left_frequency = 0, predicts = INFINITY;
+    for (int i = 0; i < round->ncandidate; i++) {
+        struct candidate *c = &round->candidate[i];
+        c->rejected_because = reason(engine, before, round, c);
+        if (!c->rejected_because && isfinite(c->holdout_rms))
+            predicts = fmin(predicts, c->holdout_rms);
+    }
+    for (int i = 0; i < round->ncandidate; i++) {
+        struct candidate *c = &round->candidate[i];
+        if (!c->rejected_because && isfinite(c->holdout_rms) && predicts < MUCH_LESS * c->holdout_rms)
+            c->rejected_because =
+                pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)", c->holdout_rms, predicts);
+        if (!c->rejected_because && (!best || candidate_score(c) < candidate_score(best))) {
+            best = c;
+            left_frequency = leaves[i];
+        }
+    }
+    round->required_margin = best ? LEAST_MARGIN * dispersion(before, best, left_frequency) : NAN;
+    double limit = best ? candidate_score(best) + round->required_margin : 0;
+    const char *name = best ? best->cause->id : "";
+    round->nset = 0;
+    int refused = 0; /* something refused for its size explains the data much better than what is left */
+    for (int i = 0; i < round->ncandidate && best; i++) {
+        struct candidate *c = &round->candidate[i];
+        if (c->refitted && c->at_bound && candidate_score(c) < candidate_score(best) - round->required_margin)
+            refused = 1;
+        if (c->rejected_because)
+            continue;
+        if (candidate_score(c) <= limit)
+            round->nset++;
+        else
+            c->rejected_because = pool_format(pool, "loses to %s by %.3g", name, candidate_score(c) - candidate_score(best));
+    }
+    for (int i = 0; i < round->ncandidate; i++) /* the set first, in the order of the scores */
+        if (!round->candidate[i].rejected_because && round->candidate[i].refitted)
+            round->candidate[i].refitted = 2;
+    qsort(round->candidate, (size_t)round->ncandidate, sizeof *round->candidate, compare);
+    for (int i = 0; i < round->ncandidate; i++)
+        round->candidate[i].refitted = round->candidate[i].refitted != 0;
+    round->kind = round->nset == 0                                           ? VERDICT_UNEXPLAINED
+                  : round->nset > 1 || !engine->confident || refused         ? VERDICT_AMBIGUOUS
+                  : round->candidate[0].cause->class != CAUSE_PHYSICAL       ? VERDICT_UNEXPLAINED
+                                                                             : VERDICT_NAMED;
+    return ROTID_OK;
+}

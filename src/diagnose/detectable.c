@@ -1,0 +1,101 @@
+/* What this data set could have shown: for each cause the size that the scan finds nine times in ten, and along the axis where the
+ * misfit of the base model lies. */
+#include <math.h>
+
+#include "diagnose/engine.h"
+
+#define POWER 1.2816 /* standard normal deviate of 90 % */
+
+/* A size s moves the whitened residual by s |c|: the score is normal about it with variance 1, so s |c| = sqrt(threshold) + 1.28. */
+static double size_for(const struct scan_item *item, double threshold)
+{
+    return item->usable ? (sqrt(threshold) + POWER) * item->unit / item->norm : INFINITY;
+}
+
+/* Best and worst over the places, each with the width that shows best. */
+static void over_places(const struct scan *scan, const struct scan_candidate *c, double threshold, struct detectable *d)
+{
+    int place = c->cause->place;
+    double smallest = INFINITY, worst = 0;
+    for (int i = c->first; i < c->first + c->count;) {
+        double here = INFINITY, z = place >= 0 ? scan->item[i].effect.value[place] : NAN;
+        int j = i;
+        for (; j < c->first + c->count && (j == i || (place >= 0 && scan->item[j].effect.value[place] == z)); j++)
+            here = fmin(here, fabs(size_for(&scan->item[j], threshold)));
+        i = j;
+        if (here < smallest) {
+            smallest = here;
+            d->z = z;
+        }
+        worst = fmax(worst, here);
+    }
+    d->smallest = smallest;
+    d->worst = place >= 0 ? worst : NAN;
+}
+
+int detectable_sizes(struct engine *engine, const struct round_result *last)
+{
+    const struct scan *scan = &last->scan;
+    struct diagnosis *out = engine->out;
+    out->detectable = POOL_ARRAY(engine->pool, struct detectable, scan->ncandidate);
+    if (!out->detectable)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < scan->ncandidate; i++) {
+        const struct scan_candidate *c = &scan->candidate[i];
+        const struct cause_kind *cause = c->cause;
+        if (c->suspect || !c->count)
+            continue;
+        struct detectable *d = &out->detectable[out->ndetectable++];
+        *d = (struct detectable){.cause = cause, .target = c->target, .z = NAN, .worst = NAN};
+        over_places(scan, c, last->bootstrap.threshold, d);
+        if (!cause->effect->nparameter) { /* there or not: a part of it would show */
+            d->parameter = "presence";
+            d->unit = "1";
+            d->smallest = fabs(d->smallest / scan->item[c->first].unit);
+            d->beyond = !(d->smallest <= 1);
+            continue;
+        }
+        double lower, upper, neutral = cause->parameter[cause->size].neutral;
+        cause->bounds(&engine->job.rotor, &c->effect, cause->size, &lower, &upper);
+        d->parameter = cause->effect->parameter[cause->size].name;
+        d->unit = cause->effect->parameter[cause->size].unit;
+        int side = cause->parameter[cause->size].one_sided;
+        double most = side > 0 ? upper - neutral : side < 0 ? neutral - lower : fmax(upper - neutral, neutral - lower);
+        d->beyond = !(d->smallest <= most);
+    }
+    return ROTID_OK;
+}
+
+int localise(struct engine *engine, const struct scan *scan)
+{
+    struct diagnosis *out = engine->out;
+    int count = 0;
+    for (int i = 0; i < scan->ncandidate; i++)
+        if (scan->candidate[i].cause->place >= 0 && !scan->candidate[i].suspect && scan->candidate[i].count > count)
+            count = scan->candidate[i].count;
+    out->local_z = POOL_ARRAY(engine->pool, double, count);
+    out->local = POOL_ARRAY(engine->pool, double, count);
+    if (!out->local_z || !out->local)
+        return ROTID_ERROR_MEMORY;
+    double largest = 0;
+    for (int i = 0; i < scan->nitem; i++) {
+        const struct scan_item *item = &scan->item[i];
+        const struct scan_candidate *c = &scan->candidate[item->candidate];
+        if (c->cause->place < 0 || c->suspect)
+            continue;
+        double z = item->effect.value[c->cause->place];
+        int at = 0;
+        while (at < out->nlocal && out->local_z[at] != z)
+            at++;
+        if (at == out->nlocal) {
+            if (out->nlocal == count)
+                continue;
+            out->local_z[out->nlocal++] = z;
+        }
+        out->local[at] = fmax(out->local[at], item->drop);
+        largest = fmax(largest, item->drop);
+    }
+    for (int i = 0; i < out->nlocal && largest > 0; i++)
+        out->local[i] /= largest;
+    return ROTID_OK;
+}

@@ -1,0 +1,92 @@
+/* What the steps of a diagnosis share. */
+#ifndef ROTID_DIAGNOSE_ENGINE_H
+#define ROTID_DIAGNOSE_ENGINE_H
+
+#include "diagnose/bootstrap.h"
+#include "diagnose/diagnose.h"
+#include "diagnose/refit.h"
+#include "diagnose/scan.h"
+
+struct engine {
+    struct pool *pool;
+    int threads, replicates;
+    unsigned long seed;
+    const rotid_environment *environment;
+    struct message_list *notes;
+    struct diagnosis *out;
+    struct job job;        /* judged, with the causes named so far; its starts are the fitted values */
+    int *number, *holdout; /* [nmode] */
+    rotid_fit_result *fit; /* of that job */
+    double mode_out_rms, mode_out_shape; /* of that job, NaN where unknown: modes left out in turn, percent and shape */
+    int confident;                       /* the data are enough for a name */
+    double *stated_std; /* [nmode] of the frequencies, before the discrepancy of a cause was added */
+    double clock;
+};
+
+/* Counts the time since the last call for a step. */
+void engine_step(struct engine *engine, const char *name);
+/* Says where the work is; ROTID_STOP_CANCELLED once the environment wants to stop. */
+int engine_stage(const struct engine *engine, const char *stage, int step);
+
+/* ---- data.c: the job that is judged */
+
+/* Copies the data, states the noise, refuses what cannot be judged. ROTID_ERROR_ARGUMENT with a reason in the notes. */
+int data_prepare(struct engine *engine, const struct job *job);
+int data_add_finding(struct engine *engine, const struct data_finding *finding);
+
+/* ---- clean.c */
+
+/* After the base fit: faults of channels and the level of the noise, taken out of the judged data; *changed when there were any. */
+int data_clean(struct engine *engine, const struct scan *scan, int *changed);
+
+/* ---- round.c: one round of scan, refit, comparison and decision */
+
+struct round_result {
+    struct scan scan;
+    struct bootstrap bootstrap;
+    int nrefit;
+    struct refit *refit; /* [nrefit] */
+    int *candidate;      /* [nrefit] of the scan */
+    int winner;          /* of refit: what the round names, or would; -1 */
+};
+
+int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
+void round_free(struct round_result *result);
+
+/* ---- decide.c */
+
+/* Penalty of a parameter in chi2: what the best of its values gains from noise alone. */
+#define PARAMETER_PENALTY 4.0
+/* Least margin of a name, in chi2 with those penalties: noise turns a rival into the better one by so much once in a hundred times
+ * at most, however well it mimics (the difference of two fits at distance d is normal with mean d^2 and deviation 2 d). */
+#define LEAST_MARGIN 6.0
+
+/* The model before the round, as far as the candidates are compared with it. */
+struct before {
+    int dof, nfrequency;
+    double chi2, chi2_frequency, holdout_rms, mode_out_rms, sensor_out_rms;
+};
+
+double candidate_score(const struct candidate *candidate);
+
+/* Sorts the candidates by their scores, gives every one that loses its reason, and the round its kind. `left` [ncandidate] is the
+ * chi2 of the frequencies that each leaves. */
+int decide(const struct engine *engine, const struct before *before, const double *left, struct diagnosis_round *round);
+
+/* ---- round.c again: prediction of modes left out in turn, for several jobs at once; error [models] in percent, shape [models] */
+int modes_in_turn(const struct engine *engine, int models, const struct job *const *job, double *error, double *shape);
+
+/* ---- conclude.c: the final model, the gain, the verdict in words */
+
+/* last: the round that named nothing more, or NULL. */
+int conclude(struct engine *engine, const struct round_result *last);
+
+/* ---- detectable.c: what could not be seen, and where it would show */
+
+int detectable_sizes(struct engine *engine, const struct round_result *last);
+int localise(struct engine *engine, const struct scan *scan);
+
+/* ---- advice.c: the measurement that separates the members of an ambiguous set best. NULL where memory is out. */
+const char *advise(struct engine *engine, const struct diagnosis_round *round, const struct round_result *last);
+
+#endif

@@ -1,0 +1,161 @@
+#include "diagnose/leave_out.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/refit.h"
+#include "linalg/symmetric.h"
+
+double shape_difference(const struct job *job, int k, double mac)
+{
+    double sum = 0, largest = 0;
+    int count = 0;
+    for (int s = 0; s < job->rotor.nsensor && job->shape; s++) {
+        double value = job->shape[s + (ptrdiff_t)k * job->rotor.nsensor];
+        if (!isfinite(value))
+            continue;
+        sum += value * value;
+        largest = fmax(largest, fabs(value));
+        count++;
+    }
+    return count > 1 && largest > 0 && isfinite(mac) ? sqrt(fmax(0, 1 - mac) * sum / count) / largest : NAN;
+}
+
+int mode_out_fit(const struct job *job, const int *number, const int *holdout, int k, const rotid_environment *environment,
+                 const rotid_allocator *allocator, double *error_percent, double *shape)
+{
+    struct pool pool;
+    rotid_fit_result *fit = NULL;
+    pool_open(&pool, allocator);
+    *error_percent = *shape = NAN;
+    int *without = POOL_ARRAY(&pool, int, job->nmode), left = 0, status = ROTID_ERROR_MEMORY;
+    if (without) {
+        for (int m = 0; m < job->nmode; m++) {
+            without[m] = holdout[m] || m == k;
+            left += !without[m];
+        }
+        int enough = job->shape && job_knows_shape_noise(job) ? left > 0 : left >= job->nparameter;
+        status = left && enough ? refit_job(&pool, job, number, without, environment, &fit) : ROTID_ERROR_ARGUMENT;
+    }
+    if (!status) {
+        *error_percent = 100 * (fit->predicted_hz[k] / job->frequency_hz[k] - 1);
+        *shape = shape_difference(job, k, fit->mac[k]);
+    }
+    rotid_fit_free(fit);
+    pool_close(&pool);
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* Orthonormal basis [nrow * n] of the columns of the Jacobian; returns their number. */
+static int orthonormalise(int nrow, int n, const double *jacobian, double *basis)
+{
+    int count = 0;
+    for (int p = 0; p < n; p++) {
+        double *q = basis + (ptrdiff_t)count * nrow;
+        memcpy(q, jacobian + (ptrdiff_t)p * nrow, (size_t)nrow * sizeof *q);
+        double raw = sqrt(dot(nrow, q, q));
+        for (int pass = 0; pass < 2; pass++)
+            for (int b = 0; b < count; b++) {
+                double along = dot(nrow, basis + (ptrdiff_t)b * nrow, q);
+                for (int i = 0; i < nrow; i++)
+                    q[i] -= along * basis[i + (ptrdiff_t)b * nrow];
+            }
+        double left = sqrt(dot(nrow, q, q));
+        if (!(left > 1e-10 * raw))
+            continue;
+        for (int i = 0; i < nrow; i++)
+            q[i] /= left;
+        count++;
+    }
+    return count;
+}
+
+int sensor_out(struct pool *pool, const struct job *job, const int *holdout, const rotid_fit_result *fit, double *standardised,
+               double *shape_rms)
+{
+    int nsensor = job->rotor.nsensor, nrow = fit->nresidual, nfitted = 0, status;
+    *standardised = *shape_rms = NAN;
+    for (int k = 0; k < job->nmode; k++)
+        nfitted += !holdout[k];
+    if (!job->shape || !job_knows_shape_noise(job) || nrow <= nfitted || nfitted < 1)
+        return ROTID_OK;
+    int *row = POOL_ARRAY(pool, int, (size_t)nfitted *(size_t)nsensor), *at = POOL_ARRAY(pool, int, nfitted);
+    double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + 1)), *right = POOL_ARRAY(pool, double, nfitted);
+    struct symmetric block;
+    if (!row || !at || !basis || !right)
+        return ROTID_ERROR_MEMORY;
+    status = symmetric_new(pool, nfitted, &block);
+    if (status)
+        return status;
+    int rank = orthonormalise(nrow, fit->n, fit->jacobian, basis), next = nfitted;
+    for (int k = 0, m = 0; k < job->nmode; k++) {
+        for (int s = 0; s < nsensor && !holdout[k]; s++)
+            row[m + (ptrdiff_t)s * nfitted] = isfinite(job->shape[s + (ptrdiff_t)k * nsensor]) ? next++ : -1;
+        m += !holdout[k];
+    }
+    double sum = 0, difference = 0;
+    int count = 0;
+    for (int s = 0; s < nsensor; s++) {
+        int rows = 0;
+        for (int m = 0; m < nfitted; m++)
+            if (row[m + (ptrdiff_t)s * nfitted] >= 0)
+                at[rows++] = row[m + (ptrdiff_t)s * nfitted];
+        for (int i = 0; i < rows; i++) { /* residual without the sensor: (I - H_ss)^-1 r_s */
+            right[i] = fit->r[at[i]];
+            for (int j = 0; j < rows; j++) {
+                double h = 0;
+                for (int b = 0; b < rank; b++)
+                    h += basis[at[i] + (ptrdiff_t)b * nrow] * basis[at[j] + (ptrdiff_t)b * nrow];
+                block.a[i + (ptrdiff_t)j * rows] = (i == j) - h;
+            }
+        }
+        if (!rows || symmetric_factor(&block, rows))
+            continue;
+        symmetric_solve(&block, rows, right);
+        for (int i = 0, k = 0, m = 0; k < job->nmode; k++) {
+            if (holdout[k])
+                continue;
+            if (row[m++ + (ptrdiff_t)s * nfitted] < 0)
+                continue;
+            double std = job->shape_std[s + (ptrdiff_t)k * nsensor];
+            sum += right[i] * right[i];
+            difference += right[i] * right[i] * std * std;
+            i++;
+            count++;
+        }
+    }
+    if (count) {
+        *standardised = sqrt(sum / count);
+        *shape_rms = sqrt(difference / count);
+    }
+    return ROTID_OK;
+}
+
+void fitted_errors(const struct job *job, const int *holdout, const rotid_fit_result *fit, int held, double *rms_percent,
+                   double *max_percent, double *shape_rms)
+{
+    double sum = 0, shapes = 0;
+    int count = 0, with_shape = 0;
+    *max_percent = NAN;
+    for (int k = 0; k < job->nmode; k++) {
+        if ((holdout[k] != 0) != held)
+            continue;
+        double error = 100 * (fit->predicted_hz[k] / job->frequency_hz[k] - 1), shape = shape_difference(job, k, fit->mac[k]);
+        *max_percent = count++ ? fmax(*max_percent, fabs(error)) : fabs(error);
+        sum += error * error;
+        if (isfinite(shape)) {
+            shapes += shape * shape;
+            with_shape++;
+        }
+    }
+    *rms_percent = count ? sqrt(sum / count) : NAN;
+    *shape_rms = with_shape ? sqrt(shapes / with_shape) : NAN;
+}

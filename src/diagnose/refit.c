@@ -1,0 +1,158 @@
+#include "diagnose/refit.h"
+
+#include <math.h>
+#include <string.h>
+
+#define STARTS 3    /* places a candidate is fitted from */
+#define APART  0.06 /* of the rotor's length: nearer ones lead to the same minimum */
+#define OFF    0.02 /* of the distance between the bounds: the bijection is flat at them */
+
+static double inside(const rotid_parameter *bounds, double value)
+{
+    double margin = OFF * (bounds->upper - bounds->lower);
+    return fmin(fmax(value, bounds->lower + margin), bounds->upper - margin);
+}
+
+static void set_start(rotid_parameter *bounds, double value)
+{
+    bounds->start = value > bounds->lower && value < bounds->upper ? value : inside(bounds, value);
+    if (bounds->start == 0) /* its size is the scale of the parameter */
+        bounds->start = 1e-3 * (bounds->upper > 0 ? bounds->upper : bounds->lower);
+}
+
+int job_started_at(struct pool *pool, const struct job *job, const double *x, struct job *to)
+{
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->nparameter);
+    if (!bounds)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < job->nparameter; p++) {
+        bounds[p] = job->bounds[p];
+        set_start(&bounds[p], x[p]);
+    }
+    *to = *job;
+    to->bounds = bounds;
+    return ROTID_OK;
+}
+
+int job_with_effect(struct pool *pool, const struct job *job, const double *x, const struct effect *effect,
+                    const struct cause_kind *cause, const int *fixed, struct job *to)
+{
+    const struct rotor *rotor = &job->rotor;
+    int nown = job->nparameter, nnew = cause_parameters(effect), index = rotor->neffect;
+    *to = *job;
+    to->rotor.effect = POOL_ARRAY(pool, struct effect, index + 1);
+    to->parameter = POOL_ARRAY(pool, struct parameter, nown + nnew);
+    to->bounds = POOL_ARRAY(pool, rotid_parameter, nown + nnew);
+    if (!to->rotor.effect || !to->parameter || !to->bounds)
+        return ROTID_ERROR_MEMORY;
+    if (index)
+        memcpy(to->rotor.effect, rotor->effect, (size_t)index * sizeof *effect);
+    to->rotor.effect[to->rotor.neffect++] = *effect;
+    for (int p = 0; p < nown; p++) {
+        to->parameter[p] = job->parameter[p];
+        to->bounds[p] = job->bounds[p];
+        if (x)
+            set_start(&to->bounds[p], x[p]);
+    }
+    for (int p = 0; p < nnew; p++) {
+        if (fixed && fixed[p])
+            continue;
+        rotid_parameter *bounds = &to->bounds[to->nparameter];
+        *bounds = (rotid_parameter){.unit = effect->kind->parameter[p].unit};
+        bounds->name = pool_format(pool, "%s.%s", effect->name, effect->kind->parameter[p].name);
+        if (!bounds->name)
+            return ROTID_ERROR_MEMORY;
+        cause->bounds(rotor, effect, p, &bounds->lower, &bounds->upper);
+        set_start(bounds, inside(bounds, effect->value[p]));
+        to->parameter[to->nparameter++] = (struct parameter){.kind = PARAMETER_EFFECT, .index = index, .component = p};
+    }
+    return ROTID_OK;
+}
+
+void effect_at(const struct job *job, int effect, const double *x, struct effect *out)
+{
+    *out = job->rotor.effect[effect];
+    for (int p = 0; p < job->nparameter; p++)
+        if (job->parameter[p].kind == PARAMETER_EFFECT && job->parameter[p].index == effect)
+            out->value[job->parameter[p].component] = x[p];
+}
+
+int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,
+              const rotid_environment *environment, rotid_fit_result **fit)
+{
+    rotid_fit_options options = job->fit;
+    const rotid_environment quiet = {.cancelled = environment ? environment->cancelled : NULL,
+                                     .context = environment ? environment->context : NULL,
+                                     .allocator = environment ? environment->allocator : NULL};
+    options.baseline = 0;
+    options.max_iterations = 40;
+    options.gradient_tolerance = REFIT_GRADIENT;
+    options.step_tolerance = REFIT_STEP;
+    struct pool scratch; /* the model of a fit is not needed behind it */
+    pool_open(&scratch, pool->allocator);
+    int status = identify_fit(&scratch, job, number, holdout, &options, &quiet, NULL, fit);
+    pool_close(&scratch);
+    if (!status && (*fit)->status == ROTID_STOP_CANCELLED) {
+        rotid_fit_free(*fit);
+        *fit = NULL;
+        return ROTID_STOP_CANCELLED;
+    }
+    return status;
+}
+
+/* The items to start from: best first, each a distance away from those before. */
+static int choose_starts(const struct scan *scan, const struct scan_candidate *c, double length, int *start)
+{
+    int count = 0, place = c->cause->place;
+    while (count < STARTS) {
+        int best = -1;
+        for (int i = c->first; i < c->first + c->count; i++) {
+            const struct scan_item *item = &scan->item[i];
+            int near = 0;
+            for (int s = 0; s < count && place >= 0; s++)
+                near |= fabs(scan->item[start[s]].effect.value[place] - item->effect.value[place]) < APART * length;
+            if (item->usable && !near && (!count || place >= 0) && (best < 0 || item->drop > scan->item[best].drop))
+                best = i;
+        }
+        if (best < 0 || (count && scan->item[best].drop < 0.3 * scan->item[start[0]].drop))
+            break;
+        start[count++] = best;
+    }
+    return count;
+}
+
+int refit_candidate(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+                    const struct scan *scan, int candidate, const rotid_environment *environment, struct refit *refit)
+{
+    const struct scan_candidate *c = &scan->candidate[candidate];
+    const struct cause_kind *cause = c->cause;
+    int start[STARTS], count = choose_starts(scan, c, rotor_length(&job->rotor), start);
+    *refit = (struct refit){.chi2 = INFINITY};
+    for (int s = 0; s < count; s++) {
+        const struct scan_item *item = &scan->item[start[s]];
+        struct effect effect = item->effect;
+        struct job extended, started;
+        rotid_fit_result *fit = NULL;
+        if (!c->fixed[cause->size])
+            effect.value[cause->size] += item->amplitude * item->unit;
+        int status = job_with_effect(pool, job, x, &effect, cause, c->fixed, &extended);
+        if (!status)
+            status = refit_job(pool, &extended, number, holdout, environment, &fit);
+        if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+            return status;
+        if (status || !(fit->chi2 < refit->chi2)) {
+            rotid_fit_free(fit);
+            continue;
+        }
+        status = job_started_at(pool, &extended, fit->x, &started);
+        if (status) {
+            rotid_fit_free(fit);
+            return status;
+        }
+        for (int e = 0; e < started.rotor.neffect; e++)
+            effect_at(&extended, e, fit->x, &started.rotor.effect[e]);
+        rotid_fit_free(refit->fit);
+        *refit = (struct refit){.job = started, .fit = fit, .chi2 = fit->chi2};
+    }
+    return ROTID_OK;
+}

@@ -1,0 +1,350 @@
+/* One round: scan, bootstrap, refits of what is promising, prediction of what was left out, decision. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "diagnose/engine.h"
+#include "diagnose/leave_out.h"
+
+#define MOST_REFITS  16
+#define WORTH        3.0 /* a promised drop below this is noise */
+#define SHARE        0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
+#define MOST_OUT     5   /* candidates for which modes are left out in turn */
+#define OUT_MARGIN   25.0
+#define SHOWN        0.05 /* of the best promise: candidates not fitted but worth a line */
+
+struct refits {
+    const struct engine *engine;
+    const struct scan *scan;
+    struct round_result *result;
+    struct pool *pool; /* [nrefit] one a task: pools are not shared between threads */
+};
+
+static int refit_task(void *context, int index, int worker)
+{
+    struct refits *refits = context;
+    const struct engine *e = refits->engine;
+    (void)worker;
+    return refit_candidate(&refits->pool[index], &e->job, e->number, e->holdout, e->fit->x, refits->scan,
+                           refits->result->candidate[index], e->environment, &refits->result->refit[index]);
+}
+
+static double best_drop(const struct scan *scan, int candidate)
+{
+    const struct scan_candidate *c = &scan->candidate[candidate];
+    return c->best < 0 ? 0 : scan->item[c->best].drop;
+}
+
+/* Candidates worth a nonlinear fit, the most promising first, and every suspect. */
+static int choose(const struct scan *scan, double threshold, int *chosen)
+{
+    int count = 0;
+    double least = fmax(WORTH, fmin(threshold / 2, SHARE * scan->largest));
+    for (int rank = 0; rank < scan->ncandidate; rank++) {
+        int best = -1;
+        for (int i = 0; i < scan->ncandidate; i++) {
+            int taken = 0;
+            for (int j = 0; j < count; j++)
+                taken |= chosen[j] == i;
+            if (!taken && (best < 0 || best_drop(scan, i) > best_drop(scan, best)))
+                best = i;
+        }
+        if (best < 0 || best_drop(scan, best) < least || count == MOST_REFITS)
+            break;
+        chosen[count++] = best;
+    }
+    for (int i = 0; i < scan->ncandidate; i++) {
+        int taken = 0;
+        for (int j = 0; j < count; j++)
+            taken |= chosen[j] == i;
+        if (!taken && scan->candidate[i].suspect && scan->candidate[i].best >= 0)
+            chosen[count++] = i;
+    }
+    return count;
+}
+
+static int run_refits(struct engine *engine, struct round_result *result)
+{
+    struct pool *pool = engine->pool;
+    struct refits refits = {engine, &result->scan, result, POOL_ARRAY(pool, struct pool, result->nrefit)};
+    result->refit = POOL_ARRAY(pool, struct refit, result->nrefit);
+    if (!refits.pool || !result->refit) {
+        result->nrefit = 0;
+        return ROTID_ERROR_MEMORY;
+    }
+    for (int i = 0; i < result->nrefit; i++)
+        pool_open(&refits.pool[i], pool->allocator);
+    int status = parallel_for(engine->threads, result->nrefit, refit_task, &refits);
+    for (int i = 0; i < result->nrefit; i++)
+        pool_absorb(pool, &refits.pool[i]);
+    return status;
+}
+
+/* The likelihood interval of a place or width is no interval of its own where the size may be anything: std from the fit. */
+static void take_parameters(const struct refit *refit, int own, struct candidate *c)
+{
+    const rotid_fit_result *fit = refit->fit;
+    int last = refit->job.rotor.neffect - 1;
+    c->effect = refit->job.rotor.effect[last];
+    for (int p = own; p < fit->n; p++) {
+        int component = refit->job.parameter[p].component;
+        c->std[component] = fit->std[p];
+        c->ci_lower[component] = fit->ci_lower[p];
+        c->ci_upper[component] = fit->ci_upper[p];
+        if (component == c->cause->size)
+            c->at_bound = fit->at_bound[p];
+    }
+}
+
+static double frequency_chi2(const rotid_fit_result *fit, int nfrequency)
+{
+    double sum = 0;
+    for (int i = 0; i < nfrequency; i++)
+        sum += fit->r[i] * fit->r[i];
+    return sum;
+}
+
+static int fill_candidate(struct engine *engine, const struct round_result *result, const struct bootstrap *bootstrap, int index,
+                          const struct refit *refit, struct candidate *c, double *left)
+{
+    const struct scan *scan = &result->scan;
+    const struct scan_candidate *s = &scan->candidate[index];
+    *c = (struct candidate){.cause = s->cause,
+                            .effect = s->effect,
+                            .target = s->target,
+                            .suspect = s->suspect,
+                            .nparameter = cause_parameters(&s->effect),
+                            .predicted_drop = best_drop(scan, index),
+                            .chi2 = NAN,
+                            .chi2_drop = NAN,
+                            .bic = NAN,
+                            .holdout_rms = NAN,
+                            .mode_out_rms = NAN,
+                            .sensor_out_rms = NAN,
+                            .cosine = NAN};
+    memcpy(c->fixed, s->fixed, sizeof c->fixed);
+    for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
+        c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
+    c->p_value = bootstrap_p(bootstrap, c->predicted_drop);
+    *left = NAN;
+    if (s->best >= 0) { /* where the scan sees it */
+        c->effect = scan->item[s->best].effect;
+        if (!s->fixed[s->cause->size])
+            c->effect.value[s->cause->size] += scan->item[s->best].amplitude * scan->item[s->best].unit;
+    }
+    if (!refit)
+        return ROTID_OK;
+    c->refitted = 1;
+    if (!refit->fit)
+        return ROTID_OK;
+    double unused, shape;
+    c->chi2 = refit->chi2;
+    c->chi2_drop = engine->fit->chi2 - refit->chi2;
+    c->bic = refit->chi2 + log(scan->nrow) * refit->job.nparameter;
+    c->p_value = bootstrap_p(bootstrap, c->chi2_drop);
+    *left = frequency_chi2(refit->fit, scan->nfrequency);
+    take_parameters(refit, engine->job.nparameter, c);
+    fitted_errors(&refit->job, engine->holdout, refit->fit, 1, &c->holdout_rms, &unused, &shape);
+    return sensor_out(engine->pool, &refit->job, engine->holdout, refit->fit, &c->sensor_out_rms, &shape);
+}
+
+/* ---- modes left out in turn */
+
+struct leave_out {
+    const struct engine *engine;
+    const struct job *const *job; /* [models] */
+    int nmode;
+    double *error, *shape; /* [nmode * models] */
+};
+
+static int leave_out_task(void *context, int index, int worker)
+{
+    struct leave_out *out = context;
+    const struct engine *e = out->engine;
+    int k = index % out->nmode;
+    (void)worker;
+    if (e->holdout[k])
+        return ROTID_OK;
+    return mode_out_fit(out->job[index / out->nmode], e->number, e->holdout, k, e->environment, e->pool->allocator,
+                        &out->error[index], &out->shape[index]);
+}
+
+static double rms(int n, const double *value)
+{
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < n; i++)
+        if (isfinite(value[i])) {
+            sum += value[i] * value[i];
+            count++;
+        }
+    return count ? sqrt(sum / count) : NAN;
+}
+
+int modes_in_turn(const struct engine *engine, int models, const struct job *const *job, double *error, double *shape)
+{
+    int nmode = engine->job.nmode;
+    size_t cells = (size_t)models * (size_t)nmode;
+    struct leave_out out = {engine, job, nmode, POOL_ARRAY(engine->pool, double, cells), POOL_ARRAY(engine->pool, double, cells)};
+    if (!out.error || !out.shape)
+        return ROTID_ERROR_MEMORY;
+    for (size_t i = 0; i < cells; i++)
+        out.error[i] = out.shape[i] = NAN;
+    int status = parallel_for(engine->threads, (int)cells, leave_out_task, &out);
+    for (int m = 0; m < models && !status; m++) {
+        error[m] = rms(nmode, out.error + (ptrdiff_t)m * nmode);
+        shape[m] = rms(nmode, out.shape + (ptrdiff_t)m * nmode);
+    }
+    return status;
+}
+
+/* For the model before the round, should it not be known, and for the candidates near the best one. */
+static int leave_modes_out(struct engine *engine, struct round_result *result, struct candidate *candidate)
+{
+    const struct job *job[MOST_OUT + 1] = {&engine->job};
+    double error[MOST_OUT + 1], shape[MOST_OUT + 1], best = INFINITY;
+    int who[MOST_OUT + 1], count = 1;
+    for (int i = 0; i < result->nrefit; i++)
+        if (isfinite(candidate[i].chi2))
+            best = fmin(best, candidate_score(&candidate[i]));
+    for (double least = -INFINITY; count <= MOST_OUT;) { /* in the order of the scores */
+        int next = -1;
+        for (int i = 0; i < result->nrefit; i++) {
+            double score = isfinite(candidate[i].chi2) ? candidate_score(&candidate[i]) : INFINITY;
+            if (score > least && score < best + OUT_MARGIN && (next < 0 || score < candidate_score(&candidate[next])))
+                next = i;
+        }
+        if (next < 0)
+            break;
+        least = candidate_score(&candidate[next]);
+        who[count] = next;
+        job[count++] = &result->refit[next].job;
+    }
+    int status = modes_in_turn(engine, count, job, error, shape);
+    if (status)
+        return status;
+    engine->mode_out_rms = error[0];
+    engine->mode_out_shape = shape[0];
+    for (int m = 1; m < count; m++)
+        candidate[who[m]].mode_out_rms = error[m];
+    return ROTID_OK;
+}
+
+/* Who looks like whom: the largest cosine of the columns at their best places. */
+static void find_twins(const struct round_result *result, struct candidate *candidate)
+{
+    const struct scan *scan = &result->scan;
+    for (int i = 0; i < result->nrefit; i++)
+        for (int j = 0; j < result->nrefit; j++) {
+            int a = scan->candidate[result->candidate[i]].best, b = scan->candidate[result->candidate[j]].best;
+            if (i == j || a < 0 || b < 0)
+                continue;
+            double cosine = 0;
+            for (int k = 0; k < scan->nrow; k++)
+                cosine += scan->column[k + (ptrdiff_t)a * scan->nrow] * scan->column[k + (ptrdiff_t)b * scan->nrow];
+            if (!(fabs(cosine) <= candidate[i].cosine)) {
+                candidate[i].cosine = fmin(1, fabs(cosine));
+                candidate[i].collinear_with = candidate[j].cause->id;
+                candidate[i].collinear_target = candidate[j].target;
+            }
+        }
+}
+
+static int compare_refits(struct engine *engine, struct round_result *result, struct diagnosis_round *round)
+{
+    struct pool *pool = engine->pool;
+    const struct scan *scan = &result->scan;
+    int room = scan->ncandidate + 1, status = ROTID_OK;
+    double *left = POOL_ARRAY(pool, double, room), unused, shape;
+    round->candidate = POOL_ARRAY(pool, struct candidate, room);
+    if (!left || !round->candidate)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < result->nrefit && !status; i++)
+        status = fill_candidate(engine, result, &result->bootstrap, result->candidate[i], &result->refit[i], &round->candidate[i], &left[i]);
+    if (!status && result->nrefit)
+        status = leave_modes_out(engine, result, round->candidate);
+    if (status)
+        return status;
+    find_twins(result, round->candidate);
+    round->ncandidate = result->nrefit;
+    for (int i = 0; i < scan->ncandidate; i++) {
+        int taken = 0;
+        for (int j = 0; j < result->nrefit; j++)
+            taken |= result->candidate[j] == i;
+        if (!taken && best_drop(scan, i) > SHOWN * scan->largest && scan->largest > 0) {
+            status = fill_candidate(engine, result, &result->bootstrap, i, NULL, &round->candidate[round->ncandidate], &left[round->ncandidate]);
+            round->ncandidate++;
+        }
+    }
+    struct before before = {.dof = scan->dof,
+                            .nfrequency = scan->nfrequency,
+                            .chi2 = scan->chi2,
+                            .chi2_frequency = scan->chi2_frequency,
+                            .mode_out_rms = engine->mode_out_rms};
+    fitted_errors(&engine->job, engine->holdout, engine->fit, 1, &before.holdout_rms, &unused, &shape);
+    if (!status)
+        status = sensor_out(pool, &engine->job, engine->holdout, engine->fit, &before.sensor_out_rms, &shape);
+    return status ? status : decide(engine, &before, left, round);
+}
+
+/* The refit behind the first candidate. */
+static int find_winner(const struct round_result *result, const struct diagnosis_round *round)
+{
+    for (int i = 0; i < result->nrefit && round->nset > 0; i++)
+        if (result->refit[i].fit && result->refit[i].chi2 == round->candidate[0].chi2)
+            return i;
+    return -1;
+}
+
+int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
+{
+    struct pool *pool = engine->pool;
+    *round = (struct diagnosis_round){0};
+    *result = (struct round_result){.winner = -1};
+    int status = engine_stage(engine, "scan, round", engine->out->nround + 1);
+    if (!status)
+        status = scan_run(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan);
+    engine_step(engine, "scan");
+    const struct scan *scan = &result->scan;
+    if (!status)
+        status = bootstrap_run(pool, scan, engine->replicates, engine->seed, engine->threads, engine->environment,
+                               &result->bootstrap);
+    engine_step(engine, "bootstrap");
+    if (status)
+        return status;
+    const struct bootstrap *b = &result->bootstrap;
+    round->chi2 = scan->chi2;
+    round->dof = scan->dof;
+    round->largest = scan->largest;
+    round->threshold = b->threshold;
+    round->p_scan = b->p_scan;
+    round->p_frequency = b->p_frequency;
+    round->p_total = b->p_total;
+    int adequate = scan->largest <= b->threshold && b->p_frequency > BLOCK_LEVEL && b->p_total > BLOCK_LEVEL;
+    result->candidate = POOL_ARRAY(pool, int, scan->ncandidate);
+    if (!result->candidate)
+        return ROTID_ERROR_MEMORY;
+    result->nrefit = adequate ? 0 : choose(scan, b->threshold, result->candidate);
+    status = engine_stage(engine, "fits of candidates, round", engine->out->nround + 1);
+    if (!status)
+        status = run_refits(engine, result);
+    engine_step(engine, "refits");
+    if (!status)
+        status = compare_refits(engine, result, round);
+    engine_step(engine, "held out");
+    if (status)
+        return status;
+    if (adequate)
+        round->kind = VERDICT_ADEQUATE;
+    result->winner = find_winner(result, round);
+    return ROTID_OK;
+}
+
+void round_free(struct round_result *result)
+{
+    for (int i = 0; i < result->nrefit; i++)
+        if (result->refit)
+            rotid_fit_free(result->refit[i].fit);
+    result->nrefit = 0;
+}

@@ -1,0 +1,48 @@
+/* The scan: every cause at every target and place as a column of sensitivities, whitened and taken orthogonal to what is fitted
+ * anyway, and the drop of chi2 that it promises, (c'r)^2/(c'c). */
+#ifndef ROTID_DIAGNOSE_SCAN_H
+#define ROTID_DIAGNOSE_SCAN_H
+
+#include "diagnose/causes/cause.h"
+#include "diagnose/columns.h"
+
+struct scan_item { /* one column */
+    int candidate;
+    struct effect effect; /* neutral, at this place and width */
+    double unit;          /* step of the size parameter that the column stands for: 1, or typical - neutral of a secant */
+    int side;             /* sign the amplitude must have, 0: any */
+    int usable;           /* the column is more than rounding once what is fitted is taken out */
+    double norm;          /* of the projected column */
+    double amplitude, drop;
+};
+
+struct scan_candidate { /* a cause at a target, with all its places */
+    const struct cause_kind *cause;
+    struct effect effect; /* variant and target; a user's values where fixed */
+    const char *target;
+    int suspect, fixed[EFFECT_MOST_PARAMETERS];
+    int first, count; /* items */
+    int best;         /* item of the largest drop, -1: none is usable */
+};
+
+struct scan {
+    int nrow, nfrequency, nfree, dof; /* dof: rows less free parameters and scales */
+    int nitem, ncandidate;
+    struct scan_item *item;
+    struct scan_candidate *candidate;
+    double *column; /* [nrow * nitem] projected, of unit length; zero where not usable */
+    int nbasis;
+    double *basis;  /* [nrow * nbasis] orthonormal: free parameters and scales */
+    double *r;      /* [nrow] residual, projected */
+    double chi2, chi2_frequency;
+    double largest; /* drop */
+};
+
+/* The candidates of a job: every physical cause of the catalogue at every target where it applies and is not in the model yet,
+ * and the user's suspects. names: for the effects to come. */
+int scan_list(struct pool *pool, const struct job *job, struct scan *scan);
+
+/* Columns and drops at the parameters x of the fitted job. Statuses of columns_open. */
+int scan_run(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x, struct scan *scan);
+
+#endif
