@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "beam/hinge.h"
 #include "linalg/matrix.h"
 
 static double dot(int n, const double *a, const double *b)
@@ -87,7 +88,7 @@ static int open_model(struct pool *pool, const struct job *job, const struct eff
 int columns_open(struct pool *pool, const struct job *job, const int *number, const int *holdout, const struct effect *extra,
                  const double *x, struct columns *c)
 {
-    *c = (struct columns){.job = job};
+    *c = (struct columns){.pool = pool, .job = job};
     int status = open_model(pool, job, extra, c);
     if (status)
         return status;
@@ -192,12 +193,15 @@ int columns_parameter(struct columns *c, int p, double *column)
     return ROTID_OK;
 }
 
-void columns_probe(struct columns *c, const struct effect *effect)
+int columns_probe(struct columns *c, const struct effect *effect)
 {
     struct rotor *rotor = &c->client.beam.rotor;
-    rotor->effect[rotor->neffect - 1] = *effect;
+    struct effect *slot = &rotor->effect[rotor->neffect - 1];
+    int joints = slot->kind->joint || effect->kind->joint;
+    *slot = *effect;
     for (int i = 0; i < EFFECT_MOST_PARAMETERS; i++)
         c->x[c->job->nparameter + i] = effect->value[i];
+    return joints ? hinge_place(c->pool, &c->client.beam) : ROTID_OK; /* which element has the hinge is settled with the mesh */
 }
 
 int columns_residual(struct columns *c, const double *x, double *r)

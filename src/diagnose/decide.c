@@ -72,7 +72,7 @@ static const char *reason(const struct engine *engine, const struct before *befo
 }
 
 /* frequencies whose noise is larger than stated, as a candidate among the others */
-static void add_noise(const struct before *before, struct diagnosis_round *round, double *left)
+static void add_noise(const struct before *before, struct diagnosis_round *round)
 {
     struct candidate *c = &round->candidate[round->ncandidate];
     double drop = noise_drop(before);
@@ -85,6 +85,7 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
                             .predicted_drop = drop,
                             .chi2 = before->chi2 - drop,
                             .chi2_drop = drop,
+                            .chi2_frequency = before->nfrequency,
                             .bic = before->chi2 - drop + log(before->dof),
                             .p_value = NAN,
                             .holdout_rms = NAN,
@@ -94,18 +95,13 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
     c->effect.value[0] = sqrt(before->chi2_frequency / before->nfrequency);
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
-    left[round->ncandidate++] = before->nfrequency;
+    round->ncandidate++;
 }
 
-int decide(const struct engine *engine, const struct before *before, const double *left, struct diagnosis_round *round)
+int decide(const struct engine *engine, const struct before *before, struct diagnosis_round *round)
 {
     struct pool *pool = engine->pool;
-    double *leaves = POOL_ARRAY(pool, double, round->ncandidate + 1);
-    if (!leaves)
-        return ROTID_ERROR_MEMORY;
-    if (round->ncandidate)
-        memcpy(leaves, left, (size_t)round->ncandidate * sizeof *leaves);
-    add_noise(before, round, leaves);
+    add_noise(before, round);
     struct candidate *best = NULL;
     double left_frequency = 0, predicts = INFINITY;
     for (int i = 0; i < round->ncandidate; i++) {
@@ -121,7 +117,7 @@ int decide(const struct engine *engine, const struct before *before, const doubl
                 pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)", c->holdout_rms, predicts);
         if (!c->rejected_because && (!best || candidate_score(c) < candidate_score(best))) {
             best = c;
-            left_frequency = leaves[i];
+            left_frequency = c->chi2_frequency;
         }
     }
     round->required_margin = best ? LEAST_MARGIN * dispersion(before, best, left_frequency) : NAN;

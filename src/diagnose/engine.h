@@ -39,6 +39,15 @@ int data_add_finding(struct engine *engine, const struct data_finding *finding);
 /* After the base fit: faults of channels and the level of the noise, taken out of the judged data; *changed when there were any. */
 int data_clean(struct engine *engine, const struct scan *scan, int *changed);
 
+/* ---- base.c: what the rounds start from */
+
+/* Fit, faults of the data taken out, mesh fine enough. ROTID_ERROR_ARGUMENT where nothing is left to judge by. */
+int base_prepare(struct engine *engine);
+/* What the condensation of the user's own fit costs. */
+int base_note_reduction(struct engine *engine);
+/* Residuals of the base by mode and by sensor. */
+int base_residuals(struct engine *engine);
+
 /* ---- round.c: one round of scan, refit, comparison and decision */
 
 struct round_result {
@@ -69,12 +78,18 @@ struct before {
 
 double candidate_score(const struct candidate *candidate);
 
-/* Sorts the candidates by their scores, gives every one that loses its reason, and the round its kind. `left` [ncandidate] is the
- * chi2 of the frequencies that each leaves. */
-int decide(const struct engine *engine, const struct before *before, const double *left, struct diagnosis_round *round);
+/* Sorts the candidates by their scores, gives every one that loses its reason, and the round its kind. The array of the candidates
+ * has room for one more. */
+int decide(const struct engine *engine, const struct before *before, struct diagnosis_round *round);
 
 /* ---- round.c again: prediction of modes left out in turn, for several jobs at once; error [models] in percent, shape [models] */
 int modes_in_turn(const struct engine *engine, int models, const struct job *const *job, double *error, double *shape);
+
+/* ---- settle.c: from rounds to a verdict */
+
+/* The winner of a round becomes part of the model, with what it leaves as an approximation added to the noise. */
+int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result);
+int settle(struct engine *engine, struct round_result *last);
 
 /* ---- conclude.c: the final model, the gain, the verdict in words */
 

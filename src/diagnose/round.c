@@ -106,7 +106,7 @@ static double frequency_chi2(const rotid_fit_result *fit, int nfrequency)
 }
 
 static int fill_candidate(struct engine *engine, const struct round_result *result, const struct bootstrap *bootstrap, int index,
-                          const struct refit *refit, struct candidate *c, double *left)
+                          const struct refit *refit, struct candidate *c)
 {
     const struct scan *scan = &result->scan;
     const struct scan_candidate *s = &scan->candidate[index];
@@ -118,6 +118,7 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
                             .predicted_drop = best_drop(scan, index),
                             .chi2 = NAN,
                             .chi2_drop = NAN,
+                            .chi2_frequency = NAN,
                             .bic = NAN,
                             .holdout_rms = NAN,
                             .mode_out_rms = NAN,
@@ -127,7 +128,6 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
     c->p_value = bootstrap_p(bootstrap, c->predicted_drop);
-    *left = NAN;
     if (s->best >= 0) { /* where the scan sees it */
         c->effect = scan->item[s->best].effect;
         if (!s->fixed[s->cause->size])
@@ -143,7 +143,7 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->chi2_drop = engine->fit->chi2 - refit->chi2;
     c->bic = refit->chi2 + log(scan->nrow) * refit->job.nparameter;
     c->p_value = bootstrap_p(bootstrap, c->chi2_drop);
-    *left = frequency_chi2(refit->fit, scan->nfrequency);
+    c->chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
     take_parameters(refit, engine->job.nparameter, c);
     fitted_errors(&refit->job, engine->holdout, refit->fit, 1, &c->holdout_rms, &unused, &shape);
     return sensor_out(engine->pool, &refit->job, engine->holdout, refit->fit, &c->sensor_out_rms, &shape);
@@ -256,12 +256,12 @@ static int compare_refits(struct engine *engine, struct round_result *result, st
     struct pool *pool = engine->pool;
     const struct scan *scan = &result->scan;
     int room = scan->ncandidate + 1, status = ROTID_OK;
-    double *left = POOL_ARRAY(pool, double, room), unused, shape;
+    double unused, shape;
     round->candidate = POOL_ARRAY(pool, struct candidate, room);
-    if (!left || !round->candidate)
+    if (!round->candidate)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < result->nrefit && !status; i++)
-        status = fill_candidate(engine, result, &result->bootstrap, result->candidate[i], &result->refit[i], &round->candidate[i], &left[i]);
+        status = fill_candidate(engine, result, &result->bootstrap, result->candidate[i], &result->refit[i], &round->candidate[i]);
     if (!status && result->nrefit)
         status = leave_modes_out(engine, result, round->candidate);
     if (status)
@@ -273,7 +273,7 @@ static int compare_refits(struct engine *engine, struct round_result *result, st
         for (int j = 0; j < result->nrefit; j++)
             taken |= result->candidate[j] == i;
         if (!taken && best_drop(scan, i) > SHOWN * scan->largest && scan->largest > 0) {
-            status = fill_candidate(engine, result, &result->bootstrap, i, NULL, &round->candidate[round->ncandidate], &left[round->ncandidate]);
+            status = fill_candidate(engine, result, &result->bootstrap, i, NULL, &round->candidate[round->ncandidate]);
             round->ncandidate++;
         }
     }
@@ -285,7 +285,7 @@ static int compare_refits(struct engine *engine, struct round_result *result, st
     fitted_errors(&engine->job, engine->holdout, engine->fit, 1, &before.holdout_rms, &unused, &shape);
     if (!status)
         status = sensor_out(pool, &engine->job, engine->holdout, engine->fit, &before.sensor_out_rms, &shape);
-    return status ? status : decide(engine, &before, left, round);
+    return status ? status : decide(engine, &before, round);
 }
 
 /* The refit behind the first candidate. */
@@ -315,6 +315,8 @@ int round_run(struct engine *engine, struct diagnosis_round *round, struct round
         return status;
     const struct bootstrap *b = &result->bootstrap;
     round->chi2 = scan->chi2;
+    round->chi2_frequency = scan->chi2_frequency;
+    round->nfrequency = scan->nfrequency;
     round->dof = scan->dof;
     round->largest = scan->largest;
     round->threshold = b->threshold;

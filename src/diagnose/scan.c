@@ -65,7 +65,8 @@ static void list_items(const struct rotor *rotor, const struct mesh *mesh, struc
                 item->effect.value[cause->width] = lower * pow(upper / lower, width_fraction[j % widths]);
             item->side = cause->parameter[cause->size].one_sided;
             if (is_secant(cause)) {
-                item->unit = cause->parameter[cause->size].typical - cause->parameter[cause->size].neutral;
+                const struct cause_parameter *size = &cause->parameter[cause->size];
+                item->unit = cause->effect->nparameter ? size->typical - size->neutral : 1; /* there, or not */
                 item->side = 1;
             }
         }
@@ -80,8 +81,9 @@ static int fill_columns(const struct job *job, struct columns *columns, struct s
         const struct cause_kind *cause = scan->candidate[item->candidate].cause;
         if (is_secant(cause))
             continue;
-        columns_probe(columns, &item->effect);
-        status = columns_parameter(columns, job->nparameter + cause->size, scan->column + (ptrdiff_t)i * n);
+        status = columns_probe(columns, &item->effect);
+        if (!status)
+            status = columns_parameter(columns, job->nparameter + cause->size, scan->column + (ptrdiff_t)i * n);
     }
     for (int i = 0; i < scan->nitem && !status; i++) { /* behind the others: they leave the point */
         struct effect effect = scan->item[i].effect;
@@ -90,8 +92,8 @@ static int fill_columns(const struct job *job, struct columns *columns, struct s
         if (!is_secant(cause))
             continue;
         effect.value[cause->size] = cause->parameter[cause->size].typical;
-        columns_probe(columns, &effect);
-        if (columns_residual(columns, columns->x, column)) /* no such model: nothing to propose */
+        status = columns_probe(columns, &effect);
+        if (status || columns_residual(columns, columns->x, column)) /* no such model: nothing to propose */
             memset(column, 0, (size_t)n * sizeof *column);
         else
             for (int j = 0; j < n; j++)

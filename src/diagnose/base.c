@@ -1,0 +1,191 @@
+/* The base: the model the user has, in full and by the likelihood, on a mesh and on data that are not to blame themselves. */
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/engine.h"
+
+#define MOST_CLEANED 3 /* passes of finding faults of channels */
+#define MOST_REFINED 3 /* times the mesh is halved */
+
+static int add_numerical(struct engine *engine, const char *id, int count, const double *error, const char *text)
+{
+    struct diagnosis *out = engine->out;
+    int *mode = POOL_ARRAY(engine->pool, int, count);
+    double *copy = POOL_ARRAY(engine->pool, double, count);
+    if (!mode || !copy || !text)
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < count; k++) {
+        mode[k] = k + 1;
+        copy[k] = error[k];
+    }
+    out->numerical_finding[out->nnumerical_finding++] =
+        (struct numerical_finding){catalogue_find(id), count, mode, copy, text};
+    return ROTID_OK;
+}
+
+/* Largest error of the measured modes against the noise of their frequencies; *at: that mode. */
+static double against_noise(const struct engine *engine, const double *error, int count, int *at)
+{
+    double largest = 0;
+    *at = 0;
+    for (int k = 0; k < engine->job.nmode; k++) {
+        int mode = engine->number[k] - 1;
+        if (mode >= count || !isfinite(error[mode]))
+            continue;
+        double ratio = fabs(error[mode]) / (100 * engine->job.frequency_std[k]);
+        if (ratio > largest) {
+            largest = ratio;
+            *at = mode;
+        }
+    }
+    return largest;
+}
+
+/* Elements twice as many: the error of the mesh is taken out before anything else is blamed. */
+static int refine_mesh(struct engine *engine)
+{
+    struct rotor *rotor = &engine->job.rotor;
+    struct segment *segment = POOL_ARRAY(engine->pool, struct segment, rotor->nsegment);
+    if (!segment)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        segment[s] = rotor->segment[s];
+        segment[s].elements *= 2;
+    }
+    rotor->segment = segment;
+    return ROTID_OK;
+}
+
+int base_note_reduction(struct engine *engine)
+{
+    const struct diagnosis *out = engine->out;
+    const struct spectrum *s = &out->today.spectrum;
+    int at;
+    if (!out->has_today || out->today.fit == NULL)
+        return ROTID_OK;
+    double ratio = against_noise(engine, s->reduction_error_percent, s->count, &at);
+    if (!(ratio > 1))
+        return ROTID_OK;
+    return add_numerical(engine, "guyan_reduction", s->count, s->reduction_error_percent,
+                         pool_format(engine->pool,
+                                     "the condensation onto %d masters moves mode %d by %+.2f %%, %.1f times its noise; the full "
+                                     "model is judged",
+                                     s->nmaster, at + 1, s->reduction_error_percent[at], ratio));
+}
+
+static int fit_base(struct engine *engine, int say)
+{
+    struct diagnosis *out = engine->out;
+    struct message_list quiet;
+    message_open(&quiet, engine->pool);
+    rotid_fit_free(out->base.fit);
+    out->base.fit = NULL;
+    int status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
+    for (size_t i = 0; i < quiet.count && (say || status); i++)
+        message_add(engine->notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
+    if (status)
+        return status;
+    if (out->base.fit->status == ROTID_STOP_CANCELLED)
+        return ROTID_STOP_CANCELLED;
+    engine->number = out->base.compared.number;
+    engine->holdout = engine->job.holdout;
+    engine->fit = out->base.fit;
+    out->job = engine->job;
+    return job_started_at(engine->pool, &engine->job, engine->fit->x, &engine->job);
+}
+
+static int note_pairing(struct engine *engine)
+{
+    const struct job *job = &engine->job;
+    for (int k = 0; k < job->nmode; k++) {
+        if (engine->number[k] == job->number[k])
+            continue;
+        struct data_finding finding = {.cause = catalogue_find("mode_pairing"),
+                                       .nmode = 2,
+                                       .mode = {job->number[k], engine->number[k]},
+                                       .value = NAN,
+                                       .std = NAN,
+                                       .chi2_drop = NAN};
+        finding.text = pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model; it is taken as that",
+                                   job->number[k], job->frequency_hz[k], engine->number[k]);
+        int status = data_add_finding(engine, &finding);
+        if (status)
+            return status;
+    }
+    return ROTID_OK;
+}
+
+/* Base fit, faults of the data taken out, mesh fine enough: what the rounds start from. */
+int base_prepare(struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    int status = fit_base(engine, 1), changed = 1, at;
+    if (!status)
+        status = note_pairing(engine);
+    for (int pass = 0; pass < MOST_CLEANED && !status && changed; pass++) {
+        struct scan scan;
+        status = scan_run(engine->pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &scan);
+        if (!status)
+            status = data_clean(engine, &scan, &changed);
+        if (!status && changed)
+            status = fit_base(engine, 0);
+        if (!status)
+            status = engine_stage(engine, "measurement chain, pass", pass + 1);
+    }
+    for (int pass = 0; pass < MOST_REFINED && !status; pass++) {
+        const struct spectrum *s = &out->base.spectrum;
+        double ratio = against_noise(engine, s->mesh_error_percent, s->count, &at);
+        if (!(ratio > 1))
+            break;
+        if (!pass)
+            status = add_numerical(engine, "mesh", s->count, s->mesh_error_percent,
+                                   pool_format(engine->pool,
+                                               "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer one is judged",
+                                               at + 1, s->mesh_error_percent[at], ratio));
+        if (!status)
+            status = refine_mesh(engine);
+        if (!status)
+            status = fit_base(engine, 0);
+    }
+    if (!status && engine->fit->dof < 1) {
+        message_add(engine->notes, SEVERITY_ERROR, out->job.deck, 1, 1,
+                    "%d residuals for %d parameters leave nothing to judge the model by, expected more modes or shapes",
+                    engine->fit->nresidual, engine->fit->n);
+        return ROTID_ERROR_ARGUMENT;
+    }
+    return status;
+}
+
+int base_residuals(struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    const struct job *job = &engine->job;
+    const rotid_fit_result *fit = engine->fit;
+    int nsensor = job->rotor.nsensor, row = 0, shapes = job->shape && job_knows_shape_noise(job);
+    out->mode_z = POOL_ARRAY(engine->pool, double, job->nmode);
+    out->sensor_rms = POOL_ARRAY(engine->pool, double, nsensor);
+    int *count = POOL_ARRAY(engine->pool, int, nsensor);
+    if (!out->mode_z || !out->sensor_rms || !count)
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < job->nmode; k++) {
+        out->mode_z[k] = fit->residual[k];
+        row += !engine->holdout[k];
+    }
+    for (int k = 0; k < job->nmode && shapes; k++)
+        for (int s = 0; s < nsensor && !engine->holdout[k]; s++)
+            if (isfinite(job->shape[s + (ptrdiff_t)k * nsensor])) {
+                out->sensor_rms[s] += fit->r[row] * fit->r[row];
+                count[s]++;
+                row++;
+            }
+    for (int s = 0; s < nsensor; s++)
+        out->sensor_rms[s] = count[s] ? sqrt(out->sensor_rms[s] / count[s]) : NAN;
+    out->frequency_noise = NAN;
+    out->shape_noise = NAN;
+    if (job->nmode)
+        out->frequency_noise = job->frequency_std[0];
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)nsensor * job->nmode && shapes && !isfinite(out->shape_noise); i++)
+        out->shape_noise = job->shape_std[i];
+    return ROTID_OK;
+}

@@ -1,0 +1,186 @@
+/* From rounds to a verdict: causes are accepted one by one, doubted again together, and withdrawn where what is left unexplained
+ * outweighs what they were named for. */
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/engine.h"
+
+/* The winner of a round becomes part of the model, with what it leaves as an approximation added to the noise. */
+int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result)
+{
+    struct diagnosis *out = engine->out;
+    struct refit *refit = &result->refit[result->winner];
+    const struct cause_kind *cause = round->candidate[0].cause;
+    out->cause[out->ncause++] = round->candidate[0];
+    struct job job = refit->job;
+    if (engine->fit != out->base.fit)
+        rotid_fit_free(engine->fit);
+    engine->fit = refit->fit;
+    refit->fit = NULL;
+    if (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0) {
+        ptrdiff_t components = (ptrdiff_t)job.rotor.nsensor * job.nmode;
+        double *std = POOL_ARRAY(engine->pool, double, job.nmode);
+        if (!std)
+            return ROTID_ERROR_MEMORY;
+        for (int k = 0; k < job.nmode; k++)
+            std[k] = hypot(job.frequency_std[k], cause->discrepancy_frequency);
+        job.frequency_std = std;
+        if (job.shape && cause->discrepancy_shape > 0) {
+            double *shapes = POOL_ARRAY(engine->pool, double, components);
+            if (!shapes)
+                return ROTID_ERROR_MEMORY;
+            for (ptrdiff_t i = 0; i < components; i++)
+                shapes[i] = hypot(job.shape_std[i], cause->discrepancy_shape);
+            job.shape_std = shapes;
+        }
+        rotid_fit_result *fit = NULL;
+        int status = refit_job(engine->pool, &job, engine->number, engine->holdout, engine->environment, &fit);
+        if (status)
+            return status;
+        rotid_fit_free(engine->fit);
+        engine->fit = fit;
+    }
+    engine->job = job;
+    return job_started_at(engine->pool, &job, engine->fit->x, &engine->job);
+}
+
+/* Evidence that is left when nothing more can be named: how far the best model that could be tried is from the data, by the whole
+ * chi2 and by the frequencies, beyond what noise leaves once in a hundred times. */
+static double left_over(const struct diagnosis_round *last)
+{
+    double chi2 = last->chi2, frequency = last->chi2_frequency, f = last->nfrequency;
+    if (last->kind == VERDICT_ADEQUATE)
+        return 0;
+    for (int i = 0; i < last->ncandidate; i++)
+        if (last->candidate[i].refitted && last->candidate[i].cause->class == CAUSE_PHYSICAL && last->candidate[i].chi2 < chi2) {
+            chi2 = last->candidate[i].chi2;
+            frequency = last->candidate[i].chi2_frequency;
+        }
+    double whole = chi2 - last->dof - 2.33 * sqrt(2.0 * last->dof), block = frequency - f - 2.33 * sqrt(2 * f);
+    return fmax(0, fmax(whole, block));
+}
+
+/* By how much the named cause of a round beats the best of the others. */
+static double margin_of(const struct diagnosis_round *round)
+{
+    double best = INFINITY;
+    for (int i = 1; i < round->ncandidate; i++)
+        if (round->candidate[i].refitted && isfinite(round->candidate[i].chi2))
+            best = fmin(best, candidate_score(&round->candidate[i]));
+    return best - candidate_score(&round->candidate[0]);
+}
+
+/* The members of a round's candidates that lie within `margin` of the first; at least one. */
+static int take_set(struct engine *engine, const struct diagnosis_round *round, double margin)
+{
+    struct diagnosis *out = engine->out;
+    out->alternative = POOL_ARRAY(engine->pool, struct candidate, round->ncandidate + 1);
+    if (!out->alternative)
+        return ROTID_ERROR_MEMORY;
+    out->nalternative = 0;
+    for (int i = 0; i < round->ncandidate; i++) {
+        const struct candidate *c = &round->candidate[i];
+        int near = c->refitted && isfinite(c->chi2) && candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
+        if (i < round->nset || (near && !c->at_bound && c->chi2_drop > round->threshold))
+            out->alternative[out->nalternative++] = *c;
+    }
+    return ROTID_OK;
+}
+
+static int same_cause(const struct candidate *a, const struct candidate *b)
+{
+    return a->cause == b->cause && a->effect.target == b->effect.target;
+}
+
+/* The job of the base with all named causes but one. */
+static int job_without(struct engine *engine, int left_out, struct job *job)
+{
+    struct diagnosis *out = engine->out;
+    *job = out->job;
+    int status = job_started_at(engine->pool, job, out->base.fit->x, job);
+    for (int c = 0; c < out->ncause && !status; c++)
+        if (c != left_out)
+            status = job_with_effect(engine->pool, job, NULL, &out->cause[c].effect, out->cause[c].cause, out->cause[c].fixed, job);
+    job->frequency_std = engine->job.frequency_std;
+    job->shape_std = engine->job.shape_std;
+    return status;
+}
+
+/* With two causes or more each is doubted again in the presence of the others: a first cause may have been the best single stand-in
+ * for two. *round, *result: the one in which a cause was not named again; *doubtful: its index, or -1. */
+static int confirm(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int *doubtful)
+{
+    struct diagnosis *out = engine->out;
+    int status = ROTID_OK;
+    *doubtful = -1;
+    for (int c = 0; c < out->ncause - 1 && !status && *doubtful < 0; c++) {
+        struct engine other = *engine;
+        rotid_fit_result *fit = NULL;
+        status = job_without(engine, c, &other.job);
+        if (!status)
+            status = refit_job(engine->pool, &other.job, engine->number, engine->holdout, engine->environment, &fit);
+        if (!status)
+            status = job_started_at(engine->pool, &other.job, fit->x, &other.job);
+        other.fit = fit;
+        round_free(result);
+        if (!status)
+            status = round_run(&other, round, result);
+        rotid_fit_free(fit);
+        engine->clock = other.clock;
+        if (!status && !(round->kind == VERDICT_NAMED && same_cause(&round->candidate[0], &out->cause[c])))
+            *doubtful = c;
+    }
+    return status;
+}
+
+/* Takes the names back: the model is the base again. */
+static void withdraw(struct engine *engine)
+{
+    engine->out->ncause = 0;
+}
+
+int settle(struct engine *engine, struct round_result *last)
+{
+    struct diagnosis *out = engine->out;
+    const struct diagnosis_round *first = &out->round[0], *end = &out->round[out->nround - 1];
+    struct diagnosis_round *again = POOL_ARRAY(engine->pool, struct diagnosis_round, 1);
+    double excess = left_over(end);
+    int status = again ? ROTID_OK : ROTID_ERROR_MEMORY, doubtful = -1;
+    out->p_value = fmin(first->p_scan, fmin(first->p_frequency, first->p_total));
+    out->adequate_after = end->kind == VERDICT_ADEQUATE;
+    for (int r = 0; r < out->ncause && !status; r++) {
+        const struct diagnosis_round *round = &out->round[r];
+        if (excess == 0 || margin_of(round) >= round->required_margin + excess)
+            continue;
+        withdraw(engine);
+        out->adequate_after = 0;
+        out->kind = VERDICT_AMBIGUOUS;
+        status = take_set(engine, round, round->required_margin + excess);
+        if (!status && out->nalternative < 2) /* none near it, yet the rest says that it is not all */
+            out->kind = VERDICT_UNEXPLAINED;
+        out->next_measurement = advise(engine, round, last);
+        return status || !out->next_measurement ? ROTID_ERROR_MEMORY : ROTID_OK;
+    }
+    if (!status && out->ncause > 1) {
+        struct round_result result = {.winner = -1};
+        status = confirm(engine, again, &result, &doubtful);
+        if (!status && doubtful >= 0) {
+            withdraw(engine);
+            out->adequate_after = 0;
+            out->kind = VERDICT_AMBIGUOUS;
+            status = take_set(engine, again, again->required_margin);
+            if (!status && !(out->next_measurement = advise(engine, again, &result)))
+                status = ROTID_ERROR_MEMORY;
+        }
+        round_free(&result);
+        if (status || doubtful >= 0)
+            return status;
+    }
+    out->kind = out->ncause ? VERDICT_NAMED : end->kind;
+    if (!status && end->kind == VERDICT_AMBIGUOUS)
+        status = take_set(engine, end, 0);
+    if (!status && (end->kind == VERDICT_AMBIGUOUS || end->kind == VERDICT_UNEXPLAINED) &&
+        !(out->next_measurement = advise(engine, end, last)))
+        status = ROTID_ERROR_MEMORY;
+    return status;
+}
