@@ -20,6 +20,7 @@ struct columns_mode {
 };
 
 struct columns {
+    struct pool *pool;
     const struct job *job;
     struct client client;
     struct functional functional;
@@ -40,8 +41,8 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
 /* column [nrow] for parameter p of the model: the job's first, then those of the extra effect. */
 int columns_parameter(struct columns *c, int p, double *column);
 
-/* The effect in the place of the extra one, at its neutral values; the model does not change. */
-void columns_probe(struct columns *c, const struct effect *effect);
+/* The effect in the place of the extra one, at its neutral values; the model does not change. ROTID_OK or ROTID_ERROR_MEMORY. */
+int columns_probe(struct columns *c, const struct effect *effect);
 
 /* Residual [nrow] at other values x of all parameters, by solving the model anew: for secants. The state that columns_parameter
  * needs is lost with it. */

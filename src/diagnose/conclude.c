@@ -6,6 +6,9 @@
 #include "diagnose/leave_out.h"
 #include "fit/quantile.h"
 
+#define WIDE     0.15 /* of a parameter, half its interval: wider says little about a modulus */
+#define SEPARATE 0.9  /* correlation beyond which two parameters are known by a combination only */
+
 static int quality(struct engine *engine, const struct job *job, const struct identification *identified, struct fit_quality *q)
 {
     const rotid_fit_result *fit = identified->fit;
@@ -48,14 +51,20 @@ static void settle_causes(struct diagnosis *out)
     }
 }
 
+/* "joint of core|right (flexibility 4e-10 rad/(N.m))" */
 static const char *describe(struct pool *pool, const struct candidate *c)
 {
     const struct cause_kind *cause = c->cause;
-    const char *text = pool_format(pool, "%s%s%s", cause->id, c->target[0] ? " of " : "", c->target);
-    for (int p = 0; p < c->nparameter && text; p++)
-        text = pool_format(pool, "%s%s%s %.3g%s%s", text, p ? ", " : " (", cause->effect->parameter[p].name, c->effect.value[p],
-                           strcmp(cause->effect->parameter[p].unit, "1") ? " " : "",
-                           strcmp(cause->effect->parameter[p].unit, "1") ? cause->effect->parameter[p].unit : "");
+    const char *text = c->suspect ? pool_format(pool, "%s, a %s", c->effect.name, cause->id)
+                                  : pool_format(pool, "%s%s%s", cause->id, c->target[0] ? " of " : "", c->target);
+    if (!cause->effect) /* a rival that is no part of a model */
+        return text ? pool_format(pool, "%s (%s %.3g)", text, cause->value.name, c->effect.value[0]) : NULL;
+    for (int p = 0; p < c->nparameter && text; p++) {
+        const struct effect_parameter_name *parameter = &cause->effect->parameter[p];
+        int has_unit = strcmp(parameter->unit, "1") != 0;
+        text = pool_format(pool, "%s%s%s %.3g%s%s", text, p ? ", " : " (", parameter->name, c->effect.value[p],
+                           has_unit ? " " : "", has_unit ? parameter->unit : "");
+    }
     return c->nparameter && text ? pool_format(pool, "%s)", text) : text;
 }
 
@@ -69,22 +78,36 @@ static const char *list(struct pool *pool, int count, const struct candidate *c)
     return text;
 }
 
-/* Parameters of the base model that the data leave open, as half a sentence. */
+/* The parameter that moves most with p, -1 where none does by more than SEPARATE. */
+static int partner_of(const rotid_fit_result *fit, int p)
+{
+    int partner = -1;
+    for (int q = 0; q < fit->n; q++) {
+        double rho = fabs(fit->correlation[p + (ptrdiff_t)q * fit->n]);
+        if (q != p && rho > SEPARATE && (partner < 0 || rho > fabs(fit->correlation[p + (ptrdiff_t)partner * fit->n])))
+            partner = q;
+    }
+    return partner;
+}
+
+/* Parameters of the model at the end that the data leave open. */
 static const char *open_parameters(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    const rotid_fit_result *fit = out->base.fit;
+    const rotid_fit_result *fit = out->extended.fit ? out->extended.fit : out->base.fit;
+    const rotid_parameter *parameter = out->extended.fit ? out->extended_job.bounds : out->job.bounds;
     const char *text = "";
-    for (int p = 0; p < fit->n && text; p++) {
-        if (fit->identifiable[p])
+    for (int p = 0; p < fit->n && p < out->job.nparameter && text; p++) {
+        double half = (fit->ci_upper[p] - fit->ci_lower[p]) / 2;
+        if (fit->identifiable[p] && !(half > WIDE * fabs(fit->x[p])))
             continue;
-        text = pool_format(engine->pool, "%s%s%s (95 %% interval %.3g to %.3g %s)", text, out->undetermined ? ", " : "",
-                           out->job.bounds[p].name, fit->ci_lower[p], fit->ci_upper[p], out->job.bounds[p].unit);
+        int partner = partner_of(fit, p);
+        text = pool_format(engine->pool, "%s The data do not determine %s%s%s: its 95 %% interval is %.3g to %.3g %s.", text,
+                           parameter[p].name, partner < 0 ? "" : " separately from ", partner < 0 ? "" : parameter[partner].name,
+                           fit->ci_lower[p], fit->ci_upper[p], parameter[p].unit);
         out->undetermined++;
     }
-    if (!text || !out->undetermined)
-        return text;
-    return pool_format(engine->pool, " The data do not determine %s.", text);
+    return text;
 }
 
 static const char *verdict_sentence(struct engine *engine)

@@ -7,8 +7,9 @@
 #include "diagnose/engine.h"
 #include "fit/quantile.h"
 
+#define NOISIER   3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
 #define WORSE     1.1 /* held-out modes predicted worse than this factor speak against a cause */
-#define MUCH_LESS 0.7 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
+#define BETTER    0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
 double candidate_score(const struct candidate *c)
 {
@@ -44,7 +45,16 @@ static double dispersion(const struct before *before, const struct candidate *be
 static double noise_drop(const struct before *before)
 {
     double m = before->nfrequency, ratio = before->chi2_frequency / m;
-    return ratio > 1 ? before->chi2_frequency - m - m * log(ratio) : 0;
+    return ratio > 1 && ratio < NOISIER * NOISIER ? before->chi2_frequency - m - m * log(ratio) : 0;
+}
+
+/* Largest stated noise of a frequency, percent. */
+static double frequency_noise(const struct job *job)
+{
+    double noise = 0;
+    for (int k = 0; k < job->nmode; k++)
+        noise = fmax(noise, 100 * job->frequency_std[k]);
+    return noise;
 }
 
 static const char *reason(const struct engine *engine, const struct before *before, const struct diagnosis_round *round,
@@ -63,10 +73,7 @@ static const char *reason(const struct engine *engine, const struct before *befo
         return pool_format(pool, "modes held out get worse: %.2g %% after %.2g %%", c->holdout_rms, before->holdout_rms);
     int worse = isfinite(c->mode_out_rms) && c->mode_out_rms > WORSE * before->mode_out_rms,
         no_better = !(isfinite(c->sensor_out_rms) && c->sensor_out_rms < before->sensor_out_rms);
-    double noise = 0;
-    for (int k = 0; k < engine->job.nmode; k++)
-        noise = fmax(noise, 100 * engine->job.frequency_std[k]);
-    if (worse && c->mode_out_rms > 2 * noise && no_better)
+    if (worse && c->mode_out_rms > 2 * frequency_noise(&engine->job) && no_better)
         return pool_format(pool, "modes left out in turn get worse: %.2g %% after %.2g %%", c->mode_out_rms, before->mode_out_rms);
     return NULL;
 }
@@ -103,7 +110,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     struct pool *pool = engine->pool;
     add_noise(before, round);
     struct candidate *best = NULL;
-    double left_frequency = 0, predicts = INFINITY;
+    double left_frequency = 0, predicts = INFINITY, noise = frequency_noise(&engine->job);
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
         c->rejected_because = reason(engine, before, round, c);
@@ -112,7 +119,8 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     }
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
-        if (!c->rejected_because && isfinite(c->holdout_rms) && predicts < MUCH_LESS * c->holdout_rms)
+        double more = c->holdout_rms * c->holdout_rms - predicts * predicts; /* beyond what noise makes of two predictions */
+        if (!c->rejected_because && isfinite(c->holdout_rms) && predicts < BETTER * c->holdout_rms && more > noise * noise)
             c->rejected_because =
                 pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)", c->holdout_rms, predicts);
         if (!c->rejected_because && (!best || candidate_score(c) < candidate_score(best))) {

@@ -12,6 +12,7 @@
 #define SHARE        0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
 #define MOST_OUT     5   /* candidates for which modes are left out in turn */
 #define OUT_MARGIN   25.0
+#define AT_BOUND     0.005 /* of the physical range: so near a bound a size is not the one the data want */
 #define SHOWN        0.05 /* of the best promise: candidates not fitted but worth a line */
 
 struct refits {
@@ -92,8 +93,10 @@ static void take_parameters(const struct refit *refit, int own, struct candidate
         c->std[component] = fit->std[p];
         c->ci_lower[component] = fit->ci_lower[p];
         c->ci_upper[component] = fit->ci_upper[p];
+        const rotid_parameter *bounds = &refit->job.bounds[p];
+        double near = AT_BOUND * (bounds->upper - bounds->lower);
         if (component == c->cause->size)
-            c->at_bound = fit->at_bound[p];
+            c->at_bound = fit->at_bound[p] || fit->x[p] < bounds->lower + near || fit->x[p] > bounds->upper - near;
     }
 }
 
