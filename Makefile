@@ -32,7 +32,7 @@ ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L $(WARNINGS) -fvisibility=hidden 
 LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm
 PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
 
-LIBRARY_ROOMS := base linalg beam modal fit run
+LIBRARY_ROOMS := base linalg beam modal fit run diagnose/causes diagnose
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
 IO_SOURCES := $(foreach room,uff deck report,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)

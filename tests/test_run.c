@@ -179,7 +179,7 @@ static void sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivativ
     struct sensitivity coarse, fine;
     struct sensitivity_options options = {.step = 1e-2, .range = 0.5, .points = 3, .modes = 6};
     const double x[3] = {8e10, 3e10, 1.0 / 3};
-    const struct parameter parameter[3] = {{PARAMETER_E, 1}, {PARAMETER_G, 1}, {PARAMETER_NU, 1}};
+    const struct parameter parameter[3] = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}, {PARAMETER_NU, 1, 0}};
     pool_open(&pool, NULL);
     make_job(&pool, 6, &job);
     job.fit.reduction = ROTID_GUYAN;

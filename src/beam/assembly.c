@@ -2,6 +2,9 @@
 #include <string.h>
 
 #include "beam/beam.h"
+#include "beam/effects.h"
+#include "beam/hinge.h"
+#include "beam/lumped.h"
 #include "beam/quantities.h"
 #include "linalg/matrix.h"
 
@@ -49,6 +52,37 @@ static double tierod_element_length(const struct beam *beam, int i)
     return (beam->mesh.z[chain->last_end] - beam->mesh.z[chain->first_end]) / chain_elements(chain);
 }
 
+static void add_axis_element(const struct beam *beam, int e, rotid_matrix *k, rotid_matrix *m)
+{
+    struct element element;
+    double ek[16], em[16];
+    axis_quantities(beam, e, &element);
+    element_matrices(&element, ek, em);
+    if (beam->nhinge && hinge_in(beam, e)) {
+        for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);)
+            if (lumped.element == e)
+                lumped_add(beam, &lumped, &element, em);
+        hinge_condense(beam, e, ek, em);
+    }
+    add_between(k, e, e + 1, ek);
+    add_between(m, e, e + 1, em);
+}
+
+/* those outside the elements with a hinge */
+static void add_lumped(const struct beam *beam, rotid_matrix *m)
+{
+    struct element element;
+    for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);) {
+        double em[16] = {0};
+        int e = lumped.element;
+        if (hinge_in(beam, e))
+            continue;
+        axis_quantities(beam, e, &element);
+        lumped_add(beam, &lumped, &element, em);
+        add_between(m, e, e + 1, em);
+    }
+}
+
 void beam_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_matrix *m)
 {
     const struct mesh *mesh = &beam->mesh;
@@ -57,12 +91,10 @@ void beam_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_ma
     double ek[16], em[16], inertia;
     for (int p = 0; p < beam->nparameter; p++)
         *parameter_value(&beam->rotor, beam->parameter[p]) = x[p];
-    for (int e = 0; e < mesh->nelement; e++) {
-        axis_quantities(beam, e, &element);
-        element_matrices(&element, ek, em);
-        add_between(k, e, e + 1, ek);
-        add_between(m, e, e + 1, em);
-    }
+    effects_refresh(beam);
+    for (int e = 0; e < mesh->nelement; e++)
+        add_axis_element(beam, e, k, m);
+    add_lumped(beam, m);
     for (int i = 0; i < beam->rotor.ntierod; i++) {
         tierod_quantities(beam, i, tierod_element_length(beam, i), &element, &stretch);
         element_matrices(&element, ek, em);
@@ -91,8 +123,65 @@ void beam_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_ma
     }
     for (int i = 0; i < beam->rotor.nspring && !beam->elastic_only; i++) {
         int v = 2 * mesh->spring_node[i];
-        matrix_add(k, v, v, beam->rotor.spring[i].lateral);
-        matrix_add(k, v + 1, v + 1, beam->rotor.spring[i].rotational);
+        double factor = effects_on_spring(&beam->rotor, i);
+        matrix_add(k, v, v, beam->rotor.spring[i].lateral * factor);
+        matrix_add(k, v + 1, v + 1, beam->rotor.spring[i].rotational * factor);
+    }
+}
+
+static void differentiate_axis_element(const struct beam *beam, struct parameter parameter, int e, rotid_matrix *dk,
+                                       rotid_matrix *dm)
+{
+    struct element element, d;
+    double k[16], m[16], ek[16] = {0}, em[16] = {0};
+    int moves = axis_direction(beam, parameter, e, &d), hinged = beam->nhinge && hinge_in(beam, e);
+    if (!moves && !hinged)
+        return;
+    axis_quantities(beam, e, &element);
+    if (moves)
+        element_derivatives(&element, &d, ek, em);
+    if (hinged) {
+        element_matrices(&element, k, m);
+        for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);)
+            if (lumped.element == e) {
+                lumped_add(beam, &lumped, &element, m);
+                lumped_differentiate(beam, parameter, &lumped, &element, &d, em);
+            }
+        hinge_differentiate(beam, parameter, e, k, m, ek, em);
+    }
+    add_between(dk, e, e + 1, ek);
+    add_between(dm, e, e + 1, em);
+}
+
+static void differentiate_lumped(const struct beam *beam, struct parameter parameter, rotid_matrix *dm)
+{
+    struct element element, d;
+    for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);) {
+        double em[16] = {0};
+        int e = lumped.element;
+        if (hinge_in(beam, e))
+            continue;
+        axis_quantities(beam, e, &element);
+        axis_direction(beam, parameter, e, &d);
+        if (lumped_differentiate(beam, parameter, &lumped, &element, &d, em))
+            add_between(dm, e, e + 1, em);
+    }
+}
+
+static void differentiate_springs(const struct beam *beam, struct parameter parameter, rotid_matrix *dk)
+{
+    const struct rotor *rotor = &beam->rotor;
+    for (int i = 0; i < rotor->nspring; i++) {
+        int v = 2 * beam->mesh.spring_node[i];
+        double d = 0;
+        if (parameter.kind == PARAMETER_EFFECT && effects_spring_derivative(rotor, parameter, i, &d)) {
+            matrix_add(dk, v, v, d * rotor->spring[i].lateral);
+            matrix_add(dk, v + 1, v + 1, d * rotor->spring[i].rotational);
+        } else if (parameter.kind == PARAMETER_SPRING_K && parameter.index == i) {
+            matrix_add(dk, v, v, effects_on_spring(rotor, i));
+        } else if (parameter.kind == PARAMETER_SPRING_K_ROT && parameter.index == i) {
+            matrix_add(dk, v + 1, v + 1, effects_on_spring(rotor, i));
+        }
     }
 }
 
@@ -104,12 +193,8 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
     struct stretch stretch, dstretch;
     double ek[16], em[16];
     for (int e = 0; e < mesh->nelement; e++)
-        if (axis_direction(beam, parameter, e, &d)) {
-            axis_quantities(beam, e, &element);
-            element_derivatives(&element, &d, ek, em);
-            add_between(dk, e, e + 1, ek);
-            add_between(dm, e, e + 1, em);
-        }
+        differentiate_axis_element(beam, parameter, e, dk, dm);
+    differentiate_lumped(beam, parameter, dm);
     for (int i = 0; i < beam->rotor.ntierod; i++)
         if (tierod_direction(beam, parameter, i, &d, &dstretch)) {
             tierod_quantities(beam, i, tierod_element_length(beam, i), &element, &stretch);
@@ -117,12 +202,8 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
             add_chain(&mesh->tierod[i], ek, em, dk, dm);
             add_stretch(&mesh->tierod[i], &dstretch, dk, dm);
         }
-    int spring = parameter.kind == PARAMETER_SPRING_K || parameter.kind == PARAMETER_SPRING_K_ROT;
-    int disk = parameter.kind == PARAMETER_DISK_MASS || parameter.kind == PARAMETER_DISK_INERTIA;
-    if (spring) {
-        int dof = 2 * mesh->spring_node[parameter.index] + (parameter.kind == PARAMETER_SPRING_K_ROT);
-        matrix_add(dk, dof, dof, 1);
-    } else if (disk) {
+    differentiate_springs(beam, parameter, dk);
+    if (parameter.kind == PARAMETER_DISK_MASS || parameter.kind == PARAMETER_DISK_INERTIA) {
         int dof = 2 * mesh->disk_node[parameter.index] + (parameter.kind == PARAMETER_DISK_INERTIA);
         matrix_add(dm, dof, dof, 1);
     }
@@ -131,6 +212,13 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
 struct moments { /* of mass about the left end: zeroth, first and second */
     double m0, m1, m2;
 };
+
+static void add_point_of_mass(struct moments *sum, double mass, double inertia, double z)
+{
+    sum->m0 += mass;
+    sum->m1 += mass * z;
+    sum->m2 += mass * z * z + inertia;
+}
 
 static void add_rod_of_mass(struct moments *sum, double rhos, double rhoi, double from, double to)
 {
@@ -166,11 +254,10 @@ void beam_mass_properties(const struct beam *beam, struct mass_properties *prope
     }
     for (int i = 0; i < rotor->ndisk; i++) {
         const struct disk *disk = &rotor->disk[i];
-        double z = mesh->z[mesh->disk_node[i]];
-        sum.m0 += disk->mass;
-        sum.m1 += disk->mass * z;
-        sum.m2 += disk->mass * z * z + disk->diametral;
+        add_point_of_mass(&sum, disk->mass, disk->diametral, mesh->z[mesh->disk_node[i]]);
     }
+    for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);)
+        add_point_of_mass(&sum, lumped.point.mass, lumped.point.inertia, lumped.point.z);
     properties->mass = sum.m0;
     properties->center = sum.m1 / sum.m0;
     properties->inertia = sum.m2 - sum.m1 * sum.m1 / sum.m0;

@@ -3,6 +3,7 @@
 #define ROTID_BEAM_BEAM_H
 
 #include "base/pool.h"
+#include "beam/effect.h"
 #include "beam/mesh.h"
 #include "beam/rotor.h"
 #include "beam/section.h"
@@ -18,12 +19,18 @@ enum parameter_kind {
     PARAMETER_SPRING_K,
     PARAMETER_SPRING_K_ROT,
     PARAMETER_DISK_MASS,
-    PARAMETER_DISK_INERTIA
+    PARAMETER_DISK_INERTIA,
+    PARAMETER_EFFECT
 };
 
 struct parameter {
     enum parameter_kind kind;
-    int index; /* of the group, tie rod, spring or disk */
+    int index;     /* of the group, tie rod, spring, disk or effect */
+    int component; /* of the effect, else 0 */
+};
+
+struct hinge { /* of a joint: see beam/hinge.h */
+    int effect, element, end;
 };
 
 struct beam {
@@ -31,13 +38,17 @@ struct beam {
     struct section *section; /* [nsegment] */
     struct section *tube;    /* [ntierod + nbars] equivalent cylinders where the model is TUBE */
     struct mesh mesh;
+    struct effect_factors *factor; /* [nelement] products over all effects, of the last beam_assemble; NULL without effects */
+    int nhinge;
+    struct hinge *hinge; /* [nhinge] */
     int nparameter;
     const struct parameter *parameter; /* [nparameter] */
     int elastic_only;                  /* leaves springs and axial forces out of K: what bends the rotor itself */
 };
 
-/* Finds "group.E", "group.G", ".nu", ".rho", "tierod.E", ".tension", "spring.k", ".k_rot", "disk.mass", ".inertia".
- * Returns 0 and *parameter, 1 when no object has that name, 2 when the object has no such parameter; *unit is set with 0. */
+/* Finds "group.E", "group.G", ".nu", ".rho", "tierod.E", ".tension", "spring.k", ".k_rot", "disk.mass", ".inertia", and the
+ * parameters of effects that have a name, "cause.depth". Returns 0 and *parameter, 1 when no object has that name, 2 when the
+ * object has no such parameter; *unit is set with 0. */
 int parameter_find(const struct rotor *rotor, const char *name, struct parameter *parameter, const char **unit);
 
 /* Its value in the rotor, to read or to set. G of an isotropic material is not stored: give the group a G of its own first. */
@@ -59,6 +70,7 @@ struct mass_properties {
     double inertia;      /* kg.m2 about a diameter through the centre */
 };
 
+/* Tie rods, bars, disks and the masses of effects included, at the values of the last beam_assemble. */
 void beam_mass_properties(const struct beam *beam, struct mass_properties *properties);
 
 /* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential

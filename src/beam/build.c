@@ -1,6 +1,8 @@
 #include <string.h>
 
 #include "beam/beam.h"
+#include "beam/effects.h"
+#include "beam/hinge.h"
 #include "linalg/eigen.h"
 #include "linalg/matrix.h"
 
@@ -21,7 +23,8 @@ static int copy_rotor(struct pool *pool, const struct rotor *rotor, struct rotor
     copy->tierod = copy_array(pool, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod, 0);
     copy->disk = copy_array(pool, rotor->disk, rotor->ndisk, sizeof *rotor->disk, 0);
     copy->spring = copy_array(pool, rotor->spring, rotor->nspring, sizeof *rotor->spring, 2); /* two more for a sling */
-    return copy->group && copy->tierod && copy->disk && copy->spring ? ROTID_OK : ROTID_ERROR_MEMORY;
+    copy->effect = copy_array(pool, rotor->effect, rotor->neffect, sizeof *rotor->effect, 0);
+    return copy->group && copy->tierod && copy->disk && copy->spring && copy->effect ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 static int build_sections(struct beam *beam, int *failed)
@@ -85,6 +88,10 @@ int beam_build(struct pool *pool, const struct rotor *rotor, int nparameter, con
         beam->rotor.spring[beam->rotor.nspring++] = (struct spring){.name = "sling end", .position = rotor_length(rotor)};
     }
     status = mesh_build(pool, &beam->rotor, refine, &beam->mesh);
+    if (!status)
+        status = effects_open(pool, beam);
+    if (!status)
+        status = hinge_place(pool, beam);
     if (!status && rotor->sling > 0)
         set_sling(beam);
     return status;

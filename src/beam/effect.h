@@ -41,9 +41,12 @@ struct effect_kind {
                 struct effect_factors *factors);
     int (*tierod)(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle);
     int (*spring)(const struct effect *effect, const struct rotor *rotor, int spring, int p, double *factor);
+    /* the i-th lumped mass; with p < 0 a 0 says that there is no i-th one */
     int (*point)(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point);
     /* rotational spring in series at the end of group `target` [rad/(N.m)]; massless */
     int (*joint)(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility);
+    /* how many of the parameters this effect uses, which may depend on its variant; NULL: all of them */
+    int (*count)(const struct effect *effect);
 };
 
 struct effect {
@@ -53,5 +56,8 @@ struct effect {
     int variant; /* of the kind, such as the shape of a soft zone */
     double value[EFFECT_MOST_PARAMETERS];
 };
+
+/* The number of parameters in use, the first ones of the kind. */
+int effect_parameters(const struct effect *effect);
 
 #endif

@@ -43,6 +43,26 @@ static int same(const char *a, const char *b, size_t length)
     return 1;
 }
 
+static int find_in_effects(const struct rotor *rotor, const char *name, size_t length, const char *suffix,
+                           struct parameter *parameter, const char **unit, int result)
+{
+    for (int i = 0; i < rotor->neffect; i++) {
+        const struct effect *effect = &rotor->effect[i];
+        if (!effect->name || strlen(effect->name) != length || !same(effect->name, name, length))
+            continue;
+        result = 2;
+        for (int p = 0; p < effect_parameters(effect); p++) {
+            const struct effect_parameter_name *own = &effect->kind->parameter[p];
+            if (strlen(own->name) == strlen(suffix) && same(own->name, suffix, strlen(suffix))) {
+                *parameter = (struct parameter){PARAMETER_EFFECT, i, p};
+                *unit = own->unit;
+                return 0;
+            }
+        }
+    }
+    return result;
+}
+
 int parameter_find(const struct rotor *rotor, const char *name, struct parameter *parameter, const char **unit)
 {
     const char *dot = strrchr(name, '.');
@@ -57,12 +77,12 @@ int parameter_find(const struct rotor *rotor, const char *name, struct parameter
                 continue;
             result = 2;
             if (strlen(table[t].suffix) == suffix && same(table[t].suffix, dot + 1, suffix)) {
-                *parameter = (struct parameter){table[t].kind, i};
+                *parameter = (struct parameter){table[t].kind, i, 0};
                 *unit = table[t].unit;
                 return 0;
             }
         }
-    return result;
+    return find_in_effects(rotor, name, length, dot + 1, parameter, unit, result);
 }
 
 double *parameter_value(const struct rotor *rotor, struct parameter parameter)
@@ -87,6 +107,8 @@ double *parameter_value(const struct rotor *rotor, struct parameter parameter)
         return &rotor->spring[i].rotational;
     case PARAMETER_DISK_MASS:
         return &rotor->disk[i].mass;
+    case PARAMETER_EFFECT:
+        return &rotor->effect[i].value[parameter.component];
     default:
         return &rotor->disk[i].diametral;
     }

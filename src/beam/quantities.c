@@ -1,5 +1,25 @@
 #include "beam/quantities.h"
 
+#include "beam/effects.h"
+
+/* of all rods of a bundle, with the factors of effects */
+static double tension_of(const struct rotor *rotor, int tierod)
+{
+    const struct tierod *rod = &rotor->tierod[tierod];
+    return rod->number * rod->tension * (rotor->neffect ? effects_on_tierod(rotor, tierod).tension : 1);
+}
+
+/* whether the rods press on what lies at z */
+static int clamps(const struct tierod *rod, double z)
+{
+    return rod->self_equilibrated && rod->from < z && z < rod->to;
+}
+
+static double middle_of(const struct mesh *mesh, int e)
+{
+    return (mesh->z[e] + mesh->z[e + 1]) / 2;
+}
+
 void axis_quantities(const struct beam *beam, int e, struct element *element)
 {
     const struct rotor *rotor = &beam->rotor;
@@ -8,7 +28,7 @@ void axis_quantities(const struct beam *beam, int e, struct element *element)
     const struct section *section = &beam->section[s];
     const struct group *group = &rotor->group[rotor->segment[s].group];
     const struct material *material = &group->material;
-    double unused, middle = (mesh->z[e] + mesh->z[e + 1]) / 2;
+    double unused, middle = middle_of(mesh, e);
     *element = (struct element){.ei = material->e * section->stiff_inertia,
                                 .kgs = section_shear_coefficient(section, material->nu, &unused) *
                                        material_shear_modulus(material) * section->stiff_area,
@@ -16,10 +36,15 @@ void axis_quantities(const struct beam *beam, int e, struct element *element)
                                 .rhoi = material->rho * section->mass_inertia,
                                 .force = beam->elastic_only ? 0 : group->preload,
                                 .length = mesh->z[e + 1] - mesh->z[e]};
-    for (int t = 0; t < rotor->ntierod && !beam->elastic_only; t++) {
-        const struct tierod *rod = &rotor->tierod[t];
-        if (rod->self_equilibrated && rod->from < middle && middle < rod->to)
-            element->force -= rod->number * rod->tension;
+    for (int t = 0; t < rotor->ntierod && !beam->elastic_only; t++)
+        if (clamps(&rotor->tierod[t], middle))
+            element->force -= tension_of(rotor, t);
+    if (beam->factor) {
+        const struct effect_factors *factor = &beam->factor[e];
+        element->ei *= factor->ei;
+        element->kgs *= factor->kgs;
+        element->rhos *= factor->rhos;
+        element->rhoi *= factor->rhoi;
     }
 }
 
@@ -48,21 +73,54 @@ static int material_direction(const struct material *material, const struct sect
     }
 }
 
+static int effect_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
+{
+    const struct rotor *rotor = &beam->rotor;
+    struct effect_factors rate = {0, 0, 0, 0};
+    int moves = effects_axis_rate(beam, parameter, e, &rate);
+    if (moves) {
+        struct element now;
+        axis_quantities(beam, e, &now);
+        *d = (struct element){
+            .ei = now.ei * rate.ei, .kgs = now.kgs * rate.kgs, .rhos = now.rhos * rate.rhos, .rhoi = now.rhoi * rate.rhoi};
+    }
+    for (int t = 0; t < rotor->ntierod && rotor->effect[parameter.index].kind->tierod; t++) {
+        const struct tierod *rod = &rotor->tierod[t];
+        struct effect_bundle bundle = {0, 0, 0};
+        if (clamps(rod, middle_of(&beam->mesh, e)) && effects_tierod_derivative(rotor, parameter, t, &bundle)) {
+            d->force -= rod->number * rod->tension * bundle.tension;
+            moves |= d->force != 0;
+        }
+    }
+    return moves;
+}
+
 int axis_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
 {
     const struct rotor *rotor = &beam->rotor;
     const struct mesh *mesh = &beam->mesh;
     int s = mesh->segment[e], group = rotor->segment[s].group;
     *d = (struct element){0};
+    if (parameter.kind == PARAMETER_EFFECT)
+        return effect_direction(beam, parameter, e, d);
     if (parameter.kind == PARAMETER_TENSION) {
         const struct tierod *rod = &rotor->tierod[parameter.index];
-        double middle = (mesh->z[e] + mesh->z[e + 1]) / 2;
-        d->force = rod->self_equilibrated && rod->from < middle && middle < rod->to ? -rod->number : 0;
-        return d->force != 0;
+        if (!clamps(rod, middle_of(mesh, e)))
+            return 0;
+        d->force = -rod->number * (rotor->neffect ? effects_on_tierod(rotor, parameter.index).tension : 1);
+        return 1;
     }
     if (parameter.kind > PARAMETER_RHO || parameter.index != group)
         return 0;
-    return material_direction(&rotor->group[group].material, &beam->section[s], parameter.kind, d);
+    int moves = material_direction(&rotor->group[group].material, &beam->section[s], parameter.kind, d);
+    if (beam->factor) {
+        const struct effect_factors *factor = &beam->factor[e];
+        *d = (struct element){.ei = d->ei * factor->ei,
+                              .kgs = d->kgs * factor->kgs,
+                              .rhos = d->rhos * factor->rhos,
+                              .rhoi = d->rhoi * factor->rhoi};
+    }
+    return moves;
 }
 
 static struct section bundle_section(enum bundle_model model, int number, double diameter, double pitch,
@@ -92,16 +150,48 @@ static double tierod_length(const struct beam *beam, int tierod)
     return beam->mesh.z[chain->last_end] - beam->mesh.z[chain->first_end];
 }
 
+/* the model that holds, effects considered, with its section */
+static enum bundle_model tierod_section(const struct beam *beam, int tierod, const struct effect_bundle *factor,
+                                        struct section *section, double *pitch)
+{
+    const struct tierod *rod = &beam->rotor.tierod[tierod];
+    enum bundle_model model = factor->as_rods ? BUNDLE_RODS : rod->model;
+    *section = bundle_section(model, rod->number, rod->diameter, rod->pitch, &beam->tube[tierod], pitch);
+    return model;
+}
+
 void tierod_quantities(const struct beam *beam, int tierod, double length, struct element *element, struct stretch *stretch)
 {
     const struct tierod *rod = &beam->rotor.tierod[tierod];
+    struct effect_bundle factor = effects_on_tierod(&beam->rotor, tierod);
+    struct section section;
     double pitch, whole = tierod_length(beam, tierod);
-    struct section section = bundle_section(rod->model, rod->number, rod->diameter, rod->pitch, &beam->tube[tierod], &pitch);
+    enum bundle_model model = tierod_section(beam, tierod, &factor, &section, &pitch);
     *element = bundle_element(&rod->material, &section, length);
-    element->force = beam->elastic_only ? 0 : rod->number * rod->tension;
+    element->ei *= factor.young;
+    element->kgs *= factor.young;
+    element->force = beam->elastic_only ? 0 : rod->number * rod->tension * factor.tension;
     *stretch = (struct stretch){0, 0};
-    if (rod->model == BUNDLE_RODS)
-        *stretch = (struct stretch){rod->material.e * pitch / whole, rod->material.rho * pitch * whole};
+    if (model == BUNDLE_RODS)
+        *stretch = (struct stretch){rod->material.e * factor.young * pitch / whole, rod->material.rho * pitch * whole};
+}
+
+static int tierod_effect_direction(const struct beam *beam, struct parameter parameter, int tierod, struct element *d,
+                                   struct stretch *dstretch)
+{
+    const struct tierod *rod = &beam->rotor.tierod[tierod];
+    struct effect_bundle factor = effects_on_tierod(&beam->rotor, tierod), rate = {0, 0, 0};
+    struct section section;
+    double pitch;
+    if (!effects_tierod_derivative(&beam->rotor, parameter, tierod, &rate))
+        return 0;
+    enum bundle_model model = tierod_section(beam, tierod, &factor, &section, &pitch);
+    struct element base = bundle_element(&rod->material, &section, 1);
+    *d = (struct element){
+        .ei = base.ei * rate.young, .kgs = base.kgs * rate.young, .force = rod->number * rod->tension * rate.tension};
+    if (model == BUNDLE_RODS)
+        dstretch->stiffness = rod->material.e * rate.young * pitch / tierod_length(beam, tierod);
+    return 1;
 }
 
 int tierod_direction(const struct beam *beam, struct parameter parameter, int tierod, struct element *d, struct stretch *dstretch)
@@ -109,19 +199,23 @@ int tierod_direction(const struct beam *beam, struct parameter parameter, int ti
     const struct tierod *rod = &beam->rotor.tierod[tierod];
     *d = (struct element){0};
     *dstretch = (struct stretch){0, 0};
-    if (parameter.index != tierod)
+    if (parameter.kind == PARAMETER_EFFECT)
+        return tierod_effect_direction(beam, parameter, tierod, d, dstretch);
+    if (parameter.index != tierod || (parameter.kind != PARAMETER_TENSION && parameter.kind != PARAMETER_TIEROD_E))
         return 0;
+    struct effect_bundle factor = effects_on_tierod(&beam->rotor, tierod);
     if (parameter.kind == PARAMETER_TENSION) {
-        d->force = rod->number;
+        d->force = rod->number * factor.tension;
         return 1;
     }
-    if (parameter.kind != PARAMETER_TIEROD_E)
-        return 0;
+    struct section section;
     double pitch;
-    struct section section = bundle_section(rod->model, rod->number, rod->diameter, rod->pitch, &beam->tube[tierod], &pitch);
-    if (rod->model == BUNDLE_RODS)
-        dstretch->stiffness = pitch / tierod_length(beam, tierod);
-    return material_direction(&rod->material, &section, parameter.kind, d);
+    if (tierod_section(beam, tierod, &factor, &section, &pitch) == BUNDLE_RODS)
+        dstretch->stiffness = factor.young * pitch / tierod_length(beam, tierod);
+    material_direction(&rod->material, &section, parameter.kind, d);
+    d->ei *= factor.young;
+    d->kgs *= factor.young;
+    return 1;
 }
 
 void bars_quantities(const struct beam *beam, int index, double length, struct element *element, double *inertia)

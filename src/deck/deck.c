@@ -13,7 +13,7 @@ static const struct {
     const char *name;
     void (*read)(struct deck_reader *reader, const struct card *card);
     int phase;
-    const char *options[7];
+    const char *options[10];
 } table[] = {
     {"MATERIAL", deck_material, 0, {"NAME", NULL}},
     {"ELASTIC", deck_elastic, 0, {"TYPE", NULL}},
@@ -33,12 +33,13 @@ static const struct {
     {"NOISE", deck_noise, 3, {"FREQUENCY", "SHAPE", NULL}},
     {"SHAPE", deck_shape, 4, {"MODE", NULL}},
     {"MEASURED", deck_measured, 4, {"FILE", "AXIS", "DIRECTION", "ORIGIN", "FLIP", "SCALE", NULL}},
-    {"IDENTIFY", deck_identify, 5, {NULL}},
-    {"FIT", deck_fit, 5, {"FUNCTIONAL", "REDUCTION", "MODES", "HOLDOUT", "DERIVATIVE", "TIE", NULL}},
+    {"CAUSE", deck_cause, 5, {"NAME", "TYPE", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", "SUSPECT", NULL}},
+    {"IDENTIFY", deck_identify, 6, {NULL}},
+    {"FIT", deck_fit, 6, {"FUNCTIONAL", "REDUCTION", "MODES", "HOLDOUT", "DERIVATIVE", "TIE", NULL}},
 };
 
 #define CARDS      (sizeof table / sizeof *table)
-#define LAST_PHASE 5
+#define LAST_PHASE 6
 
 static void check_names(struct deck_reader *reader, const struct card *card)
 {
@@ -50,7 +51,7 @@ static void check_names(struct deck_reader *reader, const struct card *card)
         return;
     }
     for (int i = 0; i < card->noption; i++) {
-        int known = 0;
+        int known = !strcmp(card->name, "CAUSE") && deck_cause_list_item(card, &card->option[i]);
         for (const char *const *name = table[t].options; *name; name++)
             known |= same_text(*name, card->option[i].name);
         char list[256] = "none";
@@ -74,7 +75,7 @@ static void check_materials(struct deck_reader *reader)
     }
 }
 
-/* Parameters are addressed by name, so groups, rods, springs and disks share one set of names. */
+/* Parameters are addressed by name, so groups, rods, springs, disks and causes share one set of names. */
 static void check_unique(struct deck_reader *reader)
 {
     for (int c = 0; c < reader->text.ncard; c++) {
@@ -226,7 +227,7 @@ static void read_cards(struct deck_reader *reader)
             deck_error(reader, reader->text.end, "the deck has no *SHAFT and no *BEAM, expected at least one");
             return; /* every position would be outside */
         }
-        if (phase == 5) {
+        if (phase == LAST_PHASE) {
             job->holdout = POOL_ARRAY(reader->pool, int, job->nmode);
             reader->out_of_memory |= !job->holdout;
         }
@@ -242,6 +243,9 @@ static void read_cards(struct deck_reader *reader)
         return;
     settle_moduli(reader);
     apply_noise(reader);
+    deck_apply_corrections(reader);
+    if (reader->messages->errors || reader->out_of_memory)
+        return;
     choose_functional(reader);
     check_masters(reader);
     check_beam(reader);

@@ -16,8 +16,9 @@ struct deck_reader {
     int *material_complete; /* bit 1: elastic constants, bit 2: density */
     struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
     size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,
-        bounds_room;
-    double length; /* of the rotor, once all groups are read */
+        bounds_room, effect_room, suspect_room, correction_room, correction_place_room;
+    struct place *correction_place; /* of the CAUSE cards of the measurement chain */
+    double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape;
     const struct card *measured_card, *modes_card, *fit_card, *identify_card, *noise_card;
     const char *tie; /* FIT, TIE=E:G */
@@ -78,9 +79,18 @@ void deck_sensors(struct deck_reader *reader, const struct card *card);
 void deck_modes(struct deck_reader *reader, const struct card *card);
 void deck_shape(struct deck_reader *reader, const struct card *card);
 void deck_noise(struct deck_reader *reader, const struct card *card);
+void deck_cause(struct deck_reader *reader, const struct card *card);
 void deck_identify(struct deck_reader *reader, const struct card *card);
 void deck_fit(struct deck_reader *reader, const struct card *card);
 /* The universal file of MEASURED: sensors, modes and shapes. */
 void deck_measured(struct deck_reader *reader, const struct card *card);
+
+/* Whether an option is no option but the second group of BETWEEN=left,core. */
+int deck_cause_list_item(const struct card *card, const struct card_option *option);
+/* Takes the faults that CAUSE cards state out of the data, in the order of the cards; the noise is known by then. */
+void deck_apply_corrections(struct deck_reader *reader);
+/* Whether "cause.parameter", which is no parameter of the model, has that name from a CAUSE card: of a suspect or a fault of the
+ * data, which this reports, or of a card that was refused, which has been reported. */
+int deck_cause_explains(struct deck_reader *reader, const char *parameter, struct place place);
 
 #endif

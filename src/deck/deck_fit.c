@@ -4,6 +4,24 @@
 #include <string.h>
 
 #include "deck/deck_cards.h"
+#include "diagnose/causes/catalogue.h"
+
+/* Below zero is physical for some parameters of causes: each states its own range. */
+static void check_effect_bounds(struct deck_reader *reader, const struct data_line *line, const struct parameter *parameter,
+                                const rotid_parameter *bounds)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    const struct effect *effect = &rotor->effect[parameter->index];
+    const struct cause_kind *cause = catalogue_of(effect);
+    double lower, upper;
+    if (!cause || !cause->bounds)
+        return;
+    cause->bounds(rotor, effect, parameter->component, &lower, &upper);
+    if (bounds->lower < lower || bounds->upper > upper)
+        deck_error(reader, line->field[bounds->lower < lower ? 1 : 2].place,
+                   "the bounds of %s are %s and %s, expected them inside %.6g to %.6g", bounds->name, line->field[1].text,
+                   line->field[2].text, lower, upper);
+}
 
 void deck_identify(struct deck_reader *reader, const struct card *card)
 {
@@ -15,11 +33,11 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         struct parameter parameter;
         rotid_parameter bounds = {.name = line->field[0].text};
         int found = parameter_find(&job->rotor, bounds.name, &parameter, &bounds.unit);
-        if (found == 1)
+        if (found == 1 && !deck_cause_explains(reader, bounds.name, line->field[0].place))
             deck_error(reader, line->field[0].place,
                        "%s is no parameter, expected NAME.E, .G, .nu, .rho of a group, NAME.E, .tension of a tie rod, NAME.k, "
                        ".k_rot of a spring, "
-                       "NAME.mass, .inertia of a disk",
+                       "NAME.mass, .inertia of a disk, NAME.parameter of a cause",
                        bounds.name);
         if (found == 2)
             deck_error(reader, line->field[0].place,
@@ -40,6 +58,8 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         else if (bounds.start == 0)
             deck_error(reader, line->field[3].place,
                        "the start of %s is zero, expected another value: it is the scale of the parameter", bounds.name);
+        else if (parameter.kind == PARAMETER_EFFECT)
+            check_effect_bounds(reader, line, &parameter, &bounds);
         else if (bounds.lower < 0 && parameter.kind != PARAMETER_TENSION && parameter.kind != PARAMETER_NU)
             deck_error(reader, line->field[1].place, "the lower bound of %s is %s, expected zero or more", bounds.name,
                        line->field[1].text);
@@ -47,7 +67,8 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
             deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected them inside -1 to 0.5",
                        bounds.name, line->field[1].text, line->field[2].text);
         for (int p = 0; p < job->nparameter; p++)
-            if (job->parameter[p].kind == parameter.kind && job->parameter[p].index == parameter.index)
+            if (job->parameter[p].kind == parameter.kind && job->parameter[p].index == parameter.index &&
+                job->parameter[p].component == parameter.component)
                 deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
         struct parameter *added = DECK_APPEND(reader, job->parameter, job->nparameter, reader->parameter_room);
         rotid_parameter *limits = DECK_APPEND(reader, job->bounds, job->nparameter, reader->bounds_room);

@@ -10,15 +10,15 @@
 enum cause_class { CAUSE_NUMERICAL, CAUSE_DATA, CAUSE_PHYSICAL };
 
 enum cause_target { /* what a CAUSE card names, and what the scan enumerates */
-    TARGET_NONE,
-    TARGET_GROUP,     /* GROUP= */
-    TARGET_INTERFACE, /* BETWEEN=left,right: two groups that follow each other */
-    TARGET_SPRING,    /* AT= name of a spring */
-    TARGET_TIEROD,    /* AT= name of a tie rod */
-    TARGET_SENSOR,    /* SENSOR= id */
-    TARGET_SENSORS,   /* SENSOR= two ids */
-    TARGET_BLOCK,     /* AT=SHAPE or FREQUENCY */
-    TARGET_MODES
+                    TARGET_NONE,
+                    TARGET_GROUP,     /* GROUP= */
+                    TARGET_INTERFACE, /* BETWEEN=left,right: two groups that follow each other */
+                    TARGET_SPRING,    /* AT= name of a spring */
+                    TARGET_TIEROD,    /* AT= name of a tie rod */
+                    TARGET_SENSOR,    /* SENSOR= id */
+                    TARGET_SENSORS,   /* SENSOR= two ids */
+                    TARGET_BLOCK,     /* AT=SHAPE or FREQUENCY */
+                    TARGET_MODES
 };
 
 struct cause_parameter {
@@ -33,11 +33,11 @@ struct cause_kind {
     enum cause_target target;
     const struct effect_kind *effect; /* NULL for other than physical causes */
     struct cause_parameter parameter[EFFECT_MOST_PARAMETERS];
-    int size;            /* index of the parameter that is the size; the others are places and widths */
-    int place;           /* index of the parameter that is a place z, or -1 */
-    int width;           /* index of the parameter that is a width, or -1 */
-    int secant;          /* no derivative at neutral: the scan uses the difference to `typical` */
-    const char *variant[4]; /* words of option SHAPE= (stiffness_local) or MOUNT= (accelerometer_mass), NULL at the end */
+    int size;                   /* index of the parameter that is the size; the others are places and widths */
+    int place;                  /* index of the parameter that is a place z, or -1 */
+    int width;                  /* index of the parameter that is a width, or -1 */
+    int secant;                 /* no derivative at neutral: the scan uses the difference to `typical` */
+    const char *variant[5];     /* words of option SHAPE= (stiffness_local) or MOUNT= (accelerometer_mass), NULL at the end */
     const char *variant_option; /* "SHAPE", "MOUNT" or NULL */
     /* the cause is an approximation: what it leaves, relative to frequencies and to the largest component of a shape */
     double discrepancy_frequency, discrepancy_shape;
@@ -53,5 +53,8 @@ struct cause_kind {
     const char *sentence; /* what it is: "a zone softer than its surroundings" */
     const char *check;    /* how to tell it apart in the workshop: "weigh the end pieces" */
 };
+
+/* The number of parameters of an effect in use, the first ones of its kind: a soft zone of one depth has no depth_shear. */
+int cause_parameters(const struct effect *effect);
 
 #endif

@@ -1,0 +1,225 @@
+/* CAUSE: what the diagnosis found, or what a user suspects. */
+#include <stdio.h>
+#include <string.h>
+
+#include "deck/deck_cause.h"
+
+/* Why a finding of the diagnosis has no card. */
+static const char *without_card(const struct cause_kind *kind)
+{
+    return kind->target == TARGET_MODES  ? "modes are paired by their numbers, expected others in *MODES or the universal file"
+           : same_text(kind->id, "mesh") ? "it is removed by more elements on *SHAFT, expected those"
+           : same_text(kind->id, "guyan_reduction") ? "it is removed by *FIT, REDUCTION=NONE, expected that"
+                                                    : "the diagnosis alone finds it, expected another TYPE";
+}
+
+static int has_card(const struct cause_kind *kind)
+{
+    return kind->class == CAUSE_PHYSICAL || kind->correct;
+}
+
+static const struct cause_kind *find_kind(struct deck_reader *reader, const struct card *card)
+{
+    const char *id = deck_option(reader, card, "TYPE", "id of a cause");
+    const struct cause_kind *kind = id ? catalogue_find(id) : NULL;
+    if (!id)
+        return NULL;
+    struct place place = card_option(card, "TYPE")->value_place;
+    if (!kind) {
+        char list[768] = "";
+        for (int i = 0, length = 0; i < catalogue_count(); i++)
+            if (has_card(catalogue_item(i)) && length < (int)sizeof list)
+                length +=
+                    snprintf(list + length, sizeof list - (size_t)length, "%s%s", length ? ", " : "", catalogue_item(i)->id);
+        deck_error(reader, place, "TYPE=%s is no cause, expected one of %s", id, list);
+    } else if (!has_card(kind)) {
+        deck_error(reader, place, "TYPE=%s has no card: %s", kind->id, without_card(kind));
+        kind = NULL;
+    }
+    return kind;
+}
+
+/* Options that another type of cause has. 0, or 1 after an error. */
+static int check_options(const struct cause_card *c)
+{
+    static const char *const places[] = {"GROUP", "BETWEEN", "AT", "SENSOR"};
+    int bad = 0;
+    for (int i = 0; i < c->card->noption; i++) {
+        const struct card_option *option = &c->card->option[i];
+        if (deck_cause_list_item(c->card, option))
+            continue;
+        const char *own = cause_target_option(c->kind->target);
+        for (size_t p = 0; p < sizeof places / sizeof *places; p++)
+            if (same_text(option->name, places[p]) && !(own && same_text(own, places[p])) &&
+                !(c->kind->target == TARGET_INTERFACE && same_text(option->name, "AT"))) {
+                deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s%s%s", option->name,
+                           c->kind->id, own ? own : "", own ? "=" : "", cause_target_expected(c->kind->target));
+                bad = 1;
+            }
+        if ((same_text(option->name, "SHAPE") || same_text(option->name, "MOUNT")) &&
+            !(c->kind->variant_option && same_text(option->name, c->kind->variant_option))) {
+            deck_error(c->reader, option->place, "%s has no meaning for a cause of TYPE=%s, expected %s", option->name,
+                       c->kind->id, c->kind->variant_option ? c->kind->variant_option : "a card without it");
+            bad = 1;
+        }
+    }
+    return bad;
+}
+
+static int check_value(const struct cause_card *c, int p, const char *name, const struct field *field, double value)
+{
+    double lower, upper;
+    if (!c->kind->bounds)
+        return 0;
+    c->kind->bounds(&c->reader->job->rotor, &c->effect, p, &lower, &upper);
+    double neutral = c->kind->parameter[p].neutral;
+    int has_neutral = c->kind->class == CAUSE_DATA ||
+                      (p != c->kind->place && p != c->kind->width); /* of a place or width none is without effect */
+    if ((value >= lower && value <= upper) || (has_neutral && value == neutral))
+        return 0;
+    if (has_neutral && (neutral < lower || neutral > upper))
+        deck_error(c->reader, field->place, "%s is %s, expected a value from %.6g to %.6g, or %.6g: no effect", name, field->text,
+                   lower, upper, neutral);
+    else
+        deck_error(c->reader, field->place, "%s is %s, expected a value from %.6g to %.6g", name, field->text, lower, upper);
+    return 1;
+}
+
+/* Index of a parameter of the kind, -1 after an error that lists those there are. */
+static int find_value(const struct cause_card *c, const struct field *field, int count, const struct effect_parameter_name *known)
+{
+    char list[256] = "";
+    for (int p = 0; p < count; p++) {
+        if (same_text(field->text, known[p].name))
+            return p;
+        (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s [%s]", p ? ", " : "", known[p].name, known[p].unit);
+    }
+    deck_error(c->reader, field->place, "%s is no parameter of TYPE=%s, expected %s", field->text, c->kind->id,
+               count ? list : "no data line");
+    return -1;
+}
+
+/* The data lines: values [count] of the parameters `known` [count], given [count] says which were there. */
+static int read_values(struct cause_card *c, int count, const struct effect_parameter_name *known, double *value, int *given)
+{
+    static const char layout[] = "parameter, value";
+    int bad = 0;
+    for (int i = 0; i < c->card->nline; i++) {
+        const struct data_line *line = &c->card->line[i];
+        int p = deck_count(c->reader, line, 2, layout) ? -1 : find_value(c, &line->field[0], count, known);
+        if (p >= 0 && given[p])
+            deck_error(c->reader, line->field[0].place, "%s is given twice, expected once", known[p].name);
+        if (p < 0 || given[p]++) {
+            bad = 1;
+            continue;
+        }
+        int is_place = c->kind->class == CAUSE_PHYSICAL && p == c->kind->place && deck_has(line, 1);
+        bad |= is_place ? deck_position(c->reader, line->field[1].text, line->field[1].place, known[p].name, &value[p])
+                        : deck_number(c->reader, line, 1, known[p].name, ANY, &value[p]);
+    }
+    for (int i = 0; i < c->card->nline && !bad; i++) { /* now: bounds of one parameter may follow another one */
+        const struct data_line *line = &c->card->line[i];
+        int p = find_value(c, &line->field[0], count, known);
+        bad |= check_value(c, p, known[p].name, &line->field[1], value[p]);
+    }
+    for (int p = 0; p < count && !c->suspect && !bad; p++)
+        if (!given[p]) {
+            deck_error(c->reader, c->card->place, "*CAUSE has no value of %s [%s], expected a line '%s, value'", known[p].name,
+                       known[p].unit, known[p].name);
+            bad = 1;
+        }
+    return bad;
+}
+
+static int read_variant(struct cause_card *c)
+{
+    const struct card_option *option = c->kind->variant_option ? card_option(c->card, c->kind->variant_option) : NULL;
+    int word = option ? deck_option_word(c->reader, option, c->kind->variant) : 0;
+    c->effect.variant = word < 0 ? 0 : word;
+    return word < 0;
+}
+
+/* Such as tie rods that are RODS already. */
+static void note_if_idle(struct cause_card *c)
+{
+    const struct rotor *rotor = &c->reader->job->rotor;
+    int *identified = POOL_ARRAY(c->reader->pool, int, rotor->ngroup); /* none: what is identified does not matter here */
+    if (!identified)
+        c->reader->out_of_memory = 1;
+    else if (c->kind->applies && !c->kind->applies(rotor, c->effect.target, identified))
+        deck_note(c->reader, c->card->place, "cause %s of TYPE=%s changes nothing here", c->name, c->kind->id);
+}
+
+/* An effect: part of the model, or a suspect. */
+static void read_physical(struct cause_card *c)
+{
+    struct job *job = c->reader->job;
+    int given[EFFECT_MOST_PARAMETERS] = {0};
+    c->effect.name = c->name;
+    c->effect.kind = c->kind->effect;
+    for (int p = 0; p < c->kind->effect->nparameter; p++) /* what a suspect leaves open: no effect, of a usual width */
+        c->effect.value[p] = p == c->kind->width ? c->kind->parameter[p].typical : c->kind->parameter[p].neutral;
+    note_if_idle(c);
+    if (read_values(c, effect_parameters(&c->effect), c->kind->effect->parameter, c->effect.value, given))
+        return;
+    if (!c->suspect) {
+        struct effect *added = DECK_APPEND(c->reader, job->rotor.effect, job->rotor.neffect, c->reader->effect_room);
+        if (added) {
+            *added = c->effect;
+            job->rotor.neffect++;
+        }
+        return;
+    }
+    struct suspect *added = DECK_APPEND(c->reader, job->suspect, job->nsuspect, c->reader->suspect_room);
+    if (!added)
+        return;
+    added->effect = c->effect;
+    memcpy(added->fixed, given, sizeof given);
+    job->nsuspect++;
+}
+
+/* A fault of the measurement chain: applied when everything has been read. */
+static void read_correction(struct cause_card *c)
+{
+    struct job *job = c->reader->job;
+    int given[1] = {0};
+    c->correction.name = c->name;
+    c->correction.id = c->kind->id;
+    c->correction.value = 1;
+    if (c->suspect) {
+        deck_error(c->reader, card_option(c->card, "SUSPECT")->place,
+                   "SUSPECT has no meaning for TYPE=%s, expected a cause in the rotor: the measured data are always examined",
+                   c->kind->id);
+        return;
+    }
+    if (read_values(c, c->kind->value.name != NULL, &c->kind->value, &c->correction.value, given))
+        return;
+    if (!job->shape && c->kind->target != TARGET_BLOCK) {
+        deck_error(c->reader, c->card->place, "TYPE=%s corrects measured shapes and there are none, expected *SHAPE or *MEASURED",
+                   c->kind->id);
+        return;
+    }
+    struct correction *added = DECK_APPEND(c->reader, job->correction, job->ncorrection, c->reader->correction_room);
+    struct place *place = DECK_APPEND(c->reader, c->reader->correction_place, job->ncorrection, c->reader->correction_place_room);
+    if (!added || !place)
+        return;
+    *added = c->correction;
+    *place = c->card->place;
+    job->ncorrection++;
+}
+
+void deck_cause(struct deck_reader *reader, const struct card *card)
+{
+    static const char *const answers[] = {"NO", "YES", NULL};
+    struct cause_card c = {.reader = reader, .card = card, .name = deck_option(reader, card, "NAME", "name")};
+    const struct card_option *suspect = card_option(card, "SUSPECT");
+    c.kind = find_kind(reader, card);
+    if (suspect && !deck_cause_list_item(card, suspect))
+        c.suspect = !*suspect->value ? 1 : deck_option_word(reader, suspect, answers);
+    if (!c.kind || c.suspect < 0 || check_options(&c) || read_variant(&c) || cause_read_target(&c) || !c.name)
+        return;
+    if (c.kind->class == CAUSE_PHYSICAL)
+        read_physical(&c);
+    else
+        read_correction(&c);
+}

@@ -1,0 +1,200 @@
+#include "deck/deck_write.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "deck/deck_text.h"
+#include "deck/deck_writer.h"
+#include "rotid.h"
+
+#define LINE 100 /* a card longer than this goes on in the next line */
+
+void deck_put(struct deck_writer *w, const char *format, ...)
+{
+    va_list values, again;
+    va_start(values, format);
+    va_copy(again, values);
+    int count = vsnprintf(NULL, 0, format, values);
+    va_end(values);
+    while (!w->status && count >= 0 && w->length + (size_t)count + 1 > w->room) {
+        char *grown = pool_grow(w->pool, w->text, w->room, &w->room, 1);
+        if (grown)
+            w->text = grown;
+        else
+            w->status = ROTID_ERROR_MEMORY;
+    }
+    if (!w->status && count >= 0) {
+        (void)vsnprintf(w->text + w->length, (size_t)count + 1, format, again);
+        w->length += (size_t)count;
+    }
+    va_end(again);
+}
+
+/* 2.1e11 for 2.1e+11 */
+static void shorten_exponent(char *text)
+{
+    char *e = strchr(text, 'e');
+    if (!e)
+        return;
+    int exponent = atoi(e + 1);
+    (void)sprintf(e + 1, "%d", exponent); /* never longer than it was */
+}
+
+/* The fewest digits that give the value back, written out unless that is much longer. text [32] */
+static const char *number_text(double value, char *text)
+{
+    char plain[32];
+    int digits = -1;
+    do
+        (void)snprintf(text, 32, "%.*e", ++digits, value);
+    while (digits < 16 && strtod(text, NULL) != value);
+    shorten_exponent(text);
+    (void)snprintf(plain, sizeof plain, "%.*g", digits + 1 < 15 ? 15 : digits + 1, value);
+    shorten_exponent(plain);
+    return strlen(plain) > strlen(text) + 3 ? text : strcpy(text, plain);
+}
+
+void deck_put_number(struct deck_writer *w, const char *separator, double value)
+{
+    char text[32];
+    if (!isfinite(value))
+        w->status = w->status ? w->status : ROTID_ERROR_ARGUMENT;
+    deck_put(w, "%s%s", separator, number_text(value, text));
+}
+
+/* What the value of an option can be: no comma, no comment, nothing that trimming takes away. */
+static int is_value(const char *text)
+{
+    size_t length = text ? strlen(text) : 0;
+    if (!length || isspace((unsigned char)text[0]) || isspace((unsigned char)text[length - 1]) || strstr(text, "**"))
+        return 0;
+    for (size_t i = 0; i < length; i++)
+        if (text[i] == ',' || ((unsigned char)text[i] < ' ' && text[i] != '\t'))
+            return 0;
+    return 1;
+}
+
+void deck_put_card(struct deck_writer *w, const char *name)
+{
+    deck_put(w, "*%s", name);
+}
+
+void deck_put_option(struct deck_writer *w, const char *name, const char *value)
+{
+    size_t column = 0;
+    if (!is_value(value)) {
+        w->status = w->status ? w->status : ROTID_ERROR_ARGUMENT;
+        return;
+    }
+    while (column < w->length && w->text[w->length - column - 1] != '\n')
+        column++;
+    deck_put(w, ",%s%s=%s", column + strlen(name) + strlen(value) + 3 > LINE ? "\n    " : " ", name, value);
+}
+
+void deck_put_option_number(struct deck_writer *w, const char *name, double value)
+{
+    char text[32];
+    deck_put_option(w, name, number_text(value, text));
+}
+
+/* ------------------------------------------------------------------------------------------------ the whole */
+
+/* A line of text that a deck takes for text. */
+static void put_text(struct deck_writer *w, const char *text)
+{
+    char line[DECK_LINE_LENGTH + 1];
+    size_t length = 0;
+    text += strspn(text, "* \t\r\n");
+    for (; *text && length < DECK_LINE_LENGTH; text++)
+        line[length++] = (unsigned char)*text < ' ' || (*text == '*' && text[1] == '*') ? ' ' : *text;
+    while (*text && length && ((unsigned char)*text & 0xc0) == 0x80) /* not within a character of UTF-8 */
+        text--, length--;
+    line[length] = 0;
+    if (length)
+        deck_put(w, "%s\n", line);
+}
+
+static void write_heading(struct deck_writer *w, const struct deck_write_options *options)
+{
+    const struct job *job = w->job;
+    int extra = options ? options->nextra : 0;
+    if (job->nheading + job->nreference + extra == 0)
+        return;
+    deck_put(w, "*HEADING\n");
+    for (int i = 0; i < job->nheading; i++)
+        put_text(w, job->heading[i]);
+    for (int i = 0; i < extra; i++)
+        put_text(w, options->extra[i]);
+    for (int i = 0; i < job->nreference; i++) {
+        size_t begin = w->length;
+        deck_put(w, "paper %s", job->reference[i].quantity);
+        for (int j = 0; j < job->reference[i].count; j++)
+            deck_put_number(w, j ? ", " : " = ", job->reference[i].value[j]);
+        if (w->length - begin > DECK_LINE_LENGTH) /* numbers may have become longer: only printed beside results */
+            w->length = begin;
+        else
+            deck_put(w, "\n");
+    }
+}
+
+static void *copy(struct deck_writer *w, const void *source, int count, size_t size)
+{
+    void *target = pool_get(w->pool, (size_t)count, size);
+    if (target && count)
+        memcpy(target, source, (size_t)count * size);
+    w->status = target ? w->status : ROTID_ERROR_MEMORY;
+    return target;
+}
+
+/* A copy of what a parameter can be of, at x. */
+static void set_parameters(struct deck_writer *w)
+{
+    struct rotor *rotor = &w->rotor;
+    rotor->group = copy(w, rotor->group, rotor->ngroup, sizeof *rotor->group);
+    rotor->tierod = copy(w, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod);
+    rotor->disk = copy(w, rotor->disk, rotor->ndisk, sizeof *rotor->disk);
+    rotor->spring = copy(w, rotor->spring, rotor->nspring, sizeof *rotor->spring);
+    rotor->effect = copy(w, rotor->effect, rotor->neffect, sizeof *rotor->effect);
+    for (int p = 0; p < w->job->nparameter && !w->status; p++)
+        *parameter_value(rotor, w->job->parameter[p]) = w->x[p];
+}
+
+/* Lines and cards within the limits of a reader. */
+static int is_readable(const char *text, size_t length)
+{
+    int cards = 0;
+    const char *line = text;
+    while (*line) {
+        size_t count = strcspn(line, "\n");
+        cards += *line == '*';
+        if (count > DECK_LINE_LENGTH)
+            return 0;
+        line += count + (line[count] == '\n');
+    }
+    return cards <= DECK_MOST_CARDS && (long)length <= DECK_MOST_BYTES;
+}
+
+int deck_write(struct pool *pool, const struct job *job, const struct deck_write_options *options, char **text)
+{
+    struct deck_writer w = {.pool = pool, .job = job, .rotor = job->rotor, .x = options ? options->x : NULL};
+    *text = NULL;
+    if (w.x)
+        set_parameters(&w);
+    if (w.status)
+        return w.status;
+    write_heading(&w, options);
+    deck_write_model(&w);
+    deck_write_measured(&w);
+    deck_write_causes(&w);
+    deck_write_identify(&w);
+    if (w.status)
+        return w.status;
+    if (!is_readable(w.text, w.length))
+        return ROTID_ERROR_ARGUMENT;
+    *text = w.text;
+    return ROTID_OK;
+}

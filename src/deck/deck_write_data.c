@@ -1,0 +1,313 @@
+/* The cards of the measured data, of causes, and of the identification. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "deck/deck_cards.h"
+#include "deck/deck_writer.h"
+#include "diagnose/causes/catalogue.h"
+#include "rotid.h"
+
+static void refuse(struct deck_writer *w)
+{
+    w->status = w->status ? w->status : ROTID_ERROR_ARGUMENT;
+}
+
+/* As they were read. */
+struct data {
+    int nsensor;
+    const struct sensor *sensor;
+    const double *shape, *shape_std, *frequency_std;
+};
+
+static struct data data_of(const struct job *job)
+{
+    const struct job_raw *raw = job->raw;
+    return raw ? (struct data){raw->nsensor, raw->sensor, raw->shape, raw->shape_std, raw->frequency_std}
+               : (struct data){job->rotor.nsensor, job->rotor.sensor, job->shape, job->shape_std, job->frequency_std};
+}
+
+/* The one value of all components that are there (of `there`, or all), NaN where they differ or one has none. */
+static double uniform(ptrdiff_t count, const double *there, const double *std)
+{
+    double value = NAN;
+    for (ptrdiff_t i = 0, first = 1; i < count; i++) {
+        if (there && !isfinite(there[i]))
+            continue;
+        if (!isfinite(std[i]) || (!first && std[i] != value))
+            return NAN;
+        value = std[i];
+        first = 0;
+    }
+    return value;
+}
+
+static void write_sensors(struct deck_writer *w, const struct data *data)
+{
+    for (int s = 0; s < data->nsensor; s++) {
+        if (s % DECK_MOST_LINES == 0)
+            deck_put(w, "*SENSORS\n");
+        if (data->sensor[s].id < 1 || data->sensor[s].id > 1000000000)
+            refuse(w);
+        deck_put(w, "%d", data->sensor[s].id);
+        deck_put_number(w, ", ", data->sensor[s].position);
+        deck_put(w, "\n");
+    }
+}
+
+/* A deviation in Hz that gives the relative one back by division, or the nearest there is. */
+static double std_hz(double std, double hz)
+{
+    double product = std * hz, beside[] = {nextafter(product, 0), nextafter(product, INFINITY)};
+    for (int i = 0; i < 2 && product / hz != std; i++)
+        if (beside[i] / hz == std)
+            return beside[i];
+    return product;
+}
+
+static void write_modes(struct deck_writer *w, const struct data *data, int with_std)
+{
+    const struct job *job = w->job;
+    double last = 0;
+    if (job->nmode > 1000)
+        refuse(w);
+    if (job->nmode)
+        deck_put(w, "*MODES\n");
+    for (int k = 0; k < job->nmode; k++) {
+        double hz = job->frequency_hz[k], std = with_std ? data->frequency_std[k] : NAN;
+        int damped = job->damping[k] >= 0 && job->damping[k] < 1;
+        if (job->number[k] > 1000)
+            refuse(w);
+        if (k && hz == last) /* two modes of a universal file may have one frequency, those of a deck may not */
+            hz = nextafter(hz, INFINITY);
+        last = hz;
+        deck_put(w, "%d", job->number[k]);
+        deck_put_number(w, ", ", hz);
+        if (damped)
+            deck_put_number(w, ", ", job->damping[k]);
+        else if (isfinite(std))
+            deck_put(w, ", ");
+        if (isfinite(std))
+            deck_put_number(w, ", ", std_hz(std, hz));
+        deck_put(w, "\n");
+    }
+}
+
+static void write_shape(struct deck_writer *w, const struct data *data, int k, int with_std)
+{
+    const double *shape = data->shape + (ptrdiff_t)k * data->nsensor, *std = data->shape_std + (ptrdiff_t)k * data->nsensor;
+    for (int s = 0, lines = 0; s < data->nsensor; s++) {
+        if (!isfinite(shape[s]))
+            continue;
+        if (lines++ % DECK_MOST_LINES == 0)
+            deck_put(w, "*SHAPE, MODE=%d\n", w->job->number[k]);
+        deck_put(w, "%d", data->sensor[s].id);
+        deck_put_number(w, ", ", shape[s]);
+        if (with_std && isfinite(std[s]))
+            deck_put_number(w, ", ", std[s]);
+        deck_put(w, "\n");
+    }
+}
+
+void deck_write_measured(struct deck_writer *w)
+{
+    const struct data data = data_of(w->job);
+    int nmode = w->job->nmode;
+    double frequency = uniform(nmode, NULL, data.frequency_std),
+           shape = data.shape ? uniform((ptrdiff_t)data.nsensor * nmode, data.shape, data.shape_std) : NAN;
+    write_sensors(w, &data);
+    write_modes(w, &data, !isfinite(frequency));
+    if (isfinite(frequency) || isfinite(shape)) {
+        deck_put_card(w, "NOISE");
+        if (isfinite(frequency))
+            deck_put_option_number(w, "FREQUENCY", frequency);
+        if (isfinite(shape))
+            deck_put_option_number(w, "SHAPE", shape);
+        deck_put(w, "\n");
+    }
+    for (int k = 0; k < nmode && data.shape; k++)
+        write_shape(w, &data, k, !isfinite(shape));
+}
+
+/* ------------------------------------------------------------------------------------------------ causes */
+
+/* Whether BETWEEN=left,NAME is read as two groups: the second name stands where an option could. */
+static int is_list_item(const char *name)
+{
+    static const char *const options[] = {"NAME", "TYPE", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", "SUSPECT"};
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (same_text(name, options[i]))
+            return 0;
+    return !strchr(name, '=');
+}
+
+static void write_interface(struct deck_writer *w, int left)
+{
+    const struct group *group = &w->rotor.group[left];
+    double from, to;
+    rotor_group_span(&w->rotor, left, &from, &to);
+    if (is_list_item(group[1].name)) {
+        deck_put_option(w, "BETWEEN", group[0].name);
+        deck_put(w, ",%s", group[1].name);
+    } else
+        deck_put_option_number(w, "AT", to);
+}
+
+static void write_target(struct deck_writer *w, const struct cause_kind *kind, int target)
+{
+    char id[16];
+    switch (kind->target) {
+    case TARGET_GROUP:
+        deck_put_option(w, "GROUP", w->rotor.group[target].name);
+        break;
+    case TARGET_INTERFACE:
+        write_interface(w, target);
+        break;
+    case TARGET_SPRING:
+        deck_put_option(w, "AT", w->rotor.spring[target].name);
+        break;
+    case TARGET_TIEROD:
+        deck_put_option(w, "AT", w->rotor.tierod[target].name);
+        break;
+    case TARGET_SENSOR:
+        (void)snprintf(id, sizeof id, "%d", w->rotor.sensor[target].id);
+        deck_put_option(w, "SENSOR", id);
+        break;
+    default:
+        break;
+    }
+}
+
+/* Physical bounds may move with the model, such as those of a joint with E beside it: what is written has to lie inside those of
+ * the deck it is written into. */
+static double inside_physical(const struct deck_writer *w, const struct effect *effect, int p, double value)
+{
+    const struct cause_kind *kind = catalogue_of(effect);
+    double lower, upper;
+    if (!kind || !kind->bounds)
+        return value;
+    kind->bounds(&w->rotor, effect, p, &lower, &upper);
+    return fmin(fmax(value, lower), upper);
+}
+
+/* fixed: parameters of a suspect that are given, NULL for a cause of the model */
+static void write_effect(struct deck_writer *w, const struct effect *effect, const int *fixed)
+{
+    const struct cause_kind *kind = catalogue_of(effect);
+    if (!kind) {
+        refuse(w);
+        return;
+    }
+    deck_put_card(w, "CAUSE");
+    deck_put_option(w, "NAME", effect->name);
+    deck_put_option(w, "TYPE", kind->id);
+    if (effect->target >= 0)
+        write_target(w, kind, effect->target);
+    if (kind->variant_option)
+        deck_put_option(w, kind->variant_option, kind->variant[effect->variant]);
+    if (fixed)
+        deck_put_option(w, "SUSPECT", "YES");
+    deck_put(w, "\n");
+    for (int p = 0; p < effect_parameters(effect); p++) {
+        if (fixed && !fixed[p])
+            continue;
+        deck_put(w, "%s", effect->kind->parameter[p].name);
+        double value = effect->value[p];
+        deck_put_number(w, ", ", value == kind->parameter[p].neutral ? value : inside_physical(w, effect, p, value));
+        deck_put(w, "\n");
+    }
+}
+
+static void write_correction(struct deck_writer *w, const struct correction *correction)
+{
+    const struct cause_kind *kind = catalogue_find(correction->id);
+    if (!kind) {
+        refuse(w);
+        return;
+    }
+    deck_put_card(w, "CAUSE");
+    deck_put_option(w, "NAME", correction->name);
+    deck_put_option(w, "TYPE", kind->id);
+    if (kind->target == TARGET_BLOCK)
+        deck_put_option(w, "AT", correction->block);
+    else
+        deck_put(w, ", SENSOR=%d", correction->sensor[0]);
+    if (kind->target == TARGET_SENSORS)
+        deck_put(w, ",%d", correction->sensor[1]);
+    deck_put(w, "\n");
+    if (kind->value.name) {
+        deck_put(w, "%s", kind->value.name);
+        deck_put_number(w, ", ", correction->value);
+        deck_put(w, "\n");
+    }
+}
+
+void deck_write_causes(struct deck_writer *w)
+{
+    for (int i = 0; i < w->job->ncorrection; i++)
+        write_correction(w, &w->job->correction[i]);
+    for (int i = 0; i < w->rotor.neffect; i++)
+        write_effect(w, &w->rotor.effect[i], NULL);
+    for (int i = 0; i < w->job->nsuspect; i++)
+        write_effect(w, &w->job->suspect[i].effect, w->job->suspect[i].fixed);
+}
+
+/* ------------------------------------------------------------------------------------------------ identification */
+
+/* A start has to lie between the bounds and must not be zero, being the scale of the parameter. */
+static double start_of(const rotid_parameter *bounds, double x)
+{
+    double margin = 1e-6 * (bounds->upper - bounds->lower);
+    if (!(x > bounds->lower))
+        x = bounds->lower + margin;
+    if (!(x < bounds->upper))
+        x = bounds->upper - margin;
+    return x != 0 ? x : bounds->start;
+}
+
+static void write_holdout(struct deck_writer *w)
+{
+    const char *separator = ", HOLDOUT=";
+    for (int k = 0, count = 0; k < w->job->nmode; k++)
+        if (w->job->holdout[k]) {
+            deck_put(w, "%s%d", separator, w->job->number[k]);
+            separator = ++count % 20 ? "," : ",\n    ";
+        }
+}
+
+void deck_write_identify(struct deck_writer *w)
+{
+    const struct job *job = w->job;
+    int any_held_out = 0;
+    for (int k = 0; k < job->nmode && job->holdout; k++)
+        any_held_out |= job->holdout[k];
+    if (job->nparameter)
+        deck_put(w, "*IDENTIFY\n");
+    for (int p = 0; p < job->nparameter; p++) {
+        rotid_parameter bounds = job->bounds[p];
+        struct parameter parameter = job->parameter[p];
+        if (!bounds.name || *bounds.name == '*' || strchr(bounds.name, ','))
+            refuse(w);
+        if (parameter.kind == PARAMETER_EFFECT) {
+            const struct effect *effect = &w->rotor.effect[parameter.index];
+            bounds.lower = inside_physical(w, effect, parameter.component, bounds.lower);
+            bounds.upper = inside_physical(w, effect, parameter.component, bounds.upper);
+        }
+        deck_put(w, "%s", bounds.name ? bounds.name : "");
+        deck_put_number(w, ", ", bounds.lower);
+        deck_put_number(w, ", ", bounds.upper);
+        deck_put_number(w, ", ", start_of(&bounds, w->x ? w->x[p] : bounds.start));
+        deck_put(w, "\n");
+    }
+    if (!job->has_fit && !any_held_out && job->fit.reduction == ROTID_REDUCTION_NONE && job->fit.derivative == ROTID_NELSON)
+        return;
+    deck_put_card(w, "FIT");
+    if (job->has_fit)
+        deck_put_option(w, "FUNCTIONAL", functional_name(job->fit.functional));
+    deck_put_option(w, "REDUCTION", reduction_name(job->fit.reduction));
+    deck_put_option(w, "DERIVATIVE", derivative_name(job->fit.derivative));
+    if (any_held_out)
+        write_holdout(w);
+    deck_put(w, "\n");
+}

@@ -1,0 +1,35 @@
+/* Shared by what writes the cards: a text that grows, and the form that a reader of decks accepts. */
+#ifndef ROTID_DECK_DECK_WRITER_H
+#define ROTID_DECK_DECK_WRITER_H
+
+#include "base/pool.h"
+#include "run/job.h"
+
+struct deck_writer {
+    struct pool *pool;
+    const struct job *job;
+    struct rotor rotor; /* of the job, at x */
+    const double *x;    /* [nparameter] or NULL */
+    char *text;
+    size_t length, room;
+    int status; /* the first failure; nothing is written behind it */
+};
+
+void deck_put(struct deck_writer *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A number in as few digits as give it back to the last bit; the value of a data line with the separator in front of it. */
+void deck_put_number(struct deck_writer *w, const char *separator, double value);
+
+/* The beginning of a card, and an option of it; the line goes on in the next one where it becomes long. A text that a deck cannot
+ * give back is an error. The caller ends the line. */
+void deck_put_card(struct deck_writer *w, const char *name);
+void deck_put_option(struct deck_writer *w, const char *name, const char *value);
+void deck_put_option_number(struct deck_writer *w, const char *name, double value);
+
+/* The cards, by file: of the model; of the measured data; of causes and identification. */
+void deck_write_model(struct deck_writer *w);
+void deck_write_measured(struct deck_writer *w);
+void deck_write_causes(struct deck_writer *w);
+void deck_write_identify(struct deck_writer *w);
+
+#endif

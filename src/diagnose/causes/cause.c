@@ -1,0 +1,6 @@
+#include "diagnose/causes/cause.h"
+
+int cause_parameters(const struct effect *effect)
+{
+    return effect_parameters(effect);
+}

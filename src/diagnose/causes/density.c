@@ -1,0 +1,29 @@
+/* The density of a group. */
+#include "diagnose/causes/cause.h"
+#include "diagnose/causes/shared.h"
+
+static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_factors *factors)
+{
+    (void)rotor;
+    if (span->group != effect->target)
+        return 0;
+    double value = p < 0 ? effect->value[0] : 1;
+    *factors = (struct effect_factors){p < 0, p < 0, value, value};
+    return 1;
+}
+
+static const struct effect_kind kind = {.id = "density", .nparameter = 1, .parameter = {{"factor", "1"}}, .axis = on_axis};
+
+const struct cause_kind cause_density = {
+    .id = "density",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_GROUP,
+    .effect = &kind,
+    .parameter = {{.neutral = 1, .typical = 1.05}},
+    .place = -1,
+    .width = -1,
+    .bounds = bounds_of_factor,
+    .sentence = "a density other than stated",
+    .check = "weigh the part",
+};

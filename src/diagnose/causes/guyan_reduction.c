@@ -1,0 +1,12 @@
+/* Condensation to the measured points raises the frequencies. It acts on no hook: the remedy is the full model. */
+#include "diagnose/causes/cause.h"
+
+const struct cause_kind cause_guyan_reduction = {
+    .id = "guyan_reduction",
+    .class = CAUSE_NUMERICAL,
+    .target = TARGET_NONE,
+    .place = -1,
+    .width = -1,
+    .sentence = "condensation to the measured points: the reduced model's frequencies are too high by more than the measurement",
+    .check = "repeat the fit with REDUCTION=NONE and see whether the moduli move",
+};

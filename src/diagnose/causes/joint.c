@@ -1,0 +1,65 @@
+/* An interface that gives way: a rotational spring of this flexibility between two groups. What hangs on which side of it is
+ * stated in beam/hinge.h. */
+#include <math.h>
+
+#include "diagnose/causes/cause.h"
+
+static int joint(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility)
+{
+    (void)rotor;
+    *flexibility = p < 0 ? effect->value[0] : 1;
+    return 1;
+}
+
+/* last segment of the group, or -1 where nothing follows it */
+static int segment_before(const struct rotor *rotor, int group)
+{
+    int last = -1;
+    for (int s = 0; s < rotor->nsegment; s++)
+        if (rotor->segment[s].group == group)
+            last = s;
+    return last + 1 < rotor->nsegment ? last : -1;
+}
+
+static double diameter_flexibility(const struct rotor *rotor, int s)
+{
+    const struct segment *segment = &rotor->segment[s];
+    const double pi = 3.14159265358979323846;
+    double e = rotor->group[segment->group].material.e, h = segment->height;
+    if (segment->rectangular)
+        return h / (e * segment->width * h * h * h / 12);
+    double outer = segment->stiff_outer, inner = segment->inner;
+    return segment->outer / (e * pi / 64 * (outer * outer * outer * outer - inner * inner * inner * inner));
+}
+
+/* from nothing to the joint as soft as a shaft ten diameters long, of the softer neighbour */
+static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
+{
+    (void)p;
+    int s = segment_before(rotor, effect->target);
+    *lower = 0;
+    *upper = s < 0 ? 1 : 10 * fmax(diameter_flexibility(rotor, s), diameter_flexibility(rotor, s + 1));
+}
+
+static int applies(const struct rotor *rotor, int target, const int *identified)
+{
+    (void)identified;
+    return segment_before(rotor, target) >= 0;
+}
+
+static const struct effect_kind kind = {
+    .id = "joint", .nparameter = 1, .parameter = {{"flexibility", "rad/(N.m)"}}, .joint = joint};
+
+const struct cause_kind cause_joint = {
+    .id = "joint",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_INTERFACE,
+    .effect = &kind,
+    .parameter = {{.typical = 2e-10, .one_sided = 1}},
+    .place = -1,
+    .width = -1,
+    .applies = applies,
+    .bounds = bounds,
+    .sentence = "an interface between two parts that gives way in bending",
+    .check = "measure both sides of the interface close to it and look for a kink, and repeat after tightening it",
+};

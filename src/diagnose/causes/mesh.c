@@ -1,0 +1,12 @@
+/* The elements are too long for the frequencies asked for. It acts on no hook: the remedy is a finer mesh. */
+#include "diagnose/causes/cause.h"
+
+const struct cause_kind cause_mesh = {
+    .id = "mesh",
+    .class = CAUSE_NUMERICAL,
+    .target = TARGET_NONE,
+    .place = -1,
+    .width = -1,
+    .sentence = "elements too long for these modes: the model's own frequencies are off by more than the measurement",
+    .check = "double the number of elements and see whether the frequencies move",
+};

@@ -1,0 +1,106 @@
+#include "diagnose/causes/sensor.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+
+int sensor_find(const struct job *job, int id)
+{
+    for (int s = 0; s < job->rotor.nsensor; s++)
+        if (job->rotor.sensor[s].id == id)
+            return s;
+    return -1;
+}
+
+static void divide_by_largest(struct job *job, int with_std)
+{
+    int n = job->rotor.nsensor;
+    for (int k = 0; k < job->nmode && job->shape; k++) {
+        double *shape = job->shape + (ptrdiff_t)k * n, *std = job->shape_std + (ptrdiff_t)k * n, largest = 0;
+        for (int s = 0; s < n; s++)
+            if (isfinite(shape[s]))
+                largest = fmax(largest, fabs(shape[s]));
+        for (int s = 0; s < n && largest > 0; s++) {
+            shape[s] /= largest;
+            if (with_std)
+                std[s] /= largest;
+        }
+    }
+}
+
+void shapes_scale(struct job *job)
+{
+    divide_by_largest(job, 0);
+}
+
+void shapes_rescale(struct job *job)
+{
+    divide_by_largest(job, 1);
+}
+
+void shapes_multiply(struct job *job, int s, double factor)
+{
+    shapes_scale(job);
+    for (int k = 0; k < job->nmode && job->shape; k++) {
+        ptrdiff_t at = s + (ptrdiff_t)k * job->rotor.nsensor;
+        job->shape[at] *= factor;
+        job->shape_std[at] *= fabs(factor);
+    }
+    shapes_rescale(job);
+}
+
+static void exchange(double *a, double *b)
+{
+    double kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+void shapes_exchange(struct job *job, int a, int b)
+{
+    for (int k = 0; k < job->nmode && job->shape; k++) {
+        ptrdiff_t mode = (ptrdiff_t)k * job->rotor.nsensor;
+        exchange(&job->shape[a + mode], &job->shape[b + mode]);
+        exchange(&job->shape_std[a + mode], &job->shape_std[b + mode]);
+    }
+}
+
+/* NULL for NULL; *failed where memory is out */
+static void *copy(struct pool *pool, const void *source, size_t count, size_t size, int *failed)
+{
+    void *target = source ? pool_get(pool, count, size) : NULL;
+    if (target)
+        memcpy(target, source, count * size);
+    *failed |= source && !target;
+    return target;
+}
+
+int corrections_keep_raw(struct pool *pool, struct job *job)
+{
+    int n = job->rotor.nsensor, failed = 0;
+    size_t components = (size_t)n * (size_t)job->nmode;
+    if (job->raw)
+        return ROTID_OK;
+    struct job_raw *raw = POOL_NEW(pool, struct job_raw);
+    if (!raw)
+        return ROTID_ERROR_MEMORY;
+    *raw = (struct job_raw){.nsensor = n,
+                            .sensor = copy(pool, job->rotor.sensor, (size_t)n, sizeof *raw->sensor, &failed),
+                            .shape = copy(pool, job->shape, components, sizeof *raw->shape, &failed),
+                            .shape_std = copy(pool, job->shape_std, components, sizeof *raw->shape_std, &failed),
+                            .frequency_std =
+                                copy(pool, job->frequency_std, (size_t)job->nmode, sizeof *raw->frequency_std, &failed)};
+    if (failed)
+        return ROTID_ERROR_MEMORY;
+    job->raw = raw;
+    return ROTID_OK;
+}
+
+int correction_apply(struct pool *pool, struct job *job, const struct correction *correction)
+{
+    const struct cause_kind *cause = catalogue_find(correction->id);
+    if (!cause || !cause->correct)
+        return ROTID_ERROR_ARGUMENT;
+    return cause->correct(pool, job, correction);
+}

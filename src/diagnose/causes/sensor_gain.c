@@ -1,0 +1,37 @@
+/* A channel reads gain times the truth in every mode: wrong calibration of one accelerometer. */
+#include <math.h>
+
+#include "diagnose/causes/cause.h"
+#include "diagnose/causes/sensor.h"
+
+static int correct(struct pool *pool, struct job *job, const struct correction *correction)
+{
+    (void)pool;
+    int s = sensor_find(job, correction->sensor[0]);
+    if (s < 0 || !job->shape || !(isfinite(correction->value) && correction->value > 0))
+        return ROTID_ERROR_ARGUMENT;
+    shapes_multiply(job, s, 1 / correction->value);
+    return ROTID_OK;
+}
+
+/* beyond this the channel is dead or overloaded, not miscalibrated */
+static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
+{
+    (void)rotor, (void)effect, (void)p;
+    *lower = 0.01;
+    *upper = 100;
+}
+
+const struct cause_kind cause_sensor_gain = {
+    .id = "sensor_gain",
+    .class = CAUSE_DATA,
+    .target = TARGET_SENSOR,
+    .parameter = {{.neutral = 1, .typical = 1.2}},
+    .place = -1,
+    .width = -1,
+    .bounds = bounds,
+    .value = {"gain", "1"},
+    .correct = correct,
+    .sentence = "a channel that reads too much or too little by one factor in every mode",
+    .check = "check the sensitivity entered for this channel, and exchange its accelerometer with a neighbour's",
+};

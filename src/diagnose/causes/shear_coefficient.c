@@ -1,0 +1,30 @@
+/* The shear coefficient of a group that is not identified; on an identified one it cannot be told from G. */
+#include "diagnose/causes/cause.h"
+#include "diagnose/causes/shared.h"
+
+static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_factors *factors)
+{
+    (void)rotor;
+    if (span->group != effect->target)
+        return 0;
+    *factors = (struct effect_factors){p < 0, p < 0 ? effect->value[0] : 1, p < 0, p < 0};
+    return 1;
+}
+
+static const struct effect_kind kind = {
+    .id = "shear_coefficient", .nparameter = 1, .parameter = {{"factor", "1"}}, .axis = on_axis};
+
+const struct cause_kind cause_shear_coefficient = {
+    .id = "shear_coefficient",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_GROUP,
+    .effect = &kind,
+    .parameter = {{.neutral = 1, .typical = 0.9}},
+    .place = -1,
+    .width = -1,
+    .applies = applies_to_known_group,
+    .bounds = bounds_of_factor,
+    .sentence = "a part that shears more or less than its cross section says",
+    .check = "compare with a solid model of the part under a lateral load",
+};

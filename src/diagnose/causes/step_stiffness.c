@@ -1,0 +1,176 @@
+/* Behind a step of the diameter the corners of the larger part carry nothing: stress spreads into it in a cone that opens from
+ * the smaller diameter at the step. The stiffness diameter is
+ *
+ *     D(z) = min(own stiffness diameter, min over all steps of d_small + 2 |z - z_step| tan(angle))
+ *
+ * over as many sections as the cone reaches; mass, bores, holes and rectangular parts stay. The shear coefficient stays that of
+ * the section without the cone: it would move by 1 % where a bore is narrow, the diameter decides. */
+#include <math.h>
+
+#include "diagnose/causes/cause.h"
+#include "diagnose/causes/shared.h"
+#include "diagnose/causes/step_stiffness.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* Where the cone cuts into the bore, or into a ring of holes, less than nothing would be left: share of the wall that carries at
+ * least, and of the area and inertia that the section with its holes has of a full disc. */
+static const double least_wall = 0.1, least_share = 0.02;
+
+/* Steps whose cone may reach below `diameter` somewhere in [from, to]. */
+static int reaching_steps(const struct rotor *rotor, double from, double to, double diameter, double tangent, struct step *step)
+{
+    int count = 0;
+    double z = 0;
+    for (int s = 0; s + 1 < rotor->nsegment && count < STEPS_AT_ONCE; s++) {
+        const struct segment *left = &rotor->segment[s], *right = left + 1;
+        z += left->length;
+        if (left->rectangular || right->rectangular || left->outer == right->outer)
+            continue;
+        double small = fmin(left->outer, right->outer), away = fmax(0, fmax(from - z, z - to));
+        if (small + 2 * away * tangent < diameter)
+            step[count++] = (struct step){z, small};
+    }
+    return count;
+}
+
+/* D(z), with its derivative with respect to the tangent. */
+static double envelope(int count, const struct step *step, const struct segment *segment, double z, double tangent, double *slope)
+{
+    double diameter = segment->stiff_outer;
+    double least = segment->inner > 0 ? segment->inner + least_wall * (diameter - segment->inner) : 0;
+    *slope = 0;
+    for (int i = 0; i < count; i++) {
+        double rise = 2 * fabs(z - step[i].z), cone = step[i].diameter + rise * tangent;
+        if (cone < diameter) {
+            diameter = cone;
+            *slope = rise;
+        }
+    }
+    if (diameter < least) {
+        diameter = least;
+        *slope = 0;
+    }
+    return diameter;
+}
+
+double step_stiffness_diameter(const struct rotor *rotor, int segment, double z, double angle)
+{
+    const struct segment *here = &rotor->segment[segment];
+    struct step step[STEPS_AT_ONCE];
+    double slope, tangent = tan(angle * pi / 180);
+    if (here->rectangular || angle >= 90)
+        return here->stiff_outer;
+    return envelope(reaching_steps(rotor, z, z, here->stiff_outer, tangent, step), step, here, z, tangent, &slope);
+}
+
+struct moments {
+    double area, inertia;
+};
+
+/* Share of the holes inside a diameter. At the section's own one it is 0 or 1, as section_perforate has it; in between it moves
+ * with the diameter, so that nothing jumps as the cone runs over the ring of holes. */
+static double share_of_holes(const struct group *group, double own, double diameter, double *slope)
+{
+    double h = group->hole_diameter, e = group->hole_pitch;
+    double whole = fmin(1, (own / 2 - e) / h + 0.5), share = (diameter / 2 - e) / h + 0.5;
+    *slope = 0;
+    if (!group->holes || e >= own / 2 || share <= 0)
+        return 0;
+    if (share >= whole)
+        return 1;
+    *slope = 0.5 / (h * whole);
+    return share / whole;
+}
+
+/* Of what carries stiffness inside a diameter, without the factors pi/4 and pi/64, and how they grow with it. */
+static struct moments moments_of(const struct group *group, const struct segment *segment, double diameter, struct moments *slope)
+{
+    double d2 = diameter * diameter, b2 = segment->inner * segment->inner, h2 = group->hole_diameter * group->hole_diameter;
+    double dshare, share = share_of_holes(group, segment->stiff_outer, diameter, &dshare);
+    double area = group->holes * h2, inertia = area * (h2 + 8 * group->hole_pitch * group->hole_pitch);
+    *slope = (struct moments){2 * diameter - dshare * area, 4 * d2 * diameter - dshare * inertia};
+    return (struct moments){d2 - b2 - share * area, d2 * d2 - b2 * b2 - share * inertia};
+}
+
+/* own/value and its derivative for a value that grows by dvalue, as the disc it is cut from does */
+static double compliance(double own, double value, double dvalue, double own_disc, double disc, double *derivative)
+{
+    double least = least_share * own / own_disc * disc;
+    if (value < least) {
+        value = least;
+        dvalue *= least / disc;
+    }
+    *derivative = -own / (value * value) * dvalue;
+    return own / value;
+}
+
+static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_factors *factors)
+{
+    const struct segment *segment = &rotor->segment[span->segment];
+    const struct group *group = &rotor->group[span->group];
+    double angle = effect->value[0] * pi / 180, tangent = tan(angle), own = segment->stiff_outer;
+    struct step step[STEPS_AT_ONCE];
+    if (segment->rectangular || effect->value[0] >= 90)
+        return 0;
+    int count = reaching_steps(rotor, span->from, span->to, own, tangent, step);
+    if (!count)
+        return 0;
+    struct moments by_diameter, whole = moments_of(group, segment, own, &by_diameter);
+    double bending = 0, shear = 0, dbending = 0, dshear = 0;
+    for (int g = 0; g < GAUSS_POINTS; g++) {
+        double z = (span->from + span->to + gauss_place[g] * (span->to - span->from)) / 2, slope, of_bending, of_shear;
+        double diameter = envelope(count, step, segment, z, tangent, &slope), w = gauss_weight[g] / 2, d2 = diameter * diameter;
+        struct moments left = moments_of(group, segment, diameter, &by_diameter);
+        bending +=
+            w * compliance(whole.inertia, left.inertia, by_diameter.inertia * slope, own * own * own * own, d2 * d2, &of_bending);
+        shear += w * compliance(whole.area, left.area, by_diameter.area * slope, own * own, d2, &of_shear);
+        dbending += w * of_bending;
+        dshear += w * of_shear;
+    }
+    double by_angle = (1 + tangent * tangent) * pi / 180;
+    *factors = (struct effect_factors){.ei = factor_of_compliance(bending, dbending * by_angle, p),
+                                       .kgs = factor_of_compliance(shear, dshear * by_angle, p),
+                                       .rhos = p < 0,
+                                       .rhoi = p < 0};
+    return 1;
+}
+
+static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
+{
+    (void)rotor, (void)effect, (void)p;
+    *lower = 10;
+    *upper = 80;
+}
+
+static int applies(const struct rotor *rotor, int target, const int *identified)
+{
+    (void)target, (void)identified;
+    for (int s = 0; s + 1 < rotor->nsegment; s++) {
+        const struct segment *left = &rotor->segment[s], *right = left + 1;
+        if (!left->rectangular && !right->rectangular && left->outer != right->outer)
+            return 1;
+    }
+    return 0;
+}
+
+static const struct effect_kind kind = {
+    .id = "step_stiffness", .nparameter = 1, .parameter = {{"angle", "deg"}}, .axis = on_axis};
+
+const struct cause_kind cause_step_stiffness = {
+    .id = "step_stiffness",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_NONE,
+    .effect = &kind,
+    .parameter = {{.neutral = 90, .typical = 30, .one_sided = -1}},
+    .place = -1,
+    .width = -1,
+    .secant = 1,
+    .discrepancy_frequency = 0.005,
+    .discrepancy_shape = 0.02,
+    .applies = applies,
+    .bounds = bounds,
+    .sentence = "corners behind the steps of the diameter that carry no load: only a cone from the smaller diameter is stiff",
+    .check = "compare with a solid model of the bare rotor, or give the stiff diameter of each section by hand",
+};

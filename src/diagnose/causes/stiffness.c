@@ -1,0 +1,28 @@
+/* E and G of a group that is not identified. */
+#include "diagnose/causes/cause.h"
+#include "diagnose/causes/shared.h"
+
+static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_factors *factors)
+{
+    (void)rotor;
+    if (span->group != effect->target)
+        return 0;
+    return scale_stiffness(p < 0 ? effect->value[0] : 1, p, factors);
+}
+
+static const struct effect_kind kind = {.id = "stiffness", .nparameter = 1, .parameter = {{"factor", "1"}}, .axis = on_axis};
+
+const struct cause_kind cause_stiffness = {
+    .id = "stiffness",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_GROUP,
+    .effect = &kind,
+    .parameter = {{.neutral = 1, .typical = 1.05}},
+    .place = -1,
+    .width = -1,
+    .applies = applies_to_known_group,
+    .bounds = bounds_of_factor,
+    .sentence = "a part whose stiffness was taken as known and is another one",
+    .check = "measure the modulus of a sample, or identify E of this part with the others",
+};

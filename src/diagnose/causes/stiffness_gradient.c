@@ -1,0 +1,42 @@
+/* A group whose stiffness rises from one end to the other: E and G times 1 + slope xi, xi from -1 to 1 along it. */
+#include "diagnose/causes/cause.h"
+#include "diagnose/causes/shared.h"
+
+static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_factors *factors)
+{
+    double from, to, mean = 0, dmean = 0, half = (span->to - span->from) / 2;
+    if (span->group != effect->target)
+        return 0;
+    rotor_group_span(rotor, span->group, &from, &to);
+    for (int g = 0; g < GAUSS_POINTS; g++) {
+        double z = span->from + half * (1 + gauss_place[g]), xi = (2 * z - from - to) / (to - from);
+        double factor = 1 + effect->value[0] * xi, w = gauss_weight[g] / 2;
+        mean += w / factor;
+        dmean -= w * xi / (factor * factor);
+    }
+    return scale_stiffness(factor_of_compliance(mean, dmean, p), p, factors);
+}
+
+static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
+{
+    (void)rotor, (void)effect, (void)p;
+    *lower = -0.9;
+    *upper = 0.9;
+}
+
+static const struct effect_kind kind = {
+    .id = "stiffness_gradient", .nparameter = 1, .parameter = {{"slope", "1"}}, .axis = on_axis};
+
+const struct cause_kind cause_stiffness_gradient = {
+    .id = "stiffness_gradient",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_GROUP,
+    .effect = &kind,
+    .parameter = {{.typical = 0.1}},
+    .place = -1,
+    .width = -1,
+    .bounds = bounds,
+    .sentence = "stiffness that rises from one end of the group to the other",
+    .check = "compare both ends of the group: pressing, temperature history, material batch; measure more points along it",
+};

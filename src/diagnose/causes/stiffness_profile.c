@@ -1,0 +1,43 @@
+/* A group that is stiffer at its ends than in its middle, or the reverse: E and G times 1 + profile (xi^2 - 1/3), xi from -1 to 1
+ * along it. The mean over the group stays. */
+#include "diagnose/causes/cause.h"
+#include "diagnose/causes/shared.h"
+
+static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_factors *factors)
+{
+    double from, to, mean = 0, dmean = 0, half = (span->to - span->from) / 2;
+    if (span->group != effect->target)
+        return 0;
+    rotor_group_span(rotor, span->group, &from, &to);
+    for (int g = 0; g < GAUSS_POINTS; g++) {
+        double z = span->from + half * (1 + gauss_place[g]), xi = (2 * z - from - to) / (to - from);
+        double shape = xi * xi - 1.0 / 3, factor = 1 + effect->value[0] * shape, w = gauss_weight[g] / 2;
+        mean += w / factor;
+        dmean -= w * shape / (factor * factor);
+    }
+    return scale_stiffness(factor_of_compliance(mean, dmean, p), p, factors);
+}
+
+static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
+{
+    (void)rotor, (void)effect, (void)p;
+    *lower = -0.9;
+    *upper = 1.2;
+}
+
+static const struct effect_kind kind = {
+    .id = "stiffness_profile", .nparameter = 1, .parameter = {{"profile", "1"}}, .axis = on_axis};
+
+const struct cause_kind cause_stiffness_profile = {
+    .id = "stiffness_profile",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_GROUP,
+    .effect = &kind,
+    .parameter = {{.typical = 0.1}},
+    .place = -1,
+    .width = -1,
+    .bounds = bounds,
+    .sentence = "stiffness that differs between the ends and the middle of the group",
+    .check = "measure the shapes at more points in the middle of the group, or the pressure along it",
+};

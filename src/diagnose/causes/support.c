@@ -1,0 +1,40 @@
+/* A spring that is stiffer or softer than stated. */
+#include "diagnose/causes/cause.h"
+
+static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, double *factor)
+{
+    (void)rotor;
+    if (spring != effect->target)
+        return 0;
+    *factor = p < 0 ? effect->value[0] : 1;
+    return 1;
+}
+
+static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
+{
+    (void)rotor, (void)effect, (void)p;
+    *lower = 0.01;
+    *upper = 100;
+}
+
+static int applies(const struct rotor *rotor, int target, const int *identified)
+{
+    (void)identified;
+    return rotor->spring[target].lateral > 0 || rotor->spring[target].rotational > 0;
+}
+
+static const struct effect_kind kind = {.id = "support", .nparameter = 1, .parameter = {{"factor", "1"}}, .spring = on_spring};
+
+const struct cause_kind cause_support = {
+    .id = "support",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_SPRING,
+    .effect = &kind,
+    .parameter = {{.neutral = 1, .typical = 2}},
+    .place = -1,
+    .width = -1,
+    .applies = applies,
+    .bounds = bounds,
+    .sentence = "a support stiffer or softer than stated",
+    .check = "measure the frequency of the rotor swinging on its supports, or hang it on softer ones",
+};

@@ -1,0 +1,34 @@
+/* E of the tie rods, and their G with it: threads and washers make them softer than the steel they are of. */
+#include "diagnose/causes/cause.h"
+
+static int on_tierod(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle)
+{
+    (void)rotor;
+    if (tierod != effect->target)
+        return 0;
+    *bundle = (struct effect_bundle){.young = p < 0 ? effect->value[0] : 1, .tension = p < 0};
+    return 1;
+}
+
+static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
+{
+    (void)rotor, (void)effect, (void)p;
+    *lower = 0.05;
+    *upper = 1.5;
+}
+
+static const struct effect_kind kind = {
+    .id = "tie_stiffness", .nparameter = 1, .parameter = {{"factor", "1"}}, .tierod = on_tierod};
+
+const struct cause_kind cause_tie_stiffness = {
+    .id = "tie_stiffness",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_TIEROD,
+    .effect = &kind,
+    .parameter = {{.neutral = 1, .typical = 0.8}},
+    .place = -1,
+    .width = -1,
+    .bounds = bounds,
+    .sentence = "tie rods that hold the ends together less or more stiffly than stated",
+    .check = "check diameter, thread and washers of the rods, and measure their stretch while tightening",
+};

@@ -1,0 +1,34 @@
+/* Faults of the measurement chain, found from the shapes alone: physics moves a shape smoothly along the axis, a bad channel makes
+ * a spike. A sensor is compared with what its neighbours say it should read, prediction plus the smooth part of the residual. */
+#ifndef ROTID_DIAGNOSE_SENSOR_CHECK_H
+#define ROTID_DIAGNOSE_SENSOR_CHECK_H
+
+#include "base/pool.h"
+
+struct shape_data {
+    int nsensor, nmode;
+    const double *z;     /* [nsensor] positions, increasing [m] */
+    const double *shape; /* [nsensor * nmode] measured, NaN where not measured */
+    const double *std;   /* [nsensor * nmode] of the same scale */
+    int naxis;
+    const double *axis_z;     /* [naxis] nodes of the model, increasing */
+    const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there, times the best scale to the measured */
+};
+
+enum sensor_fault_kind { FAULT_GAIN, FAULT_SIGN, FAULT_SWAP, FAULT_POSITION, FAULT_DUPLICATE, FAULT_DEAD };
+
+struct sensor_fault {
+    enum sensor_fault_kind kind;
+    int sensor, other;    /* indices; other: the partner of a swap, the source of a copy; else -1 */
+    double value, std;    /* gain, or shift [m] (true place = stated place + shift); NaN elsewhere */
+    double chi2_drop;     /* what the explanation takes away of the sensor's misfit */
+    double alternative;   /* chi2 drop of the best explanation of another kind */
+    enum sensor_fault_kind alternative_kind;
+};
+
+/* Finds up to `most` faults, the worst first, each judged with those before it taken out. `false_alarm`: family-wise probability
+ * of any fault in sound data, about 0.005. fault [most], *nfault. ROTID_OK or ROTID_ERROR_MEMORY. */
+int sensor_check(struct pool *pool, const struct shape_data *data, double false_alarm, int most, struct sensor_fault *fault,
+                 int *nfault);
+
+#endif

@@ -1,0 +1,210 @@
+#include "diagnose/sensor_field.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "linalg/positive.h"
+
+/* Prior variance of an error that moves the whole shape like a rigid body: 0.3 of its largest component. */
+#define RIGID 0.09
+
+/* int (x - u)+ (y - u)+ du from the origin */
+static double twice_integrated(double x, double y)
+{
+    double a = fmin(x, y), b = fmax(x, y);
+    return a * a * (3 * b - a) / 6;
+}
+
+double *field_inverse(const struct sensor_field *field, int g, int c)
+{
+    return field->inverse + ((size_t)c * (size_t)field->ngrid + (size_t)g) * (size_t)field->n * (size_t)field->n;
+}
+
+double *field_weight(const struct sensor_field *field, int g, int k)
+{
+    return field->weight + ((size_t)k * (size_t)field->ngrid + (size_t)g) * (size_t)field->n;
+}
+
+/* w = A (m - P) and the evidence, given the log determinant of the covariance */
+static void weigh(struct sensor_field *field, int g, int k, double log_determinant)
+{
+    int n = field->n;
+    const double *a = field_inverse(field, g, field->class_of[k]), *m = field->reading + (ptrdiff_t)k * n;
+    const double *p = field->model + (ptrdiff_t)k * n;
+    const int *present = field->present + (ptrdiff_t)k * n;
+    double *w = field_weight(field, g, k), square = 0;
+    memset(w, 0, (size_t)n * sizeof *w);
+    for (int j = 0; j < n; j++) {
+        double r = m[j] - p[j];
+        if (present[j] && !field->masked[j])
+            for (int i = 0; i < n; i++)
+                w[i] += a[i + (ptrdiff_t)j * n] * r;
+    }
+    for (int i = 0; i < n; i++)
+        if (present[i] && !field->masked[i])
+            square += w[i] * (m[i] - p[i]);
+    field->evidence[g + k * field->ngrid] = -0.5 * (square + log_determinant);
+}
+
+static int invert_class(struct sensor_field *field, int g, int c, double *log_determinant)
+{
+    int n = field->n, count = 0, k = field->leader[c], *row = field->row;
+    const int *present = field->present + (ptrdiff_t)k * n;
+    const double *v = field->variance + (ptrdiff_t)k * n, *z = field->data->z;
+    double *a = field_inverse(field, g, c), *packed = field->packed;
+    for (int i = 0; i < n; i++)
+        if (present[i])
+            row[count++] = i;
+    for (int j = 0; j < count; j++)
+        for (int i = j; i < count; i++) {
+            int s = row[i], t = row[j];
+            double mix = 0, x = (z[s] - field->middle) / field->half, y = (z[t] - field->middle) / field->half;
+            for (int mode = 0; mode < field->nmode; mode++)
+                mix += field->model[s + mode * n] * field->model[t + mode * n];
+            packed[i + (ptrdiff_t)j * count] = RIGID * (1 + x * y) + field->b2[g] * mix +
+                                               field->q[g] * twice_integrated(z[s] - field->origin, z[t] - field->origin) +
+                                               (i == j ? v[s] : 0);
+        }
+    if (positive_invert(count, packed, log_determinant))
+        return 1;
+    memset(a, 0, (size_t)n * (size_t)n * sizeof *a);
+    for (int j = 0; j < count; j++)
+        for (int i = 0; i < count; i++)
+            a[row[i] + (ptrdiff_t)row[j] * n] = packed[i + (ptrdiff_t)j * count];
+    return 0;
+}
+
+int field_start(struct sensor_field *field, double noise_factor)
+{
+    double log_determinant, change = noise_factor / field->noise_factor;
+    memset(field->masked, 0, (size_t)field->n * sizeof *field->masked);
+    for (int i = 0; i < field->n * field->nmode; i++)
+        field->variance[i] *= change * change;
+    field->noise_factor = noise_factor;
+    for (int c = 0; c < field->nclass; c++)
+        for (int g = 0; g < field->ngrid; g++) {
+            if (invert_class(field, g, c, &log_determinant))
+                return 1;
+            for (int k = 0; k < field->nmode; k++)
+                if (field->class_of[k] == c)
+                    weigh(field, g, k, log_determinant);
+        }
+    return 0;
+}
+
+void field_mask(struct sensor_field *field, int s)
+{
+    int n = field->n;
+    for (int k = 0; k < field->nmode; k++)
+        for (int g = 0; g < field->ngrid; g++) {
+            const double *a = field_inverse(field, g, field->class_of[k]) + (ptrdiff_t)s * n;
+            double *w = field_weight(field, g, k), part;
+            if (a[s] <= 0)
+                continue; /* absent from this mode */
+            part = w[s] / a[s];
+            field->evidence[g + k * field->ngrid] += 0.5 * (w[s] * part - log(a[s]));
+            for (int i = 0; i < n; i++)
+                w[i] -= a[i] * part;
+            w[s] = 0;
+        }
+    for (int c = 0; c < field->nclass; c++)
+        for (int g = 0; g < field->ngrid; g++) {
+            double *a = field_inverse(field, g, c), *as = a + (ptrdiff_t)s * n;
+            if (as[s] <= 0)
+                continue;
+            for (int j = 0; j < n; j++) {
+                double part = as[j] / as[s];
+                if (j != s)
+                    for (int i = 0; i < n; i++)
+                        a[i + (ptrdiff_t)j * n] -= as[i] * part;
+            }
+            for (int i = 0; i < n; i++)
+                as[i] = a[s + (ptrdiff_t)i * n] = 0;
+        }
+    field->masked[s] = 1;
+}
+
+void field_exchange(struct sensor_field *field, int s, int t)
+{
+    int n = field->n;
+    for (int k = 0; k < field->nmode; k++) {
+        double *m = field->reading + (ptrdiff_t)k * n, keep = m[s];
+        const double *p = field->model + (ptrdiff_t)k * n;
+        for (int g = 0; g < field->ngrid; g++) { /* what is left of the evidence without its square, for weigh */
+            const double *w = field_weight(field, g, k);
+            double *evidence = field->evidence + g + (ptrdiff_t)k * field->ngrid;
+            for (int i = 0; i < n; i++)
+                *evidence += 0.5 * w[i] * (m[i] - p[i]);
+        }
+        m[s] = m[t];
+        m[t] = keep;
+        for (int g = 0; g < field->ngrid; g++)
+            weigh(field, g, k, -2 * field->evidence[g + (ptrdiff_t)k * field->ngrid]);
+    }
+}
+
+double field_evidence(const struct sensor_field *field)
+{
+    double total = 0;
+    for (int k = 0; k < field->nmode; k++) {
+        const double *evidence = field->evidence + (ptrdiff_t)k * field->ngrid;
+        double best = evidence[0], sum = 0;
+        for (int g = 1; g < field->ngrid; g++)
+            best = fmax(best, evidence[g]);
+        for (int g = 0; g < field->ngrid; g++)
+            sum += exp(evidence[g] - best);
+        total += best + log(sum / field->ngrid);
+    }
+    return total;
+}
+
+void field_predict(const struct sensor_field *field, int s, double z, const int *wanted, double *mean, double *variance,
+                   double *vector, double *image)
+{
+    int n = field->n, modes = field->nmode;
+    double *rigid = vector, *mix = vector + n, *walk = vector + 2 * n, *cov = vector + 3 * n;
+    double x = (z - field->middle) / field->half, own_mix = 0, shape[FIELD_MOST_MODES];
+    for (int k = 0; k < modes; k++) {
+        shape[k] = field_model(field, k, z);
+        own_mix += shape[k] * shape[k];
+    }
+    for (int i = 0; i < n; i++) {
+        rigid[i] = RIGID * (1 + x * (field->data->z[i] - field->middle) / field->half);
+        walk[i] = twice_integrated(z - field->origin, field->data->z[i] - field->origin);
+        mix[i] = 0;
+        for (int k = 0; k < modes; k++)
+            mix[i] += shape[k] * field->model[i + k * n];
+    }
+    for (int c = 0; c < field->nclass; c++)
+        for (int g = 0; g < field->ngrid; g++) {
+            const double *a = field_inverse(field, g, c);
+            double square = RIGID * (1 + x * x) + field->b2[g] * own_mix +
+                            field->q[g] * twice_integrated(z - field->origin, z - field->origin);
+            int any = 0;
+            for (int k = 0; k < modes; k++)
+                any |= field->class_of[k] == c && wanted[g + k * field->ngrid];
+            if (!any)
+                continue;
+            memset(image, 0, (size_t)n * sizeof *image);
+            for (int i = 0; i < n; i++)
+                cov[i] = rigid[i] + field->b2[g] * mix[i] + field->q[g] * walk[i];
+            for (int j = 0; j < n; j++)
+                if (!field->masked[j])
+                    for (int i = 0; i < n; i++)
+                        image[i] += a[i + (ptrdiff_t)j * n] * cov[j];
+            for (int i = 0; i < n; i++)
+                square -= cov[i] * image[i];
+            double own = a[s + (ptrdiff_t)s * n];
+            if (own > 0)
+                square += image[s] * image[s] / own;
+            for (int k = 0; k < modes; k++)
+                if (field->class_of[k] == c && wanted[g + k * field->ngrid]) {
+                    const double *w = field_weight(field, g, k);
+                    double e = own > 0 ? -image[s] * w[s] / own : 0;
+                    for (int i = 0; i < n; i++)
+                        e += cov[i] * w[i];
+                    mean[g + k * field->ngrid] = shape[k] + e;
+                    variance[g + k * field->ngrid] = fmax(square, 0);
+                }
+        }
+}

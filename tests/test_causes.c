@@ -1,0 +1,245 @@
+/* Physical causes of the catalogue: geometry of the cones at steps, means over elements, bounds and where a cause applies. Their
+ * frequencies: test_causes_exact.c. */
+#include <math.h>
+
+#include "diagnose/causes/shared.h"
+#include "diagnose/causes/step_stiffness.h"
+#include "effect_bench.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* ---- the cones at steps ---- */
+
+static struct group bars[2];
+static struct segment steps[5];
+
+/* Diameters 100 - 300 - 120 - 300 mm, and a last one of 200 that is rectangular or round. */
+static struct rotor stepped(double length, int rectangular_end)
+{
+    static const double diameter[] = {0.1, 0.3, 0.12, 0.3, 0.2};
+    const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1};
+    bars[0] = (struct group){.name = "a", .material = steel};
+    bars[1] = (struct group){.name = "b", .material = steel};
+    for (int s = 0; s < 5; s++)
+        steps[s] =
+            (struct segment){.group = s > 1, .elements = 10, .length = length, .outer = diameter[s], .stiff_outer = diameter[s]};
+    if (rectangular_end)
+        steps[4] = (struct segment){.group = 1, .elements = 10, .length = length, .rectangular = 1, .height = 0.2, .width = 0.1};
+    return (struct rotor){.ngroup = 2, .group = bars, .nsegment = 5, .segment = steps};
+}
+
+static void cones_open_from_the_smaller_side_of_every_step(void **state)
+{
+    (void)state;
+    struct rotor rotor = stepped(0.2, 0);
+    assert_close(step_stiffness_diameter(&rotor, 1, 0.2, 45), 0.1, 1e-14, 0);
+    assert_close(step_stiffness_diameter(&rotor, 1, 0.25, 45), 0.2, 1e-12, 0);
+    assert_close(step_stiffness_diameter(&rotor, 1, 0.3, 45), 0.3, 1e-12, 0);
+    assert_close(step_stiffness_diameter(&rotor, 1, 0.37, 45), 0.12 + 0.06, 1e-12, 0); /* from the groove on the other side */
+    assert_close(step_stiffness_diameter(&rotor, 0, 0.19, 45), 0.1, 0, 0);             /* the smaller side is untouched */
+    assert_close(step_stiffness_diameter(&rotor, 1, 0.25, 90), 0.3, 0, 0);
+    assert_close(step_stiffness_diameter(&rotor, 4, 0.9, 10), 0.2, 0, 0);
+}
+
+static void cones_reach_across_sections(void **state)
+{
+    (void)state;
+    struct rotor rotor = stepped(0.02, 0); /* short: a cone of 30 degrees needs 0.17 m for 0.2 m */
+    double t = tan(pi / 6);
+    assert_close(step_stiffness_diameter(&rotor, 1, 0.035, 30), fmin(0.1 + 2 * 0.015 * t, 0.12 + 2 * 0.005 * t), 1e-12, 0);
+    /* the groove of 120 mm is inside the cone of the first step, which starts at 100 */
+    assert_close(step_stiffness_diameter(&rotor, 2, 0.045, 10), fmin(0.12, 0.1 + 2 * 0.025 * tan(pi / 18)), 1e-12, 0);
+    assert_true(step_stiffness_diameter(&rotor, 2, 0.045, 10) < 0.12);
+    assert_close(step_stiffness_diameter(&rotor, 3, 0.062, 10), 0.1 + 2 * 0.042 * tan(pi / 18), 1e-12, 0);
+}
+
+static void rectangles_make_no_step_and_have_no_cone(void **state)
+{
+    (void)state;
+    struct rotor rotor = stepped(0.2, 1);
+    struct effect_span span = {1, 4, 0.8, 0.82};
+    struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {20}};
+    struct effect_factors factors;
+    assert_int_equal(effect.kind->axis(&effect, &rotor, &span, -1, &factors), 0);
+    /* near the rectangle the last disc is whole: the next step is far away */
+    assert_close(step_stiffness_diameter(&rotor, 3, 0.799, 45), 0.3, 0, 0);
+    struct rotor round = stepped(0.2, 0);
+    assert_close(step_stiffness_diameter(&round, 3, 0.799, 45), 0.202, 1e-12, 0);
+}
+
+/* Factors of an element against many points of the definition. */
+static void factors_are_means_of_the_compliance(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 4; kind++) { /* plain, core of another group, bore, holes */
+        struct rotor rotor = stepped(0.2, 0);
+        steps[3].inner = kind == 2 ? 0.05 : 0;
+        if (kind == 3)
+            bars[1] =
+                (struct group){.name = "b", .material = bars[1].material, .holes = 8, .hole_diameter = 0.02, .hole_pitch = 0.04};
+        struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {30}};
+        for (int e = 0; e < 100; e++) {
+            double from = 0.01 * e, to = from + 0.01, bending = 0, shear = 0, own_area, own_inertia;
+            int segment = e / 20;
+            struct effect_span span = {rotor.segment[segment].group, segment, from, to};
+            struct effect_factors factors = {1, 1, 1, 1};
+            effect.kind->axis(&effect, &rotor, &span, -1, &factors);
+            bench_section(&rotor, segment, rotor.segment[segment].stiff_outer, &own_area, &own_inertia);
+            for (int i = 0; i < 2000; i++) {
+                double area, inertia, z = from + (i + 0.5) / 2000 * 0.01;
+                bench_section(&rotor, segment, bench_cone_diameter(&rotor, segment, z, 30), &area, &inertia);
+                bending += own_inertia / inertia / 2000;
+                shear += own_area / area / 2000;
+            }
+            assert_close(factors.ei, 1 / bending, 1e-2, 0); /* four points see a kink within an element to a per cent */
+            assert_close(factors.kgs, 1 / shear, 1e-2, 0);
+            assert_close(factors.rhos, 1, 0, 0);
+            assert_close(factors.rhoi, 1, 0, 0);
+        }
+    }
+}
+
+/* A flange on a thin shaft whose bore is wider than that shaft: the cone begins inside the bore. */
+static void a_cone_inside_the_bore_leaves_a_little(void **state)
+{
+    (void)state;
+    struct rotor rotor = stepped(0.2, 0);
+    struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {30}};
+    struct effect_span span = {0, 1, 0.2, 0.202};
+    struct effect_factors factors, d;
+    steps[1].inner = 0.2;
+    assert_int_equal(effect.kind->axis(&effect, &rotor, &span, -1, &factors), 1);
+    assert_close(step_stiffness_diameter(&rotor, 1, 0.201, 30), 0.21, 1e-12, 0); /* a tenth of the wall */
+    assert_close(factors.ei, (pow(0.21, 4) - pow(0.2, 4)) / (pow(0.3, 4) - pow(0.2, 4)), 1e-12, 0);
+    assert_close(factors.kgs, (pow(0.21, 2) - pow(0.2, 2)) / (pow(0.3, 2) - pow(0.2, 2)), 1e-12, 0);
+    assert_int_equal(effect.kind->axis(&effect, &rotor, &span, 0, &d), 1);
+    assert_close(d.ei, 0, 0, 0);
+}
+
+/* ---- a soft zone narrower than an element ---- */
+
+static void a_narrow_zone_keeps_its_mean(void **state)
+{
+    (void)state;
+    for (double width = 0.001; width < 0.2; width *= 1.7)
+        for (double depth = 0.05; depth < 1; depth += 0.15) {
+            struct effect effect = {.kind = cause_stiffness_local.effect, .target = -1, .value = {depth, 0.513, width}};
+            struct effect_span span = {0, 0, 0.5, 0.53};
+            struct effect_factors factors = {1, 1, 1, 1};
+            double mean = 0;
+            effect.kind->axis(&effect, NULL, &span, -1, &factors);
+            for (int i = 0; i < 20000; i++) {
+                double z = 0.5 + 0.03 * (i + 0.5) / 20000;
+                mean += 1 / (1 - depth * exp(-pow((z - 0.513) / width, 2) / 2)) / 20000;
+            }
+            assert_close(factors.ei, 1 / mean, 1e-3, 0);
+        }
+}
+
+/* ---- catalogue ---- */
+
+static const struct cause_kind *const all[] = {
+    &cause_step_stiffness, &cause_stiffness_gradient, &cause_stiffness_profile, &cause_stiffness_local,   &cause_joint,
+    &cause_support,        &cause_added_mass,         &cause_density,           &cause_stiffness,         &cause_tie_stiffness,
+    &cause_tie_tension,    &cause_tie_shear,          &cause_shear_coefficient, &cause_accelerometer_mass};
+
+#define ALL ((int)(sizeof all / sizeof *all))
+
+static void entries_are_complete(void **state)
+{
+    (void)state;
+    const struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 0);
+    for (int c = 0; c < ALL; c++) {
+        const struct cause_kind *cause = all[c];
+        assert_int_equal(cause->class, CAUSE_PHYSICAL);
+        assert_string_equal(cause->id, cause->effect->id);
+        assert_true(cause->sentence && cause->check);
+        assert_true(cause->place < cause->effect->nparameter && cause->width < cause->effect->nparameter);
+        for (int variant = 0; variant < 4 && (variant == 0 || cause->variant[variant]); variant++) {
+            struct effect effect = {.kind = cause->effect, .variant = variant};
+            for (int p = 0; p < cause->effect->nparameter; p++) {
+                double lower = NAN, upper = NAN, neutral = cause->parameter[p].neutral, typical = cause->parameter[p].typical;
+                assert_true(cause->effect->parameter[p].name && cause->effect->parameter[p].unit);
+                cause->bounds(rotor, &effect, p, &lower, &upper);
+                assert_true(lower < upper);
+                if (p == cause->place || p == cause->width)
+                    continue;
+                assert_true(lower <= typical && typical <= upper && typical != neutral);
+                assert_true(cause->parameter[p].one_sided * (typical - neutral) >= 0);
+            }
+        }
+    }
+}
+
+static void causes_apply_where_they_make_sense(void **state)
+{
+    (void)state;
+    struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 0);
+    const int identified[] = {0, 1, 0};
+    for (int g = 0; g < 3; g++) {
+        assert_int_equal(cause_stiffness.applies(rotor, g, identified), g != 1);
+        assert_int_equal(cause_shear_coefficient.applies(rotor, g, identified), g != 1);
+        assert_int_equal(cause_joint.applies(rotor, g, identified), g < 2);
+    }
+    assert_int_equal(cause_tie_shear.applies(rotor, 0, identified), 1);
+    rotor->tierod[0].model = BUNDLE_RODS;
+    assert_int_equal(cause_tie_shear.applies(rotor, 0, identified), 0);
+    assert_int_equal(cause_tie_tension.applies(rotor, 0, identified), 1);
+    rotor->tierod[0].tension = 0;
+    assert_int_equal(cause_tie_tension.applies(rotor, 0, identified), 0);
+    assert_int_equal(cause_support.applies(rotor, 1, identified), 1);
+    rotor->spring[1].lateral = rotor->spring[1].rotational = 0;
+    assert_int_equal(cause_support.applies(rotor, 1, identified), 0);
+    assert_int_equal(cause_step_stiffness.applies(rotor, -1, identified), 1);
+    for (int s = 0; s < rotor->nsegment; s++)
+        rotor->segment[s].outer = 0.4;
+    assert_int_equal(cause_step_stiffness.applies(rotor, -1, identified), 0);
+}
+
+static void bounds_of_mass_rest_on_the_mass_of_the_model(void **state)
+{
+    (void)state;
+    struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 0);
+    struct effect effect = {.kind = cause_added_mass.effect};
+    struct mass_properties properties;
+    struct beam beam;
+    double lower, upper;
+    bench_build(rotor, 0, NULL, &beam);
+    beam_mass_properties(&beam, &properties);
+    assert_close(mass_of_rotor(rotor), properties.mass, 1e-12, 0);
+    cause_added_mass.bounds(rotor, &effect, 0, &lower, &upper);
+    assert_close(upper, 0.03 * properties.mass, 1e-12, 0);
+}
+
+/* As soft as ten diameters of the softer neighbour: the last piece of the left shaft. */
+static void bounds_of_a_joint_are_ten_diameters_of_shaft(void **state)
+{
+    (void)state;
+    struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
+    struct effect effect = {.kind = cause_joint.effect, .target = 0};
+    double lower, upper, area, inertia, d = 0.334092;
+    rotor->group[1].holes = 0;
+    bench_section(rotor, 6, d, &area, &inertia);
+    cause_joint.bounds(rotor, &effect, 0, &lower, &upper);
+    assert_close(lower, 0, 0, 0);
+    assert_close(upper, 10 * d / (0.6e11 * inertia), 1e-12, 0); /* the core is the softer one */
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(cones_open_from_the_smaller_side_of_every_step),
+        TEST(cones_reach_across_sections),
+        TEST(rectangles_make_no_step_and_have_no_cone),
+        TEST(factors_are_means_of_the_compliance),
+        TEST(a_cone_inside_the_bore_leaves_a_little),
+        TEST(a_narrow_zone_keeps_its_mean),
+        TEST(entries_are_complete),
+        TEST(causes_apply_where_they_make_sense),
+        TEST(bounds_of_mass_rest_on_the_mass_of_the_model),
+        TEST(bounds_of_a_joint_are_ten_diameters_of_shaft),
+    };
+    return cmocka_run_group_tests_name("causes", tests, NULL, NULL);
+}

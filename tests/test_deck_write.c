@@ -1,0 +1,500 @@
+/* A deck written from a job is read as the same job. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "deck/deck.h"
+#include "deck/deck_write.h"
+#include "diagnose/causes/catalogue.h"
+#include "run/identify.h"
+#include "support.h"
+
+#define INPUT ROTID_SOURCE_DIR "/input/"
+#define DECKS ROTID_SOURCE_DIR "/tests/data/decks/"
+
+#define MODEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 20\n"
+#define TWO                                                                                                                      \
+    "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=left, MATERIAL=steel\n0.4, 0.1, 0, 8\n"          \
+    "*SHAFT, NAME=core, MATERIAL=steel\n0.6, 0.14, 0, 12\n"
+
+struct reading {
+    struct pool pool;
+    struct message_list messages;
+    struct job job;
+};
+
+static char directory[] = "/tmp/test_deck_write_XXXXXX";
+
+static const char *path_of(const char *name)
+{
+    static char path[2][256];
+    static int next;
+    next = !next;
+    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
+    return path[next];
+}
+
+static void write_file(const char *name, const char *text)
+{
+    FILE *stream = fopen(path_of(name), "wb");
+    assert_non_null(stream);
+    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
+}
+
+static void read_path(struct reading *r, const char *path, const char *set)
+{
+    struct override override;
+    pool_open(&r->pool, NULL);
+    message_open(&r->messages, &r->pool);
+    if (set)
+        assert_int_equal(override_parse(&r->pool, set, &override), 0);
+    int status = deck_read(&r->pool, path, set != NULL, &override, &r->messages, &r->job);
+    for (size_t i = 0; i < r->messages.count && status; i++)
+        print_error("%s:%d:%d: %s\n", path, r->messages.item[i].line, r->messages.item[i].column, r->messages.item[i].text);
+    assert_status(status, ROTID_OK);
+}
+
+static void read_text(struct reading *r, const char *text)
+{
+    write_file("deck.inp", text);
+    read_path(r, path_of("deck.inp"), NULL);
+}
+
+/* ------------------------------------------------------------------------------------------------ equality of jobs */
+
+static void assert_text(const char *a, const char *b)
+{
+    assert_int_equal(a == NULL, b == NULL);
+    if (a)
+        assert_string_equal(a, b);
+}
+
+/* bit for bit, but one NaN is as good as another */
+static void assert_doubles(ptrdiff_t count, const double *a, const double *b)
+{
+    assert_int_equal(a == NULL, b == NULL);
+    for (ptrdiff_t i = 0; i < count && a; i++)
+        if (!(isnan(a[i]) && isnan(b[i])) && memcmp(&a[i], &b[i], sizeof *a)) {
+            print_error("value %td is %.17g, expected %.17g\n", i, a[i], b[i]);
+            fail();
+        }
+}
+
+static void assert_material(const struct material *a, const struct material *b)
+{
+    assert_true(a->e == b->e && a->nu == b->nu && a->rho == b->rho && a->isotropic == b->isotropic);
+    assert_true(a->isotropic || a->g == b->g);
+}
+
+static void assert_effect(const struct effect *a, const struct effect *b)
+{
+    assert_text(a->name, b->name);
+    assert_ptr_equal(a->kind, b->kind);
+    assert_true(a->target == b->target && a->variant == b->variant);
+    assert_doubles(effect_parameters(a), a->value, b->value);
+}
+
+static void assert_members(const struct rotor *a, const struct rotor *b)
+{
+    for (int i = 0; i < a->ntierod; i++) {
+        const struct tierod *s = &a->tierod[i], *t = &b->tierod[i];
+        assert_text(s->name, t->name);
+        assert_material(&s->material, &t->material);
+        assert_true(s->from == t->from && s->to == t->to && s->model == t->model && s->self_equilibrated == t->self_equilibrated);
+        assert_true(s->number == t->number && s->elements == t->elements && s->diameter == t->diameter && s->pitch == t->pitch);
+        assert_true(s->tension == t->tension);
+    }
+    for (int i = 0; i < a->nbars; i++) {
+        const struct bars *s = &a->bars[i], *t = &b->bars[i];
+        assert_text(s->name, t->name);
+        assert_material(&s->material, &t->material);
+        assert_true(s->center == t->center && s->length == t->length && s->model == t->model && s->number == t->number);
+        assert_true(s->elements == t->elements && s->diameter == t->diameter && s->pitch == t->pitch);
+    }
+    for (int i = 0; i < a->ndisk; i++) {
+        assert_text(a->disk[i].name, b->disk[i].name);
+        assert_doubles(4, &a->disk[i].position, &b->disk[i].position);
+    }
+    for (int i = 0; i < a->nspring; i++) {
+        assert_text(a->spring[i].name, b->spring[i].name);
+        assert_doubles(3, &a->spring[i].position, &b->spring[i].position);
+    }
+}
+
+static void assert_rotor(const struct rotor *a, const struct rotor *b)
+{
+    assert_true(a->ngroup == b->ngroup && a->nsegment == b->nsegment && a->ntierod == b->ntierod && a->nbars == b->nbars);
+    assert_true(a->ndisk == b->ndisk && a->nspring == b->nspring && a->nsensor == b->nsensor && a->neffect == b->neffect);
+    assert_true(a->sling == b->sling);
+    for (int g = 0; g < a->ngroup; g++) {
+        const struct group *s = &a->group[g], *t = &b->group[g];
+        assert_text(s->name, t->name);
+        assert_material(&s->material, &t->material);
+        assert_true(s->holes == t->holes && s->hole_diameter == t->hole_diameter && s->hole_pitch == t->hole_pitch);
+        assert_true(s->preload == t->preload);
+    }
+    for (int i = 0; i < a->nsegment; i++) {
+        const struct segment *s = &a->segment[i], *t = &b->segment[i];
+        assert_true(s->group == t->group && s->elements == t->elements && s->rectangular == t->rectangular);
+        assert_doubles(6, &s->length, &t->length); /* length to width */
+    }
+    assert_members(a, b);
+    for (int s = 0; s < a->nsensor; s++)
+        assert_true(a->sensor[s].id == b->sensor[s].id && a->sensor[s].position == b->sensor[s].position);
+    for (int i = 0; i < a->neffect; i++)
+        assert_effect(&a->effect[i], &b->effect[i]);
+}
+
+/* of what was measured: what *NOISE says of components that were not is nobody's business */
+static void assert_shapes(ptrdiff_t count, const double *a, const double *b, const double *a_std, const double *b_std)
+{
+    assert_doubles(count, a, b);
+    for (ptrdiff_t i = 0; i < count && a; i++)
+        if (isfinite(a[i]))
+            assert_doubles(1, &a_std[i], &b_std[i]);
+}
+
+static void assert_frequency_std(int count, const double *a, const double *b)
+{
+    for (int k = 0; k < count; k++)
+        assert_true(a[k] == b[k] || nextafter(a[k], b[k]) == b[k] || (isnan(a[k]) && isnan(b[k])));
+}
+
+static void assert_data(const struct job *a, const struct job *b)
+{
+    ptrdiff_t components = (ptrdiff_t)a->rotor.nsensor * a->nmode;
+    assert_true(a->nmode == b->nmode && a->ncorrection == b->ncorrection && (a->raw == NULL) == (b->raw == NULL));
+    for (int k = 0; k < a->nmode; k++)
+        assert_true(a->number[k] == b->number[k] && a->holdout[k] == b->holdout[k]);
+    assert_doubles(a->nmode, a->frequency_hz, b->frequency_hz);
+    assert_doubles(a->nmode, a->damping, b->damping);
+    assert_frequency_std(a->nmode, a->frequency_std, b->frequency_std);
+    assert_shapes(components, a->shape, b->shape, a->shape_std, b->shape_std);
+    for (int i = 0; i < a->ncorrection; i++) {
+        const struct correction *s = &a->correction[i], *t = &b->correction[i];
+        assert_text(s->name, t->name);
+        assert_text(s->id, t->id);
+        assert_text(s->block, t->block);
+        assert_true(s->nsensor == t->nsensor && s->value == t->value && !memcmp(s->sensor, t->sensor, sizeof s->sensor));
+    }
+    if (a->raw) {
+        assert_int_equal(a->raw->nsensor, b->raw->nsensor);
+        assert_memory_equal(a->raw->sensor, b->raw->sensor, (size_t)a->raw->nsensor * sizeof *a->raw->sensor);
+        assert_shapes(components, a->raw->shape, b->raw->shape, a->raw->shape_std, b->raw->shape_std);
+        assert_frequency_std(a->nmode, a->raw->frequency_std, b->raw->frequency_std);
+    }
+}
+
+static void assert_job(const struct job *a, const struct job *b)
+{
+    assert_int_equal(a->nheading, b->nheading);
+    for (int i = 0; i < a->nheading; i++)
+        assert_text(a->heading[i], b->heading[i]);
+    assert_int_equal(a->nreference, b->nreference);
+    for (int i = 0; i < a->nreference; i++) {
+        assert_text(a->reference[i].quantity, b->reference[i].quantity);
+        assert_int_equal(a->reference[i].count, b->reference[i].count);
+        assert_doubles(a->reference[i].count, a->reference[i].value, b->reference[i].value);
+    }
+    assert_rotor(&a->rotor, &b->rotor);
+    assert_data(a, b);
+    assert_int_equal(a->nsuspect, b->nsuspect);
+    for (int i = 0; i < a->nsuspect; i++) {
+        assert_effect(&a->suspect[i].effect, &b->suspect[i].effect);
+        assert_memory_equal(a->suspect[i].fixed, b->suspect[i].fixed, sizeof a->suspect[i].fixed);
+    }
+    assert_int_equal(a->nparameter, b->nparameter);
+    for (int p = 0; p < a->nparameter; p++) {
+        assert_text(a->bounds[p].name, b->bounds[p].name);
+        assert_text(a->bounds[p].unit, b->bounds[p].unit);
+        assert_doubles(3, &a->bounds[p].lower, &b->bounds[p].lower);
+        assert_memory_equal(&a->parameter[p], &b->parameter[p], sizeof a->parameter[p]);
+    }
+    assert_true(a->has_fit == b->has_fit && a->fit.functional == b->fit.functional && a->fit.reduction == b->fit.reduction);
+    assert_true(a->fit.derivative == b->fit.derivative);
+}
+
+static const char *written(struct reading *r, const struct deck_write_options *options)
+{
+    char *text;
+    assert_status(deck_write(&r->pool, &r->job, options, &text), ROTID_OK);
+    return text;
+}
+
+/* read(write(job)) == job, and the second writing is the first one */
+static void assert_comes_back(const char *path, const char *set)
+{
+    struct reading first, second;
+    read_path(&first, path, set);
+    const char *text = written(&first, NULL);
+    write_file("again.inp", text);
+    read_path(&second, path_of("again.inp"), NULL);
+    assert_job(&first.job, &second.job);
+    assert_string_equal(written(&second, NULL), text);
+    pool_close(&first.pool);
+    pool_close(&second.pool);
+}
+
+static void assert_text_comes_back(const char *text)
+{
+    write_file("deck.inp", text);
+    assert_comes_back(path_of("deck.inp"), NULL);
+}
+
+/* ------------------------------------------------------------------------------------------------ round trips */
+
+static void every_shipped_deck_comes_back_to_the_last_bit(void **state)
+{
+    (void)state;
+    static const char *const decks[] = {"brake_reuss_beam", "foam_bar",    "paper_rotor",      "roving_hammer_beam",
+                                        "solid_rotor",      "solid_steel", "solid_steel_stiff"};
+    static const char *const files[] = {"gradient", "local", "mass", "uniform"};
+    char text[512];
+    for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
+        (void)snprintf(text, sizeof text, INPUT "%s.inp", decks[i]);
+        assert_comes_back(text, NULL);
+    }
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        (void)snprintf(text, sizeof text, "MEASURED.FILE=" INPUT "data/solid_rotor_%s.uff", files[i]);
+        assert_comes_back(INPUT "solid_rotor.inp", text);
+    }
+}
+
+static void every_card_and_every_cause_comes_back(void **state)
+{
+    (void)state;
+    assert_comes_back(DECKS "every_card.inp", NULL);
+    assert_comes_back(DECKS "every_cause.inp", NULL);
+    assert_comes_back(DECKS "one_element.inp", NULL);
+}
+
+static void what_was_measured_in_part_comes_back(void **state)
+{
+    (void)state;
+    assert_text_comes_back(MODEL);
+    assert_text_comes_back(MODEL "*SENSORS\n1, 0\n2, 0.33333333333333331\n");        /* no modes */
+    assert_text_comes_back(MODEL "*MODES\n3, 2400, , 0.7\n1, 500\n2, 1300, 0.01\n"); /* noise of one mode; any order */
+    assert_text_comes_back(MODEL "*MODES\n1, 500, , 1\n2, 1300.1, , 0.3\n3, 2407.7, , 0.1\n");
+    assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n*SHAPE, MODE=2\n3, 1\n1, -0.1, 0.03\n");
+    assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*FIT, HOLDOUT=2\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\n");
+    assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\ncore.G, 0, 1e12, 8e10\n");
+    assert_text_comes_back(
+        MODEL
+        "*MODES\n1, 500\n2, 1300\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\ncore.G, 0, 1e12, 8e10\n*FIT, TIE=E:G, FUNCTIONAL=HYBRID\n");
+}
+
+static void names_may_be_odd(void **state)
+{
+    (void)state;
+    /* a group whose name is an option or holds an equals sign cannot stand behind a comma */
+    static const char *const right[] = {"SUSPECT", "a=b", "name", "2", "at", "*x", "two words", "a.b", "\xc3\xa4", "gr*"};
+    for (size_t i = 0; i < sizeof right / sizeof *right; i++) {
+        char text[1024];
+        (void)snprintf(text, sizeof text,
+                       "*MATERIAL, NAME=*s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=1, MATERIAL=*s\n0.5, 0.1, 0, 9\n"
+                       "*SHAFT, NAME=%s, MATERIAL=*s\n0.5, 0.1, 0, 9\n*CAUSE, NAME=j=1, TYPE=joint, AT=0.5\nflexibility, 1e-9\n"
+                       "*CAUSE, NAME=type, TYPE=density, GROUP=%s\nfactor, 0.9\n*CAUSE, NAME=x, TYPE=joint, AT=0.5, SUSPECT\n",
+                       right[i], right[i]);
+        assert_text_comes_back(text);
+    }
+}
+
+static void two_modes_of_one_frequency_stay_two(void **state)
+{
+    (void)state;
+    struct reading first, second;
+    read_text(&first, MODEL "*MODES\n1, 500\n2, 1300\n3, 1400\n");
+    first.job.frequency_hz[2] = 1300; /* as a universal file may have it */
+    write_file("again.inp", written(&first, NULL));
+    read_path(&second, path_of("again.inp"), NULL);
+    assert_true(second.job.frequency_hz[1] == 1300 && second.job.frequency_hz[2] == nextafter(1300, INFINITY));
+    pool_close(&first.pool);
+    pool_close(&second.pool);
+}
+
+/* ------------------------------------------------------------------------------------------------ what a caller adds */
+
+static void extra_lines_go_into_the_heading_and_harm_nothing(void **state)
+{
+    (void)state;
+    static char longest[2000];
+    static const char *const extra[] = {
+        "found by diagnose: joint", "*SHAFT, no card", "a ** no comment", "", "tab\tand\nend", longest};
+    static const char *const expected[] = {"the deck", "found by diagnose: joint", "SHAFT, no card", "a  * no comment",
+                                           "tab and end"};
+    const struct deck_write_options options = {.nextra = sizeof extra / sizeof *extra, .extra = extra};
+    struct reading first, second;
+    memset(longest, 'x', 1023);
+    (void)strcpy(longest + 1023, "\xc3\xa4 and more"); /* the character does not fit */
+    read_text(&first, "*HEADING\nthe deck\npaper error_percent = 1, 2\n" MODEL);
+    write_file("again.inp", written(&first, &options));
+    read_path(&second, path_of("again.inp"), NULL);
+    assert_int_equal(second.job.nheading, 6);
+    for (int i = 0; i < 5; i++)
+        assert_string_equal(second.job.heading[i], expected[i]);
+    assert_int_equal(strlen(second.job.heading[5]), 1023);
+    assert_true(second.job.nreference == 1 && second.job.reference[0].value[1] == 2);
+    pool_close(&first.pool);
+    pool_close(&second.pool);
+}
+
+static void written_at_x_the_model_and_the_starts_are_those_of_x(void **state)
+{
+    (void)state;
+    static const double x[] = {1.9e11, 3e-8, -0.07};
+    const struct deck_write_options options = {.x = x};
+    struct reading first, second;
+    read_text(&first, TWO "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 0\n"
+                          "*CAUSE, NAME=t, TYPE=stiffness_gradient, GROUP=core\nslope, 0\n*MODES\n1, 500\n2, 1300\n3, 2400\n"
+                          "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\nj.flexibility, 0, 1e-7, 1e-8\nt.slope, -0.5, 0.5, 0.1\n");
+    write_file("again.inp", written(&first, &options));
+    read_path(&second, path_of("again.inp"), NULL);
+    assert_true(second.job.rotor.group[1].material.e == 1.9e11 && second.job.rotor.group[0].material.e == 2.1e11);
+    assert_true(second.job.rotor.effect[0].value[0] == 3e-8 && second.job.rotor.effect[1].value[0] == -0.07);
+    for (int p = 0; p < 3; p++)
+        assert_true(second.job.bounds[p].start == x[p] && second.job.bounds[p].lower == first.job.bounds[p].lower);
+    assert_true(first.job.rotor.group[1].material.e == 2.1e11 && first.job.rotor.effect[0].value[0] == 0); /* untouched */
+    pool_close(&first.pool);
+    pool_close(&second.pool);
+}
+
+static void what_lies_on_a_bound_is_still_a_deck(void **state)
+{
+    (void)state;
+    struct reading first, second;
+    double lower, upper, x[] = {4e11, 0, 0.5};
+    const struct deck_write_options options = {.x = x};
+    read_text(&first, TWO "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 0\n"
+                          "*CAUSE, NAME=t, TYPE=stiffness_gradient, GROUP=core\nslope, 0\n*MODES\n1, 500\n2, 1300\n3, 2400\n"
+                          "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\nj.flexibility, 0, 1e-8, 1e-9\nt.slope, -0.5, 0.5, 0.1\n");
+    /* bounds of the joint at the E of before, which are wider than those at the E that was found */
+    const struct effect *joint = first.job.rotor.effect;
+    catalogue_of(joint)->bounds(&first.job.rotor, joint, 0, &lower, &upper);
+    first.job.bounds[1].upper = upper;
+    first.job.rotor.effect[0].value[0] = x[1] = upper;
+    first.job.rotor.group[0].material.e = 4e11;
+    write_file("again.inp", written(&first, &options));
+    read_path(&second, path_of("again.inp"), NULL);
+    assert_true(second.job.bounds[1].upper < 0.6 * upper);
+    assert_close(second.job.rotor.effect[0].value[0], second.job.bounds[1].upper, 1e-15, 0);
+    for (int p = 0; p < 3; p++)
+        assert_true(second.job.bounds[p].start > second.job.bounds[p].lower &&
+                    second.job.bounds[p].start < second.job.bounds[p].upper);
+    x[2] = 0; /* is no scale */
+    write_file("again.inp", written(&first, &options));
+    pool_close(&second.pool);
+    read_path(&second, path_of("again.inp"), NULL);
+    assert_true(second.job.bounds[2].start == 0.1);
+    pool_close(&first.pool);
+    pool_close(&second.pool);
+}
+
+static void a_fit_runs_from_the_written_deck_to_where_it_stood(void **state)
+{
+    (void)state;
+    struct reading first, second;
+    struct identification before, after;
+    read_path(&first, DECKS "every_cause.inp", NULL);
+    first.job.nparameter = 1; /* E alone: this deck is no rotor that was ever measured */
+    assert_status(identify_run(&first.pool, &first.job, 0, NULL, &first.messages, &before), ROTID_OK);
+    const struct deck_write_options options = {.x = before.fit->x};
+    write_file("again.inp", written(&first, &options));
+    read_path(&second, path_of("again.inp"), NULL);
+    assert_status(identify_run(&second.pool, &second.job, 0, NULL, &second.messages, &after), ROTID_OK);
+    assert_close(after.fit->x[0], before.fit->x[0], 1e-7, 0);
+    assert_close(after.fit->objective, before.fit->objective, 1e-9, 0);
+    rotid_fit_free(before.fit);
+    rotid_fit_free(after.fit);
+    pool_close(&first.pool);
+    pool_close(&second.pool);
+}
+
+/* ------------------------------------------------------------------------------------------------ what a deck cannot say */
+
+static void what_no_deck_can_say_is_refused(void **state)
+{
+    (void)state;
+    static char longest[1100];
+    struct reading r;
+    char *text;
+    memset(longest, 'n', sizeof longest - 1);
+    static const char *const names[] = {"a,b", "", " a", "a ", "a**b", "a\nb", longest, NULL};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        read_text(&r, TWO "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 1e-9\n");
+        r.job.rotor.effect[0].name = names[i];
+        assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_ERROR_ARGUMENT);
+        assert_null(text);
+        r.job.rotor.effect[0].name = "j";
+        r.job.rotor.group[1].name = names[i] ? names[i] : ",";
+        assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_ERROR_ARGUMENT);
+        pool_close(&r.pool);
+    }
+    read_text(&r, MODEL "*SENSORS\n1, 0\n*MODES\n1, 500\n");
+    r.job.rotor.sensor[0].id = 0;
+    assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_ERROR_ARGUMENT);
+    r.job.rotor.sensor[0].id = 1;
+    r.job.frequency_hz[0] = NAN;
+    assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_ERROR_ARGUMENT);
+    r.job.frequency_hz[0] = 500;
+    r.job.number[0] = 1001;
+    assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_ERROR_ARGUMENT);
+    pool_close(&r.pool);
+}
+
+static void without_memory_nothing_is_written(void **state)
+{
+    (void)state;
+    struct reading r;
+    struct failing_allocator failing;
+    static const double x[] = {2e11, -0.1, 0.2, 0.7};
+    const struct deck_write_options options = {.x = x};
+    long fail_at = 0;
+    int status;
+    read_path(&r, DECKS "every_cause.inp", NULL);
+    do {
+        struct pool pool;
+        char *text;
+        failing_allocator_open(&failing, ++fail_at);
+        pool_open(&pool, &failing.allocator);
+        status = deck_write(&pool, &r.job, &options, &text);
+        assert_true((status == ROTID_OK) == (text != NULL) && (status == ROTID_OK || status == ROTID_ERROR_MEMORY));
+        pool_close(&pool);
+        assert_int_equal(failing.in_use, 0);
+    } while (failing.until_failure == 0);
+    assert_status(status, ROTID_OK);
+    pool_close(&r.pool);
+}
+
+static int make_directory(void **state)
+{
+    (void)state;
+    return mkdtemp(directory) == NULL;
+}
+
+static int remove_directory(void **state)
+{
+    (void)state;
+    (void)unlink(path_of("deck.inp"));
+    (void)unlink(path_of("again.inp"));
+    return rmdir(directory);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_shipped_deck_comes_back_to_the_last_bit),
+        cmocka_unit_test(every_card_and_every_cause_comes_back),
+        cmocka_unit_test(what_was_measured_in_part_comes_back),
+        cmocka_unit_test(names_may_be_odd),
+        cmocka_unit_test(two_modes_of_one_frequency_stay_two),
+        cmocka_unit_test(extra_lines_go_into_the_heading_and_harm_nothing),
+        cmocka_unit_test(written_at_x_the_model_and_the_starts_are_those_of_x),
+        cmocka_unit_test(what_lies_on_a_bound_is_still_a_deck),
+        cmocka_unit_test(a_fit_runs_from_the_written_deck_to_where_it_stood),
+        cmocka_unit_test(what_no_deck_can_say_is_refused),
+        cmocka_unit_test(without_memory_nothing_is_written),
+    };
+    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+}
