@@ -41,7 +41,8 @@ LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))
 IO_OBJECTS := $(call OBJECTS_OF,$(IO_SOURCES))
 
 TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
-SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c))
+SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c)) \
+                   $(call OBJECTS_OF,$(filter-out %/hide_main.c,$(wildcard tools/hide/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
 .PHONY: all demo test bench bench-quick check-asan check-valgrind check-peers coverage lint format install uninstall clean
@@ -68,6 +69,11 @@ $(BUILD)/librotid.a: $(LIBRARY_OBJECTS)
 
 $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(BUILD)/librotid.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+# Effects hidden in simulated measurements: shares no code with the library.
+$(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
+$(BUILD)/tools/hide/%.o: ALL_CFLAGS += -Itools
 
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"'
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(BUILD)/librotid.a
@@ -101,7 +107,7 @@ lint:
 	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(IO_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
 
 format:
-	$(CLANG_FORMAT) -i $(wildcard src/*/*.[ch] include/*.h tests/*.[ch] tools/oracle/*.[ch])
+	$(CLANG_FORMAT) -i $(wildcard src/*/*.[ch] include/*.h tests/*.[ch] tools/*/*.[ch])
 
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include

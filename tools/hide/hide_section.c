@@ -1,0 +1,119 @@
+/* What the effects make of the section at one place. */
+#include <math.h>
+#include <string.h>
+
+#include "hide_model.h"
+
+static const double pi = 3.14159265358979323846;
+
+struct moments {
+    double area, second;
+};
+
+static struct moments ring(double outer, double inner)
+{
+    double o2 = outer * outer, i2 = inner * inner;
+    return (struct moments){pi / 4 * (o2 - i2), pi / 64 * (o2 - i2) * (o2 + i2)};
+}
+
+static void drill(const struct hide_group *group, struct moments *m)
+{
+    double d2 = group->hole_diameter * group->hole_diameter, area = group->holes * pi / 4 * d2;
+    m->area -= area;
+    m->second -= group->holes * pi / 64 * d2 * d2 + 0.5 * area * group->hole_pitch * group->hole_pitch;
+}
+
+/* stiff: diameter that carries stiffness */
+static void section_of(const struct hide_group *group, const struct hide_segment *s, double stiff, struct hide_section *section)
+{
+    const struct hide_material *m = &group->material;
+    struct moments heavy, bears;
+    double coefficient;
+    if (s->rectangular) {
+        heavy = bears = (struct moments){s->height * s->width, s->width * pow(s->height, 3) / 12};
+        coefficient = 10 * (1 + m->nu) / (12 + 11 * m->nu);
+    } else {
+        heavy = ring(s->outer, s->inner);
+        bears = ring(stiff, s->inner);
+        coefficient = oracle_cowper(m->nu, s->inner / stiff);
+        if (group->holes)
+            drill(group, &heavy);
+        if (group->holes && group->hole_pitch < stiff / 2)
+            drill(group, &bears);
+    }
+    *section = (struct hide_section){m->e * bears.second, coefficient * hide_shear_modulus(m) * bears.area, m->rho * heavy.area,
+                                     m->rho * heavy.second};
+}
+
+/* The cones that open from the smaller side of every step of the outer diameter. */
+static double cone(const struct hide_rotor *rotor, double angle, double z)
+{
+    double slope = 2 * tan(angle * pi / 180), limit = INFINITY;
+    for (int i = 0; i + 1 < rotor->segments; i++) {
+        const struct hide_segment *a = &rotor->segment[i], *b = a + 1;
+        if (!a->rectangular && !b->rectangular && fabs(a->outer - b->outer) > 1e-9)
+            limit = fmin(limit, fmin(a->outer, b->outer) + slope * fabs(z - a->to));
+    }
+    return limit;
+}
+
+static double bump(double z, double center, double width, int box)
+{
+    double x = (z - center) / width;
+    return box ? fabs(x) <= 0.5 : exp(-0.5 * x * x);
+}
+
+static double zone(const struct hide_effect *e, const char *depth, const char *center, const char *width, double z)
+{
+    return 1 - hide_get(e, depth)->number *
+                   bump(z, hide_get(e, center)->number, hide_get(e, width)->number, hide_get(e, "shape")->index == 1);
+}
+
+/* Factors of one effect at z in the group. */
+static struct hide_section factors(const struct hide_rotor *rotor, const struct hide_effect *e, int group, double z)
+{
+    const struct hide_group *g = &rotor->group[group];
+    double stiffness = 1, bending = 1, shear = 1, mass = 1, xi = 2 * (z - g->from) / (g->to - g->from) - 1;
+    int here = hide_get(e, "group")->index == group;
+    if (hide_is(e, "stiffness_gradient") && here)
+        stiffness = 1 + hide_get(e, "slope")->number * xi;
+    else if (hide_is(e, "stiffness_profile") && here)
+        stiffness = 1 + hide_get(e, "profile")->number * (xi * xi - 1.0 / 3);
+    else if (hide_is(e, "stiffness_local"))
+        stiffness = zone(e, "depth", "z", "width", z);
+    else if (hide_is(e, "stiffness") && here)
+        stiffness = hide_get(e, "factor")->number;
+    else if (hide_is(e, "shear_coefficient") && here)
+        shear = hide_get(e, "factor")->number;
+    else if (hide_is(e, "density") && here)
+        mass = hide_get(e, "factor")->number;
+    else if (hide_is(e, "bend_only"))
+        bending = zone(e, "depth", "z", "width", z);
+    else if (hide_is(e, "two_zones"))
+        stiffness = zone(e, "depth", "z", "width", z) * zone(e, "depth2", "z2", "width2", z);
+    else if (hide_is(e, "density_zone"))
+        mass = 1 + (hide_get(e, "factor")->number - 1) * bump(z, hide_get(e, "z")->number, hide_get(e, "width")->number, 1);
+    else if (hide_is(e, "sine") && here)
+        stiffness = 1 + hide_get(e, "amplitude")->number * sin(pi * (xi + 1) * hide_get(e, "waves")->number);
+    return (struct hide_section){bending * stiffness, shear * stiffness, mass, mass};
+}
+
+void hide_section_at(const struct hide_physics *physics, int segment, double z, struct hide_section *section)
+{
+    const struct hide_rotor *rotor = physics->rotor;
+    const struct hide_segment *s = &rotor->segment[segment];
+    double stiff = s->stiff;
+    for (int i = 0; i < physics->effects; i++)
+        if (hide_is(&physics->effect[i], "step_stiffness"))
+            stiff = fmin(stiff, cone(rotor, hide_get(&physics->effect[i], "angle")->number, z));
+    /* A cone from a solid end into a wide bore would leave nothing at all; a sleeve of 2 % of the wall keeps it one piece. */
+    stiff = fmax(stiff, s->inner + 0.02 * (s->stiff - s->inner));
+    section_of(&rotor->group[s->group], s, stiff, section);
+    for (int i = 0; i < physics->effects; i++) {
+        struct hide_section f = factors(rotor, &physics->effect[i], s->group, z);
+        section->bending *= f.bending;
+        section->shear *= f.shear;
+        section->mass *= f.mass;
+        section->inertia *= f.inertia;
+    }
+}
