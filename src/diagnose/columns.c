@@ -31,6 +31,9 @@ static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const d
         unit[c->client.model.master[mode->sensor[i]] + (ptrdiff_t)i * n] = 1;
     if (mode->sensors)
         nelson_band_solve(nelson, mode->sensors, phi, zero, unit, zero, mode->adjoint);
+    for (int i = 0; i < mode->sensors; i++)
+        mode->adjoint_at[i] = mode->adjoint_m[c->client.model.master[mode->sensor[i]]];
+    mode->m_adjoint_m = dot(n, mode->adjoint_m, mode->m_phi);
     return ROTID_OK;
 }
 
@@ -51,7 +54,8 @@ static int open_mode(struct pool *pool, struct columns *c, int k, struct columns
     mode->adjoint_m = POOL_ARRAY(pool, double, n);
     mode->adjoint = POOL_ARRAY(pool, double, (size_t)n *(size_t)mode->sensors);
     mode->weighted = POOL_ARRAY(pool, double, mode->sensors);
-    if (!mode->m_phi || !mode->adjoint_m || !mode->adjoint || !mode->weighted)
+    mode->adjoint_at = POOL_ARRAY(pool, double, mode->sensors);
+    if (!mode->m_phi || !mode->adjoint_m || !mode->adjoint || !mode->weighted || !mode->adjoint_at)
         return ROTID_ERROR_MEMORY;
     double b = 0;
     for (int i = 0; i < mode->sensors; i++) {
@@ -111,7 +115,8 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
     int most = c->client.model.nmaster > 1 ? c->client.model.nmaster : 1;
     double *vectors = POOL_ARRAY(pool, double, 3 * (size_t)n), *zero = POOL_ARRAY(pool, double, n > most ? n : most),
            *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
-    if (!c->mode || !c->x || !c->r || !vectors || !zero || !unit)
+    c->dphi = POOL_ARRAY(pool, double, most);
+    if (!c->dphi || !c->mode || !c->x || !c->r || !vectors || !zero || !unit)
         return ROTID_ERROR_MEMORY;
     c->dk_phi = vectors;
     c->dm_phi = vectors + n;
@@ -164,30 +169,45 @@ static void shape_part(const struct columns *c, const struct columns_mode *mode,
         part[i] -= mode->weighted[i] * along / mode->square;
 }
 
-int columns_parameter(struct columns *c, int p, double *column)
+/* What of a mode moves with dK and dM: dlambda, and dphi at its sensors (Nelson's solution by the adjoints, plus the part along
+ * phi). P = -(dK - dlambda M - lambda dM) phi is local but for the middle part, which is the same for all of them: most changes
+ * touch a few elements. */
+static double mode_derivative(struct columns *c, const struct columns_mode *mode, double *dphi)
 {
     const rotid_model *model = &c->client.model;
     const struct prediction *prediction = &c->functional.prediction;
-    int n = model->n, row = c->nmode;
+    int n = model->n, first = 0, last = n;
+    const double *phi = prediction->phi + (ptrdiff_t)mode->pair * n;
+    double lambda = prediction->lambda[mode->pair];
+    matrix_multiply(&c->dk, 1, phi, c->dk_phi);
+    matrix_multiply(&c->dm, 1, phi, c->dm_phi);
+    double mass = dot(n, phi, c->dm_phi), dlambda = dot(n, phi, c->dk_phi) - lambda * mass;
+    for (int i = 0; i < n; i++)
+        c->right[i] = c->dk_phi[i] - lambda * c->dm_phi[i];
+    while (first < n && c->right[first] == 0)
+        first++;
+    while (last > first && c->right[last - 1] == 0)
+        last--;
+    double along = -0.5 * mass + dot(last - first, mode->adjoint_m + first, c->right + first) - dlambda * mode->m_adjoint_m;
+    for (int i = 0; i < mode->sensors; i++)
+        dphi[i] = -dot(last - first, mode->adjoint + (ptrdiff_t)i * n + first, c->right + first) + dlambda * mode->adjoint_at[i] +
+                  along * phi[model->master[mode->sensor[i]]];
+    return dlambda;
+}
+
+int columns_parameter(struct columns *c, int p, double *column)
+{
+    const rotid_model *model = &c->client.model;
+    int row = c->nmode;
     matrix_zero(&c->dk);
     matrix_zero(&c->dm);
     if (model->derivatives(model->user, c->x, p, &c->dk, &c->dm))
         return ROTID_ERROR_CALLBACK;
     for (int m = 0; m < c->nmode; m++) {
         const struct columns_mode *mode = &c->mode[m];
-        const double *phi = prediction->phi + (ptrdiff_t)mode->pair * n;
-        double lambda = prediction->lambda[mode->pair];
-        matrix_multiply(&c->dk, 1, phi, c->dk_phi);
-        matrix_multiply(&c->dm, 1, phi, c->dm_phi);
-        double mass = dot(n, phi, c->dm_phi), dlambda = dot(n, phi, c->dk_phi) - lambda * mass;
-        for (int i = 0; i < n; i++)
-            c->right[i] = -(c->dk_phi[i] - dlambda * mode->m_phi[i] - lambda * c->dm_phi[i]);
+        double dlambda = mode_derivative(c, mode, c->dphi), lambda = c->functional.prediction.lambda[mode->pair];
         column[m] = dlambda / (2 * sqrt(lambda) * c->functional.omega[mode->k] * c->measured.frequency_std[mode->k]);
-        double along = -0.5 * mass - dot(n, mode->adjoint_m, c->right), *dphi = c->dk_phi;
-        for (int i = 0; i < mode->sensors; i++)
-            c->dm_phi[i] = dot(n, mode->adjoint + (ptrdiff_t)i * n, c->right) + along * phi[model->master[mode->sensor[i]]];
-        memcpy(dphi, c->dm_phi, (size_t)mode->sensors * sizeof *dphi);
-        shape_part(c, mode, dphi, c->r + row, column + row);
+        shape_part(c, mode, c->dphi, c->r + row, column + row);
         row += mode->sensors;
     }
     return ROTID_OK;

@@ -15,6 +15,8 @@ struct columns_mode {
     double scale;              /* a: predicted shape times a is the best fit to the measured one */
     double *m_phi, *adjoint_m; /* [n] M phi, (K - lambda M)^+ M phi */
     double *adjoint;           /* [n * sensors] */
+    double *adjoint_at;        /* [sensors] adjoint_m at the sensors */
+    double m_adjoint_m;        /* (M phi)' adjoint_m */
     double *weighted;          /* [sensors] phi_s/s_s: the direction of the scale */
     double square;             /* its squared length */
 };
@@ -28,7 +30,8 @@ struct columns {
     int nrow, nmode;           /* residuals, fitted modes */
     struct columns_mode *mode; /* [nmode] */
     double *x, *r;             /* [nparam], [nrow]: the point and its residual */
-    double *dk_phi, *dm_phi, *right;
+    double *dk_phi, *dm_phi, *right; /* [n] */
+    double *dphi;                    /* [nmaster] */
     rotid_matrix dk, dm;
 };
 

@@ -7,7 +7,7 @@
 #include "fit/quantile.h"
 
 #define WIDE     0.15 /* of a parameter, half its interval: wider says little about a modulus */
-#define SEPARATE 0.9  /* correlation beyond which two parameters are known by a combination only */
+#define SEPARATE 0.7  /* correlation beyond which two parameters are known by a combination only */
 
 static int quality(struct engine *engine, const struct job *job, const struct identification *identified, struct fit_quality *q)
 {

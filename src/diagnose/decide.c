@@ -139,7 +139,8 @@ int decide(const struct engine *engine, const struct before *before, struct diag
             refused = 1;
         if (c->rejected_because)
             continue;
-        if (candidate_score(c) <= limit)
+        /* parsimony ranks, but it does not shut out what fits as well: the truth may need its parameters */
+        if (candidate_score(c) <= limit || c->chi2 <= best->chi2 + round->required_margin)
             round->nset++;
         else
             c->rejected_because = pool_format(pool, "loses to %s by %.3g", name, candidate_score(c) - candidate_score(best));

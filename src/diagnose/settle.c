@@ -63,11 +63,14 @@ static double left_over(const struct diagnosis_round *last)
 /* By how much the named cause of a round beats the best of the others. */
 static double margin_of(const struct diagnosis_round *round)
 {
-    double best = INFINITY;
-    for (int i = 1; i < round->ncandidate; i++)
-        if (round->candidate[i].refitted && isfinite(round->candidate[i].chi2))
-            best = fmin(best, candidate_score(&round->candidate[i]));
-    return best - candidate_score(&round->candidate[0]);
+    const struct candidate *first = &round->candidate[0];
+    double margin = INFINITY;
+    for (int i = 1; i < round->ncandidate; i++) {
+        const struct candidate *c = &round->candidate[i];
+        if (c->refitted && isfinite(c->chi2))
+            margin = fmin(margin, fmin(candidate_score(c) - candidate_score(first), c->chi2 - first->chi2));
+    }
+    return margin;
 }
 
 /* The members of a round's candidates that lie within `margin` of the first; at least one. */
