@@ -91,7 +91,7 @@ typedef struct rotid_matrix {
     double *block;  /* [nfar * nfar] C, both triangles */
 } rotid_matrix;
 
-/* A model with nparam parameters x. Both callbacks receive matrices of the structure declared here, set to zero, and return
+/* A model with nparam >= 0 parameters x. Both callbacks receive matrices of the structure declared here, set to zero, and return
  * 0 or anything else for failure. K is positive semidefinite, M positive definite. */
 typedef struct rotid_model {
     int n, kd, nfar;
@@ -170,13 +170,16 @@ typedef struct rotid_fit_result {
     double *x, *std, *ci_lower, *ci_upper; /* [n]; NaN where they cannot be stated */
     int *at_bound, *identifiable;          /* [n] */
     double *covariance, *correlation;      /* [n * n] */
-    double condition_number;               /* of the Jacobian with respect to x_p / x_p* */
+    double condition_number;               /* of the Jacobian with respect to x_p / x_p*; NaN where n = 0 */
     double *singular_value;                /* [n] of that Jacobian, decreasing */
     double *direction;                     /* [n * n] right singular vectors, column j belongs to singular_value[j] */
     int *direction_undetermined;           /* [n] */
     double widened_by;                     /* factor by which the intervals were widened, 1 where they were not */
     int variance_from_residuals;           /* 1: Student t with dof; 0: from the stated noise */
     double *predicted_hz, *mac, *residual; /* [m]; mac NaN without a shape; residual of the functional, held-out modes too */
+    double *r;        /* [nresidual] of the fitted modes at x: their frequencies, then for a likelihood the measured components of
+                         their shapes mode by mode, sensors increasing; objective = r'r/2 */
+    double *jacobian; /* [nresidual * n] column-major, dr_i/dx_p there */
     int nhistory;
     rotid_fit_iteration *history; /* [nhistory], iteration 0 first */
     double *history_x;            /* [n * nhistory] */
@@ -190,9 +193,11 @@ typedef struct rotid_fit_result {
  *   ROTID_HYBRID_F    r_k = 1 - R*_k / (w^_k w~_k)                                                (16)
  *   ROTID_LIKELIHOOD  r_k = (f_k - f^_k)/s_k and (a_k phi_kj - phi^_kj)/s_kj, a_k the best scale; needs frequency_std, and
  *                     shape_std where shapes are given
- * Entry: `nparam` parameters, `measured` with at least one fitted mode. Exit: *result, to be freed with rotid_fit_free, also
- * when the iteration ended without convergence (status >= 0). On an error (< 0) *result is NULL.
- * Statuses: every ROTID_ERROR_ but SYNTAX and IO. Memory: O(nmaster^2 + n kd). The iteration itself allocates nothing. */
+ * Entry: `nparam` parameters, `measured` with at least one fitted mode. With nparam = 0 (`parameter` may be NULL) the model is
+ * only evaluated and compared: converged with ROTID_STOP_GRADIENT after 0 iterations, chi2 and dof of the residuals, arrays over
+ * the parameters empty, no baseline. Exit: *result, to be freed with rotid_fit_free, also when the iteration ended without
+ * convergence (status >= 0). On an error (< 0) *result is NULL. Statuses: every ROTID_ERROR_ but SYNTAX and IO. Memory:
+ * O(nmaster^2 + n kd). The iteration itself allocates nothing. */
 ROTID_API int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
                         const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result);
 /* NULL is allowed. The allocator of the environment that the fit was given has to exist until then. */

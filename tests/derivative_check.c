@@ -58,7 +58,7 @@ void check_derivatives(struct pool *pool, const rotid_model *model, int reductio
     for (int q = 0; q < model->nparam; q++) {
         differentiate_numerically(pool, &p, &away, x, q, steps[q], dlambda, dphi);
         for (int k = first; k < count; k++) {
-            const double *expected = dphi + (ptrdiff_t)k * n, *analytic = p.dphi + ((ptrdiff_t)q * p.count + k) * n;
+            const double *expected = dphi + (ptrdiff_t)k * n, *analytic = p.dphi + prediction_place(&p, k, q);
             assert_true(fabs(dlambda[k] * x[q]) > 1e-7 * p.lambda[k]); /* the parameter acts, or the test shows nothing */
             assert_close(p.dlambda[k + q * p.count], dlambda[k], tolerance, 0);
             assert_close(scalar.dlambda[k + q * p.count], dlambda[k], tolerance, 0);

@@ -219,7 +219,8 @@ static void a_far_block_at_the_nodes_of_a_mode_costs_no_digits(void **state)
         for (int i = 0; i < 59; i++)
             sign += a.phi[i + k * 59] * b.phi[i + k * 59];
         for (int i = 0; i < 59; i++) {
-            double of_a = a.dphi[i + 59 * (k + a.count)], of_b = b.dphi[i + 59 * (k + b.count)] * (sign < 0 ? -1 : 1);
+            double of_a = a.dphi[i + prediction_place(&a, k, 1)],
+                   of_b = b.dphi[i + prediction_place(&b, k, 1)] * (sign < 0 ? -1 : 1);
             difference = fmax(difference, fabs(of_a - of_b));
             size = fmax(size, fabs(of_b));
         }

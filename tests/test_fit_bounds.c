@@ -226,7 +226,7 @@ static void test_options_and_models_that_make_no_sense_are_refused(void **state)
     order[3] = order[2];
     wrong[0].n = 1;
     wrong[1].kd = model.n;
-    wrong[2].nparam = 0;
+    wrong[2].nparam = -1;
     wrong[3].matrices = NULL;
     wrong[4].master = order;
     wrong[5].nmaster = -1;

@@ -104,10 +104,10 @@ int covariance_compute(const struct covariance_input *in, rotid_fit_result *resu
             memset(jacobian + (ptrdiff_t)p * m, 0, (size_t)m * sizeof *jacobian);
             nfixed++;
         }
-    if (singular_values(m, n, jacobian, result->singular_value, result->direction, row + n))
+    if (n && singular_values(m, n, jacobian, result->singular_value, result->direction, row + n))
         return ROTID_ERROR_LIBRARY;
     double least = n > nfixed ? result->singular_value[n - nfixed - 1] : 0;
-    result->condition_number = least > 0 ? result->singular_value[0] / least : INFINITY;
+    result->condition_number = least > 0 ? result->singular_value[0] / least : n ? INFINITY : NAN;
     inner_covariance(in, jacobian, result, inner, row);
     scale_of_noise(in, nfixed, result);
 

@@ -20,6 +20,9 @@ struct fit {
     rotid_fit_result *result;
     int n, callback_status;
     double *x, *y, *r, *jacobian, *work;
+    int evaluated;  /* the modes are those at x */
+    int linearised; /* result->jacobian is dr/dx at linearised_at [n] */
+    double *linearised_at;
     const double *accepted; /* y of the last accepted point, NULL before the first */
 };
 
@@ -46,13 +49,17 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
         fit->x[p] = bounds_to_x(&fit->parameter[p], chi, y[p]);
     if (r) {
         fit->callback_status = functional_residual(&fit->functional, fit->x, r);
+        fit->evaluated = fit->callback_status == ROTID_OK;
         return fit->callback_status;
     }
-    fit->callback_status = functional_jacobian(&fit->functional, fit->x, jacobian);
+    double *bounded = fit->result->jacobian;
+    fit->callback_status = functional_jacobian(&fit->functional, fit->x, bounded);
+    fit->linearised = fit->callback_status == ROTID_OK;
+    memcpy(fit->linearised_at, fit->x, (size_t)n * sizeof *fit->x);
     for (int p = 0; p < n; p++) {
         double slope = bounds_slope(&fit->parameter[p], chi, y[p]);
         for (int i = 0; i < m; i++)
-            jacobian[i + (ptrdiff_t)p * m] *= slope;
+            jacobian[i + (ptrdiff_t)p * m] = bounded[i + (ptrdiff_t)p * m] * slope;
     }
     return fit->callback_status;
 }
@@ -85,8 +92,8 @@ static int trace(void *user, const rotid_lm_iteration *now)
 static int check_arguments(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
                            const rotid_fit_options *options)
 {
-    if (!model || !parameter || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n ||
-        model->nfar < 0 || model->nparam < 1 || model->nrigid < 0 || model->nmaster < 0 || !model->matrices ||
+    if (!model || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n || model->nfar < 0 ||
+        model->nparam < 0 || (model->nparam && !parameter) || model->nrigid < 0 || model->nmaster < 0 || !model->matrices ||
         measured->nmode < 1 || !measured->number || !measured->frequency_hz || (model->nmaster && !model->master) ||
         (model->nfar && !model->far))
         return ROTID_ERROR_ARGUMENT;
@@ -108,11 +115,14 @@ static int check_arguments(const rotid_model *model, const rotid_parameter *para
     return ROTID_OK;
 }
 
-static int new_result(struct pool *keep, int n, int m, int iterations, rotid_fit_result *result)
+static int new_result(struct pool *keep, int n, int m, int nresidual, int iterations, rotid_fit_result *result)
 {
     size_t square = (size_t)n * (size_t)n, rows = (size_t)iterations + 2;
     result->n = n;
     result->m = m;
+    result->nresidual = nresidual;
+    result->r = POOL_ARRAY(keep, double, nresidual);
+    result->jacobian = POOL_ARRAY(keep, double, (size_t)nresidual *(size_t)n);
     double **arrays[] = {&result->x, &result->std, &result->ci_lower, &result->ci_upper, &result->singular_value};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(keep, double, n)))
@@ -130,8 +140,9 @@ static int new_result(struct pool *keep, int n, int m, int iterations, rotid_fit
     result->history = POOL_ARRAY(keep, rotid_fit_iteration, rows);
     result->history_x = POOL_ARRAY(keep, double, rows *(size_t)n);
     result->baseline = POOL_ARRAY(keep, rotid_baseline, baseline_count(n));
-    return result->at_bound && result->identifiable && result->direction_undetermined && result->covariance &&
-                   result->correlation && result->direction && result->history && result->history_x && result->baseline
+    return result->r && result->jacobian && result->at_bound && result->identifiable && result->direction_undetermined &&
+                   result->covariance && result->correlation && result->direction && result->history && result->history_x &&
+                   result->baseline
                ? ROTID_OK
                : ROTID_ERROR_MEMORY;
 }
@@ -204,7 +215,21 @@ static void compare_modes(struct fit *fit)
     }
 }
 
-/* Everything about the best point, evaluated there once more. */
+/* The modes, r and dr/dx at the best point, where the iteration has not left them behind. */
+static int evaluate_best(struct fit *fit)
+{
+    rotid_fit_result *result = fit->result;
+    size_t size = (size_t)fit->n * sizeof *result->x;
+    int status = ROTID_OK, at_best = fit->evaluated && !memcmp(fit->x, result->x, size);
+    memcpy(result->r, fit->r, (size_t)result->nresidual * sizeof *result->r);
+    if (!at_best)
+        status = functional_residual(&fit->functional, result->x, result->r);
+    if (!status && (!fit->linearised || memcmp(fit->linearised_at, result->x, size) != 0))
+        status = functional_jacobian(&fit->functional, result->x, result->jacobian);
+    return status;
+}
+
+/* Everything about the best point. */
 static int conclude(struct fit *fit, const rotid_lm_result *lm)
 {
     rotid_fit_result *result = fit->result;
@@ -213,9 +238,7 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     double *noise = fit->work, *gradient = noise + m, *rest = gradient + n;
     for (int p = 0; p < n; p++)
         result->x[p] = bounds_to_x(&fit->parameter[p], fit->options.bijection_chi, fit->y[p]);
-    int status = functional_residual(f, result->x, fit->r);
-    if (!status)
-        status = functional_jacobian(f, result->x, fit->jacobian);
+    int status = evaluate_best(fit);
     if (status)
         return status;
     compare_modes(fit);
@@ -223,16 +246,15 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     result->iterations = lm->iterations;
     result->evaluations = lm->evaluations;
     result->jacobians = lm->jacobians;
-    result->nresidual = m;
     result->objective = 0;
     for (int i = 0; i < m; i++)
-        result->objective += fit->r[i] * fit->r[i] / 2;
+        result->objective += result->r[i] * result->r[i] / 2;
     for (int p = 0; p < n; p++) {
-        double g = 0, square = 0;
+        double g = 0, square = 0, *relative = fit->jacobian + (ptrdiff_t)p * m;
         for (int i = 0; i < m; i++) {
-            fit->jacobian[i + (ptrdiff_t)p * m] *= fabs(result->x[p]);
-            square += fit->jacobian[i + (ptrdiff_t)p * m] * fit->jacobian[i + (ptrdiff_t)p * m];
-            g += fit->jacobian[i + (ptrdiff_t)p * m] * fit->r[i];
+            relative[i] = result->jacobian[i + (ptrdiff_t)p * m] * fabs(result->x[p]);
+            square += relative[i] * relative[i];
+            g += relative[i] * result->r[i];
         }
         gradient[p] = g;
         result->gradient = fmax(result->gradient, fabs(g * fit->parameter[p].start / result->x[p]));
@@ -245,7 +267,7 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     struct covariance_input input = {.m = m,
                                      .n = n,
                                      .jacobian = fit->jacobian,
-                                     .r = fit->r,
+                                     .r = result->r,
                                      .noise_std = residual_noise(fit, noise),
                                      .nscale = count_scales(fit),
                                      .x = result->x,
@@ -258,24 +280,41 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     return status;
 }
 
+/* Without parameters there is nothing to minimise: the model is at its minimum. */
+static int compare_only(struct fit *fit, rotid_lm_result *lm)
+{
+    int m = fit->functional.nresidual;
+    *lm = (rotid_lm_result){.evaluations = 1};
+    if (residual(fit, m, 0, fit->y, fit->r, NULL))
+        return ROTID_ERROR_CALLBACK;
+    for (int i = 0; i < m; i++)
+        lm->objective += fit->r[i] * fit->r[i] / 2;
+    if (!isfinite(lm->objective))
+        return ROTID_ERROR_FINITE;
+    rotid_lm_iteration now = {.objective = lm->objective, .gain_ratio = NAN, .x = fit->y, .gradient = fit->y};
+    lm->status = trace(fit, &now) ? ROTID_STOP_CANCELLED : ROTID_STOP_GRADIENT;
+    return lm->status;
+}
+
 static int run(struct pool *keep, struct pool *pool, struct fit *fit, const rotid_model *model, const rotid_measured *measured)
 {
     const rotid_fit_options *options = &fit->options;
     int n = model->nparam;
     int status =
         functional_new(pool, options->functional, options->reduction, options->derivative, model, measured, &fit->functional);
+    int m = fit->functional.nresidual;
     if (!status)
-        status = new_result(keep, n, measured->nmode, options->max_iterations, fit->result);
+        status = new_result(keep, n, measured->nmode, m, options->max_iterations, fit->result);
     if (status)
         return status;
-    int m = fit->functional.nresidual;
     size_t lm_work = rotid_lm_workspace(m, n), end_work = covariance_workspace(m, n) + (size_t)m + (size_t)n;
     fit->x = POOL_ARRAY(pool, double, n);
     fit->y = POOL_ARRAY(pool, double, n);
     fit->r = POOL_ARRAY(pool, double, m);
     fit->jacobian = POOL_ARRAY(pool, double, (size_t)m *(size_t)n);
     fit->work = POOL_ARRAY(pool, double, lm_work > end_work ? lm_work : end_work);
-    if (!fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
+    fit->linearised_at = POOL_ARRAY(pool, double, n);
+    if (!fit->linearised_at || !fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n; p++)
         fit->y[p] = bounds_to_y(&fit->parameter[p], options->bijection_chi, fit->parameter[p].start);
@@ -287,12 +326,13 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
                                    .trace_user = fit};
     rotid_lm_result lm;
     double begin = clock_seconds();
-    status = rotid_lm(m, n, residual, fit, &lm_options, fit->y, fit->r, fit->jacobian, fit->work, &lm);
+    status =
+        n ? rotid_lm(m, n, residual, fit, &lm_options, fit->y, fit->r, fit->jacobian, fit->work, &lm) : compare_only(fit, &lm);
     fit->result->seconds = clock_seconds() - begin;
     if (status < 0)
         return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
     status = conclude(fit, &lm);
-    if (!status && options->baseline && lm.status != ROTID_STOP_CANCELLED) {
+    if (!status && n && options->baseline && lm.status != ROTID_STOP_CANCELLED) {
         status = baseline_run(keep, &fit->functional, fit->parameter, fit->environment, fit->work, fit->result->baseline);
         if (status == ROTID_STOP_CANCELLED)
             status = ROTID_OK;

@@ -26,9 +26,13 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
 /* ---- banded: the full chain, in O(n) */
 
 struct eigen_band {
-    int n, count, block, depth, started;
+    int n, count, block, depth;
+    int started;           /* ritz holds the pairs of the call before */
+    int plain;             /* without polishing, in this attempt */
+    int failures;          /* of polishing from a cold start */
+    int known;             /* Ritz values in `value`: count, or with the guards of the block iteration block */
     double shift, largest; /* largest K_ii/M_ii: the size of the highest eigenvalue */
-    struct factor factor, inertia;
+    struct factor factor, inertia, indefinite;
     int *all; /* [n] 0 ... n - 1: no row is left out */
     rotid_matrix shifted;
     double *basis;      /* [n * block * depth], M-orthonormal */
@@ -36,6 +40,8 @@ struct eigen_band {
     double *ritz;       /* [n * block] the current pairs, kept for the next call */
     double *image;      /* [n * block] (K - shift M)^-1 M ritz */
     double *value;      /* [block * depth] */
+    double *residual;   /* [block] */
+    double *shifts;     /* [3 count] workspace of eigen_polish */
     double *projected;  /* [(block * depth)^2] */
     double *work;       /* [max(2 n, 3 block depth)] */
 };
@@ -43,9 +49,10 @@ struct eigen_band {
 /* For the lowest `count` pairs of matrices structured as `structure`. ROTID_OK or ROTID_ERROR_MEMORY. */
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e);
 
-/* Block Krylov iteration on (K - s M)^-1 M with a shift s < 0, Rayleigh-Ritz on K, warm-started from the pairs of the call
- * before; a Sturm count at the end proves that none was missed. K positive semidefinite, M positive definite. lambda [count], phi
- * [n * count]. ROTID_OK, ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
+/* Near pairs, of the call before or by block Krylov iteration on (K - s M)^-1 M with a shift s < 0 and Rayleigh-Ritz on K; then
+ * inverse iteration with a shift for each (eigen_polish.h), or where that fails the block iteration to the end. A Sturm count at
+ * the end proves that none was missed. K positive semidefinite, M positive definite. lambda [count], phi [n * count]. ROTID_OK,
+ * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
 #endif

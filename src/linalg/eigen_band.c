@@ -7,20 +7,32 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "linalg/eigen_polish.h"
 #include "linalg/matrix.h"
 
 #define TOLERANCE   1e-12 /* of the residual below: a vector is then as good as its arithmetic */
 #define ACCEPTABLE  1e-7  /* after all cycles: eigenvalues are then good to its square */
 #define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
+#define NEAR        0.03  /* residual from which polishing converges */
 #define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
 #define MOST_CYCLES 60
+#define FAILURES    3 /* of polishing, after which it is not tried again: the spectrum is not made for it */
 #define GUARDS      5 /* pairs beyond those wanted: the iteration converges as (shifted) lambda_count / lambda_(count + GUARDS) */
 #define DEPTH       3 /* Krylov blocks a cycle */
+
+/* Polishing factors K - lambda M for every pair, which costs n (4 kd^2 + 12 kd nfar) operations each and twice; the block
+ * iteration takes about three more cycles of 24 n kd and 108 n block for every pair. */
+static int is_narrow(const rotid_matrix *structure, int count)
+{
+    double kd = structure->kd;
+    return kd * (kd + 3.0 * structure->nfar) < 10 * kd + 36.0 * count;
+}
 
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e)
 {
     int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
     *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH};
+    e->failures = is_narrow(structure, count) ? 0 : FAILURES;
     int width = block * DEPTH;
     e->all = POOL_ARRAY(pool, int, n);
     e->basis = POOL_ARRAY(pool, double, (size_t)n *(size_t)width);
@@ -28,16 +40,21 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
     e->ritz = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
     e->image = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
     e->value = POOL_ARRAY(pool, double, width);
+    e->residual = POOL_ARRAY(pool, double, block);
+    e->shifts = POOL_ARRAY(pool, double, 3 * count);
     e->projected = POOL_ARRAY(pool, double, (size_t)width *(size_t)width);
     e->work = POOL_ARRAY(pool, double, 2 * n > 34 * width ? 2 * n : 34 * width);
-    if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->value || !e->projected || !e->work)
+    if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->value || !e->residual || !e->shifts ||
+        !e->projected || !e->work)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         e->all[i] = i;
     int status = matrix_new(pool, n, structure->kd, structure->nfar, structure->far, &e->shifted);
     if (!status)
         status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
-    return status ? status : factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->inertia);
+    if (!status)
+        status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->inertia);
+    return status ? status : factor_new(pool, FACTOR_LU, structure, n, e->all, &e->indefinite);
 }
 
 /* Appends x [n] to the `size` M-orthonormal columns of the basis. Returns the new size; x is left out where it adds nothing, and
@@ -88,23 +105,6 @@ static int refactor(struct eigen_band *e, const rotid_matrix *k, const rotid_mat
     return factor_compute(&e->factor, &e->shifted) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
 }
 
-/* image := (K - s M)^-1 M ritz; returns the largest residual |ritz - (lambda - s) image|_M over the first `watched` pairs. */
-static double iterate(struct eigen_band *e, const rotid_matrix *m, int watched)
-{
-    int n = e->n;
-    double worst = 0, *difference = e->work, *image_of_it = e->work + n;
-    matrix_multiply(m, e->block, e->ritz, e->image);
-    factor_solve(&e->factor, e->block, e->image);
-    for (int j = 0; j < watched; j++) {
-        const double *x = e->ritz + (ptrdiff_t)j * n, *y = e->image + (ptrdiff_t)j * n;
-        for (int i = 0; i < n; i++)
-            difference[i] = x[i] - (e->value[j] - e->shift) * y[i];
-        matrix_multiply(m, 1, difference, image_of_it);
-        worst = fmax(worst, sqrt(fabs(cblas_ddot(n, difference, 1, image_of_it, 1))));
-    }
-    return worst;
-}
-
 /* One cycle: basis = [ritz, image, (K - s M)^-1 M image], new ritz. */
 static int cycle(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
@@ -130,10 +130,10 @@ static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_mat
 {
     /* rounding stops the iteration here; above it, a residual that stays may be a partner of a repeated eigenvalue that comes
      * late */
-    double rounding = fmin(1e-4, 16 * DBL_EPSILON * e->largest / -e->shift), worst = INFINITY, previous;
+    double rounding = eigen_rounding(e), worst = INFINITY, previous;
     for (int c = 0; c < MOST_CYCLES; c++) {
         previous = worst;
-        worst = iterate(e, m, watched);
+        worst = eigen_residuals(e, m, e->block, watched);
         if (!isfinite(worst))
             return ROTID_ERROR_EIGEN;
         if (worst <= tolerance || (c > 1 && worst < rounding && worst > 0.3 * previous))
@@ -187,45 +187,62 @@ static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_
 {
     double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
     int expected = e->count;
-    while (expected < e->block && e->value[expected] <= shift)
+    while (expected < e->known && e->value[expected] <= shift)
         expected++;
     matrix_combine(1, k, -shift, m, &e->shifted);
     return factor_negative_count(&e->inertia, &e->shifted) == expected;
 }
 
+/* The old vectors with the new matrices */
+static int warm(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int status = refactor(e, k, m), size = 0;
+    if (!e->plain) {
+        memcpy(e->image, e->ritz, (size_t)e->n * (size_t)e->count * sizeof(double));
+        return status ? status : eigen_ritz_pairs(e, k, m) ? ROTID_ERROR_EIGEN : ROTID_OK;
+    }
+    memset(e->image, 0, (size_t)e->n * (size_t)e->block * sizeof(double));
+    for (int j = 0; j < e->block && !status; j++) {
+        size = append(e, m, size, e->ritz + (ptrdiff_t)j * e->n);
+        status = size < 0 ? size : ROTID_OK;
+    }
+    return status ? status : rayleigh_ritz(e, k, size);
+}
+
+/* From warm or cold to pairs of which none is missed. */
+static int attempt(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int status = e->started ? warm(e, k, m) : start(e, k, m);
+    if (!status && (e->plain || !e->started))
+        status = converge(e, k, m, e->count, e->plain ? TOLERANCE : NEAR);
+    if (!status && !e->plain && eigen_polish(e, k, m))
+        status = ROTID_ERROR_EIGEN;
+    e->known = e->plain ? e->block : e->count;
+    return status || none_missed(e, k, m) ? status : ROTID_ERROR_EIGEN;
+}
+
+/* Warm and polished; if that fails cold and polished; if that fails cold and plain. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
 {
     int status = check(e, k, m);
     if (status)
         return status;
-    for (int attempt = 0; attempt < 2; attempt++) {
-        if (e->started) { /* the old vectors with the new matrices: pairs first */
-            status = refactor(e, k, m);
-            memset(e->image, 0, (size_t)e->n * (size_t)e->block * sizeof(double));
-            int size = 0;
-            for (int j = 0; j < e->block && !status; j++) {
-                size = append(e, m, size, e->ritz + (ptrdiff_t)j * e->n);
-                status = size < 0 ? size : ROTID_OK;
-            }
-            if (!status)
-                status = rayleigh_ritz(e, k, size);
-        } else {
-            status = start(e, k, m);
-        }
-        if (!status)
-            status = converge(e, k, m, e->count, TOLERANCE);
+    for (e->plain = e->failures >= FAILURES;;) {
+        status = attempt(e, k, m);
         if (!status && e->value[0] < -FIRST_SHIFT * e->largest)
             return ROTID_ERROR_STIFFNESS;
-        if (!status && none_missed(e, k, m)) {
+        if (!status) {
             e->started = 1;
             memcpy(lambda, e->value, (size_t)e->count * sizeof(double));
             memcpy(phi, e->ritz, (size_t)e->n * (size_t)e->count * sizeof(double));
             return ROTID_OK;
         }
-        int was_warm = e->started;
+        if (!e->started) {
+            if (e->plain || status != ROTID_ERROR_EIGEN)
+                return status;
+            e->plain = 1;
+            e->failures++;
+        }
         e->started = 0;
-        if (!was_warm)
-            return status ? status : ROTID_ERROR_EIGEN;
     }
-    return ROTID_ERROR_EIGEN;
 }

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define LANES 8 /* right-hand sides solved at once, see cholesky_solve */
+#include "linalg/band.h"
 
 int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *structure, int n, const int *kept, struct factor *f)
 {
@@ -21,15 +21,14 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->x = POOL_ARRAY(pool, double, (size_t)n *outer);
     f->schur = POOL_ARRAY(pool, double, outer *outer);
     f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
-    f->work = POOL_ARRAY(pool, double, LANES *(size_t)n);
-    f->column = POOL_ARRAY(pool, double, n);
-    f->outer_work = POOL_ARRAY(pool, double, LANES *outer);
+    f->work = POOL_ARRAY(pool, double, BAND_LANES *(size_t)n);
+    f->outer_work = POOL_ARRAY(pool, double, BAND_LANES *outer);
     f->first = POOL_ARRAY(pool, int, outer);
     f->last = POOL_ARRAY(pool, int, outer);
     f->band_pivot = POOL_ARRAY(pool, int, n);
     f->schur_pivot = POOL_ARRAY(pool, int, outer);
     if (!f->position || !f->inner || !f->outer || !f->band || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work ||
-        !f->column || !f->outer_work || !f->first || !f->last || !f->band_pivot || !f->schur_pivot)
+        !f->outer_work || !f->first || !f->last || !f->band_pivot || !f->schur_pivot)
         return ROTID_ERROR_MEMORY;
     factor_keep(f, structure, n, kept);
     return ROTID_OK;
@@ -66,6 +65,18 @@ static void put_inner(struct factor *f, int row, int column, double value)
     f->band[2 * f->kd + (column - row) + (ptrdiff_t)row * f->lda] = value;
 }
 
+/* value[d] to row column + d, d = 0 ... reach */
+static void put_inner_column(struct factor *f, int column, int reach, const double *value)
+{
+    if (f->kind == FACTOR_CHOLESKY) {
+        memcpy(f->band + (ptrdiff_t)column * f->lda, value, (size_t)(reach + 1) * sizeof *value);
+        return;
+    }
+    double *target = f->band + 2 * f->kd + (ptrdiff_t)column * f->lda;
+    for (int d = 0; d <= reach; d++)
+        target[d] = target[(ptrdiff_t)d * (f->lda - 1)] = value[d];
+}
+
 static void gather(struct factor *f, const rotid_matrix *a)
 {
     memset(f->band, 0, (size_t)f->lda * (size_t)f->nr * sizeof(double));
@@ -74,6 +85,10 @@ static void gather(struct factor *f, const rotid_matrix *a)
     for (int k = 0; k < f->n; k++) {
         int j = f->kept[k], pj = f->position[j], reach = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
         const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
+        if (pj >= 0 && f->position[j + reach] == pj + reach) { /* nothing left out and nothing far from here to there */
+            put_inner_column(f, pj, reach, column);
+            continue;
+        }
         for (int d = 0; d <= reach; d++) {
             int pi = f->position[j + d];
             if (pi == INT_MIN)
@@ -96,48 +111,19 @@ static void gather(struct factor *f, const rotid_matrix *a)
         }
 }
 
-/* LL' x = b for LANES right-hand sides at once, interleaved: b[i * LANES + lane]. The recurrences of one right-hand side wait for
- * each other; those of eight fill the arithmetic units, which makes the many solves of a condensation several times as fast as
- * one by one. */
-static void cholesky_solve(const struct factor *f, double *restrict b)
+/* b [nr * lanes] interleaved */
+static void inner_solve(struct factor *f, int lanes, double *b)
 {
-    for (int j = 0; j < f->nr; j++) {
-        const double *restrict l = f->band + (ptrdiff_t)j * f->lda;
-        int reach = f->kd < f->nr - 1 - j ? f->kd : f->nr - 1 - j;
-        double *restrict bj = b + (ptrdiff_t)j * LANES, inverse = 1 / l[0];
-        for (int c = 0; c < LANES; c++)
-            bj[c] *= inverse;
-        for (int d = 1; d <= reach; d++)
-            for (int c = 0; c < LANES; c++)
-                bj[d * LANES + c] -= l[d] * bj[c];
-    }
-    for (int j = f->nr - 1; j >= 0; j--) {
-        const double *restrict l = f->band + (ptrdiff_t)j * f->lda;
-        int reach = f->kd < f->nr - 1 - j ? f->kd : f->nr - 1 - j;
-        double *restrict bj = b + (ptrdiff_t)j * LANES, inverse = 1 / l[0];
-        for (int d = 1; d <= reach; d++)
-            for (int c = 0; c < LANES; c++)
-                bj[c] -= l[d] * bj[d * LANES + c];
-        for (int c = 0; c < LANES; c++)
-            bj[c] *= inverse;
-    }
+    if (f->kind == FACTOR_CHOLESKY)
+        band_cholesky_solve(f->nr, f->kd, f->band, lanes, b);
+    else
+        band_lu_solve(f->nr, f->kd, f->band, f->band_pivot, lanes, b);
 }
 
-/* b [nr * LANES] interleaved */
-static void inner_solve(struct factor *f, double *b)
+/* columns left to solve, rounded up to what the kernels have */
+static int lanes_for(int columns)
 {
-    if (f->kind == FACTOR_CHOLESKY) {
-        cholesky_solve(f, b);
-        return;
-    }
-    double *column = f->column;
-    for (int c = 0; c < LANES && f->nr; c++) {
-        for (int i = 0; i < f->nr; i++)
-            column[i] = b[(ptrdiff_t)i * LANES + c];
-        (void)LAPACKE_dgbtrs_work(LAPACK_COL_MAJOR, 'N', f->nr, f->kd, f->kd, 1, f->band, f->lda, f->band_pivot, column, f->nr);
-        for (int i = 0; i < f->nr; i++)
-            b[(ptrdiff_t)i * LANES + c] = column[i];
-    }
+    return columns >= 5 ? BAND_LANES : columns >= 3 ? 4 : columns;
 }
 
 /* S := A_ff - A_fr X */
@@ -164,27 +150,23 @@ static void form_schur(struct factor *f)
 int factor_compute(struct factor *f, const rotid_matrix *a)
 {
     gather(f, a);
-    lapack_int info = 0;
-    if (f->nr && f->kind == FACTOR_CHOLESKY)
-        info = LAPACKE_dpbtrf_work(LAPACK_COL_MAJOR, 'L', f->nr, f->kd, f->band, f->lda);
-    else if (f->nr)
-        info = LAPACKE_dgbtrf_work(LAPACK_COL_MAJOR, f->nr, f->nr, f->kd, f->kd, f->band, f->lda, f->band_pivot);
-    if (info)
+    if (f->kind == FACTOR_CHOLESKY ? band_cholesky(f->nr, f->kd, f->band) : band_lu(f->nr, f->kd, f->band, f->band_pivot))
         return 1;
     if (!f->nf)
         return 0;
-    for (int q = 0; q < f->nf; q += LANES) {
-        int lanes = f->nf - q < LANES ? f->nf - q : LANES;
-        memset(f->work, 0, (size_t)f->n * LANES * sizeof(double));
-        for (int c = 0; c < lanes; c++)
+    for (int q = 0; q < f->nf; q += BAND_LANES) {
+        int columns = f->nf - q < BAND_LANES ? f->nf - q : BAND_LANES, lanes = lanes_for(columns);
+        memset(f->work, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
+        for (int c = 0; c < columns; c++)
             for (int i = 0; i < f->nr; i++)
-                f->work[(ptrdiff_t)i * LANES + c] = f->coupling[i + (ptrdiff_t)(q + c) * f->nr];
-        inner_solve(f, f->work);
-        for (int c = 0; c < lanes; c++)
+                f->work[(ptrdiff_t)i * lanes + c] = f->coupling[i + (ptrdiff_t)(q + c) * f->nr];
+        inner_solve(f, lanes, f->work);
+        for (int c = 0; c < columns; c++)
             for (int i = 0; i < f->nr; i++)
-                f->x[i + (ptrdiff_t)(q + c) * f->nr] = f->work[(ptrdiff_t)i * LANES + c];
+                f->x[i + (ptrdiff_t)(q + c) * f->nr] = f->work[(ptrdiff_t)i * lanes + c];
     }
     form_schur(f);
+    lapack_int info;
     if (f->kind == FACTOR_CHOLESKY)
         info = LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', f->nf, f->schur, f->nf);
     else
@@ -219,50 +201,52 @@ static void outer_solve(struct factor *f, int columns, double *b)
         (void)LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', f->nf, columns, f->schur, f->nf, f->schur_pivot, b, f->nf);
 }
 
-/* outer [nf * lanes] := A_ff part of b less A_fr inner, solved; inner := inner - X outer */
-static void solve_border(struct factor *f, int lanes, double *b)
+/* outer [nf * columns] := A_ff part of b less A_fr inner, solved; inner := inner - X outer */
+static void solve_border(struct factor *f, int columns, int lanes, double *b)
 {
     double *inner = f->work, *outer = f->outer_work;
-    for (int c = 0; c < lanes; c++)
+    for (int c = 0; c < columns; c++)
         for (int p = 0; p < f->nf; p++) {
             const double *coupling = f->coupling + (ptrdiff_t)p * f->nr;
             double sum = b[f->outer[p] + (ptrdiff_t)c * f->n];
             for (int i = f->first[p]; i < f->last[p]; i++)
-                sum -= coupling[i] * inner[(ptrdiff_t)i * LANES + c];
+                sum -= coupling[i] * inner[(ptrdiff_t)i * lanes + c];
             outer[p + c * f->nf] = sum;
         }
-    outer_solve(f, lanes, outer);
+    outer_solve(f, columns, outer);
     for (int p = 0; p < f->nf; p++) {
         const double *restrict x = f->x + (ptrdiff_t)p * f->nr;
-        double row[LANES] = {0};
-        for (int c = 0; c < lanes; c++)
+        double row[BAND_LANES] = {0};
+        for (int c = 0; c < columns; c++)
             b[f->outer[p] + (ptrdiff_t)c * f->n] = row[c] = outer[p + c * f->nf];
         for (int i = 0; i < f->nr; i++)
-            for (int c = 0; c < LANES; c++)
-                inner[(ptrdiff_t)i * LANES + c] -= x[i] * row[c];
+            for (int c = 0; c < lanes; c++)
+                inner[(ptrdiff_t)i * lanes + c] -= x[i] * row[c];
     }
 }
 
-/* `lanes` columns of b, at most LANES */
-static void solve_lanes(struct factor *f, int lanes, double *b)
+/* `columns` columns of b, at most BAND_LANES */
+static void solve_together(struct factor *f, int columns, double *b)
 {
+    int lanes = lanes_for(columns);
     double *inner = f->work;
-    memset(inner, 0, (size_t)f->nr * LANES * sizeof(double));
-    for (int c = 0; c < lanes; c++)
+    if (columns < lanes)
+        memset(inner, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
+    for (int c = 0; c < columns; c++)
         for (int i = 0; i < f->nr; i++)
-            inner[(ptrdiff_t)i * LANES + c] = b[f->inner[i] + (ptrdiff_t)c * f->n];
-    inner_solve(f, inner);
+            inner[(ptrdiff_t)i * lanes + c] = b[f->inner[i] + (ptrdiff_t)c * f->n];
+    inner_solve(f, lanes, inner);
     if (f->nf)
-        solve_border(f, lanes, b);
-    for (int c = 0; c < lanes; c++)
+        solve_border(f, columns, lanes, b);
+    for (int c = 0; c < columns; c++)
         for (int i = 0; i < f->nr; i++)
-            b[f->inner[i] + (ptrdiff_t)c * f->n] = inner[(ptrdiff_t)i * LANES + c];
+            b[f->inner[i] + (ptrdiff_t)c * f->n] = inner[(ptrdiff_t)i * lanes + c];
 }
 
 void factor_solve(struct factor *f, int columns, double *b)
 {
-    for (int c = 0; c < columns; c += LANES)
-        solve_lanes(f, columns - c < LANES ? columns - c : LANES, b + (ptrdiff_t)c * f->n);
+    for (int c = 0; c < columns; c += BAND_LANES)
+        solve_together(f, columns - c < BAND_LANES ? columns - c : BAND_LANES, b + (ptrdiff_t)c * f->n);
 }
 
 /* LDL' of the inner band in its own storage (unit lower L below, D on the diagonal); returns the number of negative pivots. A

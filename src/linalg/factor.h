@@ -17,17 +17,17 @@ struct factor {
     int n;           /* number kept */
     const int *kept; /* [n] degrees of freedom of the full matrix, increasing */
     int nr, nf, kd, lda;
-    int *position;    /* [full n] place among the inner ones >= 0, -1 - place among the outer ones, or INT_MIN: not kept */
-    int *inner;       /* [nr] place in `kept` of each inner degree of freedom */
-    int *outer;       /* [nf] of each far one */
-    double *band;     /* [lda * nr] */
-    double *coupling; /* [nr * nf] A_rf */
-    double *x;        /* [nr * nf] */
-    double *schur;    /* [nf * nf] factored */
-    double *work;     /* [8 n], right-hand sides interleaved */
-    double *column, *outer_work; /* [n], [8 nf] */
-    int *first, *last;           /* [nf] range of the rows of A_rf that are not zero */
-    double *schur_work;          /* [4 nf] */
+    int *position;      /* [full n] place among the inner ones >= 0, -1 - place among the outer ones, or INT_MIN: not kept */
+    int *inner;         /* [nr] place in `kept` of each inner degree of freedom */
+    int *outer;         /* [nf] of each far one */
+    double *band;       /* [lda * nr] */
+    double *coupling;   /* [nr * nf] A_rf */
+    double *x;          /* [nr * nf] */
+    double *schur;      /* [nf * nf] factored */
+    double *work;       /* [8 n], right-hand sides interleaved */
+    double *outer_work; /* [8 nf] */
+    int *first, *last;  /* [nf] range of the rows of A_rf that are not zero */
+    double *schur_work; /* [4 nf] */
     int *band_pivot, *schur_pivot;
 };
 

@@ -65,20 +65,36 @@ void matrix_combine(double alpha, const rotid_matrix *a, double beta, const roti
         c->block[i] = alpha * a->block[i] + beta * b->block[i];
 }
 
-/* Row by row, so that no sum waits for the store of another. */
-void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y)
+/* Row i of the band times x. Row by row, so that no sum waits for the store of another. */
+static inline __attribute__((always_inline)) double row_product(const double *row, int ld, int below, int above, const double *x)
+{
+    double sum = row[0] * x[0];
+    for (int d = 1; d <= below; d++)
+        sum += row[d] * x[d];
+    for (int d = 1; d <= above; d++)
+        sum += row[d - (ptrdiff_t)d * ld] * x[-d];
+    return sum;
+}
+
+/* Rows begin ... end - 1 of the band times x */
+static void multiply_rows(const rotid_matrix *a, int begin, int end, const double *x, double *y)
 {
     int n = a->n, kd = a->kd, ld = kd + 1;
+    for (int i = begin; i < end; i++)
+        y[i] = row_product(a->band + (ptrdiff_t)i * ld, ld, kd < n - 1 - i ? kd : n - 1 - i, kd < i ? kd : i, x + i);
+}
+
+void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y)
+{
+    int n = a->n;
     for (int c = 0; c < columns; c++, x += n, y += n) {
-        for (int i = 0; i < n; i++) {
-            const double *row = a->band + (ptrdiff_t)i * ld;
-            int below = kd < n - 1 - i ? kd : n - 1 - i, above = kd < i ? kd : i;
-            double sum = row[0] * x[i];
-            for (int d = 1; d <= below; d++)
-                sum += row[d] * x[i + d];
-            for (int d = 1; d <= above; d++)
-                sum += row[d - (ptrdiff_t)d * ld] * x[i - d];
-            y[i] = sum;
+        if (a->kd == 3 && n > 6) { /* chains of beam elements: the loops of a row unrolled */
+            multiply_rows(a, 0, 3, x, y);
+            for (int i = 3; i < n - 3; i++)
+                y[i] = row_product(a->band + 4 * (ptrdiff_t)i, 4, 3, 3, x + i);
+            multiply_rows(a, n - 3, n, x, y);
+        } else {
+            multiply_rows(a, 0, n, x, y);
         }
         for (int g = 0; g < a->nfar; g++)
             for (int f = 0; f < a->nfar; f++)

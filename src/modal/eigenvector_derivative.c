@@ -5,6 +5,8 @@
 
 #include "linalg/matrix.h"
 
+#define ENOUGH 1e-9 /* relative change of V by a step of refinement whose square is below rounding */
+
 int eigenvalue_is_close(int count, const double *lambda, int k)
 {
     double reach = CLOSE_EIGENVALUES * fabs(lambda[k]);
@@ -87,14 +89,15 @@ void modal_superposition(int n, const double *lambda, const double *phi, int k, 
     complete(n, phi + (ptrdiff_t)k * n, m_phi, q, dphi);
 }
 
-int nelson_band_new(struct pool *pool, const rotid_matrix *structure, struct nelson_band *b)
+int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, struct nelson_band *b)
 {
     int n = structure->n;
+    size_t columns = (size_t)n * (size_t)most;
     *b = (struct nelson_band){.n = n};
     b->kept = POOL_ARRAY(pool, int, n);
-    b->residual = POOL_ARRAY(pool, double, n);
-    b->right = POOL_ARRAY(pool, double, n);
-    if (!b->kept || !b->residual || !b->right)
+    b->residual = POOL_ARRAY(pool, double, columns);
+    b->shorter = POOL_ARRAY(pool, double, columns);
+    if (!b->kept || !b->residual || !b->shorter)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         b->kept[i] = i;
@@ -112,21 +115,57 @@ int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const roti
     return factor_compute(&b->factor, &b->shifted) ? ROTID_ERROR_CLOSE : ROTID_OK;
 }
 
-void nelson_band_solve(struct nelson_band *b, const double *phi, const double *m_phi, const double *p, double q, double *dphi)
+/* x [n * columns] := A^-1 x without the row and column left out, zero there */
+static void solve_columns(struct nelson_band *b, int columns, double *x)
 {
     int n = b->n;
-    leave_out(n, b->left_out, p, dphi);
-    factor_solve(&b->factor, 1, dphi);
-    insert_zero(n, b->left_out, dphi);
-    for (int pass = 0; pass < 2; pass++) { /* the bordered factors may lose digits where a clamped mode lies near: refine */
-        matrix_multiply(&b->shifted, 1, dphi, b->residual);
-        for (int i = 0; i < n; i++)
-            b->residual[i] = p[i] - b->residual[i];
-        leave_out(n, b->left_out, b->residual, b->right);
-        factor_solve(&b->factor, 1, b->right);
-        insert_zero(n, b->left_out, b->right);
-        for (int i = 0; i < n; i++)
-            dphi[i] += b->right[i];
+    for (int c = 0; c < columns; c++)
+        leave_out(n, b->left_out, x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * (n - 1));
+    factor_solve(&b->factor, columns, b->shorter);
+    for (int c = 0; c < columns; c++) {
+        memcpy(x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * (n - 1), (size_t)(n - 1) * sizeof *x);
+        insert_zero(n, b->left_out, x + (ptrdiff_t)c * n);
     }
-    complete(n, phi, m_phi, q, dphi);
+}
+
+static double largest(ptrdiff_t count, const double *x)
+{
+    double most = 0;
+    for (ptrdiff_t i = 0; i < count; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
+/* dphi holds V of A V = P for `columns` right-hand sides; one step of refinement. Returns how much it changed V, the worst of the
+ * columns. */
+static double refine(struct nelson_band *b, int columns, const double *p, double *dphi)
+{
+    int n = b->n;
+    double worst = 0;
+    matrix_multiply(&b->shifted, columns, dphi, b->residual);
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)n * columns; i++)
+        b->residual[i] = p[i] - b->residual[i];
+    solve_columns(b, columns, b->residual);
+    for (int c = 0; c < columns; c++) {
+        double *x = dphi + (ptrdiff_t)c * n, *change = b->residual + (ptrdiff_t)c * n, size = largest(n, x);
+        for (int i = 0; i < n; i++)
+            x[i] += change[i];
+        worst = fmax(worst, size > 0 ? largest(n, change) / size : 0);
+    }
+    return worst;
+}
+
+void nelson_band_solve(struct nelson_band *b, int columns, const double *phi, const double *m_phi, const double *p,
+                       const double *q, double *dphi)
+{
+    int n = b->n;
+    memcpy(dphi, p, (size_t)n * (size_t)columns * sizeof *p);
+    solve_columns(b, columns, dphi);
+    /* the bordered factors may lose digits where a clamped mode lies near; a second step would change V by the square of the
+     * first
+     */
+    if (refine(b, columns, p, dphi) > ENOUGH)
+        (void)refine(b, columns, p, dphi);
+    for (int c = 0; c < columns; c++)
+        complete(n, phi, m_phi, q[c], dphi + (ptrdiff_t)c * n);
 }

@@ -39,11 +39,14 @@ struct nelson_band {
     int *kept;
     rotid_matrix shifted;
     struct factor factor;
-    double *residual, *right; /* [n] */
+    double *residual, *shorter; /* [n * most] */
 };
 
-int nelson_band_new(struct pool *pool, const rotid_matrix *structure, struct nelson_band *b);
+/* For at most `most` right-hand sides at once. */
+int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, struct nelson_band *b);
 int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda, const double *phi);
-void nelson_band_solve(struct nelson_band *b, const double *phi, const double *m_phi, const double *p, double q, double *dphi);
+/* dphi [n * columns] from P [n * columns] (kept), Q [columns] and M phi [n]. */
+void nelson_band_solve(struct nelson_band *b, int columns, const double *phi, const double *m_phi, const double *p,
+                       const double *q, double *dphi);
 
 #endif

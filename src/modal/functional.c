@@ -127,7 +127,7 @@ static double hybrid_quotient_derivative(const struct functional *f, int mode, i
     int k = f->pair[mode], n = p->size;
     if (!uses_shape(f, mode))
         return p->dlambda[k + (ptrdiff_t)q * p->count];
-    ptrdiff_t place = ((ptrdiff_t)q * p->count + k) * n;
+    ptrdiff_t place = prediction_place(p, k, q);
     const double *measured = f->shape + (ptrdiff_t)mode * n, *phi = p->phi + (ptrdiff_t)k * n, *dphi = p->dphi + place;
     double numerator = 0, denominator = 0;
     for (int i = 0; i < n; i++) {
@@ -234,7 +234,7 @@ int functional_jacobian(struct functional *f, const double *x, double *jacobian)
 {
     const rotid_measured *measured = f->measured;
     struct prediction *p = &f->prediction;
-    int status = prediction_differentiate(p, x, f->wanted, f->with_vectors);
+    int status = p->model->nparam ? prediction_differentiate(p, x, f->wanted, f->with_vectors) : ROTID_OK;
     for (int q = 0; q < p->model->nparam && !status; q++) {
         double *column = jacobian + (ptrdiff_t)q * f->nresidual;
         for (int k = 0; k < measured->nmode; k++)

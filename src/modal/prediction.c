@@ -21,7 +21,7 @@ static int new_solvers(struct pool *pool, const rotid_model *model, int with_vec
     int status;
     if (p->reduction == ROTID_REDUCTION_NONE) {
         status = eigen_band_new(pool, &p->k, p->count, &p->band);
-        return status || !with_vectors ? status : nelson_band_new(pool, &p->k, &p->nelson_band);
+        return status || !with_vectors ? status : nelson_band_new(pool, &p->k, model->nparam, &p->nelson_band);
     }
     status = reduction_new(pool, p->reduction, &p->k, model->nmaster, model->master, &p->condensed);
     p->mode = POOL_ARRAY(pool, struct reduction_mode, p->count);
@@ -55,11 +55,15 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     p->phi = POOL_ARRAY(pool, double, vectors);
     p->dlambda = POOL_ARRAY(pool, double, (size_t)p->count *nparam);
     p->dphi = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
+    p->right = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
+    p->constant = POOL_ARRAY(pool, double, with_vectors ? (size_t)p->count *nparam : 0);
+    p->m_phi = POOL_ARRAY(pool, double, with_vectors ? vectors : 0);
     p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->x = POOL_ARRAY(pool, double, nparam);
     p->work = POOL_ARRAY(pool, double, 6 * (size_t)model->n);
-    if (!p->lambda || !p->phi || !p->dlambda || !p->dphi || !p->kx || !p->mx || !p->x || !p->work)
+    if (!p->lambda || !p->phi || !p->dlambda || !p->dphi || !p->right || !p->constant || !p->m_phi || !p->kx || !p->mx || !p->x ||
+        !p->work)
         return ROTID_ERROR_MEMORY;
     int status = new_matrices(pool, model, p);
     return status ? status : new_solvers(pool, model, with_vectors, p);
@@ -156,65 +160,86 @@ static void multiply_dense(int n, const double *a, const double *x, double *y)
             y[i] += a[i + (ptrdiff_t)j * n] * x[j];
 }
 
-static int prepare_vector(struct prediction *p, int k)
+ptrdiff_t prediction_place(const struct prediction *p, int k, int q)
 {
-    const double *phi = p->phi + (ptrdiff_t)k * p->size;
-    if (eigenvalue_is_close(p->count, p->lambda, k))
-        return ROTID_ERROR_CLOSE;
-    if (p->reduction == ROTID_REDUCTION_NONE)
-        return nelson_band_prepare(&p->nelson_band, &p->k, &p->m, p->lambda[k], phi);
-    if (p->derivative == ROTID_MODAL)
-        return ROTID_OK;
-    return nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, p->lambda[k], phi);
+    return ((ptrdiff_t)k * p->model->nparam + q) * p->size;
 }
 
-static void differentiate_vector(struct prediction *p, int k, int q)
+/* P, Q and dlambda of mode k, with dK and dM of parameter q in place */
+static void form_right_side(struct prediction *p, int k, int q)
 {
     int n = p->size;
-    ptrdiff_t place = ((ptrdiff_t)q * p->count + k) * n;
-    double *m_phi = p->work, *right = m_phi + n, *dk_phi = right + n, *dm_phi = dk_phi + n, constant;
-    const double *phi = p->phi + (ptrdiff_t)k * n;
+    ptrdiff_t place = prediction_place(p, k, q);
+    double *dk_phi = p->work, *dm_phi = dk_phi + n;
+    const double *phi = p->phi + (ptrdiff_t)k * n, *m_phi = p->m_phi + (ptrdiff_t)k * n;
     if (p->reduction == ROTID_REDUCTION_NONE) {
-        matrix_multiply(&p->m, 1, phi, m_phi);
         matrix_multiply(&p->dk, 1, phi, dk_phi);
         matrix_multiply(&p->dm, 1, phi, dm_phi);
     } else {
         reduction_derivative_multiply(&p->condensed, &p->dk, &p->dm, phi, p->kx + place, p->mx + place, p->work);
-        multiply_dense(n, p->condensed.mc, phi, m_phi);
         dk_phi = p->kx + place;
         dm_phi = p->mx + place;
     }
-    p->dlambda[k + (ptrdiff_t)q * p->count] = right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, right, &constant);
-    if (p->reduction == ROTID_REDUCTION_NONE)
-        nelson_band_solve(&p->nelson_band, phi, m_phi, right, constant, p->dphi + place);
-    else if (p->derivative == ROTID_MODAL)
-        modal_superposition(n, p->lambda, p->phi, k, m_phi, right, constant, p->dphi + place);
-    else
-        nelson_dense_solve(&p->nelson_dense, phi, m_phi, right, constant, p->dphi + place);
+    p->dlambda[k + (ptrdiff_t)q * p->count] = right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, p->right + place,
+                                                         &p->constant[q + (ptrdiff_t)k * p->model->nparam]);
 }
 
-/* Vectors: the factors belong to a mode and serve all parameters, so dK and dM are asked for again for each mode; they cost less.
- */
-static int differentiate_vectors(struct prediction *p, const double *x, int k)
+/* dphi of mode k for every parameter */
+static int solve_vectors(struct prediction *p, int k)
 {
-    int status = prepare_vector(p, k);
+    int n = p->size, nparam = p->model->nparam, status = ROTID_OK;
+    ptrdiff_t place = prediction_place(p, k, 0);
+    const double *phi = p->phi + (ptrdiff_t)k * n, *m_phi = p->m_phi + (ptrdiff_t)k * n, *right = p->right + place,
+                 *constant = p->constant + (ptrdiff_t)k * nparam;
+    double *dphi = p->dphi + place;
+    if (p->reduction == ROTID_REDUCTION_NONE) {
+        status = nelson_band_prepare(&p->nelson_band, &p->k, &p->m, p->lambda[k], phi);
+        if (!status)
+            nelson_band_solve(&p->nelson_band, nparam, phi, m_phi, right, constant, dphi);
+        return status;
+    }
+    if (p->derivative == ROTID_NELSON)
+        status = nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, p->lambda[k], phi);
+    for (int q = 0; q < nparam && !status; q++, right += n, dphi += n)
+        if (p->derivative == ROTID_MODAL)
+            modal_superposition(n, p->lambda, p->phi, k, m_phi, right, constant[q], dphi);
+        else
+            nelson_dense_solve(&p->nelson_dense, phi, m_phi, right, constant[q], dphi);
+    return status;
+}
+
+/* dK and dM belong to a parameter and the factors to a mode: all right-hand sides first, so that each is formed once. */
+static int differentiate_vectors(struct prediction *p, const double *x, const int *wanted)
+{
+    int n = p->size, status = ROTID_OK;
+    for (int k = 0; k < p->count; k++) {
+        const double *phi = p->phi + (ptrdiff_t)k * n;
+        if (!wanted[k])
+            continue;
+        if (eigenvalue_is_close(p->count, p->lambda, k))
+            return ROTID_ERROR_CLOSE;
+        if (p->reduction == ROTID_REDUCTION_NONE)
+            matrix_multiply(&p->m, 1, phi, p->m_phi + (ptrdiff_t)k * n);
+        else
+            multiply_dense(n, p->condensed.mc, phi, p->m_phi + (ptrdiff_t)k * n);
+    }
     for (int q = 0; q < p->model->nparam && !status; q++) {
         status = matrix_derivatives(p, x, q);
-        if (!status)
-            differentiate_vector(p, k, q);
+        for (int k = 0; k < p->count && !status; k++)
+            if (wanted[k])
+                form_right_side(p, k, q);
     }
+    for (int k = 0; k < p->count && !status; k++)
+        if (wanted[k])
+            status = solve_vectors(p, k);
     return status;
 }
 
 int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors)
 {
     int status = ROTID_OK;
-    if (with_vectors) {
-        for (int k = 0; k < p->count && !status; k++)
-            if (wanted[k])
-                status = differentiate_vectors(p, x, k);
-        return status;
-    }
+    if (with_vectors)
+        return differentiate_vectors(p, x, wanted);
     for (int k = 0; k < p->count && p->reduction != ROTID_REDUCTION_NONE; k++)
         if (wanted[k])
             reduction_mode_prepare(&p->condensed, p->lambda[k], p->phi + (ptrdiff_t)k * p->size, &p->mode[k]);
@@ -241,5 +266,5 @@ double prediction_at_sensor(const struct prediction *p, int k, int s)
 double prediction_derivative_at_sensor(const struct prediction *p, int k, int q, int s)
 {
     int row = p->reduction == ROTID_REDUCTION_NONE ? p->model->master[s] : s;
-    return p->dphi[row + ((ptrdiff_t)q * p->count + k) * p->size];
+    return p->dphi[row + prediction_place(p, k, q)];
 }

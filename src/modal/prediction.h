@@ -20,11 +20,14 @@ struct prediction {
     struct eigen_band band;
     struct nelson_dense nelson_dense;
     struct nelson_band nelson_band;
-    double *lambda;  /* [count], ascending */
-    double *phi;     /* [size * count], mass-normalised */
-    double *dlambda; /* [count * nparam]; only where differentiated */
-    double *dphi;    /* [size * count * nparam] */
-    double *kx, *mx; /* [size * count * nparam]: dK phi_k and dM phi_k of the condensed matrices */
+    double *lambda;   /* [count], ascending */
+    double *phi;      /* [size * count], mass-normalised */
+    double *dlambda;  /* [count * nparam]; only where differentiated */
+    double *dphi;     /* [size * nparam * count]: the parameters of a mode beside each other */
+    double *right;    /* [size * nparam * count] P of (34) */
+    double *constant; /* [nparam * count] Q of (35) */
+    double *m_phi;    /* [size * count] */
+    double *kx, *mx;  /* [size * nparam * count]: dK phi_k and dM phi_k of the condensed matrices */
     double *x, *work;
 };
 
@@ -44,6 +47,8 @@ double prediction_hz(const struct prediction *p, int k);
 
 /* Component of pair k at sensor s. */
 double prediction_at_sensor(const struct prediction *p, int k, int s);
+/* Where the vector of mode k and parameter q begins in dphi, kx and mx. */
+ptrdiff_t prediction_place(const struct prediction *p, int k, int q);
 /* The component of dphi_k/dx_q there. */
 double prediction_derivative_at_sensor(const struct prediction *p, int k, int q, int s);
 

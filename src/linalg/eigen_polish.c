@@ -1,0 +1,151 @@
+#include "linalg/eigen_polish.h"
+
+#include <cblas.h>
+#include <float.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "linalg/matrix.h"
+
+#define ROUNDS      4     /* the error is cubed in each */
+#define TOLERANCE   1e-12 /* of the residual */
+#define CLUSTER     1e-3  /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
+#define OFFSET      1e-7  /* of that shift below the lowest of them */
+#define INDEPENDENT 1e-3  /* least sine between a vector and those before it */
+
+double eigen_rounding(const struct eigen_band *e)
+{
+    return fmin(1e-4, 16 * DBL_EPSILON * e->largest / -e->shift);
+}
+
+double eigen_residuals(struct eigen_band *e, const rotid_matrix *m, int columns, int watched)
+{
+    int n = e->n;
+    double worst = 0, *difference = e->work, *image_of_it = e->work + n;
+    matrix_multiply(m, columns, e->ritz, e->image);
+    memcpy(e->mass_basis, e->image, (size_t)n * (size_t)columns * sizeof(double));
+    factor_solve(&e->factor, columns, e->image);
+    for (int j = 0; j < watched; j++) {
+        const double *x = e->ritz + (ptrdiff_t)j * n, *y = e->image + (ptrdiff_t)j * n;
+        for (int i = 0; i < n; i++)
+            difference[i] = x[i] - (e->value[j] - e->shift) * y[i];
+        matrix_multiply(m, 1, difference, image_of_it);
+        e->residual[j] = sqrt(fabs(cblas_ddot(n, difference, 1, image_of_it, 1)));
+        worst = fmax(worst, e->residual[j]);
+        if (!isfinite(e->residual[j]))
+            return INFINITY;
+    }
+    return worst;
+}
+
+int eigen_ritz_pairs(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int n = e->n, count = e->count;
+    double *y = e->image, *product = e->basis, *a = e->projected, *b = a + (ptrdiff_t)count * count;
+    for (int j = 0; j < count; j++) { /* solutions near an eigenvalue are of any size */
+        double size = cblas_dnrm2(n, y + (ptrdiff_t)j * n, 1);
+        if (!(size > 0) || !isfinite(size))
+            return 1;
+        cblas_dscal(n, 1 / size, y + (ptrdiff_t)j * n, 1);
+    }
+    matrix_multiply(m, count, y, product);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, count, count, n, 1, y, n, product, n, 0, b, count);
+    for (int j = 0; j < count; j++) {
+        double square = b[j + (ptrdiff_t)j * count], inverse = 1 / sqrt(square);
+        if (!(square > 0))
+            return 1;
+        cblas_dscal(n, inverse, y + (ptrdiff_t)j * n, 1);
+        cblas_dscal(count, inverse, b + (ptrdiff_t)j * count, 1);
+        cblas_dscal(count, inverse, b + j, count);
+    }
+    matrix_multiply(k, count, y, product);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, count, count, n, 1, y, n, product, n, 0, a, count);
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', count, b, count))
+        return 1;
+    for (int j = 0; j < count; j++)
+        if (!(b[j + (ptrdiff_t)j * count] > INDEPENDENT))
+            return 1;
+    if (LAPACKE_dsygst_work(LAPACK_COL_MAJOR, 1, 'L', count, a, count, b, count) ||
+        LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'L', count, a, count, e->value, e->work, 34 * count))
+        return 1;
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, count, count, 1, b, count, a, count);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, count, count, 1, y, n, a, count, 0, e->ritz, n);
+    return 0;
+}
+
+/* One past the last pair of the cluster that begins with pair j */
+static int cluster_end(const struct eigen_band *e, int j)
+{
+    while (j + 1 < e->count && e->value[j + 1] - e->value[j] <= CLUSTER * (fabs(e->value[j + 1]) - e->shift))
+        j++;
+    return j + 1;
+}
+
+/* image [n * (end - begin)] := (K - sigma M)^-1 image with the shift of pairs begin ... end - 1, which is returned; NAN: singular
+ */
+static double solve_shifted(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, int begin, int end)
+{
+    double scale = fabs(e->value[begin]) - e->shift, spread = e->value[end - 1] - e->value[begin],
+           sigma = end - begin > 1 ? e->value[begin] - fmax(spread, OFFSET * scale) : e->value[begin];
+    for (int attempt = 0; attempt < 2; attempt++, sigma -= OFFSET * scale) {
+        matrix_combine(1, k, -sigma, m, &e->shifted);
+        if (factor_compute(&e->indefinite, &e->shifted))
+            continue;
+        factor_solve(&e->indefinite, end - begin, e->image + (ptrdiff_t)begin * e->n);
+        return sigma;
+    }
+    return NAN;
+}
+
+/* Inverse iteration on all pairs whose residual is above the tolerance, then Rayleigh-Ritz. expected [count] := what is left of
+ * the residual of each, (lambda - sigma)/(distance from sigma to the rest of the spectrum) of it. Returns 0, or 1 on failure. */
+static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *expected)
+{
+    int n = e->n, count = e->count;
+    double *sigma = e->shifts, *gap = sigma + count;
+    memcpy(e->image, e->mass_basis, (size_t)n * (size_t)count * sizeof(double));
+    for (int begin = 0, end; begin < count; begin = end) {
+        int good = 1;
+        end = cluster_end(e, begin);
+        for (int j = begin; j < end; j++)
+            good &= e->residual[j] <= TOLERANCE;
+        double at = NAN, distance = INFINITY;
+        if (good)
+            memcpy(e->image + (ptrdiff_t)begin * n, e->ritz + (ptrdiff_t)begin * n,
+                   (size_t)n * (size_t)(end - begin) * sizeof(double));
+        else if (isnan(at = solve_shifted(e, k, m, begin, end)))
+            return 1;
+        if (begin > 0)
+            distance = at - e->value[begin - 1];
+        if (end < count)
+            distance = fmin(distance, e->value[end] - at);
+        for (int j = begin; j < end; j++) {
+            sigma[j] = at;
+            gap[j] = distance;
+        }
+    }
+    if (eigen_ritz_pairs(e, k, m))
+        return 1;
+    for (int j = 0; j < count; j++)
+        expected[j] = isnan(sigma[j]) ? e->residual[j] : e->residual[j] * fabs(e->value[j] - sigma[j]) / gap[j];
+    return 0;
+}
+
+int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    double rounding = eigen_rounding(e) / 100, *expected = e->shifts + 2 * (ptrdiff_t)e->count;
+    for (int j = 0; j < e->count; j++)
+        expected[j] = INFINITY;
+    for (int round = 0;; round++) {
+        if (!isfinite(eigen_residuals(e, m, e->count, e->count)))
+            return 1;
+        int open = 0;
+        for (int j = 0; j < e->count; j++)
+            open += !(e->residual[j] <= TOLERANCE || (expected[j] <= TOLERANCE && e->residual[j] <= rounding));
+        if (!open)
+            return 0;
+        if (round == ROUNDS || iterate(e, k, m, expected))
+            return 1;
+    }
+}
