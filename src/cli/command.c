@@ -3,7 +3,9 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/clock.h"
 #include "deck/deck.h"
 #include "report/output.h"
 
@@ -61,17 +63,38 @@ int command_wants_table(const struct command *command)
     return !command->quiet && !(command->json && !strcmp(command->json, "-"));
 }
 
+int command_write_file(struct command *command, const char *path, const char *text, int code)
+{
+    if (!text)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    int status = output_write(path, text);
+    if (!status)
+        return code;
+    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", path, strerror(errno));
+    return EXIT_INTERNAL;
+}
+
 int command_write_json(struct command *command, char *text, int code)
 {
     if (!command->json)
         return code;
     char *line = text ? pool_format(&command->pool, "%s\n", text) : NULL;
     json_free(text);
-    if (!line)
-        return command_fail(command, ROTID_ERROR_MEMORY);
-    int status = output_write(command->json, line);
-    if (!status)
-        return code;
-    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", command->json, strerror(errno));
-    return EXIT_INTERNAL;
+    return command_write_file(command, command->json, line, code);
+}
+
+int command_wants_progress(const struct command *command)
+{
+    return isatty(STDERR_FILENO) && !command->quiet;
+}
+
+void command_show_progress(void *context, const char *stage, int step)
+{
+    double *last = context, seconds = clock_seconds();
+    if (*last == 0)
+        *last = seconds; /* a run shorter than that shows nothing */
+    if (seconds - *last < 0.2)
+        return;
+    *last = seconds;
+    (void)fprintf(stderr, "\rrotid: %s %d \033[K", stage, step);
 }

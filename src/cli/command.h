@@ -9,8 +9,8 @@
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };
 
 struct command {
-    const char *name, *deck, *json, *at;
-    int quiet, verbose, threads, baseline, points;
+    const char *name, *deck, *json, *at, *extended; /* files and texts NULL where they are not asked for */
+    int quiet, verbose, threads, baseline, points, replicates;
     unsigned long seed;
     double step, range;
     int noverride;
@@ -38,6 +38,14 @@ int command_wants_table(const struct command *command);
 /* Writes text (may be NULL: out of memory) where --json says and frees it; `code` unless that fails. */
 int command_write_json(struct command *command, char *text, int code);
 
+/* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
+int command_write_file(struct command *command, const char *path, const char *text, int code);
+
+/* A line on standard error that is written over, five times a second; for `progress` of an environment. context: a double, 0. */
+void command_show_progress(void *context, const char *stage, int step);
+/* Whether somebody would see it. */
+int command_wants_progress(const struct command *command);
+
 /* Polled by long computations: nonzero after SIGINT or SIGTERM. */
 int command_cancelled(void *unused);
 
@@ -45,6 +53,7 @@ int command_check(struct command *command);
 int command_modes(struct command *command);
 int command_sensitivity(struct command *command);
 int command_identify(struct command *command);
+int command_diagnose(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;

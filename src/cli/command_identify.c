@@ -1,29 +1,19 @@
-#include <unistd.h>
-
-#include "base/clock.h"
 #include "cli/command.h"
 #include "report/table.h"
-
-/* A line on the terminal that is written over, five times a second. */
-static void show_progress(void *context, const char *stage, int step)
-{
-    double *last = context, seconds = clock_seconds();
-    if (*last == 0)
-        *last = seconds; /* a run shorter than that shows nothing */
-    if (seconds - *last < 0.2)
-        return;
-    *last = seconds;
-    (void)fprintf(stderr, "\rrotid: %s %d \033[K", stage, step);
-}
 
 int command_identify(struct command *command)
 {
     struct job *job = &command->job;
     double last = 0;
-    int terminal = isatty(STDERR_FILENO) && !command->quiet;
+    int terminal = command_wants_progress(command);
     const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? show_progress : NULL, .context = &last};
+        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
     struct identification result;
+    if (!job->nparameter) {
+        message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
+                    "the deck names nothing to identify, expected a card *IDENTIFY");
+        return command_fail(command, ROTID_ERROR_ARGUMENT);
+    }
     int status = identify_run(&command->pool, job, command->baseline, &environment, &command->messages, &result);
     if (terminal)
         (void)fputs("\r\033[K", stderr);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "cli/command.h"
 
@@ -31,26 +32,32 @@ static const struct {
     {"modes", "frequencies and shapes, full and condensed, beside the measured ones", command_modes},
     {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity},
     {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify},
+    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose},
 };
 
-#define COMMANDS (sizeof commands / sizeof *commands)
+#define COMMANDS     (sizeof commands / sizeof *commands)
+#define THREADS_MOST 1024
 
 static void print_help(FILE *out)
 {
     (void)fputs("usage: rotid COMMAND DECK [options]\n\n", out);
     for (size_t c = 0; c < COMMANDS; c++)
         (void)fprintf(out, "  %-12s %s\n", commands[c].name, commands[c].text);
-    (void)fputs("\n"
-                "  --json FILE              the result as JSON; - for standard output, which then carries nothing else\n"
-                "  --set CARD.OPTION=VALUE  another option on every such card of the deck, e.g. FIT.REDUCTION=NONE\n"
-                "  --quiet, --verbose       no tables; with shapes (modes), iterations (identify), notes of the readers\n"
-                "  --no-baseline            identify: without NLopt\n"
-                "  --at NAME[=VALUE],...    sensitivity: other parameters and reference values than those of *IDENTIFY\n"
-                "  --step 0.01, --range 0.5, --points 11   sensitivity: relative step, range and points of the curves\n"
-                "  --threads N, --seed N    BLAS threads (1); seed of random numbers (1)\n"
-                "  --version, --help\n\n"
-                "exit: 0 computed and converged; 1 computed, not to be trusted as it stands; 2 wrong usage or input; 3 failure\n",
-                out);
+    (void)fputs(
+        "\n"
+        "  --json FILE              the result as JSON; - for standard output, which then carries nothing else\n"
+        "  --set CARD.OPTION=VALUE  another option on every such card of the deck, e.g. FIT.REDUCTION=NONE\n"
+        "  --quiet, --verbose       no tables; with shapes (modes), iterations (identify), notes of the readers\n"
+        "  --no-baseline            identify: without NLopt\n"
+        "  --at NAME[=VALUE],...    sensitivity: other parameters and reference values than those of *IDENTIFY\n"
+        "  --step 0.01, --range 0.5, --points 11   sensitivity: relative step, range and points of the curves\n"
+        "  --extended FILE          diagnose: a deck with the cause that was named\n"
+        "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
+        "  --threads N, --seed N    threads of the BLAS (1), of diagnose (one a processor); seed of random numbers (1)\n"
+        "  --version, --help\n\n"
+        "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"
+        "      2 wrong usage or input; 3 failure\n",
+        out);
 }
 
 static int usage(const char *format, const char *value)
@@ -73,6 +80,8 @@ enum {
     OPTION_POINTS,
     OPTION_THREADS,
     OPTION_SEED,
+    OPTION_EXTENDED,
+    OPTION_REPLICATES,
     OPTION_VERSION,
     OPTION_HELP
 };
@@ -122,7 +131,7 @@ static int take_option(struct command *command, int option, const char *value)
         command->points = (int)n;
         return -1;
     case OPTION_THREADS:
-        if (number("--threads", value, 1, 1024, 1, &n))
+        if (number("--threads", value, 1, THREADS_MOST, 1, &n))
             return EXIT_USAGE;
         command->threads = (int)n;
         return -1;
@@ -130,6 +139,14 @@ static int take_option(struct command *command, int option, const char *value)
         if (number("--seed", value, 0, 4294967295.0, 1, &n))
             return EXIT_USAGE;
         command->seed = (unsigned long)n;
+        return -1;
+    case OPTION_EXTENDED:
+        command->extended = value;
+        return -1;
+    case OPTION_REPLICATES:
+        if (number("--replicates", value, 100, 1000000, 1, &n))
+            return EXIT_USAGE;
+        command->replicates = (int)n;
         return -1;
     case OPTION_VERSION:
         (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
@@ -156,6 +173,8 @@ static int parse_arguments(struct command *command, int argc, char **argv)
                                             {"points", required_argument, NULL, OPTION_POINTS},
                                             {"threads", required_argument, NULL, OPTION_THREADS},
                                             {"seed", required_argument, NULL, OPTION_SEED},
+                                            {"extended", required_argument, NULL, OPTION_EXTENDED},
+                                            {"replicates", required_argument, NULL, OPTION_REPLICATES},
                                             {"version", no_argument, NULL, OPTION_VERSION},
                                             {"help", no_argument, NULL, OPTION_HELP},
                                             {NULL, 0, NULL, 0}};
@@ -181,12 +200,46 @@ static int parse_arguments(struct command *command, int argc, char **argv)
     return -1;
 }
 
-/* The result would replace it. */
-static int names_the_deck(const struct command *command)
+/* Two names of one file, which may not exist yet. */
+static int same_file(const char *a, const char *b)
 {
-    struct stat deck, json;
-    return command->json && strcmp(command->json, "-") && stat(command->deck, &deck) == 0 && stat(command->json, &json) == 0 &&
-           S_ISREG(deck.st_mode) && deck.st_dev == json.st_dev && deck.st_ino == json.st_ino;
+    struct stat first, second;
+    int exists = stat(a, &first) == 0;
+    if (exists != (stat(b, &second) == 0))
+        return 0;
+    if (exists)
+        return S_ISREG(first.st_mode) && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+    const char *name_a = strrchr(a, '/'), *name_b = strrchr(b, '/');
+    char folder[2][4096];
+    (void)snprintf(folder[0], sizeof folder[0], "%.*s", name_a ? (int)(name_a - a) + 1 : 1, name_a ? a : ".");
+    (void)snprintf(folder[1], sizeof folder[1], "%.*s", name_b ? (int)(name_b - b) + 1 : 1, name_b ? b : ".");
+    return !strcmp(name_a ? name_a + 1 : a, name_b ? name_b + 1 : b) && stat(folder[0], &first) == 0 &&
+           stat(folder[1], &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+/* -1, or the exit code after saying which file would be lost, or which option this command has no use for. */
+static int refuse_options(const struct command *command)
+{
+    int diagnoses = !strcmp(command->name, "diagnose");
+    if (!diagnoses && (command->extended || command->replicates))
+        return usage("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
+    if (command->json && strcmp(command->json, "-") && same_file(command->deck, command->json))
+        return usage("--json %s is the deck itself, expected another file", command->json);
+    if (!command->extended)
+        return -1;
+    if (!strcmp(command->extended, "-"))
+        return usage("--extended %s: expected a file", command->extended);
+    if (same_file(command->deck, command->extended))
+        return usage("--extended %s is the deck itself, expected another file", command->extended);
+    if (command->json && same_file(command->json, command->extended))
+        return usage("--extended %s is the file of --json as well, expected another file", command->extended);
+    return -1;
+}
+
+static int processors(void)
+{
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : online > THREADS_MOST ? THREADS_MOST : (int)online;
 }
 
 static int run(struct command *command)
@@ -194,20 +247,23 @@ static int run(struct command *command)
     for (size_t c = 0; c < COMMANDS; c++) {
         if (strcmp(command->name, commands[c].name))
             continue;
+        int refused = refuse_options(command), diagnoses = commands[c].run == command_diagnose;
+        if (refused >= 0)
+            return refused;
+        if (!command->threads)
+            command->threads = diagnoses ? processors() : 1;
         command->provenance =
             (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
-        build_set_threads(command->threads);
-        if (names_the_deck(command))
-            return usage("--json %s is the deck itself, expected another file", command->json);
+        build_set_threads(diagnoses ? 1 : command->threads); /* the diagnosis runs whole fits side by side */
         int code = command_read_deck(command);
         return code ? code : commands[c].run(command);
     }
-    return usage("%s is no command, expected check, modes, sensitivity or identify", command->name);
+    return usage("%s is no command, expected check, modes, sensitivity, identify or diagnose", command->name);
 }
 
 int main(int argc, char **argv)
 {
-    struct command command = {.threads = 1, .seed = 1, .step = 0.01, .range = 0.5, .points = 11, .baseline = 1};
+    struct command command = {.seed = 1, .step = 0.01, .range = 0.5, .points = 11, .baseline = 1};
     struct sigaction action = {.sa_handler = interrupt};
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);

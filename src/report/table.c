@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "fit/quantile.h"
+#include "report/layout.h"
 
 void table_heading(FILE *out, const struct job *job)
 {
@@ -25,26 +26,55 @@ void table_notes(FILE *out, const struct message_list *notes)
         }
 }
 
-/* A number in the width given, or a dash where there is none. */
-static void cell(FILE *out, int width, int decimals, double value)
-{
-    if (isfinite(value))
-        (void)fprintf(out, "%*.*f", width, decimals, value);
-    else
-        (void)fprintf(out, "%*s", width, "-");
-}
-
-static void signed_cell(FILE *out, int width, int decimals, double value)
-{
-    if (isfinite(value))
-        (void)fprintf(out, "%+*.*f", width, decimals, value);
-    else
-        (void)fprintf(out, "%*s", width, "-");
-}
-
 static double reference_value(const struct reference *reference, int i)
 {
     return reference && i < reference->count ? reference->value[i] : NAN;
+}
+
+/* What an effect acts on, as its hooks tell; "" where that is the whole rotor. */
+static void print_target(FILE *out, const struct rotor *rotor, const struct effect *effect)
+{
+    const struct effect_kind *kind = effect->kind;
+    int target = effect->target;
+    if (kind->spring && target >= 0 && target < rotor->nspring && rotor->spring[target].name)
+        (void)fprintf(out, " at %s", rotor->spring[target].name);
+    else if (kind->tierod && target >= 0 && target < rotor->ntierod && rotor->tierod[target].name)
+        (void)fprintf(out, " at %s", rotor->tierod[target].name);
+    else if (kind->joint && target >= 0 && target + 1 < rotor->ngroup)
+        (void)fprintf(out, " between %s and %s", rotor->group[target].name, rotor->group[target + 1].name);
+    else if (kind->axis && target >= 0 && target < rotor->ngroup)
+        (void)fprintf(out, " in %s", rotor->group[target].name);
+}
+
+static void print_effect(FILE *out, const struct rotor *rotor, const struct effect *effect, const char *role)
+{
+    (void)fprintf(out, "%-12s %s, %s", effect->name, role, effect->kind->id);
+    print_target(out, rotor, effect);
+    for (int p = 0; p < effect_parameters(effect); p++) {
+        const struct effect_parameter_name *parameter = &effect->kind->parameter[p];
+        (void)fprintf(out, ", %s %.6g%s%s", parameter->name, effect->value[p], strcmp(parameter->unit, "1") ? " " : "",
+                      strcmp(parameter->unit, "1") ? parameter->unit : "");
+    }
+    (void)fputc('\n', out);
+}
+
+/* The CAUSE cards. */
+static void print_causes(FILE *out, const struct job *job)
+{
+    if (job->rotor.neffect || job->ncorrection || job->nsuspect)
+        (void)fprintf(out, "\ncause\n");
+    for (int i = 0; i < job->rotor.neffect; i++)
+        print_effect(out, &job->rotor, &job->rotor.effect[i], "in the model");
+    for (int i = 0; i < job->nsuspect; i++)
+        print_effect(out, &job->rotor, &job->suspect[i].effect, "suspected");
+    for (int i = 0; i < job->ncorrection; i++) {
+        const struct correction *correction = &job->correction[i];
+        (void)fprintf(out, "%-12s taken out of the data, %s", correction->name, correction->id);
+        for (int s = 0; s < correction->nsensor; s++)
+            (void)fprintf(out, "%s%d", s ? " and " : " of sensor ", correction->sensor[s]);
+        (void)fprintf(out, "%s%s, value %.6g\n", correction->block ? " of " : "", correction->block ? correction->block : "",
+                      correction->value);
+    }
 }
 
 void table_check(FILE *out, const struct job *job, const struct mass_properties *mass, const struct spectrum *spectrum)
@@ -72,6 +102,7 @@ void table_check(FILE *out, const struct job *job, const struct mass_properties 
         (void)fprintf(out, "%-12s %10.6f %10.6f  %10.4e  %10.4e  %5.3f  %12.2f\n", rotor->group[g].name, from, to, material->e,
                       material_shear_modulus(material), material->nu, material->rho);
     }
+    print_causes(out, job);
 }
 
 void table_modes(FILE *out, const struct job *job, const struct spectrum *s, const struct comparison *compared, int shapes)
@@ -89,13 +120,13 @@ void table_modes(FILE *out, const struct job *job, const struct spectrum *s, con
                 measured = k;
         double hz = measured >= 0 ? job->frequency_hz[measured] : NAN;
         (void)fprintf(out, "%3d ", j + 1);
-        cell(out, 13, 4, s->full_hz[j]);
-        cell(out, 14, 4, s->reduced_hz[j]);
+        number_cell(out, 13, 4, s->full_hz[j]);
+        number_cell(out, 14, 4, s->reduced_hz[j]);
         signed_cell(out, 10, 3, s->reduction_error_percent[j]);
         signed_cell(out, 9, 4, s->mesh_error_percent[j]);
-        cell(out, 13, 4, hz);
+        number_cell(out, 13, 4, hz);
         signed_cell(out, 9, 2, 100 * (s->full_hz[j] / hz - 1));
-        cell(out, 8, 3, measured >= 0 ? compared->nco[measured] : NAN);
+        number_cell(out, 8, 3, measured >= 0 ? compared->nco[measured] : NAN);
         (void)fputc('\n', out);
     }
     if (!shapes)
@@ -163,18 +194,18 @@ static void print_modes(FILE *out, const struct job *job, const struct identific
         int j = result->compared.number[k] - 1, is_held = job->holdout && job->holdout[k];
         double error = 100 * (fit->predicted_hz[k] / job->frequency_hz[k] - 1);
         (void)fprintf(out, "%4d", j + 1);
-        cell(out, 11, 2, job->frequency_hz[k]);
-        cell(out, 11, 2, fit->predicted_hz[k]);
+        number_cell(out, 11, 2, job->frequency_hz[k]);
+        number_cell(out, 11, 2, fit->predicted_hz[k]);
         signed_cell(out, 9, 2, error);
         if (paper) {
-            cell(out, 11, 2, reference_value(paper_hz, k));
+            number_cell(out, 11, 2, reference_value(paper_hz, k));
             signed_cell(out, 9, 2, reference_value(paper_error, k));
         }
         signed_cell(out, 11, 2, result->spectrum.reduction_error_percent[j]);
         signed_cell(out, 8, 3, result->spectrum.mesh_error_percent[j]);
         if (shapes) {
-            cell(out, 8, 3, result->compared.nco[k]);
-            cell(out, 7, 3, result->compared.mac[k]);
+            number_cell(out, 8, 3, result->compared.nco[k]);
+            number_cell(out, 7, 3, result->compared.mac[k]);
         }
         (void)fprintf(out, "%s\n", is_held ? "  held out" : "");
         *(is_held ? &held : &sum) += error * error;

@@ -1,0 +1,115 @@
+#include "report/chart.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "report/layout.h"
+
+void chart_bar(FILE *out, int half, double scale, double value)
+{
+    double size = isfinite(value) && scale > 0 ? fabs(value) / scale * half : 0;
+    int beyond = size > half + 0.5, length = beyond ? half : (int)(size + 0.5);
+    for (int c = -half; c <= half; c++) {
+        int inside = value < 0 ? c < 0 && c >= -length : c > 0 && c <= length;
+        int end = beyond && c == (value < 0 ? -half : half);
+        (void)fputc(c == 0 ? '|' : end ? (value < 0 ? '<' : '>') : inside ? '=' : ' ', out);
+    }
+}
+
+void strip_open(struct strip *strip, double length, int columns)
+{
+    strip->length = length > 0 ? length : 1;
+    strip->columns = columns < 10 ? 10 : columns > STRIP_MOST ? STRIP_MOST : columns;
+    memset(strip->line, ' ', (size_t)strip->columns);
+    strip->line[strip->columns] = 0;
+}
+
+static int column_of(const struct strip *strip, double z)
+{
+    double column = z / strip->length * (strip->columns - 1) + 0.5;
+    return column >= strip->columns - 1 ? strip->columns - 1 : column >= 0 ? (int)column : 0; /* NaN: 0 */
+}
+
+void strip_digits(struct strip *strip, int count, const double *z, const double *value)
+{
+    for (int i = 0; i < count; i++) {
+        if (!isfinite(value[i]) || !isfinite(z[i]))
+            continue;
+        char *cell = &strip->line[column_of(strip, z[i])];
+        char now = value[i] >= 9.5 ? '+' : (char)('0' + (int)(fmax(value[i], 0) + 0.5));
+        if (*cell == ' ' || (*cell != '+' && (now == '+' || now > *cell)))
+            *cell = now;
+    }
+}
+
+/* Straight lines between the points, 0 outside them. */
+static double interpolate(int count, const double *z, const double *value, double at)
+{
+    for (int i = 1; i < count; i++)
+        if (z[i - 1] <= at && at <= z[i])
+            return z[i] > z[i - 1] ? value[i - 1] + (value[i] - value[i - 1]) * (at - z[i - 1]) / (z[i] - z[i - 1])
+                                   : fmax(value[i - 1], value[i]);
+    return 0;
+}
+
+void strip_density(struct strip *strip, int count, const double *z, const double *value)
+{
+    static const char scale[] = " .:-=+*#%@";
+    for (int c = 0; c < strip->columns; c++) {
+        double largest = interpolate(count, z, value, strip->length * c / (strip->columns - 1));
+        for (int i = 0; i < count; i++)
+            if (column_of(strip, z[i]) == c) /* no peak falls between two columns */
+                largest = fmax(largest, value[i]);
+        double level = 10 * largest;
+        strip->line[c] = level >= 9 ? scale[9] : level > 0 ? scale[(int)level] : ' ';
+    }
+}
+
+/* Writes over blanks only, as far as the strip reaches. */
+static void write_at(struct strip *strip, int column, const char *text, size_t bytes)
+{
+    for (size_t i = 0; i < bytes && text[i] && column + (int)i < strip->columns; i++)
+        if (column + (int)i >= 0 && strip->line[column + (int)i] == ' ')
+            strip->line[column + (int)i] = text[i];
+}
+
+void strip_mark(struct strip *strip, double from, double to, const char *label)
+{
+    int first = column_of(strip, from), last = column_of(strip, to), bytes = (int)strlen(label);
+    for (int c = first; c <= last; c++)
+        strip->line[c] = c == first || c == last ? '^' : '-';
+    if (last + 2 + bytes <= strip->columns || first < bytes + 1)
+        write_at(strip, last + 2, label, strlen(label));
+    else
+        write_at(strip, first - 1 - bytes, label, strlen(label));
+}
+
+void strip_name(struct strip *strip, double from, double to, const char *name)
+{
+    int first = column_of(strip, from), room = column_of(strip, to) - first - 1;
+    strip->line[first] = '|';
+    write_at(strip, first + 1, name, room > 0 ? (size_t)room : 0);
+}
+
+void strip_ticks(struct strip *strip)
+{
+    double step = pow(10, floor(log10(strip->length))), most = strip->columns / 9.0;
+    while (strip->length / step < most / 2)
+        step /= 2; /* 1, 0.5, 0.25, 0.125: round enough for a position */
+    char text[32];
+    for (int i = 0; i * step <= strip->length * (1 + 1e-9); i++) {
+        int bytes = snprintf(text, sizeof text, "%.4g", i * step), column = column_of(strip, i * step);
+        if (column + bytes > strip->columns)
+            column = strip->columns - bytes;
+        write_at(strip, column, text, sizeof text);
+    }
+}
+
+void strip_print(const struct strip *strip, FILE *out, int width, const char *label)
+{
+    int last = strip->columns;
+    while (last > 0 && strip->line[last - 1] == ' ')
+        last--;
+    text_cell(out, width, label);
+    (void)fprintf(out, "%.*s\n", last, strip->line);
+}

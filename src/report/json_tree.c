@@ -1,0 +1,130 @@
+#include "report/json_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static cJSON *put(struct json_tree *tree, cJSON *parent, const char *key, cJSON *item)
+{
+    if (item && parent && (key ? cJSON_AddItemToObject(parent, key, item) : cJSON_AddItemToArray(parent, item)))
+        return item;
+    cJSON_Delete(item);
+    tree->failed = 1;
+    return NULL;
+}
+
+cJSON *json_object(struct json_tree *tree, cJSON *parent, const char *key)
+{
+    return put(tree, parent, key, cJSON_CreateObject());
+}
+
+cJSON *json_array(struct json_tree *tree, cJSON *parent, const char *key)
+{
+    return put(tree, parent, key, cJSON_CreateArray());
+}
+
+void json_null(struct json_tree *tree, cJSON *parent, const char *key)
+{
+    (void)put(tree, parent, key, cJSON_CreateNull());
+}
+
+void json_flag(struct json_tree *tree, cJSON *parent, const char *key, int value)
+{
+    (void)put(tree, parent, key, cJSON_CreateBool(value != 0));
+}
+
+void json_number(struct json_tree *tree, cJSON *parent, const char *key, double value)
+{
+    (void)put(tree, parent, key, isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
+}
+
+/* Bytes of the UTF-8 character that begins here, 0 where there is none (RFC 3629). */
+static size_t utf8_bytes(const unsigned char *c)
+{
+    size_t bytes = *c < 0x80 ? 1 : *c < 0xc2 ? 0 : *c < 0xe0 ? 2 : *c < 0xf0 ? 3 : *c < 0xf5 ? 4 : 0;
+    for (size_t i = 1; i < bytes; i++)
+        if ((c[i] & 0xc0) != 0x80)
+            return 0;
+    if ((*c == 0xe0 && c[1] < 0xa0) || (*c == 0xed && c[1] > 0x9f) || (*c == 0xf0 && c[1] < 0x90) || (*c == 0xf4 && c[1] > 0x8f))
+        return 0;
+    return bytes;
+}
+
+void json_text(struct json_tree *tree, cJSON *parent, const char *key, const char *text)
+{
+    if (!text) {
+        json_null(tree, parent, key);
+        return;
+    }
+    char *clean = malloc(3 * strlen(text) + 1), *end = clean;
+    while (clean && *text) {
+        size_t bytes = utf8_bytes((const unsigned char *)text);
+        memcpy(end, bytes ? text : "\xef\xbf\xbd", bytes ? bytes : 3);
+        end += bytes ? bytes : 3;
+        text += bytes ? bytes : 1;
+    }
+    if (clean)
+        *end = 0;
+    (void)put(tree, parent, key, clean ? cJSON_CreateString(clean) : NULL);
+    free(clean);
+}
+
+void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value)
+{
+    cJSON *array = json_array(tree, parent, key);
+    for (int i = 0; i < count && array; i++)
+        json_number(tree, array, NULL, value[i]);
+}
+
+void json_matrix(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value)
+{
+    cJSON *array = json_array(tree, parent, key);
+    for (int i = 0; i < rows && array; i++) {
+        cJSON *row = json_array(tree, array, NULL);
+        for (int j = 0; j < columns && row; j++)
+            json_number(tree, row, NULL, value[i + (ptrdiff_t)j * rows]);
+    }
+}
+
+void json_open(struct json_tree *tree)
+{
+    tree->root = cJSON_CreateObject();
+    tree->failed = !tree->root;
+}
+
+void json_begin(struct json_tree *tree, const struct provenance *provenance, const struct job *job)
+{
+    json_open(tree);
+    json_number(tree, tree->root, "schema", 1);
+    json_text(tree, tree->root, "rotid", provenance->version);
+    json_text(tree, tree->root, "commit", provenance->commit);
+    json_text(tree, tree->root, "blas", provenance->blas);
+    json_number(tree, tree->root, "seed", (double)provenance->seed);
+    json_number(tree, tree->root, "threads", provenance->threads);
+    json_text(tree, tree->root, "command", provenance->command);
+    json_text(tree, tree->root, "deck", job->deck);
+    cJSON *heading = json_array(tree, tree->root, "heading");
+    for (int i = 0; i < job->nheading; i++)
+        json_text(tree, heading, NULL, job->heading[i]);
+}
+
+void json_notes(struct json_tree *tree, const struct message_list *notes)
+{
+    cJSON *array = json_array(tree, tree->root, "warnings");
+    for (size_t i = 0; i < notes->count; i++)
+        if (notes->item[i].severity == SEVERITY_WARNING)
+            json_text(tree, array, NULL, notes->item[i].text);
+}
+
+char *json_close(struct json_tree *tree)
+{
+    char *text = tree->failed ? NULL : cJSON_Print(tree->root);
+    cJSON_Delete(tree->root);
+    tree->root = NULL;
+    return text;
+}
+
+void json_free(char *text)
+{
+    cJSON_free(text);
+}

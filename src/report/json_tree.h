@@ -1,0 +1,35 @@
+/* A JSON object under construction. A failed allocation anywhere is remembered, so that a result is whole or not there. */
+#ifndef ROTID_REPORT_JSON_TREE_H
+#define ROTID_REPORT_JSON_TREE_H
+
+#include <cJSON.h>
+
+#include "report/json.h"
+
+struct json_tree {
+    cJSON *root;
+    int failed;
+};
+
+void json_open(struct json_tree *tree);
+/* The same with what stands at the head of every result. */
+void json_begin(struct json_tree *tree, const struct provenance *provenance, const struct job *job);
+/* The text, to be freed with json_free, or NULL where memory was out. The tree is gone then. */
+char *json_close(struct json_tree *tree);
+
+/* Each adds to an object under `key`, to an array where `key` is NULL; nothing and a mark on the tree where `parent` is NULL. */
+cJSON *json_object(struct json_tree *tree, cJSON *parent, const char *key);
+cJSON *json_array(struct json_tree *tree, cJSON *parent, const char *key);
+void json_null(struct json_tree *tree, cJSON *parent, const char *key);
+void json_flag(struct json_tree *tree, cJSON *parent, const char *key, int value);
+/* null where the value is not finite */
+void json_number(struct json_tree *tree, cJSON *parent, const char *key, double value);
+/* In whatever encoding: what is not UTF-8 becomes U+FFFD; null where there is no text. */
+void json_text(struct json_tree *tree, cJSON *parent, const char *key, const char *text);
+void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
+/* rows of a column-major matrix */
+void json_matrix(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value);
+/* "warnings" of the list */
+void json_notes(struct json_tree *tree, const struct message_list *notes);
+
+#endif

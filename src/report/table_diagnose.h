@@ -1,0 +1,27 @@
+/* The diagnosis on one screen for a test engineer, in plain ASCII. */
+#ifndef ROTID_REPORT_TABLE_DIAGNOSE_H
+#define ROTID_REPORT_TABLE_DIAGNOSE_H
+
+#include <stdio.h>
+
+#include "diagnose/diagnose.h"
+#include "report/json.h"
+
+struct diagnosis_view {
+    FILE *out;
+    const struct provenance *provenance;
+    const struct job *deck; /* as the user states it: its FIT is what `today` was fitted with */
+    const struct diagnosis *diagnosis;
+    int verbose; /* all candidates, times of the steps */
+    int width;   /* columns of texts and charts, 100 to 120; tables take no more than 100 */
+};
+
+void table_diagnose(const struct diagnosis_view *view);
+
+/* Its parts. */
+void table_misfit(const struct diagnosis_view *view);      /* what is wrong: modes, sensors, place */
+void table_evidence(const struct diagnosis_view *view);    /* candidates of every round */
+void table_gain(const struct diagnosis_view *view);        /* before and after: quality and parameters */
+void table_blind_spots(const struct diagnosis_view *view); /* smallest sizes that would show */
+
+#endif

@@ -1,0 +1,752 @@
+/* The report of a diagnosis, on the screen and as JSON, from structs filled by hand: what it has to say, where there is nothing
+ * to say, that lines stay short, that JSON is whole or not there. */
+#include "support.h"
+
+#include <cJSON.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "report/json_diagnose.h"
+#include "report/table_diagnose.h"
+
+#define MODES   6
+#define SENSORS 34
+#define LOCAL   80
+#define LENGTH  2.03
+
+static char screen[1 << 16];
+
+/* ------------------------------------------------------------------------------------------------ a case filled by hand */
+
+static const struct effect_kind joint_effect = {.id = "joint", .nparameter = 1, .parameter = {{"flexibility", "rad/(N.m)"}}},
+                                soft_effect = {.id = "stiffness_local",
+                                               .nparameter = 3,
+                                               .parameter = {{"depth", "1"}, {"z", "m"}, {"width", "m"}}},
+                                mass_effect = {.id = "added_mass", .nparameter = 2, .parameter = {{"mass", "kg"}, {"z", "m"}}},
+                                stiffness_effect = {.id = "stiffness", .nparameter = 1, .parameter = {{"factor", "1"}}};
+
+static const struct cause_kind
+    joint =
+        {.id = "joint", .class = CAUSE_PHYSICAL, .target = TARGET_INTERFACE, .effect = &joint_effect, .place = -1, .width = -1},
+    soft = {.id = "stiffness_local",
+            .class = CAUSE_PHYSICAL,
+            .target = TARGET_NONE,
+            .effect = &soft_effect,
+            .place = 1,
+            .width = 2,
+            .variant = {"GAUSS", "BOX"},
+            .variant_option = "SHAPE"},
+    added = {.id = "added_mass", .class = CAUSE_PHYSICAL, .target = TARGET_NONE, .effect = &mass_effect, .place = 1, .width = -1},
+    stiffness = {.id = "stiffness",
+                 .class = CAUSE_PHYSICAL,
+                 .target = TARGET_GROUP,
+                 .effect = &stiffness_effect,
+                 .place = -1,
+                 .width = -1},
+    gain = {.id = "sensor_gain", .class = CAUSE_DATA, .target = TARGET_SENSOR, .place = -1, .width = -1, .value = {"gain", "1"}},
+    guyan = {.id = "guyan_reduction", .class = CAUSE_NUMERICAL, .place = -1, .width = -1};
+
+struct fit_store {
+    rotid_fit_result fit;
+    double x[3], std[3], lower[3], upper[3], correlation[9], direction[9], predicted[MODES], mac[MODES], residual[MODES];
+    int at_bound[3], identifiable[3], undetermined[3], number[MODES];
+    enum pairing_basis basis[MODES];
+    double nco[MODES], reduction[MODES], mesh[MODES];
+    struct identification result;
+};
+
+static struct store {
+    struct diagnosis d;
+    struct job deck;
+    struct group group[3];
+    struct segment segment[3];
+    struct sensor sensor[SENSORS];
+    rotid_parameter bounds[3];
+    double hz[MODES], mode_z[MODES], sensor_rms[SENSORS], local_z[LOCAL], local[LOCAL], error[MODES];
+    int number[MODES], holdout[MODES], mode[MODES];
+    struct fit_store today, base, extended;
+    struct data_finding data;
+    struct numerical_finding numerical;
+    struct candidate candidate[4];
+    struct diagnosis_round round[2];
+    struct detectable detectable[5];
+    struct diagnosis_step step[2];
+} s;
+
+static const struct provenance provenance = {"diagnose", "0.1.0", "0123456789ab", "a BLAS", 7, 4};
+static struct message_list notes;
+
+static const double measured_hz[MODES] = {435.55, 735.16, 1159.4, 1802, 2425.8, 2918.4};
+
+static void fill_fit(struct fit_store *f, int n, double e, double g, double error_percent)
+{
+    static const double x[3] = {1.146e11, 3.52e10, 2.13e-10};
+    for (int p = 0; p < n; p++) {
+        f->x[p] = x[p] * (p == 0 ? 1 + e : p == 1 ? 1 + g : 1);
+        f->std[p] = 0.01 * f->x[p];
+        f->lower[p] = 0.98 * f->x[p];
+        f->upper[p] = 1.02 * f->x[p];
+        f->identifiable[p] = 1;
+        for (int q = 0; q < n; q++)
+            f->correlation[p + q * n] = p == q ? 1 : 0.3;
+    }
+    for (int k = 0; k < MODES; k++) {
+        f->predicted[k] = measured_hz[k] * (1 + 0.01 * error_percent * (k % 2 ? 1 : -0.6));
+        f->mac[k] = 0.99;
+        f->nco[k] = 0.995 - 0.002 * k;
+        f->number[k] = k + 1;
+        f->basis[k] = PAIRED_BY_SHAPE;
+        f->reduction[k] = 0.02 * (k + 1) * (k + 1);
+        f->mesh[k] = 1e-3;
+    }
+    f->fit = (rotid_fit_result){.status = ROTID_STOP_STEP,
+                                .converged = 1,
+                                .n = n,
+                                .m = MODES,
+                                .evaluations = 5,
+                                .jacobians = 4,
+                                .nresidual = 210,
+                                .dof = 202,
+                                .objective = 150,
+                                .chi2 = 300,
+                                .chi2_per_dof = 1.485,
+                                .widened_by = 1,
+                                .condition_number = 12,
+                                .x = f->x,
+                                .std = f->std,
+                                .ci_lower = f->lower,
+                                .ci_upper = f->upper,
+                                .at_bound = f->at_bound,
+                                .identifiable = f->identifiable,
+                                .correlation = f->correlation,
+                                .direction = f->direction,
+                                .direction_undetermined = f->undetermined,
+                                .predicted_hz = f->predicted,
+                                .mac = f->mac,
+                                .residual = f->residual};
+    f->result = (struct identification){
+        .fit = &f->fit,
+        .compared = {MODES, f->number, f->basis, f->mac, f->nco},
+        .spectrum = {.count = MODES, .reduction_error_percent = f->reduction, .mesh_error_percent = f->mesh},
+        .mass = {.mass = 998, .center = 1.06}};
+}
+
+static void fill_candidate(struct candidate *c, const struct cause_kind *cause, const char *target, int index, double a, double b,
+                           double width, double drop)
+{
+    *c = (struct candidate){.cause = cause,
+                            .effect = {.name = "found", .kind = cause->effect, .target = index, .value = {a, b, width}},
+                            .target = target,
+                            .nparameter = cause->effect->nparameter,
+                            .predicted_drop = 1.05 * drop,
+                            .refitted = 1,
+                            .chi2 = 300 - drop,
+                            .chi2_drop = drop,
+                            .bic = 300 - drop + 5.35 * cause->effect->nparameter,
+                            .p_value = 1e-4,
+                            .holdout_rms = NAN,
+                            .mode_out_rms = 0.14,
+                            .sensor_out_rms = 1.03,
+                            .collinear_with = "joint",
+                            .collinear_target = "core|right",
+                            .cosine = 0.91,
+                            .rejected_because = "it leaves 31 of chi2 that joint core|right explains, more than the margin of 9"};
+    for (int p = 0; p < c->nparameter; p++) {
+        c->std[p] = 0.05 * c->effect.value[p];
+        c->ci_lower[p] = 0.9 * c->effect.value[p];
+        c->ci_upper[p] = 1.1 * c->effect.value[p];
+    }
+}
+
+/* A joint between core and right, found and named; a sensor with a wrong gain; a fit condensed by Guyan. */
+static void fill_named(void)
+{
+    static const char *const heading[] = {"A rotor of three groups, with a joint that the model does not have"};
+    static const char *const names[] = {"left", "core", "right"}, *const parameters[] = {"core.E", "core.G", "found.flexibility"};
+    static const double ends[] = {0, 0.70, 1.40, LENGTH};
+    memset(&s, 0, sizeof s);
+    for (int g = 0; g < 3; g++) {
+        s.group[g].name = names[g];
+        s.segment[g] = (struct segment){.group = g, .elements = 20, .length = ends[g + 1] - ends[g], .outer = 0.2};
+        s.bounds[g] = (rotid_parameter){parameters[g], g < 2 ? "Pa" : "rad/(N.m)", 1e-12, 1e12, 1};
+    }
+    for (int i = 0; i < SENSORS; i++) {
+        s.sensor[i] = (struct sensor){i + 1, LENGTH * i / (SENSORS - 1)};
+        s.sensor_rms[i] = 1 + 3 * exp(-pow((s.sensor[i].position - 1.4) / 0.15, 2));
+    }
+    for (int i = 0; i < LOCAL; i++) {
+        s.local_z[i] = LENGTH * i / (LOCAL - 1);
+        s.local[i] = exp(-pow((s.local_z[i] - 1.4) / 0.12, 2));
+    }
+    for (int k = 0; k < MODES; k++) {
+        s.hz[k] = measured_hz[k];
+        s.number[k] = s.mode[k] = k + 1;
+        s.mode_z[k] = (k % 2 ? 2.2 : -4.1) * (k + 1) / 3;
+        s.error[k] = 0.02 * (k + 1) * (k + 1);
+    }
+    fill_fit(&s.today, 2, 0.028, -0.096, 3);
+    fill_fit(&s.base, 2, 0.019, -0.011, 0.4);
+    fill_fit(&s.extended, 3, 0, 0, 0.05);
+    const char **lines = (const char **)heading;
+    s.deck = (struct job){
+        .deck = "rotor.inp",
+        .nheading = 1,
+        .heading = lines,
+        .rotor = {.ngroup = 3, .nsegment = 3, .nsensor = SENSORS, .group = s.group, .segment = s.segment, .sensor = s.sensor},
+        .nmode = MODES,
+        .number = s.number,
+        .frequency_hz = s.hz,
+        .holdout = s.holdout,
+        .nparameter = 2,
+        .bounds = s.bounds,
+        .fit = {.functional = ROTID_HYBRID, .reduction = ROTID_GUYAN}};
+    s.data =
+        (struct data_finding){.cause = &gain,
+                              .nsensor = 1,
+                              .sensor = {23, 0},
+                              .value = 1.4,
+                              .std = 0.03,
+                              .chi2_drop = 180,
+                              .text = "sensor 23 reads 1.40 times what its neighbours say; its readings were divided by that"};
+    s.numerical = (struct numerical_finding){
+        .cause = &guyan,
+        .nmode = MODES,
+        .mode = s.mode,
+        .error_percent = s.error,
+        .text = "the condensation to the sensors exceeds the noise in modes 4 to 6; the full model is used"};
+    fill_candidate(&s.candidate[0], &joint, "core|right", 1, 2.13e-10, 0, 0, 98);
+    s.candidate[0].rejected_because = NULL;
+    s.candidate[0].collinear_with = "stiffness_local";
+    s.candidate[0].collinear_target = "";
+    fill_candidate(&s.candidate[1], &soft, "", -1, 0.42, 1.38, 0.06, 67);
+    fill_candidate(&s.candidate[2], &stiffness, "right", 2, 0.93, 0, 0, 41);
+    fill_candidate(&s.candidate[3], &added, "", -1, 3.4, 1.9, 0, 20);
+    s.candidate[3].refitted = 0;
+    s.candidate[3].p_value = s.candidate[3].chi2_drop = NAN;
+    s.round[0] = (struct diagnosis_round){.ncandidate = 4,
+                                          .candidate = s.candidate,
+                                          .chi2 = 300,
+                                          .chi2_frequency = 95,
+                                          .dof = 202,
+                                          .nfrequency = MODES,
+                                          .largest = 103,
+                                          .threshold = 10.4,
+                                          .p_scan = 1e-3,
+                                          .p_frequency = 0.0003,
+                                          .p_total = 1e-6,
+                                          .required_margin = 9,
+                                          .kind = VERDICT_NAMED,
+                                          .nset = 1};
+    s.round[1] = (struct diagnosis_round){.chi2 = 202,
+                                          .chi2_frequency = 5,
+                                          .dof = 201,
+                                          .nfrequency = MODES,
+                                          .largest = 4.1,
+                                          .threshold = 10.2,
+                                          .p_scan = 0.61,
+                                          .p_frequency = 0.52,
+                                          .p_total = 0.44,
+                                          .required_margin = NAN,
+                                          .kind = VERDICT_ADEQUATE};
+    s.detectable[0] = (struct detectable){&joint, "left|core", "flexibility", "rad/(N.m)", 7.1e-11, NAN, NAN, 0};
+    s.detectable[1] = (struct detectable){&joint, "core|right", "flexibility", "rad/(N.m)", 6.4e-11, NAN, NAN, 0};
+    s.detectable[2] = (struct detectable){&added, "", "mass", "kg", 0.11, 2.03, 9.6, 0};
+    s.detectable[3] = (struct detectable){&stiffness, "left", "factor", "1", 0.021, NAN, NAN, 0};
+    s.detectable[4] = (struct detectable){&stiffness, "right", "factor", "1", NAN, NAN, NAN, 1};
+    s.step[0] = (struct diagnosis_step){"base fit", 0.04};
+    s.step[1] = (struct diagnosis_step){"refits", 1.3};
+    s.d = (struct diagnosis){
+        .job = s.deck,
+        .frequency_noise = 0.001,
+        .shape_noise = 0.015,
+        .has_today = 1,
+        .today = s.today.result,
+        .ndata_finding = 1,
+        .data_finding = &s.data,
+        .nnumerical_finding = 1,
+        .numerical_finding = &s.numerical,
+        .base = s.base.result,
+        .mode_z = s.mode_z,
+        .sensor_rms = s.sensor_rms,
+        .nlocal = LOCAL,
+        .local_z = s.local_z,
+        .local = s.local,
+        .nround = 2,
+        .round = s.round,
+        .kind = VERDICT_NAMED,
+        .adequate_after = 1,
+        .p_value = 1e-6,
+        .ncause = 1,
+        .cause = s.candidate,
+        .sentence = "A joint between core and right is softer than continuous material: flexibility 2.13e-10 rad/(N.m); "
+                    "every rival leaves more of the misfit.",
+        .extended_job = s.deck,
+        .extended = s.extended.result,
+        .before = {0.41, 0.83, 0.021, 1.485, 0.985, NAN, NAN, 0.62, 0.024, 0.025},
+        .after = {0.05, 0.08, 0.015, 1.005, 0.995, NAN, NAN, 0.07, 0.016, 0.015},
+        .ndetectable = 5,
+        .detectable = s.detectable,
+        .nstep = 2,
+        .step = s.step,
+    };
+    s.d.job.fit = (rotid_fit_options){.functional = ROTID_LIKELIHOOD};
+    s.d.extended_job.fit = s.d.job.fit;
+    s.d.extended_job.nparameter = 3;
+    message_open(&notes, &test_pool);
+}
+
+static void fill_adequate(void)
+{
+    fill_named();
+    s.d.kind = VERDICT_ADEQUATE;
+    s.d.sentence = "The model is adequate for these data.";
+    s.d.p_value = 0.37;
+    s.d.ncause = s.d.ndata_finding = s.d.nnumerical_finding = s.d.has_today = 0;
+    s.d.today = s.d.extended = (struct identification){0};
+    s.d.extended_job = s.d.job;
+    s.d.after = s.d.before;
+    s.d.nround = 1;
+    s.round[0] = s.round[1];
+}
+
+static void fill_ambiguous(void)
+{
+    fill_named();
+    s.d.kind = VERDICT_AMBIGUOUS;
+    s.d.sentence = "Two causes explain the misfit equally well.";
+    s.d.next_measurement =
+        "measure the shapes at 1.30, 1.40 and 1.50 m with a roving sensor, or strike the rotor after the joint "
+        "has been tightened: the frequency of mode 4 separates the two by five times its noise";
+    s.d.ncause = 0;
+    s.d.nalternative = 2;
+    s.d.alternative = s.candidate;
+    s.candidate[1].rejected_because = NULL;
+    s.round[0].kind = VERDICT_AMBIGUOUS;
+    s.round[0].nset = 2;
+    s.d.nround = 1;
+    s.d.adequate_after = 0;
+    s.d.extended = (struct identification){0};
+    s.d.extended_job = s.d.job;
+}
+
+static void fill_unexplained(void)
+{
+    fill_ambiguous();
+    s.d.kind = s.round[0].kind = VERDICT_UNEXPLAINED;
+    s.d.sentence = "The misfit is real and nothing in the catalogue earns its parameters; it acts at z = 1.4 m.";
+    s.d.next_measurement = NULL;
+    s.d.nalternative = s.round[0].nset = 0;
+    for (int i = 0; i < 4; i++)
+        s.candidate[i].rejected_because = "what it predicts of modes left out is worse than without it";
+}
+
+static void without_shapes(void)
+{
+    fill_named();
+    s.d.sensor_rms = NULL;
+    s.deck.rotor.nsensor = s.d.job.rotor.nsensor = s.d.extended_job.rotor.nsensor = 0;
+    s.d.nlocal = 0;
+    s.d.shape_noise = s.d.before.shape_rms = s.d.after.shape_rms = s.d.before.nco_min = s.d.after.nco_min = NAN;
+    s.d.before.mode_out_shape_rms = s.d.after.mode_out_shape_rms = s.d.before.sensor_out_shape_rms =
+        s.d.after.sensor_out_shape_rms = NAN;
+    s.d.frequency_noise_assumed = 1;
+    for (int k = 0; k < MODES; k++)
+        s.base.mac[k] = s.base.nco[k] = s.today.mac[k] = s.today.nco[k] = NAN;
+}
+
+static void nothing_to_identify(void)
+{
+    fill_adequate();
+    s.d.base.fit->n = 0;
+    s.d.job.nparameter = s.deck.nparameter = 0;
+    s.d.base.fit->correlation = s.d.base.fit->x = NULL;
+}
+
+static void everything_nan(void)
+{
+    static const double none[MODES] = {NAN, NAN, NAN, NAN, NAN, NAN};
+    fill_named();
+    struct fit_store *fits[] = {&s.today, &s.base, &s.extended};
+    for (int i = 0; i < 3; i++) {
+        rotid_fit_result *fit = &fits[i]->fit;
+        fit->chi2 = fit->chi2_per_dof = fit->objective = fit->gradient = fit->condition_number = fit->widened_by = NAN;
+        for (int p = 0; p < fit->n; p++)
+            fit->ci_lower[p] = fit->ci_upper[p] = fit->std[p] = NAN;
+        memcpy(fits[i]->predicted, none, sizeof none);
+        memcpy(fits[i]->mac, none, sizeof none);
+        memcpy(fits[i]->nco, none, sizeof none);
+        memcpy(fits[i]->reduction, none, sizeof none);
+    }
+    for (int k = 0; k < MODES; k++)
+        s.mode_z[k] = s.error[k] = NAN;
+    for (int i = 0; i < SENSORS; i++)
+        s.sensor_rms[i] = NAN;
+    for (int i = 0; i < LOCAL; i++)
+        s.local[i] = NAN;
+    for (int i = 0; i < 4; i++) {
+        struct candidate *c = &s.candidate[i];
+        c->predicted_drop = c->chi2 = c->chi2_frequency = c->chi2_drop = c->bic = c->p_value = c->mode_out_rms =
+            c->sensor_out_rms = c->cosine = NAN;
+        for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
+            c->effect.value[p] = c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
+    }
+    for (int i = 0; i < 2; i++)
+        s.round[i].chi2 = s.round[i].chi2_frequency = s.round[i].largest = s.round[i].threshold = s.round[i].p_scan =
+            s.round[i].p_frequency = s.round[i].p_total = s.round[i].required_margin = NAN;
+    for (int i = 0; i < 5; i++)
+        s.detectable[i].smallest = s.detectable[i].z = s.detectable[i].worst = NAN;
+    s.data.value = s.data.std = s.data.chi2_drop = s.d.p_value = s.d.frequency_noise = s.d.shape_noise = NAN;
+    s.d.before = s.d.after = (struct fit_quality){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
+/* Stopped before the base fit: next to nothing is there. */
+static void interrupted_at_once(void)
+{
+    fill_named();
+    s.d = (struct diagnosis){.interrupted = 1};
+}
+
+static void (*const fills[])(void) = {fill_named,     fill_adequate,       fill_ambiguous, fill_unexplained,
+                                      without_shapes, nothing_to_identify, everything_nan, interrupted_at_once};
+
+#define CASES (sizeof fills / sizeof *fills)
+
+/* ------------------------------------------------------------------------------------------------ the screen */
+
+static void show(int verbose, int width)
+{
+    FILE *out = tmpfile();
+    assert_non_null(out);
+    const struct diagnosis_view view = {out, &provenance, &s.deck, &s.d, verbose, width};
+    table_diagnose(&view);
+    rewind(out);
+    size_t length = fread(screen, 1, sizeof screen - 1, out);
+    screen[length] = 0;
+    assert_int_equal(fclose(out), 0);
+}
+
+static void assert_says(const char *part)
+{
+    if (!strstr(screen, part))
+        print_error("'%s' is not in the report\n", part);
+    assert_non_null(strstr(screen, part));
+}
+
+static void assert_silent(const char *part)
+{
+    if (strstr(screen, part))
+        print_error("'%s' is in the report\n", part);
+    assert_null(strstr(screen, part));
+}
+
+/* Whether `first` stands before `second`. */
+static void assert_order(const char *first, const char *second)
+{
+    assert_says(first);
+    assert_says(second);
+    assert_true(strstr(screen, first) < strstr(screen, second));
+}
+
+static void a_named_cause_is_read_from_top_to_bottom(void **state)
+{
+    (void)state;
+    static const char *const parts[] = {"A rotor of three groups",
+                                        "VERDICT  NAMED",
+                                        "YOUR FIT TODAY  HYBRID, reduction GUYAN",
+                                        "NUMBERS",
+                                        "DATA",
+                                        "WHAT IS WRONG",
+                                        "EVIDENCE",
+                                        "GAIN  base model -> extended model",
+                                        "BLIND SPOTS",
+                                        "seed 7, 4 threads"};
+    fill_named();
+    show(0, 100);
+    for (size_t i = 1; i < sizeof parts / sizeof *parts; i++)
+        assert_order(parts[i - 1], parts[i]);
+    assert_says("core.E 1.178e+11 Pa: +0.9 % off the full model by the likelihood, +2.8 % off the extended one");
+    assert_says("sensor_gain sensor 23: 1.4 +- 0.03, chi2 less by 180; sensor 23 reads");
+    assert_says("misfits so: below 0.001; with what is named it is adequate");
+    assert_says("flexibility 2.13e-10 rad/(N.m) (1.92e-10 ... 2.34e-10)");
+    assert_says("      NAMED: flexibility");
+    assert_says("; rejected: it leaves 31 of chi2");
+    assert_says("1 more with --verbose");
+    assert_says("  core.E               1.168 (1.144 ... 1.191) e+11 Pa    1.146 (1.123 ... 1.169) e+11 Pa      -1.9");
+    assert_says("joint, flexibility [rad/(N.m)]: left|core 7.1e-11; core|right 6.4e-11");
+    assert_says("added_mass, mass [kg]: 0.11 at z 2.03 m (worst place 9.6)");
+    assert_says("no size within physical bounds would show: stiffness right");
+    assert_silent("nan");
+    assert_silent("modes held out by the deck");
+    int lines = 0;
+    for (const char *c = screen; *c; c++)
+        lines += *c == '\n';
+    assert_in_range(lines, 40, 78);
+}
+
+static void what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause(void **state)
+{
+    (void)state;
+    fill_named();
+    show(0, 100);
+    const char *sensors = strstr(screen, "\n  sensors"), *acts = strstr(screen, "\n  misfit acts "),
+               *mark = strstr(screen, "^ joint");
+    assert_true(sensors && acts && mark);
+    const char *begin = mark;
+    while (begin[-1] != '\n')
+        begin--;
+    ptrdiff_t column = mark - begin;
+    assert_in_range(column - 14, 58, 60); /* 1.40 of 2.03 m on 86 columns */
+    assert_in_range(strchr(acts + 14, '@') - acts - 1, column - 4, column);
+    assert_in_range(strchr(sensors, '4') - sensors - 1, column - 3, column + 3);
+}
+
+static void every_case_stays_within_its_columns(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < CASES; i++)
+        for (int width = 100; width <= 120; width += 10)
+            for (int verbose = 0; verbose < 2; verbose++) {
+                fills[i]();
+                show(verbose, width);
+                for (char *line = strtok(screen, "\n"); line; line = strtok(NULL, "\n"))
+                    if (strlen(line) > (size_t)width)
+                        fail_msg("case %zu, %zu columns of %d: %s", i, strlen(line), width, line);
+            }
+}
+
+static void each_verdict_says_its_own(void **state)
+{
+    (void)state;
+    fill_adequate();
+    show(0, 100);
+    assert_says("VERDICT  ADEQUATE");
+    assert_says("misfits so: 0.37\n");
+    assert_says("QUALITY  of the base model; nothing is added to it");
+    assert_silent("YOUR FIT TODAY");
+    assert_silent("->");
+    assert_silent("misfit acts"); /* it is noise */
+    assert_silent("size and place");
+    fill_ambiguous();
+    show(0, 100);
+    assert_says("VERDICT  AMBIGUOUS");
+    assert_says("to settle it: measure the shapes at 1.30");
+    assert_says("      POSSIBLE: flexibility");
+    assert_says("  possible    ");
+    fill_unexplained();
+    show(0, 100);
+    assert_says("VERDICT  UNEXPLAINED");
+    assert_says("what is left is more than noise");
+    assert_silent("\n  * ");
+}
+
+static void what_is_absent_is_left_away(void **state)
+{
+    (void)state;
+    without_shapes();
+    show(0, 100);
+    assert_says("frequencies 0.1 % (the deck states none: assumed)");
+    assert_says("The deck states no noise for all of the data");
+    assert_silent("\n  sensors ");
+    assert_silent("smallest NCO");
+    nothing_to_identify();
+    show(0, 100);
+    assert_says("; nothing to identify");
+    assert_silent("95 % interval)\n  core.E");
+    everything_nan();
+    show(1, 100);
+    assert_silent("smallest NCO");
+    assert_says("no chance can be stated");
+    assert_says("(no interval)");
+    interrupted_at_once();
+    show(1, 100);
+    assert_says("VERDICT  NONE");
+    assert_says("INTERRUPTED");
+    assert_silent("EVIDENCE");
+}
+
+static void verbose_shows_all_candidates_and_the_time(void **state)
+{
+    (void)state;
+    fill_named();
+    show(1, 100);
+    assert_says("added_mass ");
+    assert_silent("more with --verbose");
+    assert_says("base fit 0.04 s, refits 1.3 s");
+}
+
+/* ------------------------------------------------------------------------------------------------ JSON */
+
+static const cJSON *get(const cJSON *json, const char *path)
+{
+    char list[256], *rest = NULL;
+    (void)snprintf(list, sizeof list, "%s", path);
+    for (char *key = strtok_r(list, "/", &rest); key; key = strtok_r(NULL, "/", &rest)) {
+        json = *key >= '0' && *key <= '9' ? cJSON_GetArrayItem(json, atoi(key)) : cJSON_GetObjectItemCaseSensitive(json, key);
+        if (!json)
+            print_error("no %s of %s\n", key, path);
+        assert_non_null(json);
+    }
+    return json;
+}
+
+static cJSON *json_of(void)
+{
+    char *text = json_diagnose(&provenance, &s.deck, &s.d, &notes);
+    assert_non_null(text);
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "inf,"));
+    cJSON *json = cJSON_ParseWithOpts(text, NULL, 1);
+    json_free(text);
+    assert_true(cJSON_IsObject(json));
+    return json;
+}
+
+static void json_of_every_case_has_the_keys_of_the_interface(void **state)
+{
+    (void)state;
+    static const char keys[] =
+        "schema command deck interrupted verdict/kind verdict/adequate_after verdict/p_value verdict/causes verdict/alternatives "
+        "verdict/next_measurement verdict/sentence data_findings numerical_findings candidates rounds "
+        "gain/frequency_rms_percent/before gain/frequency_max_percent/after gain/shape_rms/after gain/chi2_per_dof/before "
+        "gain/holdout_frequency_rms_percent/before gain/holdout_shape_rms/before gain/mode_out_frequency_rms_percent/after "
+        "gain/sensor_out_shape_rms/after gain/parameters localisation detectable noise/frequency_assumed modes_standardised "
+        "sensors today base extended steps warnings";
+    for (size_t i = 0; i < CASES; i++) {
+        char list[sizeof keys], *rest = NULL;
+        memcpy(list, keys, sizeof keys);
+        fills[i]();
+        cJSON *json = json_of();
+        for (char *key = strtok_r(list, " ", &rest); key; key = strtok_r(NULL, " ", &rest))
+            (void)get(json, key);
+        cJSON_Delete(json);
+    }
+}
+
+static void json_holds_what_the_structs_hold(void **state)
+{
+    (void)state;
+    fill_named();
+    cJSON *json = json_of();
+    assert_string_equal(get(json, "verdict/kind")->valuestring, "named");
+    assert_string_equal(get(json, "verdict/causes/0/id")->valuestring, "joint");
+    assert_string_equal(get(json, "verdict/causes/0/target")->valuestring, "core|right");
+    assert_close(get(json, "verdict/causes/0/parameters/0/value")->valuedouble, 2.13e-10, 1e-12, 0);
+    assert_close(get(json, "verdict/causes/0/parameters/0/ci95/1")->valuedouble, 1.1 * 2.13e-10, 1e-12, 0);
+    assert_int_equal(cJSON_GetArraySize(get(json, "candidates")), 4);
+    assert_int_equal(get(json, "candidates/1/round")->valueint, 1);
+    assert_string_equal(get(json, "candidates/1/variant")->valuestring, "GAUSS");
+    assert_true(cJSON_IsNull(get(json, "candidates/3/chi2")));
+    assert_true(cJSON_IsNull(get(json, "candidates/0/rejected_because")));
+    assert_int_equal(cJSON_GetArraySize(get(json, "gain/parameters")), 3);
+    assert_true(cJSON_IsNull(get(json, "gain/parameters/2/before")));
+    assert_close(get(json, "gain/parameters/2/after")->valuedouble, 2.13e-10, 1e-12, 0);
+    assert_int_equal(get(json, "data_findings/0/sensors/0")->valueint, 23);
+    assert_string_equal(get(json, "today/functional")->valuestring, "HYBRID");
+    assert_string_equal(get(json, "base/functional")->valuestring, "LIKELIHOOD");
+    assert_int_equal(cJSON_GetArraySize(get(json, "extended/parameters")), 3);
+    assert_true(cJSON_IsTrue(get(json, "detectable/4/beyond")));
+    cJSON_Delete(json);
+    fill_ambiguous();
+    json = json_of();
+    assert_string_equal(get(json, "verdict/alternatives/1")->valuestring, "stiffness_local");
+    assert_true(cJSON_IsNull(get(json, "extended")));
+    cJSON_Delete(json);
+    interrupted_at_once();
+    json = json_of();
+    assert_true(cJSON_IsNull(get(json, "verdict/kind")) && cJSON_IsNull(get(json, "base")));
+    cJSON_Delete(json);
+}
+
+static long until_failure, in_use;
+
+static void *scarce(size_t bytes)
+{
+    if (until_failure > 0 && --until_failure == 0)
+        return NULL;
+    in_use++;
+    return malloc(bytes);
+}
+
+static void release(void *block)
+{
+    in_use -= block != NULL;
+    free(block);
+}
+
+static void json_is_whole_or_not_there(void **state)
+{
+    (void)state;
+    cJSON_Hooks hooks = {scarce, release};
+    cJSON_InitHooks(&hooks);
+    fill_named();
+    long n = 1, whole = 0;
+    for (;; n += n < 200 ? 1 : 37) {
+        until_failure = n;
+        in_use = 0;
+        char *text = json_diagnose(&provenance, &s.deck, &s.d, &notes);
+        if (text) {
+            assert_true(until_failure > 0); /* nothing was refused */
+            json_free(text);
+            whole = 1;
+        }
+        assert_int_equal(in_use, 0);
+        if (whole)
+            break;
+    }
+    cJSON_InitHooks(NULL);
+    assert_true(n > 1000);
+}
+
+/* ------------------------------------------------------------------------------------------------ the command */
+
+static int run(const char *arguments)
+{
+    char command[2048];
+    (void)snprintf(command, sizeof command, "%s %s 2>&1", ROTID_PROGRAM, arguments);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    size_t length = fread(screen, 1, sizeof screen - 1, pipe);
+    screen[length] = 0;
+    int status = pclose(pipe);
+    return status < 0 ? -1 : status / 256;
+}
+
+static void no_option_lets_a_file_of_the_user_be_lost(void **state)
+{
+    (void)state;
+#define DECK ROTID_SOURCE_DIR "/input/solid_steel.inp"
+    static const char *const wrong[][2] = {
+        {"diagnose " DECK " --extended " DECK, "is the deck itself"},
+        {"diagnose " DECK " --json " DECK, "is the deck itself"},
+        {"diagnose " DECK " --extended /tmp/none.x --json /tmp/../tmp/none.x", "is the file of --json as well"},
+        {"diagnose " DECK " --extended -", "--extended -: expected a file"},
+        {"diagnose " DECK " --replicates 3", "--replicates 3: expected a whole number from 100"},
+        {"identify " DECK " --extended /tmp/none.x", "--extended is an option of diagnose alone"},
+        {"check " DECK " --replicates 500", "--replicates is an option of diagnose alone"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(run(wrong[i][0]), 2);
+        assert_says(wrong[i][1]);
+    }
+    assert_int_equal(run("--help"), 0);
+    assert_says("--extended FILE");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_named_cause_is_read_from_top_to_bottom),
+        cmocka_unit_test(what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause),
+        cmocka_unit_test(every_case_stays_within_its_columns),
+        cmocka_unit_test(each_verdict_says_its_own),
+        cmocka_unit_test(what_is_absent_is_left_away),
+        cmocka_unit_test(verbose_shows_all_candidates_and_the_time),
+        cmocka_unit_test(json_of_every_case_has_the_keys_of_the_interface),
+        cmocka_unit_test(json_holds_what_the_structs_hold),
+        cmocka_unit_test(json_is_whole_or_not_there),
+        cmocka_unit_test(no_option_lets_a_file_of_the_user_be_lost),
+    };
+    return cmocka_run_group_tests(tests, open_test_pool, close_test_pool);
+}
