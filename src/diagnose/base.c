@@ -7,6 +7,7 @@
 
 #define MOST_CLEANED 3 /* passes of finding faults of channels */
 #define MOST_REFINED 3 /* times the mesh is halved */
+#define NEGLIGIBLE   0.1 /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
 
 static int add_numerical(struct engine *engine, const char *id, int count, const double *error, const char *text)
 {
@@ -43,10 +44,9 @@ static double against_noise(const struct engine *engine, const double *error, in
 }
 
 /* Elements twice as many: the error of the mesh is taken out before anything else is blamed. */
-static int refine_mesh(struct engine *engine)
+static int refine_mesh(struct pool *pool, struct rotor *rotor)
 {
-    struct rotor *rotor = &engine->job.rotor;
-    struct segment *segment = POOL_ARRAY(engine->pool, struct segment, rotor->nsegment);
+    struct segment *segment = POOL_ARRAY(pool, struct segment, rotor->nsegment);
     if (!segment)
         return ROTID_ERROR_MEMORY;
     for (int s = 0; s < rotor->nsegment; s++) {
@@ -80,17 +80,17 @@ static int fit_base(struct engine *engine, int say)
     struct message_list quiet;
     message_open(&quiet, engine->pool);
     rotid_fit_free(out->base.fit);
-    out->base.fit = NULL;
+    out->base.fit = engine->fit = NULL;
     int status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
     for (size_t i = 0; i < quiet.count && (say || status); i++)
         message_add(engine->notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
     if (status)
         return status;
+    engine->fit = out->base.fit;
     if (out->base.fit->status == ROTID_STOP_CANCELLED)
         return ROTID_STOP_CANCELLED;
     engine->number = out->base.compared.number;
     engine->holdout = engine->job.holdout;
-    engine->fit = out->base.fit;
     out->job = engine->job;
     return job_started_at(engine->pool, &engine->job, engine->fit->x, &engine->job);
 }
@@ -144,7 +144,7 @@ int base_prepare(struct engine *engine)
                                                "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer one is judged",
                                                at + 1, s->mesh_error_percent[at], ratio));
         if (!status)
-            status = refine_mesh(engine);
+            status = refine_mesh(engine->pool, &engine->job.rotor);
         if (!status)
             status = fit_base(engine, 0);
     }
@@ -188,4 +188,13 @@ int base_residuals(struct engine *engine)
     for (ptrdiff_t i = 0; i < (ptrdiff_t)nsensor * job->nmode && shapes && !isfinite(out->shape_noise); i++)
         out->shape_noise = job->shape_std[i];
     return ROTID_OK;
+}
+
+int base_refine(struct engine *engine, struct job *job, const struct spectrum *spectrum)
+{
+    int at, status = ROTID_OK;
+    double ratio = against_noise(engine, spectrum->mesh_error_percent, spectrum->count, &at);
+    for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status; pass++, ratio /= 4)
+        status = refine_mesh(engine->pool, &job->rotor);
+    return status;
 }

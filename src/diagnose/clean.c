@@ -10,6 +10,9 @@
 
 #define MOST_FAULTS 8
 #define FALSE_ALARM 0.005
+#define MUCH_LESS   0.7  /* of the stated noise */
+#define SHARED      0.35 /* correlation of neighbours; 0.1 is the error of its estimate, 0.2 what a smooth misfit adds */
+#define SLIGHT      0.05 /* excess of the smooth part of the noise that changes no verdict */
 
 int data_add_finding(struct engine *engine, const struct data_finding *finding)
 {
@@ -119,36 +122,87 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
     return correct(engine, &finding, &correction);
 }
 
-static int correct_noise(struct engine *engine, const struct noise_estimate *noise)
+/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. */
+static int is_misstated(const struct noise_estimate *noise)
 {
-    double factor = noise->coloured ? fmax(1, noise->smooth_factor) : noise->factor;
-    struct data_finding finding = {
-        .cause = catalogue_find("noise_level"), .block = "SHAPE", .value = factor, .std = noise->std * factor, .chi2_drop = NAN};
-    finding.text =
-        noise->coloured
-            ? pool_format(engine->pool,
-                          "neighbouring sensors share their noise: the smooth part of it is %.2f times the stated level, which "
-                          "is used",
-                          factor)
-            : pool_format(engine->pool, "the noise of the shapes is %.2f times the stated one, which is used", factor);
+    return noise->usable && noise->misstated && (noise->factor < MUCH_LESS || noise->factor > 1);
+}
+
+static int correct_noise(struct engine *engine, double factor, double std, const char *text)
+{
+    const struct data_finding finding = {
+        .cause = catalogue_find("noise_level"), .block = "SHAPE", .value = factor, .std = std, .chi2_drop = NAN, .text = text};
     const struct correction correction = {.block = "SHAPE", .value = factor};
     return correct(engine, &finding, &correction);
 }
 
-/* The level of the noise by what no cause can produce. */
-static int check_noise(struct engine *engine, const struct scan *scan, struct noise_estimate *noise)
+/* The level of the noise by what no cause can produce. r [nrow of the scan] is the residual of any model. */
+static int check_noise(struct engine *engine, const struct scan *scan, const double *r, struct noise_estimate *noise)
 {
     int first = scan->nfrequency, rows = scan->nrow - first, columns = scan->nbasis + scan->nitem;
     *noise = (struct noise_estimate){.factor = 1};
-    double *part = POOL_ARRAY(engine->pool, double, (size_t)rows *(size_t)columns);
+    double *part = POOL_ARRAY(engine->pool, double, (size_t)(rows > 0 ? rows : 0) * (size_t)columns);
     if (!part)
         return ROTID_ERROR_MEMORY;
-    for (int j = 0; j < columns && rows > 0; j++)
-        memcpy(part + (ptrdiff_t)j * rows,
-               (j < scan->nbasis ? scan->basis + (ptrdiff_t)j * scan->nrow : scan->column + (ptrdiff_t)(j - scan->nbasis) * scan->nrow) +
-                   first,
-               (size_t)rows * sizeof *part);
-    return rows > 0 ? noise_check(engine->pool, rows, columns, scan->r + first, part, noise) : ROTID_OK;
+    for (int j = 0; j < columns && rows > 0; j++) {
+        const double *column = j < scan->nbasis ? scan->basis + (ptrdiff_t)j * scan->nrow
+                                                : scan->column + (ptrdiff_t)(j - scan->nbasis) * scan->nrow;
+        memcpy(part + (ptrdiff_t)j * rows, column + first, (size_t)rows * sizeof *part);
+    }
+    return rows > 0 ? noise_check(engine->pool, rows, columns, r + first, part, noise) : ROTID_OK;
+}
+
+/* Correlation between neighbours from differences, which a smooth misfit hardly touches: with noise of correlation rho the second
+ * differences have (3 - rho) times the variance of the first ones. NaN where there are too few. */
+static double neighbour_correlation(const struct engine *engine, const double *r)
+{
+    const struct job *job = &engine->job;
+    double first = 0, second = 0;
+    int nsensor = job->rotor.nsensor, row = 0, nfirst = 0, nsecond = 0;
+    for (int k = 0; k < job->nmode; k++)
+        row += !engine->holdout[k];
+    for (int k = 0; k < job->nmode; k++) {
+        int run = 0; /* neighbours in a row that were measured */
+        for (int s = 0; s < nsensor && !engine->holdout[k]; s++) {
+            if (!isfinite(job->shape[s + (ptrdiff_t)k * nsensor])) {
+                run = 0;
+                continue;
+            }
+            double d1 = run > 0 ? r[row] - r[row - 1] : 0, d2 = run > 1 ? r[row] - 2 * r[row - 1] + r[row - 2] : 0;
+            first += d1 * d1;
+            second += d2 * d2;
+            nfirst += run > 0;
+            nsecond += run > 1;
+            run++;
+            row++;
+        }
+    }
+    return nsecond > 50 && first > 0 ? 3 - second / nsecond / (first / nfirst) : NAN;
+}
+
+int data_colour(struct engine *engine, const struct scan *scan, const double *r, int *changed)
+{
+    struct noise_estimate noise;
+    const struct job *job = &engine->job;
+    *changed = 0;
+    if (engine->coloured || !job->shape || !job_knows_shape_noise(job))
+        return ROTID_OK;
+    int status = check_noise(engine, scan, r, &noise);
+    if (status || !noise.usable || !noise.coloured || !(noise.smooth_factor > 1 + SLIGHT) ||
+        !(neighbour_correlation(engine, r) > SHARED))
+        return status;
+    engine->coloured = *changed = 1;
+    double *base = engine->out->job.shape_std; /* another array where a cause has added its discrepancy to the judged one */
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)job->rotor.nsensor * job->nmode && base != job->shape_std; i++)
+        base[i] *= noise.smooth_factor;
+    status = correct_noise(engine, noise.smooth_factor, NAN,
+                           pool_format(engine->pool,
+                                       "neighbouring sensors share their noise: its smooth part is %.2f times the stated level, "
+                                       "which is used",
+                                       noise.smooth_factor));
+    engine->out->job.correction = job->correction;
+    engine->out->job.ncorrection = job->ncorrection;
+    return status;
 }
 
 int data_clean(struct engine *engine, const struct scan *scan, int *changed)
@@ -158,7 +212,7 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
     *changed = 0;
     if (!job->shape || !job_knows_shape_noise(job))
         return ROTID_OK;
-    int status = check_noise(engine, scan, &noise), nfault = 0;
+    int status = check_noise(engine, scan, scan->r, &noise), nfault = 0;
     struct columns columns;
     struct shape_data data;
     struct sensor_fault fault[MOST_FAULTS];
@@ -168,7 +222,7 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
         status = shape_data(engine, &columns, &data);
     if (status)
         return status;
-    if (noise.usable && noise.misstated) { /* the faults are judged by the noise that is there */
+    if (is_misstated(&noise)) { /* the faults are judged by the noise that is there */
         double *std = POOL_ARRAY(engine->pool, double, (size_t)data.nsensor *(size_t)data.nmode);
         if (!std)
             return ROTID_ERROR_MEMORY;
@@ -188,8 +242,10 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
         status = correct_fault(engine, &now);
         *changed = 1;
     }
-    if (!status && noise.usable && (noise.misstated || noise.coloured)) {
-        status = correct_noise(engine, &noise);
+    if (!status && is_misstated(&noise)) {
+        status = correct_noise(engine, noise.factor, noise.std,
+                               pool_format(engine->pool, "the noise of the shapes is %.2f times the stated one, which is used",
+                                           noise.factor));
         *changed = 1;
     }
     return status;

@@ -6,6 +6,7 @@
 #include "diagnose/leave_out.h"
 #include "fit/quantile.h"
 
+#define LISTED   4    /* causes in a sentence: more stand in the table */
 #define WIDE     0.15 /* of a parameter, half its interval: wider says little about a modulus */
 #define SEPARATE 0.7  /* correlation beyond which two parameters are known by a combination only */
 
@@ -44,8 +45,8 @@ static void settle_causes(struct diagnosis *out)
                 if (q->kind != PARAMETER_EFFECT || q->index != e)
                     continue;
                 cause->std[q->component] = fit->std[p];
-                cause->ci_lower[q->component] = fit->ci_lower[p];
-                cause->ci_upper[q->component] = fit->ci_upper[p];
+                cause->ci_lower[q->component] = fmax(fit->ci_lower[p], job->bounds[p].lower);
+                cause->ci_upper[q->component] = fmin(fit->ci_upper[p], job->bounds[p].upper);
             }
         }
     }
@@ -71,11 +72,12 @@ static const char *describe(struct pool *pool, const struct candidate *c)
 static const char *list(struct pool *pool, int count, const struct candidate *c)
 {
     const char *text = "";
-    for (int i = 0; i < count && text; i++) {
+    int shown = count < LISTED ? count : LISTED;
+    for (int i = 0; i < shown && text; i++) {
         const char *one = describe(pool, &c[i]);
         text = one ? pool_format(pool, "%s%s%s", text, !i ? "" : i + 1 == count ? " and " : ", ", one) : NULL;
     }
-    return text;
+    return text && count > shown ? pool_format(pool, "%s and %d more", text, count - shown) : text;
 }
 
 /* The parameter that moves most with p, -1 where none does by more than SEPARATE. */
@@ -99,7 +101,7 @@ static const char *open_parameters(struct engine *engine)
     const char *text = "";
     for (int p = 0; p < fit->n && p < out->job.nparameter && text; p++) {
         double half = (fit->ci_upper[p] - fit->ci_lower[p]) / 2;
-        if (fit->identifiable[p] && !(half > WIDE * fabs(fit->x[p])))
+        if (!isfinite(half) || (fit->identifiable[p] && !(half > WIDE * fabs(fit->x[p])))) /* no interval: it lies at a bound */
             continue;
         int partner = partner_of(fit, p);
         text = pool_format(engine->pool, "%s The data do not determine %s%s%s: its 95 %% interval is %.3g to %.3g %s.", text,
@@ -143,16 +145,40 @@ static const char *verdict_sentence(struct engine *engine)
     }
 }
 
+/* The base again on a mesh without error: its moduli and intervals are results. */
+static int refine_base(struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    int status = base_refine(engine, &out->job, &out->base.spectrum);
+    if (status || out->job.rotor.segment == engine->job.rotor.segment)
+        return status;
+    struct identification finer;
+    struct message_list quiet;
+    message_open(&quiet, engine->pool);
+    status = identify_run(engine->pool, &out->job, 0, engine->environment, &quiet, &finer);
+    if (status)
+        return status;
+    if (engine->fit == out->base.fit)
+        engine->fit = finer.fit;
+    rotid_fit_free(out->base.fit);
+    out->base = finer;
+    return ROTID_OK;
+}
+
 int conclude(struct engine *engine, const struct round_result *last)
 {
     struct diagnosis *out = engine->out;
     int status = engine_stage(engine, "final model, causes", out->ncause);
     if (!status)
+        status = refine_base(engine);
+    if (!status)
         status = quality(engine, &out->job, &out->base, &out->before);
     out->after = out->before;
     if (!status && out->ncause) {
         out->extended_job = engine->job;
-        out->extended_job.frequency_std = engine->stated_std;
+        out->extended_job.frequency_std = out->job.frequency_std; /* as stated: the discrepancy of a cause judged later rounds */
+        out->extended_job.shape_std = out->job.shape_std;
+        out->extended_job.rotor.segment = out->job.rotor.segment;
         struct message_list quiet;
         message_open(&quiet, engine->pool);
         status = identify_run(engine->pool, &out->extended_job, 0, engine->environment, &quiet, &out->extended);

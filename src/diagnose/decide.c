@@ -57,8 +57,14 @@ static double frequency_noise(const struct job *job)
     return noise;
 }
 
-static const char *reason(const struct engine *engine, const struct before *before, const struct diagnosis_round *round,
-                          const struct candidate *c)
+static const char *chance(struct pool *pool, const struct candidate *c)
+{
+    return pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value);
+}
+
+/* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than noise,
+ * and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. */
+static const char *reason(const struct engine *engine, const struct before *before, const struct candidate *c)
 {
     struct pool *pool = engine->pool;
     if (!c->refitted)
@@ -67,8 +73,6 @@ static const char *reason(const struct engine *engine, const struct before *befo
         return "no fit of it converged";
     if (c->at_bound)
         return pool_format(pool, "its size ends at the physical bound");
-    if (!(c->chi2_drop > round->threshold))
-        return pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value);
     if (isfinite(c->holdout_rms) && c->holdout_rms > WORSE * before->holdout_rms)
         return pool_format(pool, "modes held out get worse: %.2g %% after %.2g %%", c->holdout_rms, before->holdout_rms);
     int worse = isfinite(c->mode_out_rms) && c->mode_out_rms > WORSE * before->mode_out_rms,
@@ -113,8 +117,8 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     double left_frequency = 0, predicts = INFINITY, noise = frequency_noise(&engine->job);
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
-        c->rejected_because = reason(engine, before, round, c);
-        if (!c->rejected_because && isfinite(c->holdout_rms))
+        c->rejected_because = reason(engine, before, c);
+        if (!c->rejected_because && c->chi2_drop > round->threshold && isfinite(c->holdout_rms))
             predicts = fmin(predicts, c->holdout_rms);
     }
     for (int i = 0; i < round->ncandidate; i++) {
@@ -123,7 +127,8 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         if (!c->rejected_because && isfinite(c->holdout_rms) && predicts < BETTER * c->holdout_rms && more > noise * noise)
             c->rejected_because =
                 pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)", c->holdout_rms, predicts);
-        if (!c->rejected_because && (!best || candidate_score(c) < candidate_score(best))) {
+        if (!c->rejected_because && c->chi2_drop > round->threshold &&
+            (!best || candidate_score(c) < candidate_score(best))) {
             best = c;
             left_frequency = c->chi2_frequency;
         }
@@ -132,27 +137,33 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     double limit = best ? candidate_score(best) + round->required_margin : 0;
     const char *name = best ? best->cause->id : "";
     round->nset = 0;
-    int refused = 0; /* something refused for its size explains the data much better than what is left */
+    int refused = 0; /* something refused for its size explains the data better than what is left */
     for (int i = 0; i < round->ncandidate && best; i++) {
         struct candidate *c = &round->candidate[i];
-        if (c->refitted && c->at_bound && candidate_score(c) < candidate_score(best) - round->required_margin)
+        if (c->refitted && c->at_bound && candidate_score(c) < candidate_score(best))
             refused = 1;
         if (c->rejected_because)
             continue;
-        /* parsimony ranks, but it does not shut out what fits as well: the truth may need its parameters */
-        if (candidate_score(c) <= limit || c->chi2 <= best->chi2 + round->required_margin)
+        if (candidate_score(c) <= limit)
             round->nset++;
+        else if (!(c->chi2_drop > round->threshold))
+            c->rejected_because = chance(pool, c);
         else
             c->rejected_because = pool_format(pool, "loses to %s by %.3g", name, candidate_score(c) - candidate_score(best));
     }
+    for (int i = 0; i < round->ncandidate && !best; i++)
+        if (!round->candidate[i].rejected_because)
+            round->candidate[i].rejected_because = chance(pool, &round->candidate[i]);
     for (int i = 0; i < round->ncandidate; i++) /* the set first, in the order of the scores */
         if (!round->candidate[i].rejected_because && round->candidate[i].refitted)
             round->candidate[i].refitted = 2;
     qsort(round->candidate, (size_t)round->ncandidate, sizeof *round->candidate, compare);
     for (int i = 0; i < round->ncandidate; i++)
         round->candidate[i].refitted = round->candidate[i].refitted != 0;
+    /* the model as it is counts as one more rival, which the best of many passes by chance up to the threshold */
+    int weak = round->nset && !(round->candidate[0].chi2_drop > round->threshold + round->required_margin);
     round->kind = round->nset == 0                                           ? VERDICT_UNEXPLAINED
-                  : round->nset > 1 || !engine->confident || refused         ? VERDICT_AMBIGUOUS
+                  : round->nset > 1 || !engine->confident || refused || weak ? VERDICT_AMBIGUOUS
                   : round->candidate[0].cause->class != CAUSE_PHYSICAL       ? VERDICT_UNEXPLAINED
                                                                              : VERDICT_NAMED;
     return ROTID_OK;

@@ -82,7 +82,6 @@ static int run(struct engine *engine, const struct job *job, struct round_result
         status = base_note_reduction(engine);
     if (!status)
         status = base_residuals(engine);
-    engine->stated_std = engine->job.frequency_std;
     engine_step(engine, "base");
     if (!status)
         status = run_rounds(engine, last);

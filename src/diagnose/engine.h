@@ -19,7 +19,7 @@ struct engine {
     rotid_fit_result *fit; /* of that job */
     double mode_out_rms, mode_out_shape; /* of that job, NaN where unknown: modes left out in turn, percent and shape */
     int confident;                       /* the data are enough for a name */
-    double *stated_std; /* [nmode] of the frequencies, before the discrepancy of a cause was added */
+    int coloured;                        /* the noise of the shapes was raised for its smooth part */
     double clock;
 };
 
@@ -38,11 +38,17 @@ int data_add_finding(struct engine *engine, const struct data_finding *finding);
 
 /* After the base fit: faults of channels and the level of the noise, taken out of the judged data; *changed when there were any. */
 int data_clean(struct engine *engine, const struct scan *scan, int *changed);
+/* Noise that neighbouring sensors share looks like physics to the scan. r [nrow] is the residual that the best candidate leaves:
+ * where its smooth part is still too large, the noise of the shapes is raised to that, and the round has to be repeated. */
+int data_colour(struct engine *engine, const struct scan *scan, const double *r, int *changed);
 
 /* ---- base.c: what the rounds start from */
 
 /* Fit, faults of the data taken out, mesh fine enough. ROTID_ERROR_ARGUMENT where nothing is left to judge by. */
 int base_prepare(struct engine *engine);
+/* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to be
+ * a cause still moves a modulus by part of its interval. */
+int base_refine(struct engine *engine, struct job *job, const struct spectrum *spectrum);
 /* What the condensation of the user's own fit costs. */
 int base_note_reduction(struct engine *engine);
 /* Residuals of the base by mode and by sensor. */
@@ -64,8 +70,9 @@ void round_free(struct round_result *result);
 
 /* ---- decide.c */
 
-/* Penalty of a parameter in chi2: what the best of its values gains from noise alone. */
-#define PARAMETER_PENALTY 4.0
+/* Penalty of a parameter in chi2. Two more of them, a place and a width, cost as much as the least margin: they let a zone follow
+ * almost anything, and a cause without them is named where the zone fits no better. */
+#define PARAMETER_PENALTY 3.0
 /* Least margin of a name, in chi2 with those penalties: noise turns a rival into the better one by so much once in a hundred times
  * at most, however well it mimics (the difference of two fits at distance d is normal with mean d^2 and deviation 2 d). */
 #define LEAST_MARGIN 6.0

@@ -54,10 +54,33 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
-/* Orthonormal basis [nrow * n] of the columns of the Jacobian; returns their number. */
-static int orthonormalise(int nrow, int n, const double *jacobian, double *basis)
+/* Directions of the scales of the fitted modes into the first columns of the basis, of unit length: they lie in different rows.
+ * Residual plus measured shape is the predicted one. Returns their number. */
+static int scale_directions(const struct job *job, const int *holdout, const rotid_fit_result *fit, int next, double *basis)
 {
-    int count = 0;
+    int nsensor = job->rotor.nsensor, count = 0;
+    for (int k = 0; k < job->nmode; k++) {
+        const double *shape = job->shape + (ptrdiff_t)k * nsensor, *std = job->shape_std + (ptrdiff_t)k * nsensor;
+        double *q = basis + (ptrdiff_t)count * fit->nresidual, largest = 0, square = 0;
+        for (int s = 0; s < nsensor; s++)
+            largest = isfinite(shape[s]) ? fmax(largest, fabs(shape[s])) : largest;
+        for (int s = 0; s < nsensor && !holdout[k]; s++) {
+            if (!isfinite(shape[s]))
+                continue;
+            q[next] = fit->r[next] + shape[s] / (largest * std[s]);
+            square += q[next] * q[next];
+            next++;
+        }
+        for (int i = 0; i < fit->nresidual && square > 0; i++)
+            q[i] /= sqrt(square);
+        count += square > 0;
+    }
+    return count;
+}
+
+/* Adds the columns of the Jacobian to the `count` of an orthonormal basis; returns how many there are then. */
+static int orthonormalise(int nrow, int n, const double *jacobian, int count, double *basis)
+{
     for (int p = 0; p < n; p++) {
         double *q = basis + (ptrdiff_t)count * nrow;
         memcpy(q, jacobian + (ptrdiff_t)p * nrow, (size_t)nrow * sizeof *q);
@@ -88,14 +111,15 @@ int sensor_out(struct pool *pool, const struct job *job, const int *holdout, con
     if (!job->shape || !job_knows_shape_noise(job) || nrow <= nfitted || nfitted < 1)
         return ROTID_OK;
     int *row = POOL_ARRAY(pool, int, (size_t)nfitted *(size_t)nsensor), *at = POOL_ARRAY(pool, int, nfitted);
-    double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + 1)), *right = POOL_ARRAY(pool, double, nfitted);
+    double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + nfitted + 1)), *right = POOL_ARRAY(pool, double, nfitted);
     struct symmetric block;
     if (!row || !at || !basis || !right)
         return ROTID_ERROR_MEMORY;
     status = symmetric_new(pool, nfitted, &block);
     if (status)
         return status;
-    int rank = orthonormalise(nrow, fit->n, fit->jacobian, basis), next = nfitted;
+    int rank = scale_directions(job, holdout, fit, nfitted, basis), next = nfitted;
+    rank = orthonormalise(nrow, fit->n, fit->jacobian, rank, basis);
     for (int k = 0, m = 0; k < job->nmode; k++) {
         for (int s = 0; s < nsensor && !holdout[k]; s++)
             row[m + (ptrdiff_t)s * nfitted] = isfinite(job->shape[s + (ptrdiff_t)k * nsensor]) ? next++ : -1;

@@ -34,9 +34,10 @@ int job_started_at(struct pool *pool, const struct job *job, const double *x, st
     return ROTID_OK;
 }
 
-int job_with_effect(struct pool *pool, const struct job *job, const double *x, const struct effect *effect,
+int job_with_effect(struct pool *pool, const struct job *from, const double *x, const struct effect *effect,
                     const struct cause_kind *cause, const int *fixed, struct job *to)
 {
+    const struct job copy = *from, *job = &copy; /* `to` may be the same */
     const struct rotor *rotor = &job->rotor;
     int nown = job->nparameter, nnew = cause_parameters(effect), index = rotor->neffect;
     *to = *job;

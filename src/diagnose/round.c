@@ -82,6 +82,14 @@ static int run_refits(struct engine *engine, struct round_result *result)
     return status;
 }
 
+/* A bound at which the effect vanishes is none: a small size lies near it. */
+static int ends_at_bound(const rotid_parameter *bounds, double neutral, double x)
+{
+    double range = bounds->upper - bounds->lower, near = AT_BOUND * range;
+    return (x < bounds->lower + near && fabs(bounds->lower - neutral) > near) ||
+           (x > bounds->upper - near && fabs(bounds->upper - neutral) > near);
+}
+
 /* The likelihood interval of a place or width is no interval of its own where the size may be anything: std from the fit. */
 static void take_parameters(const struct refit *refit, int own, struct candidate *c)
 {
@@ -91,12 +99,10 @@ static void take_parameters(const struct refit *refit, int own, struct candidate
     for (int p = own; p < fit->n; p++) {
         int component = refit->job.parameter[p].component;
         c->std[component] = fit->std[p];
-        c->ci_lower[component] = fit->ci_lower[p];
-        c->ci_upper[component] = fit->ci_upper[p];
-        const rotid_parameter *bounds = &refit->job.bounds[p];
-        double near = AT_BOUND * (bounds->upper - bounds->lower);
+        c->ci_lower[component] = fmax(fit->ci_lower[p], refit->job.bounds[p].lower);
+        c->ci_upper[component] = fmin(fit->ci_upper[p], refit->job.bounds[p].upper);
         if (component == c->cause->size)
-            c->at_bound = fit->at_bound[p] || fit->x[p] < bounds->lower + near || fit->x[p] > bounds->upper - near;
+            c->at_bound = ends_at_bound(&refit->job.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
     }
 }
 
@@ -291,6 +297,27 @@ static int compare_refits(struct engine *engine, struct round_result *result, st
     return status ? status : decide(engine, &before, round);
 }
 
+/* Coloured noise, seen in what the best refit leaves; the round is then to be repeated with the noise raised. */
+static int check_colour(struct engine *engine, const struct round_result *result, int *changed)
+{
+    int best = -1;
+    *changed = 0;
+    for (int i = 0; i < result->nrefit; i++)
+        if (result->refit[i].fit && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))
+            best = i;
+    int status = best < 0 ? ROTID_OK : data_colour(engine, &result->scan, result->refit[best].fit->r, changed);
+    if (status || !*changed)
+        return status;
+    rotid_fit_result *fit = NULL;
+    status = refit_job(engine->pool, &engine->job, engine->number, engine->holdout, engine->environment, &fit);
+    if (status)
+        return status;
+    if (engine->fit != engine->out->base.fit)
+        rotid_fit_free(engine->fit);
+    engine->fit = fit;
+    return ROTID_OK;
+}
+
 /* The refit behind the first candidate. */
 static int find_winner(const struct round_result *result, const struct diagnosis_round *round)
 {
@@ -300,11 +327,12 @@ static int find_winner(const struct round_result *result, const struct diagnosis
     return -1;
 }
 
-int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
+static int run_once(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int *again)
 {
     struct pool *pool = engine->pool;
     *round = (struct diagnosis_round){0};
     *result = (struct round_result){.winner = -1};
+    *again = 0;
     int status = engine_stage(engine, "scan, round", engine->out->nround + 1);
     if (!status)
         status = scan_run(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan);
@@ -336,7 +364,10 @@ int round_run(struct engine *engine, struct diagnosis_round *round, struct round
         status = run_refits(engine, result);
     engine_step(engine, "refits");
     if (!status)
-        status = compare_refits(engine, result, round);
+        status = check_colour(engine, result, again);
+    if (status || *again)
+        return status;
+    status = compare_refits(engine, result, round);
     engine_step(engine, "held out");
     if (status)
         return status;
@@ -344,6 +375,15 @@ int round_run(struct engine *engine, struct diagnosis_round *round, struct round
         round->kind = VERDICT_ADEQUATE;
     result->winner = find_winner(result, round);
     return ROTID_OK;
+}
+
+int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
+{
+    int again, status = run_once(engine, round, result, &again);
+    if (status || !again)
+        return status;
+    round_free(result);
+    return run_once(engine, round, result, &again);
 }
 
 void round_free(struct round_result *result)

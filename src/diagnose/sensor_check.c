@@ -8,15 +8,23 @@
 
 /* With fewer sensors the neighbours cannot say what a sensor should read. */
 #define LEAST_SENSORS 8
+/* A likelihood ratio above 2 log(number of hypotheses/probability) is a false alarm with that probability at most, if the field
+ * is what it is taken to be. From few sensors that is hard to know: with eight of them 1.7 times as much is asked for. */
+#define FEW_SENSORS 7.0
+/* Sensors for which a bad neighbour is tried. */
+#define PAIR_TRIES 6
 /* What a higher noise must gain in log likelihood. */
 #define NOISE_MARGIN 5.0
+#define NOISE_STEP   1.4
+#define NOISE_MOST   6.0
 
 struct search {
     struct sensor_field field;
     struct suspect suspect;
     double threshold; /* of the score */
-    double *limit;    /* [n] */
-    double *work;     /* of local_physics */
+    double noise_factor;
+    double *limit, *left; /* [n] how suspicious a sensor is at most; -INFINITY once looked at */
+    double *work;         /* of local_physics */
 };
 
 static int sensors_left(const struct sensor_field *field)
@@ -31,12 +39,13 @@ static int sensors_left(const struct sensor_field *field)
     return left;
 }
 
-/* The best explanation of sensor s into *fault. Returns its score, or -INFINITY where it is certain to stay below `least`. */
+/* The best explanation of sensor s into *fault. Returns its score, or -INFINITY where it does not reach `least` or physics at
+ * that place does nearly as well. */
 static double judge(struct search *search, int s, double least, struct sensor_fault *fault)
 {
     struct explanation explanation[FAULT_KINDS];
     int best = 0, rival = -1;
-    double limit = suspect_open(&search->suspect, s);
+    double limit = suspect_open(&search->suspect, s), physics;
     if (limit < search->threshold / 2) /* of a swap, each of the two sensors must show half */
         return -INFINITY;
     suspect_explain(&search->suspect, limit < least, explanation);
@@ -56,8 +65,11 @@ static double judge(struct search *search, int s, double least, struct sensor_fa
                                    .alternative_kind = (enum sensor_fault_kind)rival};
     if (explanation[best].score <= least)
         return -INFINITY;
-    double physics = 2 * (local_physics(&search->field, s, search->work) - search->suspect.sound);
-    return explanation[best].score - fmax(physics, 0);
+    physics = local_physics(&search->field, s, search->work);
+    if (best == FAULT_SWAP)
+        physics = fmax(physics, local_physics(&search->field, fault->other, search->work));
+    physics = 2 * (physics - search->suspect.sound);
+    return explanation[best].score - fmax(physics, 0) > search->threshold ? explanation[best].score : -INFINITY;
 }
 
 static void take_out(struct sensor_field *field, const struct sensor_fault *fault)
@@ -68,53 +80,156 @@ static void take_out(struct sensor_field *field, const struct sensor_fault *faul
         field_mask(field, fault->sensor);
 }
 
+/* All sensors but those that `fault` names; fault number `but` stays in. */
+static int start_without(struct search *search, int nfault, const struct sensor_fault *fault, int but)
+{
+    if (field_start(&search->field, search->noise_factor))
+        return 1;
+    for (int j = 0; j < nfault; j++)
+        if (j != but)
+            take_out(&search->field, &fault[j]);
+    return 0;
+}
+
+/* judge, with all alternatives in *fault. Returns 1 where there is a fault. */
+static int certain(struct search *search, int s, struct sensor_fault *fault)
+{
+    if (!(judge(search, s, search->threshold, fault) > search->threshold))
+        return 0;
+    if (fault->kind == FAULT_SWAP || fault->kind == FAULT_DUPLICATE) /* other kinds may not have been looked at */
+        judge(search, s, -INFINITY, fault);
+    return 1;
+}
+
+static int largest(int n, const double *x)
+{
+    int best = 0;
+    for (int i = 1; i < n; i++)
+        if (x[i] > x[best])
+            best = i;
+    return best;
+}
+
+/* The worst fault of a sensor by itself into *fault. Returns 1 where there is one. */
+static int find_one(struct search *search, struct sensor_fault *fault)
+{
+    struct sensor_field *field = &search->field;
+    double worst = search->threshold;
+    int found = -1;
+    for (int s = 0; s < field->n; s++)
+        search->limit[s] = search->left[s] = field->masked[s] ? -INFINITY : suspect_open(&search->suspect, s);
+    for (;;) { /* the most suspicious first, so that the others need less work */
+        struct sensor_fault candidate;
+        int s = largest(field->n, search->left);
+        if (search->left[s] < search->threshold / 2)
+            break;
+        search->left[s] = -INFINITY;
+        double score = judge(search, s, worst, &candidate);
+        if (score > worst) {
+            worst = score;
+            found = s;
+            *fault = candidate;
+        }
+    }
+    if (found >= 0 && (fault->kind == FAULT_SWAP || fault->kind == FAULT_DUPLICATE)) /* other kinds may not have been looked at */
+        judge(search, found, -INFINITY, fault);
+    return found >= 0;
+}
+
+/* Sensors t and s by themselves, each with the other taken out, into fault[nfault] and the next. Returns 1 where both are bad. */
+static int both_bad(struct search *search, int t, int s, int nfault, struct sensor_fault *fault)
+{
+    struct sensor_fault *one = &fault[nfault], *two = &fault[nfault + 1];
+    if (!certain(search, s, one) || one->kind == FAULT_SWAP || start_without(search, nfault + 1, fault, -1))
+        return 0;
+    if (!certain(search, t, two) || two->kind == FAULT_SWAP)
+        return 0;
+    take_out(&search->field, two);
+    if (two->chi2_drop > one->chi2_drop) {
+        struct sensor_fault keep = *one;
+        *one = *two;
+        *two = keep;
+    }
+    return 1;
+}
+
+/* Two bad sensors spoil each other's prediction, most of all side by side. With one of the most suspicious taken out, its
+ * neighbours and the sensor that is most suspicious then have to show their fault, and the one taken out its own. */
+static int find_pair(struct search *search, int nfault, struct sensor_fault *fault)
+{
+    struct sensor_field *field = &search->field;
+    int n = field->n;
+    for (int try = 0; try < PAIR_TRIES; try++) {
+        int t = largest(n, search->limit), other[3] = {t - 1, t + 1, -1};
+        if (search->limit[t] < search->threshold)
+            break;
+        search->limit[t] = -INFINITY;
+        for (int i = 0; i < 3; i++) {
+            if (start_without(search, nfault, fault, -1))
+                return 0;
+            field_mask(field, t);
+            if (i == 2) {
+                for (int s = 0; s < n; s++)
+                    search->left[s] = field->masked[s] ? -INFINITY : suspect_open(&search->suspect, s);
+                other[2] = largest(n, search->left);
+            }
+            if (other[i] >= 0 && other[i] < n && !field->masked[other[i]] && both_bad(search, t, other[i], nfault, fault))
+                return 1;
+        }
+    }
+    return 0;
+}
+
 static void find_all(struct search *search, int most, struct sensor_fault *fault, int *nfault)
 {
     struct sensor_field *field = &search->field;
-    for (*nfault = 0; *nfault < most && sensors_left(field) >= LEAST_SENSORS; ++*nfault) {
-        double worst = search->threshold;
-        int found = -1;
-        for (int s = 0; s < field->n; s++)
-            search->limit[s] = field->masked[s] ? -INFINITY : suspect_open(&search->suspect, s);
-        for (;;) { /* the most suspicious first, so that the others need less work */
-            struct sensor_fault candidate;
-            int s = 0;
-            for (int i = 1; i < field->n; i++)
-                if (search->limit[i] > search->limit[s])
-                    s = i;
-            if (search->limit[s] < search->threshold / 2)
-                break;
-            search->limit[s] = -INFINITY;
-            double score = judge(search, s, worst, &candidate);
-            if (score > worst) {
-                worst = score;
-                found = s;
-            }
-        }
-        if (found < 0)
-            return;
-        judge(search, found, -INFINITY, &fault[*nfault]);
-        take_out(field, &fault[*nfault]);
+    for (*nfault = 0; *nfault < most && sensors_left(field) >= LEAST_SENSORS;) {
+        if (find_one(search, &fault[*nfault]))
+            take_out(field, &fault[(*nfault)++]);
+        else if (*nfault + 1 < most && find_pair(search, *nfault, fault))
+            *nfault += 2;
+        else
+            break;
     }
 }
 
-/* Noise above what is stated roughens every shape and would be taken for faults. What explains the sensors that are left best? */
-static double noise_above_stated(struct search *search, int nfault, const struct sensor_fault *fault)
+/* Noise above what is stated roughens every shape and would be taken for faults. Sets the level that explains the sensors that
+ * are left best; returns 1 where it is another. */
+static int noise_above_stated(struct search *search, int nfault, const struct sensor_fault *fault)
 {
-    static const double factor[] = {1, 1.4, 2, 2.8, 4};
-    double best = 1, most = -INFINITY;
-    for (int i = 0; i < (int)(sizeof factor / sizeof *factor); i++) {
-        if (field_start(&search->field, factor[i]))
-            return best;
-        for (int j = 0; j < nfault; j++)
-            take_out(&search->field, &fault[j]);
-        double evidence = field_evidence(&search->field) - (i ? NOISE_MARGIN : 0);
-        if (evidence > most) {
-            most = evidence;
-            best = factor[i];
-        }
+    double best = 1, most;
+    if (start_without(search, nfault, fault, -1))
+        return 0;
+    most = field_evidence(&search->field) + NOISE_MARGIN;
+    for (double factor = NOISE_STEP; factor < NOISE_MOST; factor *= NOISE_STEP) {
+        search->noise_factor = factor;
+        if (start_without(search, nfault, fault, -1))
+            break;
+        double evidence = field_evidence(&search->field);
+        if (evidence < most)
+            break;
+        most = evidence;
+        best = factor;
     }
-    return best;
+    search->noise_factor = best;
+    return best > 1;
+}
+
+/* Once all faults are known, each is judged with all others taken out: a bad neighbour can make one look like another kind. */
+static void judge_again(struct search *search, struct sensor_fault *fault, int *nfault)
+{
+    for (int j = 0; *nfault > 1 && j < *nfault;) {
+        struct sensor_fault again;
+        if (start_without(search, *nfault, fault, j))
+            return;
+        if (certain(search, fault[j].sensor, &again)) {
+            fault[j++] = again;
+            continue;
+        }
+        for (int i = j; i + 1 < *nfault; i++)
+            fault[i] = fault[i + 1];
+        --*nfault;
+    }
 }
 
 int sensor_check(struct pool *pool, const struct shape_data *data, double false_alarm, int most, struct sensor_fault *fault,
@@ -130,17 +245,17 @@ int sensor_check(struct pool *pool, const struct shape_data *data, double false_
     if (status)
         return status;
     search.limit = POOL_ARRAY(pool, double, data->nsensor);
+    search.left = POOL_ARRAY(pool, double, data->nsensor);
     search.work = POOL_ARRAY(pool, double, local_workspace(&search.field));
-    if (!search.limit || !search.work)
+    if (!search.limit || !search.left || !search.work)
         return ROTID_ERROR_MEMORY;
-    if (field_start(&search.field, 1))
+    search.threshold = 2 * log(data->nsensor * FAULT_KINDS / false_alarm) * (1 + pow(FEW_SENSORS / data->nsensor, 3));
+    search.noise_factor = 1;
+    if (start_without(&search, 0, fault, -1))
         return ROTID_OK;
-    search.threshold = 2 * log(data->nsensor * FAULT_KINDS / false_alarm);
     find_all(&search, most, fault, nfault);
-    if (*nfault) {
-        double factor = noise_above_stated(&search, *nfault, fault);
-        if (factor > 1 && !field_start(&search.field, factor))
-            find_all(&search, most, fault, nfault);
-    }
+    if (*nfault && noise_above_stated(&search, *nfault, fault) && !start_without(&search, 0, fault, -1))
+        find_all(&search, most, fault, nfault);
+    judge_again(&search, fault, nfault);
     return ROTID_OK;
 }

@@ -1,5 +1,6 @@
-/* Faults of the measurement chain, found from the shapes alone: physics moves a shape smoothly along the axis, a bad channel makes
- * a spike. A sensor is compared with what its neighbours say it should read, prediction plus the smooth part of the residual. */
+/* Faults of the measurement chain, found from the shapes alone: physics moves a shape smoothly along the axis, a bad channel
+ * makes a spike. A sensor is compared with what its neighbours say it should read, prediction plus the smooth part of the
+ * residual. */
 #ifndef ROTID_DIAGNOSE_SENSOR_CHECK_H
 #define ROTID_DIAGNOSE_SENSOR_CHECK_H
 
@@ -19,10 +20,10 @@ enum sensor_fault_kind { FAULT_GAIN, FAULT_SIGN, FAULT_SWAP, FAULT_POSITION, FAU
 
 struct sensor_fault {
     enum sensor_fault_kind kind;
-    int sensor, other;    /* indices; other: the partner of a swap, the source of a copy; else -1 */
-    double value, std;    /* gain, or shift [m] (true place = stated place + shift); NaN elsewhere */
-    double chi2_drop;     /* what the explanation takes away of the sensor's misfit */
-    double alternative;   /* chi2 drop of the best explanation of another kind */
+    int sensor, other;  /* indices; other: the partner of a swap, the source of a copy; else -1 */
+    double value, std;  /* gain, or shift [m] (true place = stated place + shift); NaN elsewhere */
+    double chi2_drop;   /* what the explanation takes away of the sensor's misfit */
+    double alternative; /* chi2 drop of the best explanation of another kind */
     enum sensor_fault_kind alternative_kind;
 };
 

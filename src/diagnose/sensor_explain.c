@@ -11,6 +11,8 @@
 #define COPY_CONTRAST 10.0
 /* Readings further apart than this chi2 and two a mode are no copies. */
 #define COPY_APART 30.0
+/* Share of the gaps between sensors that two standard deviations of the place on either side may cover. */
+#define COINCIDENCE 0.25
 /* Reach of a position fault, over the length of the axis, and its grid. */
 #define REACH      0.1
 #define REACH_GRID 40
@@ -24,7 +26,7 @@
 int suspect_new(struct pool *pool, const struct sensor_field *field, struct suspect *suspect)
 {
     size_t n = (size_t)field->n, all = (size_t)field->ngrid * (size_t)field->nmode;
-    double *numbers = POOL_ARRAY(pool, double, 5 * all + 5 * n);
+    double *numbers = POOL_ARRAY(pool, double, 5 * all + 4 * n);
     *suspect = (struct suspect){.field = field, .wanted = POOL_ARRAY(pool, int, all)};
     if (!numbers || !suspect->wanted)
         return ROTID_ERROR_MEMORY;
@@ -34,7 +36,6 @@ int suspect_new(struct pool *pool, const struct sensor_field *field, struct susp
     suspect->there_mean = numbers + 3 * all;
     suspect->there_variance = numbers + 4 * all;
     suspect->vector = numbers + 5 * all;
-    suspect->image = suspect->vector + 4 * n;
     return ROTID_OK;
 }
 
@@ -46,7 +47,8 @@ static double log_mean_exp(int count, const double *x)
     if (isinf(best))
         return best;
     for (int i = 0; i < count; i++)
-        sum += exp(x[i] - best);
+        if (x[i] > best - 30)
+            sum += exp(x[i] - best);
     return best + log(sum / count);
 }
 
@@ -122,8 +124,7 @@ static double of_gain(struct suspect *suspect, double gain)
 
 static double of_place(struct suspect *suspect, double z)
 {
-    field_predict(suspect->field, suspect->s, z, suspect->wanted, suspect->there_mean, suspect->there_variance, suspect->vector,
-                  suspect->image);
+    field_predict(suspect->field, suspect->s, z, suspect->wanted, suspect->there_mean, suspect->there_variance, suspect->vector);
     return likelihood(suspect, suspect->there_mean, suspect->there_variance, 1, 0);
 }
 
@@ -216,7 +217,8 @@ static void explain_copy(struct suspect *suspect, struct explanation *explanatio
         int shared = 0, identical = 1;
         double apart = 0;
         double centre[FIELD_MOST_MODES];
-        struct explanation copy = {.other = t, .value = NAN, .std = NAN};
+        struct explanation copy = {.other = t, .value = NAN, .std = NAN},
+                           exact = {.other = t, .value = NAN, .exact = 1, .std = NAN};
         if (t == suspect->s || field->masked[t])
             continue;
         for (int k = 0; k < field->nmode; k++) {
@@ -235,7 +237,7 @@ static void explain_copy(struct suspect *suspect, struct explanation *explanatio
             continue;
         offer(suspect, of_place(suspect, field->data->z[t]), cost, copy, &explanation[FAULT_DUPLICATE]);
         if (identical && 2 * (detached(suspect, centre, 1) - suspect->sound) > COPY_CONTRAST)
-            offer(suspect, detached(suspect, centre, COPY_NOISE * COPY_NOISE), cost, copy, &explanation[FAULT_DUPLICATE]);
+            offer(suspect, detached(suspect, centre, COPY_NOISE * COPY_NOISE), cost, exact, &explanation[FAULT_DUPLICATE]);
     }
 }
 
@@ -275,6 +277,20 @@ static void explain_swap(struct suspect *suspect, struct explanation *explanatio
                   (struct explanation){.other = t, .value = NAN, .std = NAN}, &explanation[FAULT_SWAP]);
 }
 
+/* A sensor that reads what is at another's place, with noise of its own, was either put there or anywhere near. Where sensors are
+ * so close that any place is near one of them, the coincidence says nothing. */
+static void prefer_position(const struct suspect *suspect, const struct explanation *position, struct explanation *copy)
+{
+    const struct sensor_field *field = suspect->field;
+    int t = copy->other;
+    if (t < 0 || copy->score < position->score || copy->exact || !isfinite(position->std))
+        return;
+    const double *z = field->data->z;
+    double gap = fmin(t > 0 ? z[t] - z[t - 1] : INFINITY, t + 1 < field->n ? z[t + 1] - z[t] : INFINITY);
+    if (4 * position->std > COINCIDENCE * gap && fabs(z[suspect->s] + position->value - z[t]) < 3 * position->std)
+        copy->score = position->score - 1;
+}
+
 void suspect_explain(struct suspect *suspect, int quick, struct explanation *explanation)
 {
     for (int kind = 0; kind < FAULT_KINDS; kind++)
@@ -285,4 +301,5 @@ void suspect_explain(struct suspect *suspect, int quick, struct explanation *exp
         return;
     explain_gain(suspect, explanation);
     explain_position(suspect, explanation);
+    prefer_position(suspect, &explanation[FAULT_POSITION], &explanation[FAULT_DUPLICATE]);
 }

@@ -12,6 +12,7 @@ struct explanation {
     double drop;  /* twice the gain in log likelihood over a sound sensor; -INFINITY where the kind does not apply */
     double score; /* drop less what the search and the parameter cost */
     int other;
+    int exact; /* a copy to the last digits */
     double value, std;
 };
 
@@ -23,7 +24,7 @@ struct suspect { /* one sensor at a time */
     double *mean, *variance; /* [ngrid * nmode] of the deflection at its own place, predicted by them */
     int *wanted;             /* [ngrid * nmode] grid points that matter: the others' likelihood is not lost against the best */
     double *there_mean, *there_variance; /* elsewhere */
-    double *vector, *image;
+    double *vector;
 };
 
 /* ROTID_OK or ROTID_ERROR_MEMORY */

@@ -50,7 +50,7 @@ static int invert_class(struct sensor_field *field, int g, int c, double *log_de
 {
     int n = field->n, count = 0, k = field->leader[c], *row = field->row;
     const int *present = field->present + (ptrdiff_t)k * n;
-    const double *v = field->variance + (ptrdiff_t)k * n, *z = field->data->z;
+    const double *v = field->variance + (ptrdiff_t)k * n;
     double *a = field_inverse(field, g, c), *packed = field->packed;
     for (int i = 0; i < n; i++)
         if (present[i])
@@ -58,12 +58,8 @@ static int invert_class(struct sensor_field *field, int g, int c, double *log_de
     for (int j = 0; j < count; j++)
         for (int i = j; i < count; i++) {
             int s = row[i], t = row[j];
-            double mix = 0, x = (z[s] - field->middle) / field->half, y = (z[t] - field->middle) / field->half;
-            for (int mode = 0; mode < field->nmode; mode++)
-                mix += field->model[s + mode * n] * field->model[t + mode * n];
-            packed[i + (ptrdiff_t)j * count] = RIGID * (1 + x * y) + field->b2[g] * mix +
-                                               field->q[g] * twice_integrated(z[s] - field->origin, z[t] - field->origin) +
-                                               (i == j ? v[s] : 0);
+            packed[i + (ptrdiff_t)j * count] = field->part[0][s + t * n] + field->b2[g] * field->part[1][s + t * n] +
+                                               field->q[g] * field->part[2][s + t * n] + (i == j ? v[s] : 0);
         }
     if (positive_invert(count, packed, log_determinant))
         return 1;
@@ -72,6 +68,33 @@ static int invert_class(struct sensor_field *field, int g, int c, double *log_de
         for (int i = 0; i < count; i++)
             a[row[i] + (ptrdiff_t)row[j] * n] = packed[i + (ptrdiff_t)j * count];
     return 0;
+}
+
+/* The three parts of the covariance between two places on the axis, apart from their intensities. */
+static void parts(const struct sensor_field *field, double z, double other, const double *shape, const double *other_shape,
+                  int stride, double part[3])
+{
+    double x = (z - field->middle) / field->half, y = (other - field->middle) / field->half;
+    part[0] = RIGID * (1 + x * y);
+    part[1] = 0;
+    for (int k = 0; k < field->nmode; k++)
+        part[1] += shape[k] * other_shape[k * stride];
+    part[2] = twice_integrated(z - field->origin, other - field->origin);
+}
+
+void field_covariance(struct sensor_field *field)
+{
+    int n = field->n;
+    double shape[FIELD_MOST_MODES], part[3];
+    for (int j = 0; j < n; j++) {
+        for (int k = 0; k < field->nmode; k++)
+            shape[k] = field->model[j + k * n];
+        for (int i = 0; i < n; i++) {
+            parts(field, field->data->z[j], field->data->z[i], shape, field->model + i, n, part);
+            for (int p = 0; p < 3; p++)
+                field->part[p][i + j * n] = part[p];
+        }
+    }
 }
 
 int field_start(struct sensor_field *field, double noise_factor)
@@ -158,49 +181,55 @@ double field_evidence(const struct sensor_field *field)
     return total;
 }
 
+/* Four sums at a time: one addition need not wait for the one before. */
+static double dot(int n, const double *a, const double *b)
+{
+    double sum[4] = {0};
+    int i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (int j = 0; j < 4; j++)
+            sum[j] += a[i + j] * b[i + j];
+    for (; i < n; i++)
+        sum[0] += a[i] * b[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
 void field_predict(const struct sensor_field *field, int s, double z, const int *wanted, double *mean, double *variance,
-                   double *vector, double *image)
+                   double *vector)
 {
     int n = field->n, modes = field->nmode;
-    double *rigid = vector, *mix = vector + n, *walk = vector + 2 * n, *cov = vector + 3 * n;
-    double x = (z - field->middle) / field->half, own_mix = 0, shape[FIELD_MOST_MODES];
-    for (int k = 0; k < modes; k++) {
+    double *cov = vector + 3 * n, own_part[3], part[3], shape[FIELD_MOST_MODES];
+    for (int k = 0; k < modes; k++)
         shape[k] = field_model(field, k, z);
-        own_mix += shape[k] * shape[k];
-    }
+    parts(field, z, z, shape, shape, 1, own_part);
     for (int i = 0; i < n; i++) {
-        rigid[i] = RIGID * (1 + x * (field->data->z[i] - field->middle) / field->half);
-        walk[i] = twice_integrated(z - field->origin, field->data->z[i] - field->origin);
-        mix[i] = 0;
-        for (int k = 0; k < modes; k++)
-            mix[i] += shape[k] * field->model[i + k * n];
+        parts(field, z, field->data->z[i], shape, field->model + i, n, part);
+        for (int p = 0; p < 3; p++)
+            vector[i + p * n] = part[p];
     }
     for (int c = 0; c < field->nclass; c++)
         for (int g = 0; g < field->ngrid; g++) {
             const double *a = field_inverse(field, g, c);
-            double square = RIGID * (1 + x * x) + field->b2[g] * own_mix +
-                            field->q[g] * twice_integrated(z - field->origin, z - field->origin);
+            double square = own_part[0] + field->b2[g] * own_part[1] + field->q[g] * own_part[2];
             int any = 0;
             for (int k = 0; k < modes; k++)
                 any |= field->class_of[k] == c && wanted[g + k * field->ngrid];
             if (!any)
                 continue;
-            memset(image, 0, (size_t)n * sizeof *image);
             for (int i = 0; i < n; i++)
-                cov[i] = rigid[i] + field->b2[g] * mix[i] + field->q[g] * walk[i];
-            for (int j = 0; j < n; j++)
-                if (!field->masked[j])
-                    for (int i = 0; i < n; i++)
-                        image[i] += a[i + (ptrdiff_t)j * n] * cov[j];
-            for (int i = 0; i < n; i++)
-                square -= cov[i] * image[i];
+                cov[i] = vector[i] + field->b2[g] * vector[i + n] + field->q[g] * vector[i + 2 * n];
+            for (int j = 0; j < n; j++) {
+                const double *column = a + (ptrdiff_t)j * n;
+                square -= cov[j] * (2 * dot(j, column, cov) + column[j] * cov[j]);
+            }
+            double with_own = dot(n, cov, a + (ptrdiff_t)s * n);
             double own = a[s + (ptrdiff_t)s * n];
             if (own > 0)
-                square += image[s] * image[s] / own;
+                square += with_own * with_own / own;
             for (int k = 0; k < modes; k++)
                 if (field->class_of[k] == c && wanted[g + k * field->ngrid]) {
                     const double *w = field_weight(field, g, k);
-                    double e = own > 0 ? -image[s] * w[s] / own : 0;
+                    double e = own > 0 ? -with_own * w[s] / own : 0;
                     for (int i = 0; i < n; i++)
                         e += cov[i] * w[i];
                     mean[g + k * field->ngrid] = shape[k] + e;

@@ -10,6 +10,8 @@ static const double kink[] = {0, 0.3, 1, 3, 10}, jump[] = {0, 0.01, 0.03, 0.1, 0
 /* How many gaps on either side of the sensor are searched, and places in each. */
 #define GAPS   2
 #define PLACES 3
+/* Terms of a sum of exponentials that are e to the minus this of the largest are left out. */
+#define NEGLIGIBLE 30.0
 
 /* B' A B and B' w of the two columns b = (z - z0)+ and 1(z > z0) */
 static void products(const struct sensor_field *field, int first, double z0, const double *a, double sum[3])
@@ -41,26 +43,30 @@ static void add_pairs(double length, const double sum[3], double slope, double l
     }
 }
 
-static double at_place(const struct sensor_field *field, int first, double z0, double *each)
+static double at_place(const struct sensor_field *field, int first, double z0, double *work)
 {
-    double total = 0;
+    double total = 0, *square = work + (ptrdiff_t)field->ngrid * PAIRS;
+    for (int c = 0; c < field->nclass; c++)
+        for (int g = 0; g < field->ngrid; g++)
+            products(field, first, z0, field_inverse(field, g, c), square + 3 * (g + (ptrdiff_t)c * field->ngrid));
     for (int k = 0; k < field->nmode; k++) {
         double best = -INFINITY, sum = 0;
         int count = field->ngrid * PAIRS;
         for (int g = 0; g < field->ngrid; g++) {
-            const double *a = field_inverse(field, g, field->class_of[k]), *w = field_weight(field, g, k);
-            double square[3], slope = 0, level = 0;
-            products(field, first, z0, a, square);
+            const double *w = field_weight(field, g, k);
+            double slope = 0, level = 0;
             for (int i = first; i < field->n; i++) {
                 slope += w[i] * (field->data->z[i] - z0);
                 level += w[i];
             }
-            add_pairs(2 * field->half, square, slope, level, field->evidence[g + k * field->ngrid], each + (ptrdiff_t)g * PAIRS);
+            add_pairs(2 * field->half, square + 3 * (g + (ptrdiff_t)field->class_of[k] * field->ngrid), slope, level,
+                      field->evidence[g + k * field->ngrid], work + (ptrdiff_t)g * PAIRS);
         }
         for (int i = 0; i < count; i++)
-            best = fmax(best, each[i]);
+            best = fmax(best, work[i]);
         for (int i = 0; i < count; i++)
-            sum += exp(each[i] - best);
+            if (work[i] > best - NEGLIGIBLE)
+                sum += exp(work[i] - best);
         total += best + log(sum / count);
     }
     return total;
@@ -78,5 +84,5 @@ double local_physics(const struct sensor_field *field, int s, double *work)
 
 size_t local_workspace(const struct sensor_field *field)
 {
-    return (size_t)field->ngrid * (size_t)PAIRS;
+    return (size_t)field->ngrid * (size_t)(PAIRS + 3 * field->nclass);
 }

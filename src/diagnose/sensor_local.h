@@ -10,8 +10,8 @@
 /* Length of the workspace in doubles. */
 size_t local_workspace(const struct sensor_field *field);
 
-/* Log likelihood of all sensors that are in, with a change of slope and a jump of free size in every mode at the best place within
- * two gaps of sensor s. */
+/* Log likelihood of all sensors that are in, with a change of slope and a jump of free size in every mode at the best place
+ * within two gaps of sensor s. */
 double local_physics(const struct sensor_field *field, int s, double *work);
 
 #endif

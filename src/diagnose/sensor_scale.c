@@ -162,7 +162,7 @@ int field_new(struct pool *pool, const struct shape_data *data, struct sensor_fi
     field->half = (fmax(data->axis_z[data->naxis - 1], data->z[n - 1]) - field->origin) / 2;
     field->middle = field->origin + field->half;
     struct ratio *ratio = POOL_ARRAY(pool, struct ratio, n);
-    double *numbers = POOL_ARRAY(pool, double, 3 * all + 2 * modes + n * n);
+    double *numbers = POOL_ARRAY(pool, double, 3 * all + 2 * modes + 4 * n * n);
     int *integers = POOL_ARRAY(pool, int, all + 2 * n + 2 * modes);
     if (!ratio || !numbers || !integers)
         return ROTID_ERROR_MEMORY;
@@ -172,6 +172,8 @@ int field_new(struct pool *pool, const struct shape_data *data, struct sensor_fi
     field->unit = numbers + 3 * all;
     field->scale = field->unit + modes;
     field->packed = field->scale + modes;
+    for (size_t p = 0; p < 3; p++)
+        field->part[p] = field->packed + (p + 1) * n * n;
     field->present = integers;
     field->masked = integers + all;
     field->row = field->masked + n;
@@ -181,9 +183,10 @@ int field_new(struct pool *pool, const struct shape_data *data, struct sensor_fi
         scale_mode(field, k, ratio);
     lay_grid(field);
     find_classes(field);
+    field_covariance(field);
     size_t grid = (size_t)field->ngrid;
-    field->inverse = POOL_ARRAY(pool, double, n * n * grid * (size_t)field->nclass);
-    field->weight = POOL_ARRAY(pool, double, all * grid);
-    field->evidence = POOL_ARRAY(pool, double, grid * modes);
+    field->inverse = POOL_ARRAY(pool, double, n *n *grid *(size_t)field->nclass);
+    field->weight = POOL_ARRAY(pool, double, all *grid);
+    field->evidence = POOL_ARRAY(pool, double, grid *modes);
     return field->inverse && field->weight && field->evidence ? ROTID_OK : ROTID_ERROR_MEMORY;
 }

@@ -68,25 +68,33 @@ static double margin_of(const struct diagnosis_round *round)
     for (int i = 1; i < round->ncandidate; i++) {
         const struct candidate *c = &round->candidate[i];
         if (c->refitted && isfinite(c->chi2))
-            margin = fmin(margin, fmin(candidate_score(c) - candidate_score(first), c->chi2 - first->chi2));
+            margin = fmin(margin, candidate_score(c) - candidate_score(first));
     }
     return margin;
 }
 
-/* The members of a round's candidates that lie within `margin` of the first; at least one. */
+/* The candidates of a round that lie within `margin` of the first, those refused for their size alone behind the others, and two
+ * at least where there are: one alone would be a name. */
 static int take_set(struct engine *engine, const struct diagnosis_round *round, double margin)
 {
     struct diagnosis *out = engine->out;
+    int *taken = POOL_ARRAY(engine->pool, int, round->ncandidate + 1);
     out->alternative = POOL_ARRAY(engine->pool, struct candidate, round->ncandidate + 1);
-    if (!out->alternative)
+    if (!out->alternative || !taken)
         return ROTID_ERROR_MEMORY;
     out->nalternative = 0;
-    for (int i = 0; i < round->ncandidate; i++) {
-        const struct candidate *c = &round->candidate[i];
-        int near = c->refitted && isfinite(c->chi2) && candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
-        if (i < round->nset || (near && !c->at_bound && c->chi2_drop > round->threshold))
-            out->alternative[out->nalternative++] = *c;
-    }
+    for (int pass = 0; pass < 3; pass++)
+        for (int i = 0; i < round->ncandidate; i++) {
+            const struct candidate *c = &round->candidate[i];
+            if (taken[i] || !c->refitted || !(c->chi2_drop > round->threshold / 2))
+                continue;
+            int near = candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
+            taken[i] = pass == 0   ? i < round->nset || (near && !c->at_bound && c->chi2_drop > round->threshold)
+                       : pass == 1 ? near && c->at_bound
+                                   : out->nalternative < 2;
+            if (taken[i])
+                out->alternative[out->nalternative++] = *c;
+        }
     return ROTID_OK;
 }
 
@@ -181,7 +189,7 @@ int settle(struct engine *engine, struct round_result *last)
     }
     out->kind = out->ncause ? VERDICT_NAMED : end->kind;
     if (!status && end->kind == VERDICT_AMBIGUOUS)
-        status = take_set(engine, end, 0);
+        status = take_set(engine, end, isfinite(end->required_margin) ? end->required_margin : 0);
     if (!status && (end->kind == VERDICT_AMBIGUOUS || end->kind == VERDICT_UNEXPLAINED) &&
         !(out->next_measurement = advise(engine, end, last)))
         status = ROTID_ERROR_MEMORY;
