@@ -5,6 +5,8 @@
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/engine.h"
 
+#define MOST_DROPPED 2 /* modes that nobody's shape fits */
+#define LEAST_LEFT   3
 #define MOST_CLEANED 3 /* passes of finding faults of channels */
 #define MOST_REFINED 3 /* times the mesh is halved */
 #define NEGLIGIBLE   0.1 /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
@@ -74,6 +76,23 @@ int base_note_reduction(struct engine *engine)
                                      s->nmaster, at + 1, s->reduction_error_percent[at], ratio));
 }
 
+/* A measured mode whose number belongs to another one by its shape is nobody's: it is left out, and the rest goes on. */
+static int drop_clash(struct engine *engine)
+{
+    struct job *job = &engine->job;
+    int k = engine->out->base.compared.clash;
+    struct data_finding finding = {
+        .cause = catalogue_find("mode_pairing"), .nmode = 1, .mode = {job->number[k]}, .value = NAN, .std = NAN, .chi2_drop = NAN};
+    finding.text = pool_format(engine->pool,
+                               "measured mode %d (%.6g Hz) looks like no mode of the model, and another one has the shape that "
+                               "belongs to its number; it is left out",
+                               job->number[k], job->frequency_hz[k]);
+    int status = data_add_finding(engine, &finding);
+    if (!status)
+        data_remove_mode(job, k);
+    return status;
+}
+
 static int fit_base(struct engine *engine, int say)
 {
     struct diagnosis *out = engine->out;
@@ -82,6 +101,12 @@ static int fit_base(struct engine *engine, int say)
     rotid_fit_free(out->base.fit);
     out->base.fit = engine->fit = NULL;
     int status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
+    for (int pass = 0; status == ROTID_ERROR_UNPAIRED && pass < MOST_DROPPED && engine->job.nmode > LEAST_LEFT && !engine->job.raw; pass++) {
+        status = drop_clash(engine);
+        message_open(&quiet, engine->pool);
+        if (!status)
+            status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
+    }
     for (size_t i = 0; i < quiet.count && (say || status); i++)
         message_add(engine->notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
     if (status)

@@ -11,6 +11,7 @@
 #define MOST_FAULTS 8
 #define FALSE_ALARM 0.005
 #define MUCH_LESS   0.7  /* of the stated noise */
+#define NOISIER     3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
 #define SHARED      0.35 /* correlation of neighbours; 0.1 is the error of its estimate, 0.2 what a smooth misfit adds */
 #define SLIGHT      0.05 /* excess of the smooth part of the noise that changes no verdict */
 
@@ -125,7 +126,7 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
 /* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. */
 static int is_misstated(const struct noise_estimate *noise)
 {
-    return noise->usable && noise->misstated && (noise->factor < MUCH_LESS || noise->factor > 1);
+    return noise->usable && noise->misstated && (noise->factor < MUCH_LESS || (noise->factor > 1 && noise->factor < NOISIER));
 }
 
 static int correct_noise(struct engine *engine, double factor, double std, const char *text)
@@ -188,7 +189,7 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
     if (engine->coloured || !job->shape || !job_knows_shape_noise(job))
         return ROTID_OK;
     int status = check_noise(engine, scan, r, &noise);
-    if (status || !noise.usable || !noise.coloured || !(noise.smooth_factor > 1 + SLIGHT) ||
+    if (status || !noise.usable || !noise.coloured || !(noise.smooth_factor > 1 + SLIGHT && noise.smooth_factor < NOISIER) ||
         !(neighbour_correlation(engine, r) > SHARED))
         return status;
     engine->coloured = *changed = 1;

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "diagnose/engine.h"
 #include "diagnose/leave_out.h"
 #include "fit/quantile.h"
@@ -165,6 +166,25 @@ static int refine_base(struct engine *engine)
     return ROTID_OK;
 }
 
+/* A suspect that was named is part of the model now. */
+static int keep_open_suspects(struct pool *pool, struct job *job)
+{
+    struct suspect *open = POOL_ARRAY(pool, struct suspect, job->nsuspect);
+    int count = 0;
+    if (!open)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < job->nsuspect; i++) {
+        int named = 0;
+        for (int e = 0; e < job->rotor.neffect; e++)
+            named |= same_text(job->rotor.effect[e].name, job->suspect[i].effect.name);
+        if (!named)
+            open[count++] = job->suspect[i];
+    }
+    job->suspect = open;
+    job->nsuspect = count;
+    return ROTID_OK;
+}
+
 int conclude(struct engine *engine, const struct round_result *last)
 {
     struct diagnosis *out = engine->out;
@@ -181,7 +201,9 @@ int conclude(struct engine *engine, const struct round_result *last)
         out->extended_job.rotor.segment = out->job.rotor.segment;
         struct message_list quiet;
         message_open(&quiet, engine->pool);
-        status = identify_run(engine->pool, &out->extended_job, 0, engine->environment, &quiet, &out->extended);
+        status = keep_open_suspects(engine->pool, &out->extended_job);
+        if (!status)
+            status = identify_run(engine->pool, &out->extended_job, 0, engine->environment, &quiet, &out->extended);
         if (!status) {
             settle_causes(out);
             status = job_started_at(engine->pool, &out->extended_job, out->extended.fit->x, &out->extended_job);

@@ -44,7 +44,7 @@ static int compare(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-static void remove_mode(struct job *job, int k)
+void data_remove_mode(struct job *job, int k)
 {
     int nsensor = job->rotor.nsensor, behind = job->nmode - k - 1;
     memmove(job->number + k, job->number + k + 1, (size_t)behind * sizeof *job->number);
@@ -83,7 +83,7 @@ static int drop_doubles(struct engine *engine)
         int status = data_add_finding(engine, &finding);
         if (status)
             return status;
-        remove_mode(job, k);
+        data_remove_mode(job, k);
         for (int l = k--; l + 1 < job->nmode + 1 && l < job->nmode; l++)
             job->number[l]--;
     }

@@ -8,6 +8,7 @@
 #include "fit/quantile.h"
 
 #define NOISIER   3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
+#define COLOURED  2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
 #define WORSE     1.1 /* held-out modes predicted worse than this factor speak against a cause */
 #define BETTER    0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
@@ -133,7 +134,8 @@ int decide(const struct engine *engine, const struct before *before, struct diag
             left_frequency = c->chi2_frequency;
         }
     }
-    round->required_margin = best ? LEAST_MARGIN * dispersion(before, best, left_frequency) : NAN;
+    double doubt = engine->coloured ? COLOURED : 1;
+    round->required_margin = best ? LEAST_MARGIN * doubt * dispersion(before, best, left_frequency) : NAN;
     double limit = best ? candidate_score(best) + round->required_margin : 0;
     const char *name = best ? best->cause->id : "";
     round->nset = 0;

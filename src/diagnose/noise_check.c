@@ -17,14 +17,15 @@
 #define SWEEPS       50
 /* Of the number of rows, what the cut leaves in the estimate of the variance. */
 #define EFFICIENCY 0.9
-/* Two-sided 0.001, and one-sided. */
+/* Two-sided 0.001, and one-sided 0.002. */
 #define QUANTILE_TWO 3.2905
-#define QUANTILE_ONE 3.0902
+#define QUANTILE_ONE 2.8782
 #define MISSTATED    1.15
 #define COLOURED     1.3
 /* Real effects in the residual: columns that are taken out of the smooth part, one after the other. */
-#define MOST_EFFECTS   3
-#define EFFECT_MINIMUM 16.0
+#define MOST_EFFECTS   5
+#define EXCHANGES      2
+#define EFFECT_MINIMUM 9.0
 
 struct basis {
     int m, count, fitted; /* rows, directions; the first `fitted` hold no noise */
@@ -40,6 +41,12 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
+static void subtract(int n, double part, const double *from, double *x)
+{
+    for (int i = 0; i < n; i++)
+        x[i] -= part * from[i];
+}
+
 /* Adds the direction of a column, orthogonalised twice. */
 static void add_direction(struct basis *basis, const double *column)
 {
@@ -49,9 +56,7 @@ static void add_direction(struct basis *basis, const double *column)
     for (int pass = 0; pass < 2; pass++)
         for (int j = 0; j < basis->count; j++) {
             const double *other = basis->q + (ptrdiff_t)j * m;
-            double part = dot(m, other, q);
-            for (int i = 0; i < m; i++)
-                q[i] -= part * other[i];
+            subtract(m, dot(m, other, q), other, q);
         }
     double length = sqrt(dot(m, q, q));
     for (int i = 0; i < m; i++)
@@ -159,8 +164,7 @@ static double fit_basis(const struct basis *basis, const double *residual, doubl
             coefficient[j] = dot(m, basis->q + (ptrdiff_t)j * m, kept);
         memcpy(rest, residual, (size_t)m * sizeof *rest);
         for (int j = 0; j < p; j++)
-            for (int i = 0; i < m; i++)
-                rest[i] -= coefficient[j] * basis->q[i + (ptrdiff_t)j * m];
+            subtract(m, coefficient[j], basis->q + (ptrdiff_t)j * m, rest);
         for (int i = 0; i < m; i++)
             kept[i] = rest[i] / share[i];
         level = median_level(m, kept, scratch);
@@ -170,53 +174,71 @@ static double fit_basis(const struct basis *basis, const double *residual, doubl
     return level;
 }
 
-/* The level of the coefficients on the directions that hold noise. A real effect is a column, so it is taken out as one: the
- * column that explains most of them goes, as long as one stands out. Returns the degrees of freedom left. x [p], unit [m * n];
- * work [2 p + 2 m + MOST_EFFECTS * p]. */
-static int smooth_level(const struct basis *basis, int n, const double *unit, double *x, double *level, double *work)
+/* Real effects in the smooth part: x [p] are the coefficients on the directions that hold noise, c [p * n] those of every column.
+ */
+struct effects {
+    int p, n, count, column[MOST_EFFECTS];
+    const double *x, *c;
+    double *gone; /* [p * MOST_EFFECTS] orthonormal, of the columns taken out */
+    double *rest; /* [p] x without them */
+};
+
+/* rest for all columns taken out but number `skip`. */
+static void take_out(struct effects *e, int skip)
 {
-    int m = basis->m, p = basis->count - basis->fitted, out = 0;
-    const double *q = basis->q + (ptrdiff_t)basis->fitted * m;
-    double *part = work, *best = work + p, *gone = work + 2 * p, *scratch = gone + MOST_EFFECTS * p;
-    for (;; out++) {
-        double most = 0;
-        *level = median_level(p, x, scratch);
-        *level = cut_level(p, x, out, *level);
-        if (out == MOST_EFFECTS)
-            break;
-        /* through rows, x'Q'c = (Q x)'c, so that only columns worth it are expanded */
-        memset(scratch, 0, (size_t)m * sizeof *scratch);
-        for (int j = 0; j < p; j++)
-            for (int i = 0; i < m; i++)
-                scratch[i] += x[j] * q[i + (ptrdiff_t)j * m];
-        for (int j = 0; j < n; j++) {
-            const double *column = unit + (ptrdiff_t)j * m;
-            double along = dot(m, scratch, column);
-            if (along * along <= most * LEFT_OF_COLUMN)
-                continue;
-            for (int i = 0; i < p; i++)
-                part[i] = dot(m, q + (ptrdiff_t)i * m, column);
-            for (int k = 0; k < out; k++) {
-                double shared = dot(p, gone + (ptrdiff_t)k * p, part);
-                for (int i = 0; i < p; i++)
-                    part[i] -= shared * gone[i + (ptrdiff_t)k * p];
-            }
-            double square = dot(p, part, part);
-            if (square < LEFT_OF_COLUMN || along * along / square <= most)
-                continue;
+    int p = e->p, used = 0;
+    memcpy(e->rest, e->x, (size_t)p * sizeof *e->rest);
+    for (int k = 0; k < e->count; k++) {
+        double *g = e->gone + (ptrdiff_t)used * p;
+        if (k == skip)
+            continue;
+        memcpy(g, e->c + (ptrdiff_t)e->column[k] * p, (size_t)p * sizeof *g);
+        for (int pass = 0; pass < 2; pass++)
+            for (int j = 0; j < used; j++)
+                subtract(p, dot(p, e->gone + (ptrdiff_t)j * p, g), e->gone + (ptrdiff_t)j * p, g);
+        double length = sqrt(dot(p, g, g));
+        for (int i = 0; i < p; i++)
+            g[i] /= length;
+        subtract(p, dot(p, g, e->rest), g, e->rest);
+        used++;
+    }
+}
+
+/* The column that takes most away of the rest beside the others; returns how much. */
+static double best_column(struct effects *e, int skip, int *column)
+{
+    int used = e->count - (skip >= 0);
+    double most = 0;
+    take_out(e, skip);
+    for (int j = 0; j < e->n; j++) {
+        const double *c = e->c + (ptrdiff_t)j * e->p;
+        double along = dot(e->p, c, e->rest), square = dot(e->p, c, c);
+        for (int k = 0; k < used; k++)
+            square -= pow(dot(e->p, e->gone + (ptrdiff_t)k * e->p, c), 2);
+        if (square > 4 * LEFT_OF_COLUMN * LEFT_OF_COLUMN && along * along / square > most) {
             most = along * along / square;
-            for (int i = 0; i < p; i++)
-                best[i] = part[i] / sqrt(square);
-        }
-        if (most < EFFECT_MINIMUM * *level * *level)
-            break;
-        double along = dot(p, best, x);
-        for (int i = 0; i < p; i++) {
-            x[i] -= along * best[i];
-            gone[i + (ptrdiff_t)out * p] = best[i];
+            *column = j;
         }
     }
-    return p - out;
+    return most;
+}
+
+/* The level of the coefficients. A real effect is a column, so it is taken out as one: the column that explains most goes, as
+ * long as one stands out, and each is exchanged for a better one once the others are known. Returns the degrees of freedom left.
+ * work [p]. */
+static int smooth_level(struct effects *e, double *level, double *work)
+{
+    for (;;) {
+        int column = 0;
+        take_out(e, -1);
+        *level = cut_level(e->p, e->rest, e->count, median_level(e->p, e->rest, work));
+        if (e->count == MOST_EFFECTS || best_column(e, -1, &column) < EFFECT_MINIMUM * *level * *level)
+            return e->p - e->count;
+        e->column[e->count++] = column;
+        for (int i = 0; e->count > 1 && i < EXCHANGES * e->count; i++)
+            if (best_column(e, i % e->count, &column) > 0)
+                e->column[i % e->count] = column;
+    }
 }
 
 static void normalise(int m, int n, const double *column, double *unit)
@@ -241,16 +263,17 @@ int noise_check(struct pool *pool, int nrow, int ncolumn, const double *residual
                 struct noise_estimate *estimate)
 {
     int most = nrow / 4 < MOST_DIRECTIONS ? nrow / 4 : MOST_DIRECTIONS;
-    size_t m = (size_t)nrow, n = (size_t)ncolumn, p = (size_t)most;
+    size_t m = (size_t)nrow, n = (size_t)ncolumn, widest = (size_t)most;
     *estimate = (struct noise_estimate){.factor = NAN, .std = NAN, .smooth_factor = NAN};
     if (nrow < LEAST_ROWS)
         return ROTID_OK;
     double *unit = POOL_ARRAY(pool, double, m *n);
-    double *numbers = POOL_ARRAY(pool, double, m *p + n + m + p + 5 * m + (2 + MOST_EFFECTS) * p);
-    if (!unit || !numbers)
+    double *smooth = POOL_ARRAY(pool, double, widest *n);
+    double *numbers = POOL_ARRAY(pool, double, m *widest + n + m + widest + 3 * m + (2 + MOST_EFFECTS) * widest);
+    if (!unit || !smooth || !numbers)
         return ROTID_ERROR_MEMORY;
-    struct basis basis = {.m = nrow, .q = numbers, .left = numbers + m * p};
-    double *rest = basis.left + n, *coefficient = rest + m, *work = coefficient + p;
+    struct basis basis = {.m = nrow, .q = numbers, .left = numbers + m * widest};
+    double *rest = basis.left + n, *coefficient = rest + m, *work = coefficient + widest;
     normalise(nrow, ncolumn, column, unit);
     if (ncolumn > 0)
         span(ncolumn, unit, residual, most, &basis);
@@ -259,13 +282,19 @@ int noise_check(struct pool *pool, int nrow, int ncolumn, const double *residual
         return ROTID_OK;
     double level = fit_basis(&basis, residual, rest, coefficient, work);
     level = cut_level(nrow, rest, 0, level);
-    *estimate = (struct noise_estimate){.usable = 1, .factor = level, .std = level / sqrt(2 * EFFICIENCY * rows)};
+    *estimate =
+        (struct noise_estimate){.usable = 1, .factor = level, .std = level / sqrt(2 * EFFICIENCY * rows), .smooth_factor = NAN};
     estimate->misstated = fabs(log(level)) > log(MISSTATED) && fabs(log(level)) > QUANTILE_TWO * estimate->std / level;
-    estimate->smooth_factor = NAN;
-    if (basis.count - basis.fitted > MOST_EFFECTS) {
-        int dof = smooth_level(&basis, ncolumn, unit, coefficient + basis.fitted, &estimate->smooth_factor, work);
-        double ratio = estimate->smooth_factor / level, chance = sqrt((1.0 / dof + 1.0 / rows) / (2 * EFFICIENCY));
-        estimate->coloured = ratio > COLOURED && ratio > 1 + QUANTILE_ONE * chance;
-    }
+    int p = basis.count - basis.fitted;
+    if (p <= MOST_EFFECTS)
+        return ROTID_OK;
+    struct effects effects = {
+        .p = p, .n = ncolumn, .x = coefficient + basis.fitted, .c = smooth, .gone = work, .rest = work + MOST_EFFECTS * p};
+    for (int j = 0; j < ncolumn; j++)
+        for (int k = 0; k < p; k++)
+            smooth[k + (ptrdiff_t)j * p] = dot(nrow, basis.q + (ptrdiff_t)(basis.fitted + k) * nrow, unit + (ptrdiff_t)j * nrow);
+    int dof = smooth_level(&effects, &estimate->smooth_factor, effects.rest + p);
+    double ratio = estimate->smooth_factor / level, chance = sqrt((1.0 / dof + 1.0 / rows) / (2 * EFFICIENCY));
+    estimate->coloured = ratio > COLOURED && ratio > 1 + QUANTILE_ONE * chance;
     return ROTID_OK;
 }

@@ -44,8 +44,8 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
     return job_started_at(engine->pool, &job, engine->fit->x, &engine->job);
 }
 
-/* Evidence that is left when nothing more can be named: how far the best model that could be tried is from the data, by the whole
- * chi2 and by the frequencies, beyond what noise leaves once in a hundred times. */
+/* Evidence that is left when nothing more can be named: how far the best model that could be tried is from the data: by the whole
+ * chi2 and by the frequencies, beyond what noise leaves once in a hundred times, and by the scan. */
 static double left_over(const struct diagnosis_round *last)
 {
     double chi2 = last->chi2, frequency = last->chi2_frequency, f = last->nfrequency;
@@ -57,7 +57,8 @@ static double left_over(const struct diagnosis_round *last)
             frequency = last->candidate[i].chi2_frequency;
         }
     double whole = chi2 - last->dof - 2.33 * sqrt(2.0 * last->dof), block = frequency - f - 2.33 * sqrt(2 * f);
-    return fmax(0, fmax(whole, block));
+    double scan = last->kind == VERDICT_UNEXPLAINED && last->largest > last->threshold ? last->largest : 0;
+    return fmax(scan, fmax(whole, block));
 }
 
 /* By how much the named cause of a round beats the best of the others. */

@@ -88,6 +88,7 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
         memcpy(c->number, job->number, (size_t)nmode * sizeof *c->number);
     int clash = pair_modes(nmode, candidates, correlation, c->number, c->basis, used);
     if (clash) {
+        c->clash = clash - 1;
         message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
                     "measured mode %d at %.6g Hz has the number of a mode that the shape of another one claims, expected modes "
                     "that differ",

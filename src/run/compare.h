@@ -12,6 +12,7 @@ struct comparison {
     int *number;               /* [nmode] mode of the model, from 1 */
     enum pairing_basis *basis; /* [nmode] */
     double *mac, *nco;         /* [nmode] with that partner, NaN without a shape */
+    int clash;                 /* UNPAIRED: the measured mode whose number another one's shape claims */
 };
 
 /* Highest mode number of the measured modes, and the modes of the model that a comparison looks through. */

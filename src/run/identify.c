@@ -66,6 +66,7 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
     if (status) {
         for (size_t i = 0; i < quiet.count; i++)
             message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
+        out->compared = before;
         return status;
     }
     rotid_fit_options options = job->fit;

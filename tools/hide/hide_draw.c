@@ -149,8 +149,10 @@ static int draw_attached(struct draw *d, const char *id, char spec[HIDE_SPEC])
 {
     if (!strcmp(id, "density"))
         return of_group(d, id, "factor", factor(d, 0.004, 0.25), known_density, spec);
-    if (!strcmp(id, "tie_stiffness"))
-        return of_tie(d, id, factor(d, 0.05, 1.8), spec);
+    if (!strcmp(id, "tie_stiffness")) {
+        double size = factor(d, 0.05, 1.8);
+        return of_tie(d, id, size > 1.9 ? 1 / size : size, spec); /* rods may have lost most of their grip, not gained a steel */
+    }
     if (!strcmp(id, "tie_tension") || !strcmp(id, "tie_shear"))
         return of_tie(d, id, factor(d, 0.1, 1.5), spec);
     if (!strcmp(id, "support")) {
@@ -162,12 +164,12 @@ static int draw_attached(struct draw *d, const char *id, char spec[HIDE_SPEC])
         return spring >= 0;
     }
     if (!strcmp(id, "added_mass")) { /* an end takes a hundredth of what the middle takes to be seen */
-        double mass = d->mass * sized(d, 2e-5, 0.04),
+        double mass = d->mass * sized(d, 2e-5, 0.028),
                z = hide_pick(d->random, 5) ? anywhere(d) : hide_pick(d->random, 2) * d->rotor->length;
         snprintf(spec, HIDE_SPEC, "%s:mass=%.6g,z=%.6g", id, mass, z);
         return 1;
     }
-    double mass = d->mass * sized(d, 2e-5, 3e-3); /* accelerometer_mass */
+    double mass = fmin(0.19, d->mass * sized(d, 2e-5, 3e-3)); /* accelerometer_mass, with cable and magnet */
     int sensors = d->rotor->sensors;
     if (!sensors)
         return 0;

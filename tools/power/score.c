@@ -1,0 +1,399 @@
+#include "score.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/refit.h"
+
+#define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
+#define VALUE_TOLERANCE 0.1  /* of a gain, a shift, a factor */
+#define VALUE_STDS      4.0
+#define BEST            3 /* causes fitted without noise */
+
+const char *hidden_outcome_name(enum hidden_outcome outcome)
+{
+    static const char *const names[] = {"right", "in set", "silent", "unexplained", "other set", "wrong", "failed"};
+    return names[outcome];
+}
+
+int hidden_covers(const struct hidden_value *value)
+{
+    return value->lower <= value->truth && value->truth <= value->upper;
+}
+
+struct hidden_score hidden_score_none(void)
+{
+    return (struct hidden_score){
+        .drop = NAN, .margin = NAN, .left = NAN, .place_error = NAN, .size_error = NAN, .outcome = HIDDEN_FAILED};
+}
+
+/* ---- the truth */
+
+static const char *text_of(const cJSON *object, const char *key)
+{
+    const char *text = cJSON_GetStringValue(cJSON_GetObjectItem(object, key));
+    return text ? text : "";
+}
+
+static double number_of(const cJSON *object, const char *key)
+{
+    const cJSON *item = cJSON_GetObjectItem(object, key);
+    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
+}
+
+static double parameter_of(const cJSON *effect, const char *key)
+{
+    return number_of(cJSON_GetObjectItem(effect, "parameters"), key);
+}
+
+static int is(const cJSON *effect, const char *id)
+{
+    return !strcmp(text_of(effect, "id"), id);
+}
+
+/* Where a mass is that belongs to one place; NaN for other effects, and where an accelerometer moves. */
+static double place_of_mass(const cJSON *truth, const cJSON *effect)
+{
+    const cJSON *sensor;
+    if (is(effect, "added_mass"))
+        return parameter_of(effect, "z");
+    if (!is(effect, "accelerometer_mass"))
+        return NAN;
+    cJSON_ArrayForEach(sensor, cJSON_GetObjectItem(truth, "sensors"))
+    {
+        if (number_of(sensor, "id") == parameter_of(effect, "sensor"))
+            return number_of(sensor, "z");
+    }
+    return NAN;
+}
+
+static double place_of_found_mass(const struct job *job, const struct candidate *c)
+{
+    if (!strcmp(c->cause->id, "added_mass"))
+        return c->effect.value[c->cause->place];
+    if (!strcmp(c->cause->id, "accelerometer_mass") && c->effect.variant && c->effect.target >= 0)
+        return job->rotor.sensor[c->effect.target].position;
+    return NAN;
+}
+
+/* The truth says "left,core" where a candidate says "left|core", and the number of a spring without a name. */
+static int same_target(const struct candidate *c, const char *target)
+{
+    char name[2 * HIDDEN_NAME];
+    snprintf(name, sizeof name, "%s", target);
+    for (char *p = name; *p; p++)
+        *p = *p == ',' ? '|' : *p;
+    if (c->cause->target == TARGET_NONE || same_text(c->target, name))
+        return 1;
+    return c->cause->target == TARGET_SPRING && !c->target[0] && c->effect.target + 1 == atoi(name);
+}
+
+/* Whether a candidate is this effect: id, target, and place within one width or 3 % of the length. */
+static int is_true(const struct job *job, const struct candidate *c, const cJSON *truth, const cJSON *effect)
+{
+    double length = number_of(truth, "length"), mass = place_of_mass(truth, effect), found = place_of_found_mass(job, c);
+    if (isfinite(mass) || isfinite(found))
+        return fabs(mass - found) <= PLACE_TOLERANCE * length;
+    if (!c->cause->effect || !is(effect, c->cause->id))
+        return 0;
+    if (is(effect, "accelerometer_mass")) /* both move */
+        return 1;
+    if (!same_target(c, text_of(effect, "target")))
+        return 0;
+    if (c->cause->place < 0)
+        return 1;
+    double width = parameter_of(effect, "width"), z = parameter_of(effect, "z");
+    return fabs(c->effect.value[c->cause->place] - z) <= fmax(isfinite(width) ? width : 0, PLACE_TOLERANCE * length);
+}
+
+/* The two zones of a kind outside are each a soft zone of the catalogue. */
+static int is_two_zones(const cJSON *effect)
+{
+    return !strcmp(text_of(effect, "kind"), "two_zones");
+}
+
+static int is_zone(const struct candidate *c, const cJSON *truth, double z, double width)
+{
+    return !strcmp(c->cause->id, "stiffness_local") &&
+           fabs(c->effect.value[c->cause->place] - z) <= fmax(width, PLACE_TOLERANCE * number_of(truth, "length"));
+}
+
+/* The number of the true effect that a candidate is, or -1. */
+static int which(const struct job *job, const struct candidate *c, const cJSON *truth)
+{
+    const cJSON *effects = cJSON_GetObjectItem(truth, "effects"), *first = cJSON_GetArrayItem(effects, 0);
+    if (is_two_zones(first))
+        return is_zone(c, truth, parameter_of(first, "z"), parameter_of(first, "width"))     ? 0
+               : is_zone(c, truth, parameter_of(first, "z2"), parameter_of(first, "width2")) ? 1
+                                                                                             : -1;
+    for (int i = 0; i < cJSON_GetArraySize(effects); i++)
+        if (!strcmp(text_of(cJSON_GetArrayItem(effects, i), "class"), "physical") &&
+            is_true(job, c, truth, cJSON_GetArrayItem(effects, i)))
+            return i;
+    return -1;
+}
+
+/* Whether its size lies where the catalogue does not look: then it is outside of that. */
+static int is_beyond(const struct rotor *rotor, const cJSON *effect)
+{
+    const struct cause_kind *cause = catalogue_find(text_of(effect, "id"));
+    if (!cause || !cause->effect || !cause->bounds || !cause->effect->nparameter)
+        return 0;
+    double lower, upper, value = parameter_of(effect, cause->effect->parameter[cause->size].name);
+    struct effect at = {.kind = cause->effect, .target = -1};
+    const char *target = text_of(effect, "target");
+    for (int g = 0; g < rotor->ngroup; g++) /* an interface has the name of the group before it, and a comma */
+        if (!strncmp(rotor->group[g].name, target, strlen(rotor->group[g].name)))
+            at.target = g;
+    if (at.target < 0 && cause->target == TARGET_INTERFACE)
+        return 0;
+    cause->bounds(rotor, &at, cause->size, &lower, &upper);
+    return value < lower || (value > upper && value != cause->parameter[cause->size].neutral);
+}
+
+static enum hidden_class class_of(const struct rotor *rotor, const cJSON *effects)
+{
+    const cJSON *first = cJSON_GetArrayItem(effects, 0);
+    if (!first)
+        return HIDDEN_NOTHING;
+    if (is_two_zones(first))
+        return HIDDEN_PAIR;
+    if (!strcmp(text_of(first, "class"), "outside") || is_beyond(rotor, first))
+        return HIDDEN_OUTSIDE;
+    if (!strcmp(text_of(first, "class"), "data"))
+        return is(first, "noise_level") ? HIDDEN_NOISE : HIDDEN_DATA;
+    return cJSON_GetArraySize(effects) > 1 ? HIDDEN_PAIR : HIDDEN_PHYSICAL;
+}
+
+/* ---- findings about the data */
+
+static int has_sensor(const struct data_finding *f, double id)
+{
+    for (int i = 0; i < f->nsensor; i++)
+        if (f->sensor[i] == id)
+            return 1;
+    return 0;
+}
+
+static int finding_is_true(const struct data_finding *f, const cJSON *effect)
+{
+    const cJSON *sensors = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "sensors");
+    const char *size = is(effect, "sensor_gain") ? "gain" : is(effect, "sensor_position") ? "shift" : "factor";
+    double value = parameter_of(effect, size);
+    if (!is(effect, f->cause->id))
+        return 0;
+    if (is(effect, "mode_pairing"))
+        return 1;
+    if (is(effect, "noise_level") && strcmp(f->block ? f->block : "", text_of(effect, "target")) != 0)
+        return 0;
+    if (is(effect, "sensor_swap"))
+        return has_sensor(f, cJSON_GetArrayItem(sensors, 0)->valuedouble) &&
+               has_sensor(f, cJSON_GetArrayItem(sensors, 1)->valuedouble);
+    if (!is(effect, "noise_level") && f->sensor[0] != parameter_of(effect, "sensor"))
+        return 0;
+    return isnan(value) || !isfinite(f->value) ||
+           fabs(f->value - value) <= fmax(VALUE_STDS * f->std, VALUE_TOLERANCE * fabs(value));
+}
+
+/* Counts the accusations that are not true; 1 where one is. */
+static int judge_findings(const struct diagnosis *d, const cJSON *effects, struct hidden_score *s)
+{
+    const cJSON *effect = cJSON_GetArrayItem(effects, 0);
+    int found = 0;
+    for (int i = 0; i < d->ndata_finding; i++) {
+        const struct data_finding *f = &d->data_finding[i];
+        int right = effect && finding_is_true(f, effect);
+        found |= right;
+        if (right || (s->coloured && !strcmp(f->cause->id, "noise_level")))
+            continue;
+        if (!s->accused++ && s->class == HIDDEN_DATA)
+            snprintf(s->wrong, sizeof s->wrong, "%s", f->cause->id);
+    }
+    return found;
+}
+
+/* ---- chi2 */
+
+/* The job with the data as they would be without noise; *same: with the modes of the diagnosis. */
+static int quiet_job(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth, struct job *job,
+                     int *same)
+{
+    const cJSON *with = cJSON_GetObjectItem(truth, "with"), *hz = cJSON_GetObjectItem(with, "frequency_hz");
+    const cJSON *shapes = cJSON_GetObjectItem(with, "shape"), *sensor;
+    int nsensor = read->rotor.nsensor, row = 0;
+    *job = *read;
+    job->fit = d->job.fit;
+    job->frequency_hz = POOL_ARRAY(pool, double, job->nmode);
+    job->shape = job->shape ? POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)job->nmode) : NULL;
+    *same = cJSON_GetArraySize(hz) == job->nmode && d->base.compared.nmode == job->nmode;
+    if (!job->frequency_hz || (read->shape && !job->shape))
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < job->nmode && *same; k++)
+        job->frequency_hz[k] = cJSON_GetArrayItem(hz, k)->valuedouble;
+    cJSON_ArrayForEach(sensor, cJSON_GetObjectItem(truth, "sensors"))
+    {
+        for (int s = 0; s < nsensor && job->shape && *same; s++)
+            for (int k = 0; k < job->nmode && job->rotor.sensor[s].id == number_of(sensor, "id"); k++)
+                job->shape[s + (ptrdiff_t)k * nsensor] = cJSON_GetArrayItem(cJSON_GetArrayItem(shapes, k), row)->valuedouble;
+        row++;
+    }
+    return ROTID_OK;
+}
+
+static double fitted_chi2(struct pool *pool, const struct diagnosis *d, const struct job *job)
+{
+    rotid_fit_result *fit = NULL;
+    double chi2 = NAN;
+    if (!identify_fit(pool, job, d->base.compared.number, job->holdout, &job->fit, NULL, NULL, &fit))
+        chi2 = fit->chi2;
+    rotid_fit_free(fit);
+    return chi2;
+}
+
+/* Without noise: what the base model leaves, and outside the catalogue what the best single causes leave. */
+static int measure_chi2(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth,
+                        struct hidden_score *s)
+{
+    struct job quiet, with;
+    int same, status = quiet_job(pool, d, read, truth, &quiet, &same);
+    if (status || !same)
+        return status;
+    s->drop = fitted_chi2(pool, d, &quiet);
+    for (int i = 0, tried = 0; s->class == HIDDEN_OUTSIDE && d->nround && i < d->round[0].ncandidate && tried < BEST; i++) {
+        const struct candidate *c = &d->round[0].candidate[i];
+        if (!c->refitted || !c->cause->effect || !isfinite(c->chi2))
+            continue;
+        tried++;
+        status = job_with_effect(pool, &quiet, NULL, &c->effect, c->cause, c->fixed, &with);
+        double chi2 = status ? NAN : fitted_chi2(pool, d, &with);
+        if (isfinite(chi2) && !(s->left <= chi2))
+            s->left = chi2;
+    }
+    return status;
+}
+
+static double margin(const struct diagnosis *d, const cJSON *truth)
+{
+    for (int r = 0; r < d->nround; r++) {
+        double right = INFINITY, other = INFINITY;
+        for (int i = 0; i < d->round[r].ncandidate; i++) {
+            const struct candidate *c = &d->round[r].candidate[i];
+            double *best = which(&d->job, c, truth) >= 0 ? &right : &other;
+            if (c->refitted && isfinite(c->chi2))
+                *best = fmin(*best, c->chi2);
+        }
+        if (isfinite(right))
+            return fmin(other - right, 1e9);
+    }
+    return NAN;
+}
+
+/* ---- intervals, places, sizes */
+
+static void add_value(struct hidden_score *s, const char *id, const char *name, double truth, double estimate, double lower,
+                      double upper)
+{
+    if (s->nvalue == HIDDEN_VALUES || !isfinite(truth))
+        return;
+    struct hidden_value *v = &s->value[s->nvalue++];
+    *v = (struct hidden_value){.truth = truth, .estimate = estimate, .lower = lower, .upper = upper};
+    snprintf(v->name, sizeof v->name, "%s%s%s", id, id[0] ? "." : "", name);
+}
+
+static void take_parameters(const struct job *job, const rotid_fit_result *fit, const cJSON *truth, struct hidden_score *s)
+{
+    const cJSON *parameter;
+    cJSON_ArrayForEach(parameter, cJSON_GetObjectItem(truth, "parameters"))
+    {
+        for (int p = 0; p < fit->n; p++)
+            if (same_text(job->bounds[p].name, text_of(parameter, "name")))
+                add_value(s, "", job->bounds[p].name, number_of(parameter, "value"), fit->x[p], fit->ci_lower[p],
+                          fit->ci_upper[p]);
+    }
+}
+
+/* Of a cause that was named right. Depth and width of another form than the true one say nothing. */
+static void take_cause(const struct candidate *c, const cJSON *truth, const cJSON *effect, struct hidden_score *s)
+{
+    const struct effect_kind *kind = c->effect.kind;
+    const char *form = text_of(cJSON_GetObjectItem(effect, "parameters"), "shape");
+    int size = c->cause->size;
+    int comparable = !form[0] || (c->cause->variant[0] && same_text(c->cause->variant[c->effect.variant], form));
+    for (int p = 0; p < c->nparameter; p++) {
+        double value = p == c->cause->place && isfinite(place_of_mass(truth, effect))
+                           ? place_of_mass(truth, effect)
+                           : parameter_of(effect, kind->parameter[p].name);
+        if (p == c->cause->place)
+            s->place_error = fabs(c->effect.value[p] - value) / number_of(truth, "length");
+        if (comparable || p == c->cause->place)
+            add_value(s, c->cause->id, kind->parameter[p].name, value, c->effect.value[p], c->ci_lower[p], c->ci_upper[p]);
+    }
+    if (c->nparameter && comparable) {
+        double neutral = c->cause->parameter[size].neutral, value = parameter_of(effect, kind->parameter[size].name);
+        s->size_error = fabs((c->effect.value[size] - value) / (value - neutral));
+    }
+}
+
+/* ---- the score */
+
+static enum hidden_outcome judge_verdict(const struct diagnosis *d, const cJSON *truth, struct hidden_score *s)
+{
+    int found[2] = {0, 0}, wrong = 0, noise = 0;
+    const cJSON *effect = cJSON_GetArrayItem(cJSON_GetObjectItem(truth, "effects"), 0);
+    for (int i = 0; i < d->ncause; i++) {
+        int n = which(&d->job, &d->cause[i], truth);
+        if (n >= 0)
+            found[n & 1] = 1;
+        else if (!wrong++)
+            snprintf(s->wrong, sizeof s->wrong, "%s", d->cause[i].cause->id);
+    }
+    if (wrong)
+        return HIDDEN_WRONG;
+    for (int i = 0; i < d->nalternative; i++) {
+        int n = which(&d->job, &d->alternative[i], truth);
+        if (n >= 0)
+            found[n & 1] = 1;
+        noise |= s->class == HIDDEN_NOISE && is(effect, d->alternative[i].cause->id);
+    }
+    s->nset = d->nalternative;
+    s->found = found[0] + found[1];
+    if (d->ncause)
+        return HIDDEN_RIGHT;
+    if (d->kind == VERDICT_ADEQUATE)
+        return HIDDEN_SILENT;
+    if (d->kind == VERDICT_AMBIGUOUS)
+        return s->found || noise ? HIDDEN_IN_SET : HIDDEN_OTHER_SET;
+    return HIDDEN_UNEXPLAINED;
+}
+
+int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth,
+                      struct hidden_score *s)
+{
+    const cJSON *effects = cJSON_GetObjectItem(truth, "effects"), *effect = cJSON_GetArrayItem(effects, 0);
+    s->class = class_of(&read->rotor, effects);
+    s->truths = cJSON_GetArraySize(effects) + is_two_zones(effect);
+    snprintf(s->id, sizeof s->id, "%s", !effect ? "none" : text_of(effect, is(effect, "outside") ? "kind" : "id"));
+    s->coloured = number_of(cJSON_GetObjectItem(truth, "noise"), "correlation") != 0;
+    s->reported = d->kind != VERDICT_ADEQUATE;
+    s->names = d->ncause;
+    int found = judge_findings(d, effects, s), status = measure_chi2(pool, d, read, truth, s);
+    s->margin = margin(d, truth);
+    s->outcome = judge_verdict(d, truth, s);
+    if ((s->class == HIDDEN_DATA || s->class == HIDDEN_NOISE) && s->outcome != HIDDEN_WRONG) {
+        if (found)
+            s->outcome = HIDDEN_RIGHT;
+        else if (s->class == HIDDEN_DATA && s->accused)
+            s->outcome = HIDDEN_WRONG;
+    }
+    if (s->class == HIDDEN_NOTHING && s->outcome == HIDDEN_SILENT)
+        take_parameters(&d->job, d->base.fit, truth, s);
+    if (s->class == HIDDEN_PHYSICAL && s->outcome == HIDDEN_RIGHT && d->extended.fit) {
+        take_parameters(&d->extended_job, d->extended.fit, truth, s);
+        take_cause(&d->cause[0], truth, effect, s);
+    }
+    return status;
+}

@@ -1,0 +1,61 @@
+/* A diagnosis beside the truth that tools/hide wrote: what was said right, what wrong, what was left open. */
+#ifndef SCORE_H
+#define SCORE_H
+
+#include <cjson/cJSON.h>
+
+#include "diagnose/diagnose.h"
+
+enum hidden_class { HIDDEN_NOTHING, HIDDEN_PHYSICAL, HIDDEN_PAIR, HIDDEN_DATA, HIDDEN_NOISE, HIDDEN_OUTSIDE };
+
+enum hidden_outcome {
+    HIDDEN_RIGHT,       /* named, and only what is true; a fault of the data found */
+    HIDDEN_IN_SET,      /* ambiguous, and the truth is one of the set */
+    HIDDEN_SILENT,      /* adequate */
+    HIDDEN_UNEXPLAINED, /* something is wrong, no name for it */
+    HIDDEN_OTHER_SET,   /* ambiguous, and the truth is none of the set */
+    HIDDEN_WRONG,       /* a physical name that is not true; for faults of the data also another fault in place of the true one */
+    HIDDEN_FAILED,      /* no diagnosis: see `failure` */
+    HIDDEN_OUTCOMES
+};
+
+#define HIDDEN_NAME   64
+#define HIDDEN_VALUES 12
+
+struct hidden_value {       /* a parameter with a stated 95 % interval */
+    char name[HIDDEN_NAME]; /* "core.E", "stiffness_local.depth" */
+    double truth, estimate, lower, upper;
+};
+
+struct hidden_score {
+    enum hidden_class class;
+    char id[HIDDEN_NAME];    /* of the first true effect; a kind outside by its name; "none" */
+    char wrong[HIDDEN_NAME]; /* the first id that was named and is not true; "" */
+    enum hidden_outcome outcome;
+    int coloured;      /* noise correlated along the rotor */
+    int reported;      /* anything but adequate */
+    int names;         /* causes named */
+    int truths, found; /* effects that are there; of these named or in the set */
+    int nset;          /* members of the ambiguous set, 0 without one */
+    int accused;       /* findings about the data that are not true */
+    double drop;       /* chi2 of the base model fitted to the data without their noise */
+    double margin;     /* least chi2 of the other refitted candidates minus that of the true one; NaN where it was not refitted */
+    double left;       /* outside the catalogue: chi2 of the best single cause for the data without noise; NaN elsewhere */
+    double place_error, size_error; /* of the length, of the size; NaN unless named right and there is one */
+    int nvalue;
+    struct hidden_value value[HIDDEN_VALUES];
+    double seconds; /* of the diagnosis */
+    char failure[300];
+};
+
+const char *hidden_outcome_name(enum hidden_outcome outcome);
+
+int hidden_covers(const struct hidden_value *value); /* its interval holds the truth */
+
+/* Compares the diagnosis of the job `read` with the truth; *score holds its neutral values (hidden_score_none) before. Fits the
+ * base model, and outside the catalogue the best causes, to the data as they would be without noise. Statuses of these fits. */
+int hidden_score_make(struct pool *pool, const struct diagnosis *diagnosis, const struct job *read, const cJSON *truth,
+                      struct hidden_score *score);
+struct hidden_score hidden_score_none(void);
+
+#endif
