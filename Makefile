@@ -2,6 +2,7 @@
 #   make            builds the program build/rotid and the library build/librotid.a
 #   make demo       identifies the paper's rotor from its measured frequencies and shows the result
 #   make test       builds and runs every test; ends with one line "N passed, N failed"
+#   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-peers   against SciPy, pyuff and jsonschema, installed into build/venv
@@ -29,7 +30,7 @@ COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(filter 1,$(WERROR)),-Werror)
 ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L $(WARNINGS) -fvisibility=hidden -fPIC -Iinclude -Isrc \
              -DWITH_NLOPT=$(WITH_NLOPT) $(shell pkg-config --cflags $(PACKAGES) libcjson) $(CFLAGS)
-LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm
+LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread
 PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
 
 LIBRARY_ROOMS := base linalg beam modal fit run diagnose/causes diagnose
@@ -42,10 +43,10 @@ IO_OBJECTS := $(call OBJECTS_OF,$(IO_SOURCES))
 
 TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c)) \
-                   $(call OBJECTS_OF,$(filter-out %/hide_main.c,$(wildcard tools/hide/*.c)))
+                   $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c,$(wildcard tools/hide/*.c tools/power/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all demo test bench bench-quick check-asan check-valgrind check-peers coverage lint format install uninstall clean
+.PHONY: all demo test power bench bench-quick check-asan check-valgrind check-peers coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -73,7 +74,13 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(BUILD)/libroti
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
-$(BUILD)/tools/hide/%.o: ALL_CFLAGS += -Itools
+$(BUILD)/tools/hide/%.o $(BUILD)/tools/power/%.o: ALL_CFLAGS += -Itools -Itests
+
+# Fresh hidden effects by the thousand; POWER holds options, such as "--cases 200 --no-shapes".
+$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(BUILD)/librotid.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
+power: $(BUILD)/power
+	@OPENBLAS_NUM_THREADS=1 $(BUILD)/power $(POWER)
 
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"'
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(BUILD)/librotid.a

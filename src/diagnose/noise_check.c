@@ -267,8 +267,8 @@ int noise_check(struct pool *pool, int nrow, int ncolumn, const double *residual
     *estimate = (struct noise_estimate){.factor = NAN, .std = NAN, .smooth_factor = NAN};
     if (nrow < LEAST_ROWS)
         return ROTID_OK;
-    double *unit = POOL_ARRAY(pool, double, m *n);
-    double *smooth = POOL_ARRAY(pool, double, widest *n);
+    double *unit = POOL_ARRAY(pool, double, (m * n));
+    double *smooth = POOL_ARRAY(pool, double, (widest * n));
     double *numbers = POOL_ARRAY(pool, double, m *widest + n + m + widest + 3 * m + (2 + MOST_EFFECTS) * widest);
     if (!unit || !smooth || !numbers)
         return ROTID_ERROR_MEMORY;

@@ -127,8 +127,8 @@ int power_requirements(FILE *out, int count, const struct power_result *result)
     fprintf(out, "\nrequired\n");
     for (int i = 0; i < LINES; i++) {
         double lower, upper, part = share[i].count ? (double)share[i].right / share[i].count : 0;
-        int holds = part >= table[i].least && part <= table[i].most;
         power_interval(share[i], &lower, &upper);
+        int holds = part >= table[i].least && lower <= table[i].most; /* few cases may all be right */
         if (i == REQUIRED)
             fprintf(out, "beside that\n");
         if (!share[i].count) {
