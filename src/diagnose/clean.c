@@ -11,6 +11,7 @@
 #define MOST_FAULTS 8
 #define FALSE_ALARM 0.005
 #define MUCH_LESS   0.7  /* of the stated noise */
+#define MUCH_MORE   1.3
 #define NOISIER     3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
 #define SHARED      0.35 /* correlation of neighbours; 0.1 is the error of its estimate, 0.2 what a smooth misfit adds */
 #define SLIGHT      0.05 /* excess of the smooth part of the noise that changes no verdict */
@@ -123,10 +124,11 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
     return correct(engine, &finding, &correction);
 }
 
-/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. */
-static int is_misstated(const struct noise_estimate *noise)
+/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. Where it is a little too
+ * small, the second-order part of a large effect may be it; that is decided behind the fits (`least` 1). */
+static int is_misstated(const struct noise_estimate *noise, double least)
 {
-    return noise->usable && noise->misstated && (noise->factor < MUCH_LESS || (noise->factor > 1 && noise->factor < NOISIER));
+    return noise->usable && noise->misstated && (noise->factor < MUCH_LESS || (noise->factor > least && noise->factor < NOISIER));
 }
 
 static int correct_noise(struct engine *engine, double factor, double std, const char *text)
@@ -189,18 +191,24 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
     if (engine->coloured || !job->shape || !job_knows_shape_noise(job))
         return ROTID_OK;
     int status = check_noise(engine, scan, r, &noise);
-    if (status || !noise.usable || !noise.coloured || !(noise.smooth_factor > 1 + SLIGHT && noise.smooth_factor < NOISIER) ||
-        !(neighbour_correlation(engine, r) > SHARED))
+    if (status)
         return status;
-    engine->coloured = *changed = 1;
+    int coloured = noise.usable && noise.coloured && noise.smooth_factor > 1 + SLIGHT && noise.smooth_factor < NOISIER &&
+                   neighbour_correlation(engine, r) > SHARED;
+    if (!coloured && !(is_misstated(&noise, 1) && noise.factor > 1))
+        return ROTID_OK;
+    double factor = coloured ? noise.smooth_factor : noise.factor;
+    const char *text =
+        pool_format(engine->pool,
+                    coloured ? "neighbouring sensors share their noise: its smooth part is %.2f times the stated level, which is used"
+                             : "the noise of the shapes is %.2f times the stated one, which is used",
+                    factor);
+    engine->coloured |= coloured;
+    *changed = 1;
     double *base = engine->out->job.shape_std; /* another array where a cause has added its discrepancy to the judged one */
     for (ptrdiff_t i = 0; i < (ptrdiff_t)job->rotor.nsensor * job->nmode && base != job->shape_std; i++)
-        base[i] *= noise.smooth_factor;
-    status = correct_noise(engine, noise.smooth_factor, NAN,
-                           pool_format(engine->pool,
-                                       "neighbouring sensors share their noise: its smooth part is %.2f times the stated level, "
-                                       "which is used",
-                                       noise.smooth_factor));
+        base[i] *= factor;
+    status = correct_noise(engine, factor, coloured ? NAN : noise.std, text);
     engine->out->job.correction = job->correction;
     engine->out->job.ncorrection = job->ncorrection;
     return status;
@@ -223,7 +231,7 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
         status = shape_data(engine, &columns, &data);
     if (status)
         return status;
-    if (is_misstated(&noise)) { /* the faults are judged by the noise that is there */
+    if (is_misstated(&noise, MUCH_MORE)) { /* the faults are judged by the noise that is there */
         double *std = POOL_ARRAY(engine->pool, double, (size_t)data.nsensor *(size_t)data.nmode);
         if (!std)
             return ROTID_ERROR_MEMORY;
@@ -243,7 +251,7 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
         status = correct_fault(engine, &now);
         *changed = 1;
     }
-    if (!status && is_misstated(&noise)) {
+    if (!status && is_misstated(&noise, MUCH_MORE)) {
         status = correct_noise(engine, noise.factor, noise.std,
                                pool_format(engine->pool, "the noise of the shapes is %.2f times the stated one, which is used",
                                            noise.factor));

@@ -43,7 +43,8 @@ static void settle_causes(struct diagnosis *out)
             effect_at(job, e, fit->x, &cause->effect);
             for (int p = 0; p < fit->n; p++) {
                 const struct parameter *q = &job->parameter[p];
-                if (q->kind != PARAMETER_EFFECT || q->index != e)
+                if (q->kind != PARAMETER_EFFECT || q->index != e || !isfinite(fit->std[p]) ||
+                    !isfinite(cause->ci_lower[q->component])) /* what the round found out about it stands */
                     continue;
                 cause->std[q->component] = fit->std[p];
                 cause->ci_lower[q->component] = fmax(fit->ci_lower[p], job->bounds[p].lower);

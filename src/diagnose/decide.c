@@ -9,6 +9,7 @@
 
 #define NOISIER   3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
 #define COLOURED  2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
+#define CLEAR     2.0 /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
 #define WORSE     1.1 /* held-out modes predicted worse than this factor speak against a cause */
 #define BETTER    0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
@@ -162,8 +163,8 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     qsort(round->candidate, (size_t)round->ncandidate, sizeof *round->candidate, compare);
     for (int i = 0; i < round->ncandidate; i++)
         round->candidate[i].refitted = round->candidate[i].refitted != 0;
-    /* the model as it is counts as one more rival, which the best of many passes by chance up to the threshold */
-    int weak = round->nset && !(round->candidate[0].chi2_drop > round->threshold + round->required_margin);
+    /* the model as it is counts as one more rival, and noise that happens to look like one cause is the rule among weak ones */
+    int weak = round->nset && !(round->candidate[0].chi2_drop > CLEAR * round->threshold);
     round->kind = round->nset == 0                                           ? VERDICT_UNEXPLAINED
                   : round->nset > 1 || !engine->confident || refused || weak ? VERDICT_AMBIGUOUS
                   : round->candidate[0].cause->class != CAUSE_PHYSICAL       ? VERDICT_UNEXPLAINED

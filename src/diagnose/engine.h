@@ -40,7 +40,8 @@ int data_add_finding(struct engine *engine, const struct data_finding *finding);
 /* After the base fit: faults of channels and the level of the noise, taken out of the judged data; *changed when there were any. */
 int data_clean(struct engine *engine, const struct scan *scan, int *changed);
 /* Noise that neighbouring sensors share looks like physics to the scan. r [nrow] is the residual that the best candidate leaves:
- * where its smooth part is still too large, the noise of the shapes is raised to that, and the round has to be repeated. */
+ * where its smooth part, or all of it, is still too large, the noise of the shapes is raised to that, and the round has to be
+ * repeated. */
 int data_colour(struct engine *engine, const struct scan *scan, const double *r, int *changed);
 
 /* ---- base.c: what the rounds start from */

@@ -138,7 +138,7 @@ static double cut_level(int n, const double *x, double lost, double level)
 static double fit_basis(const struct basis *basis, const double *residual, double *rest, double *coefficient, double *work)
 {
     int m = basis->m, p = basis->count;
-    double *kept = work, *scratch = work + m, *share = work + 2 * m, level = INFINITY;
+    double *kept = work, *scratch = work + m, *share = scratch + m, level = INFINITY;
     for (int i = 0; i < m; i++) {
         share[i] = 1;
         for (int j = 0; j < p; j++)
@@ -288,8 +288,12 @@ int noise_check(struct pool *pool, int nrow, int ncolumn, const double *residual
     int p = basis.count - basis.fitted;
     if (p <= MOST_EFFECTS)
         return ROTID_OK;
-    struct effects effects = {
-        .p = p, .n = ncolumn, .x = coefficient + basis.fitted, .c = smooth, .gone = work, .rest = work + MOST_EFFECTS * p};
+    struct effects effects = {.p = p,
+                              .n = ncolumn,
+                              .x = coefficient + basis.fitted,
+                              .c = smooth,
+                              .gone = work,
+                              .rest = work + MOST_EFFECTS * (ptrdiff_t)p};
     for (int j = 0; j < ncolumn; j++)
         for (int k = 0; k < p; k++)
             smooth[k + (ptrdiff_t)j * p] = dot(nrow, basis.q + (ptrdiff_t)(basis.fitted + k) * nrow, unit + (ptrdiff_t)j * nrow);

@@ -90,7 +90,6 @@ static int ends_at_bound(const rotid_parameter *bounds, double neutral, double x
            (x > bounds->upper - near && fabs(bounds->upper - neutral) > near);
 }
 
-/* The likelihood interval of a place or width is no interval of its own where the size may be anything: std from the fit. */
 static void take_parameters(const struct refit *refit, int own, struct candidate *c)
 {
     const rotid_fit_result *fit = refit->fit;
@@ -101,9 +100,32 @@ static void take_parameters(const struct refit *refit, int own, struct candidate
         c->std[component] = fit->std[p];
         c->ci_lower[component] = fmax(fit->ci_lower[p], refit->job.bounds[p].lower);
         c->ci_upper[component] = fmin(fit->ci_upper[p], refit->job.bounds[p].upper);
+        if (!isfinite(fit->std[p])) /* fmax and fmin prefer the number */
+            c->ci_lower[component] = c->ci_upper[component] = NAN;
         if (component == c->cause->size)
             c->at_bound = ends_at_bound(&refit->job.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
     }
+}
+
+/* Depth and width of a zone trade off: where the width ends at a bound the fit knows the depth for that width alone. And a place
+ * that the fit gives no interval for, being at an end or where the modes are symmetric, has that of the scan: wherever the promised
+ * drop is within 3.84 of the best. */
+static void mend_intervals(const struct scan *scan, const struct scan_candidate *s, struct candidate *c)
+{
+    const struct cause_kind *cause = c->cause;
+    int place = cause->place, width = cause->width;
+    if (width >= 0 && !c->fixed[width] && !isfinite(c->std[width]))
+        c->std[cause->size] = c->ci_lower[cause->size] = c->ci_upper[cause->size] = NAN;
+    if (place < 0 || c->fixed[place] || isfinite(c->std[place]) || s->best < 0)
+        return;
+    double lower = INFINITY, upper = -INFINITY;
+    for (int i = s->first; i < s->first + s->count; i++)
+        if (scan->item[i].drop >= scan->item[s->best].drop - 3.84) {
+            lower = fmin(lower, scan->item[i].effect.value[place]);
+            upper = fmax(upper, scan->item[i].effect.value[place]);
+        }
+    c->ci_lower[place] = fmin(lower, c->effect.value[place]);
+    c->ci_upper[place] = fmax(upper, c->effect.value[place]);
 }
 
 static double frequency_chi2(const rotid_fit_result *fit, int nfrequency)
@@ -154,6 +176,7 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->p_value = bootstrap_p(bootstrap, c->chi2_drop);
     c->chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
     take_parameters(refit, engine->job.nparameter, c);
+    mend_intervals(scan, s, c);
     fitted_errors(&refit->job, engine->holdout, refit->fit, 1, &c->holdout_rms, &unused, &shape);
     return sensor_out(engine->pool, &refit->job, engine->holdout, refit->fit, &c->sensor_out_rms, &shape);
 }
@@ -305,7 +328,7 @@ static int check_colour(struct engine *engine, const struct round_result *result
     for (int i = 0; i < result->nrefit; i++)
         if (result->refit[i].fit && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))
             best = i;
-    int status = best < 0 ? ROTID_OK : data_colour(engine, &result->scan, result->refit[best].fit->r, changed);
+    int status = data_colour(engine, &result->scan, best < 0 ? result->scan.r : result->refit[best].fit->r, changed);
     if (status || !*changed)
         return status;
     rotid_fit_result *fit = NULL;
@@ -363,7 +386,7 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     if (!status)
         status = run_refits(engine, result);
     engine_step(engine, "refits");
-    if (!status)
+    if (!status && !adequate)
         status = check_colour(engine, result, again);
     if (status || *again)
         return status;

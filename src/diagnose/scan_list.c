@@ -14,13 +14,14 @@ static int is_identified(const struct job *job, int group)
     return 0;
 }
 
-/* A cause with a place may be there twice, one without only once at a target. */
+/* A cause with a place may be there twice, one without only once at a target: with three soft zones or masses anything that is
+ * spread along the rotor can be imitated, and nothing is explained. */
 static int is_in_model(const struct rotor *rotor, const struct cause_kind *cause, int target)
 {
+    int count = 0;
     for (int i = 0; i < rotor->neffect; i++)
-        if (rotor->effect[i].kind == cause->effect && rotor->effect[i].target == target && cause->place < 0)
-            return 1;
-    return 0;
+        count += rotor->effect[i].kind == cause->effect && rotor->effect[i].target == target;
+    return count >= (cause->place < 0 ? 1 : 2);
 }
 
 static int target_count(const struct rotor *rotor, enum cause_target target)

@@ -16,7 +16,7 @@
 /* What a higher noise must gain in log likelihood. */
 #define NOISE_MARGIN 5.0
 #define NOISE_STEP   1.4
-#define NOISE_MOST   6.0
+#define NOISE_STEPS  5
 
 struct search {
     struct sensor_field field;
@@ -201,7 +201,8 @@ static int noise_above_stated(struct search *search, int nfault, const struct se
     if (start_without(search, nfault, fault, -1))
         return 0;
     most = field_evidence(&search->field) + NOISE_MARGIN;
-    for (double factor = NOISE_STEP; factor < NOISE_MOST; factor *= NOISE_STEP) {
+    for (int step = 1; step <= NOISE_STEPS; step++) {
+        double factor = pow(NOISE_STEP, step);
         search->noise_factor = factor;
         if (start_without(search, nfault, fault, -1))
             break;

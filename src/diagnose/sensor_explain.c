@@ -41,8 +41,8 @@ int suspect_new(struct pool *pool, const struct sensor_field *field, struct susp
 
 static double log_mean_exp(int count, const double *x)
 {
-    double best = x[0], sum = 0;
-    for (int i = 1; i < count; i++)
+    double best = -INFINITY, sum = 0;
+    for (int i = 0; i < count; i++)
         best = fmax(best, x[i]);
     if (isinf(best))
         return best;
@@ -197,7 +197,8 @@ static void explain_position(struct suspect *suspect, struct explanation *explan
     double own = field->data->z[suspect->s], reach = REACH * 2 * field->half, step = 2 * reach / REACH_GRID;
     double from = fmax(own - reach, field->middle - field->half), to = fmin(own + reach, field->middle + field->half);
     double best = -INFINITY, place = own, std;
-    for (double z = from; z <= to; z += step) {
+    for (int i = 0; from + i * step <= to; i++) {
+        double z = from + i * step;
         double value = of_place(suspect, z);
         if (value > best) {
             best = value;
@@ -216,7 +217,7 @@ static void explain_copy(struct suspect *suspect, struct explanation *explanatio
     for (int t = 0; t < field->n; t++) {
         int shared = 0, identical = 1;
         double apart = 0;
-        double centre[FIELD_MOST_MODES];
+        double centre[FIELD_MOST_MODES] = {0};
         struct explanation copy = {.other = t, .value = NAN, .std = NAN},
                            exact = {.other = t, .value = NAN, .exact = 1, .std = NAN};
         if (t == suspect->s || field->masked[t])

@@ -78,7 +78,7 @@ static void parts(const struct sensor_field *field, double z, double other, cons
     part[0] = RIGID * (1 + x * y);
     part[1] = 0;
     for (int k = 0; k < field->nmode; k++)
-        part[1] += shape[k] * other_shape[k * stride];
+        part[1] += shape[k] * other_shape[k * (ptrdiff_t)stride];
     part[2] = twice_integrated(z - field->origin, other - field->origin);
 }
 
@@ -198,7 +198,7 @@ void field_predict(const struct sensor_field *field, int s, double z, const int 
                    double *vector)
 {
     int n = field->n, modes = field->nmode;
-    double *cov = vector + 3 * n, own_part[3], part[3], shape[FIELD_MOST_MODES];
+    double *cov = vector + 3 * (ptrdiff_t)n, own_part[3], part[3], shape[FIELD_MOST_MODES];
     for (int k = 0; k < modes; k++)
         shape[k] = field_model(field, k, z);
     parts(field, z, z, shape, shape, 1, own_part);

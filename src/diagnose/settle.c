@@ -51,7 +51,7 @@ static double left_over(const struct diagnosis_round *last)
     double chi2 = last->chi2, frequency = last->chi2_frequency, f = last->nfrequency;
     if (last->kind == VERDICT_ADEQUATE)
         return 0;
-    for (int i = 0; i < last->ncandidate; i++)
+    for (int i = 0; i < last->ncandidate && last->kind == VERDICT_AMBIGUOUS; i++)
         if (last->candidate[i].refitted && last->candidate[i].cause->class == CAUSE_PHYSICAL && last->candidate[i].chi2 < chi2) {
             chi2 = last->candidate[i].chi2;
             frequency = last->candidate[i].chi2_frequency;

@@ -1,0 +1,328 @@
+/* What a round concludes from candidates with given numbers: names, sets, reasons. */
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/engine.h"
+#include "support.h"
+
+#define MODES 6
+#define MOST  10
+
+static double noise[MODES];
+static struct candidate candidates[MOST];
+static struct engine engine;
+static struct diagnosis_round decided;
+static struct before before;
+
+/* Before: 400 degrees of freedom, chi2 as noise has it but for 60 that a cause may take; frequencies sound. */
+static void open_round(void)
+{
+    for (int k = 0; k < MODES; k++)
+        noise[k] = 0.001;
+    engine = (struct engine){.pool = &test_pool, .confident = 1};
+    engine.job.nmode = MODES;
+    engine.job.frequency_std = noise;
+    memset(candidates, 0, sizeof candidates);
+    decided = (struct diagnosis_round){.candidate = candidates, .threshold = 13};
+    before = (struct before){.dof = 400,
+                             .nfrequency = MODES,
+                             .chi2 = 460,
+                             .chi2_frequency = 6,
+                             .holdout_rms = NAN,
+                             .mode_out_rms = NAN,
+                             .sensor_out_rms = NAN};
+}
+
+static struct candidate *add(const char *id, const char *target, int parameters, double drop)
+{
+    struct candidate *c = &candidates[decided.ncandidate++];
+    *c = (struct candidate){.cause = catalogue_find(id),
+                            .target = target,
+                            .nparameter = parameters,
+                            .predicted_drop = drop,
+                            .refitted = 1,
+                            .chi2 = before.chi2 - drop,
+                            .chi2_drop = drop,
+                            .chi2_frequency = 6,
+                            .p_value = 0.01,
+                            .holdout_rms = NAN,
+                            .mode_out_rms = NAN,
+                            .sensor_out_rms = NAN,
+                            .cosine = NAN};
+    assert_non_null(c->cause);
+    return c;
+}
+
+static void conclude_as(enum verdict_kind kind, int nset)
+{
+    assert_status(decide(&engine, &before, &decided), ROTID_OK);
+    if (decided.kind != kind || decided.nset != nset)
+        for (int i = 0; i < decided.ncandidate; i++)
+            print_error("%s: %s\n", candidates[i].cause->id,
+                        candidates[i].rejected_because ? candidates[i].rejected_because : "in");
+    assert_string_equal(verdict_name(decided.kind), verdict_name(kind));
+    assert_int_equal(decided.nset, nset);
+    for (int i = 0; i < decided.ncandidate; i++) {
+        assert_int_equal(candidates[i].rejected_because == NULL, i < nset); /* the set first, a reason for all others */
+        assert_true(candidates[i].refitted == 0 || candidates[i].refitted == 1);
+    }
+}
+
+static const struct candidate *find(const char *id)
+{
+    for (int i = 0; i < decided.ncandidate; i++)
+        if (!strcmp(candidates[i].cause->id, id))
+            return &candidates[i];
+    return NULL;
+}
+
+static void assert_reason(const char *id, const char *words)
+{
+    const struct candidate *c = find(id);
+    assert_non_null(c);
+    assert_non_null(c->rejected_because);
+    if (!strstr(c->rejected_because, words))
+        print_error("%s is rejected because it \"%s\", expected \"%s\"\n", id, c->rejected_because, words);
+    assert_non_null(strstr(c->rejected_because, words));
+}
+
+static void one_that_stands_out_is_named(void **state)
+{
+    (void)state;
+    open_round();
+    add("joint", "core|right", 1, 40);
+    add("stiffness_gradient", "core", 1, 60);
+    conclude_as(VERDICT_NAMED, 1);
+    assert_string_equal(candidates[0].cause->id, "stiffness_gradient");
+    assert_close(decided.required_margin, LEAST_MARGIN, 1e-12, 0);
+    assert_reason("joint", "loses to stiffness_gradient by 20");
+}
+
+static void rivals_within_the_margin_are_a_set(void **state)
+{
+    (void)state;
+    for (int apart = 0; apart < 12; apart++) {
+        if (apart == 6)
+            continue; /* at the margin */
+        open_round();
+        add("density", "left", 1, 60 - apart);
+        add("stiffness", "left", 1, 60);
+        add("tie_tension", "ties", 1, 14);
+        conclude_as(apart < 6 ? VERDICT_AMBIGUOUS : VERDICT_NAMED, apart < 6 ? 2 : 1);
+        if (apart)
+            assert_string_equal(candidates[0].cause->id, "stiffness");
+        assert_reason("tie_tension", "loses to");
+    }
+}
+
+/* Each parameter costs as much as the best of its values gains from noise; what fits as well is still not shut out by it. */
+static void parameters_cost(void **state)
+{
+    (void)state;
+    struct candidate c = {.chi2 = 100, .nparameter = 3};
+    assert_close(candidate_score(&c), 100 + 3 * PARAMETER_PENALTY, 1e-15, 0);
+    c.fixed[1] = 1;
+    assert_close(candidate_score(&c), 100 + 2 * PARAMETER_PENALTY, 1e-15, 0);
+    c = (struct candidate){.chi2 = 100}; /* there or not: a choice too */
+    assert_close(candidate_score(&c), 100 + PARAMETER_PENALTY, 1e-15, 0);
+    open_round();
+    add("stiffness_local", "", 3, 63);
+    add("joint", "core|right", 1, 60);
+    conclude_as(VERDICT_AMBIGUOUS, 2);
+    assert_string_equal(candidates[0].cause->id, "joint");
+    open_round();
+    add("stiffness_local", "", 3, 52);
+    add("joint", "core|right", 1, 60);
+    conclude_as(VERDICT_NAMED, 1);
+}
+
+static void chance_names_nothing(void **state)
+{
+    (void)state;
+    open_round();
+    add("joint", "core|right", 1, 12.9);
+    add("density", "left", 1, 5);
+    conclude_as(VERDICT_UNEXPLAINED, 0);
+    assert_reason("joint", "no more than chance");
+    assert_reason("density", "no more than chance");
+    open_round();
+    conclude_as(VERDICT_UNEXPLAINED, 0); /* nothing to choose from */
+}
+
+/* The threshold says that the best is more than noise. It does not tell a rival from it that misses the threshold by little. */
+static void a_rival_too_weak_alone_still_makes_a_name_doubtful(void **state)
+{
+    (void)state;
+    open_round();
+    add("added_mass", "", 2, 13.3);
+    add("density", "core", 1, 9.7);
+    assert_status(decide(&engine, &before, &decided), ROTID_OK);
+    assert_string_equal(verdict_name(decided.kind), "ambiguous");
+    assert_non_null(find("added_mass"));
+    open_round(); /* alone, but above chance by less than the margin: the model as it is counts as a rival */
+    add("added_mass", "", 2, 13.3);
+    conclude_as(VERDICT_AMBIGUOUS, 1);
+    open_round();
+    add("added_mass", "", 2, 25);
+    add("density", "core", 1, 9.7);
+    conclude_as(VERDICT_NAMED, 1);
+    assert_reason("density", "no more than chance");
+}
+
+static void what_was_not_fitted_is_no_candidate(void **state)
+{
+    (void)state;
+    open_round();
+    add("joint", "core|right", 1, 70)->refitted = 0;
+    add("density", "left", 1, 30);
+    struct candidate *failed = add("stiffness", "left", 1, 20);
+    failed->chi2 = failed->chi2_drop = NAN;
+    conclude_as(VERDICT_NAMED, 1);
+    assert_string_equal(candidates[0].cause->id, "density");
+    assert_reason("joint", "promises too little");
+    assert_reason("stiffness", "no fit");
+}
+
+static void a_size_at_its_bound_is_refused(void **state)
+{
+    (void)state;
+    open_round();
+    add("added_mass", "", 2, 40)->at_bound = 1;
+    conclude_as(VERDICT_UNEXPLAINED, 0);
+    assert_reason("added_mass", "bound");
+    open_round(); /* what is refused explains more than what is left: then what is left is no name */
+    add("added_mass", "", 2, 50)->at_bound = 1;
+    add("density", "left", 1, 20);
+    conclude_as(VERDICT_AMBIGUOUS, 1);
+    open_round();
+    add("added_mass", "", 2, 40)->at_bound = 1;
+    add("density", "left", 1, 45);
+    conclude_as(VERDICT_NAMED, 1);
+}
+
+static void modes_held_out_speak(void **state)
+{
+    (void)state;
+    open_round(); /* worse than before */
+    before.holdout_rms = 1;
+    add("support", "foam", 1, 50)->holdout_rms = 1.2;
+    conclude_as(VERDICT_UNEXPLAINED, 0);
+    assert_reason("support", "held out get worse");
+    open_round(); /* as good as before is allowed */
+    before.holdout_rms = 1;
+    add("support", "foam", 1, 50)->holdout_rms = 1.05;
+    conclude_as(VERDICT_NAMED, 1);
+    open_round(); /* a rival that fits a little less and predicts much better */
+    before.holdout_rms = 14.3;
+    add("stiffness_local", "", 2, 52)->holdout_rms = 7.7;
+    add("step_stiffness", "", 1, 48)->holdout_rms = 5.9;
+    conclude_as(VERDICT_NAMED, 1);
+    assert_string_equal(candidates[0].cause->id, "step_stiffness");
+    assert_reason("stiffness_local", "predicts the modes held out worse");
+    open_round(); /* within what noise makes of two predictions nobody wins by it */
+    before.holdout_rms = 0.2;
+    add("density", "left", 1, 50)->holdout_rms = 0.09;
+    add("stiffness", "left", 1, 48)->holdout_rms = 0.03;
+    conclude_as(VERDICT_AMBIGUOUS, 2);
+}
+
+static void modes_left_out_in_turn_speak(void **state)
+{
+    (void)state;
+    open_round();
+    before.mode_out_rms = 0.6;
+    before.sensor_out_rms = 1.2;
+    add("joint", "core|right", 1, 50)->mode_out_rms = 1.4;
+    conclude_as(VERDICT_UNEXPLAINED, 0);
+    assert_reason("joint", "left out in turn get worse");
+    open_round(); /* the sensors say otherwise */
+    before.mode_out_rms = 0.6;
+    before.sensor_out_rms = 1.2;
+    struct candidate *c = add("joint", "core|right", 1, 50);
+    c->mode_out_rms = 1.4;
+    c->sensor_out_rms = 1.0;
+    conclude_as(VERDICT_NAMED, 1);
+    open_round(); /* twice the noise is no harm */
+    before.mode_out_rms = 0.1;
+    add("joint", "core|right", 1, 50)->mode_out_rms = 0.19;
+    conclude_as(VERDICT_NAMED, 1);
+}
+
+/* What is left far above noise widens the margin: a wrong model makes differences larger than noise would. */
+static void the_margin_grows_with_what_is_left(void **state)
+{
+    (void)state;
+    open_round();
+    before.chi2 = 2000;
+    add("density", "left", 1, 790);
+    add("stiffness", "left", 1, 800);
+    conclude_as(VERDICT_AMBIGUOUS, 2);
+    assert_close(decided.required_margin, LEAST_MARGIN * 1200 / 399, 1e-12, 0);
+    open_round(); /* the frequencies alone, which the whole chi2 hides */
+    before.chi2_frequency = 200;
+    before.chi2 = 700;
+    add("stiffness", "left", 1, 240)->chi2_frequency = 60;
+    conclude_as(VERDICT_NAMED, 1);
+    assert_close(decided.required_margin, LEAST_MARGIN * 60 / MODES, 1e-12, 0);
+}
+
+/* Frequencies noisier than stated are a rival of what shows in the frequencies alone. */
+static void noise_of_the_frequencies_is_a_rival(void **state)
+{
+    (void)state;
+    const double drop = 42 - 6 - 6 * log(7);
+    open_round();
+    before.chi2_frequency = 42;
+    add("tie_stiffness", "ties", 1, drop + 4);
+    conclude_as(VERDICT_AMBIGUOUS, 2);
+    const struct candidate *rival = find("noise_level");
+    assert_non_null(rival);
+    assert_close(rival->chi2_drop, drop, 1e-12, 0);
+    assert_close(rival->effect.value[0], sqrt(7), 1e-12, 0);
+    open_round();
+    before.chi2_frequency = 42;
+    add("tie_stiffness", "ties", 1, drop + 8);
+    conclude_as(VERDICT_NAMED, 1);
+    assert_reason("noise_level", "loses to tie_stiffness");
+    open_round(); /* nothing else: the frequencies are noisy, and that is no physical name */
+    before.chi2_frequency = 42;
+    add("tie_stiffness", "ties", 1, 5);
+    conclude_as(VERDICT_UNEXPLAINED, 1);
+    assert_string_equal(candidates[0].cause->id, "noise_level");
+    open_round(); /* ten times the variance is beyond any misjudgement */
+    before.chi2_frequency = 60;
+    add("tie_stiffness", "ties", 1, 50);
+    conclude_as(VERDICT_NAMED, 1);
+    assert_null(find("noise_level"));
+}
+
+static void too_little_data_name_nothing(void **state)
+{
+    (void)state;
+    open_round();
+    engine.confident = 0;
+    add("stiffness_gradient", "core", 1, 60);
+    add("joint", "core|right", 1, 20);
+    conclude_as(VERDICT_AMBIGUOUS, 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
+        TEST(one_that_stands_out_is_named),
+        TEST(rivals_within_the_margin_are_a_set),
+        TEST(parameters_cost),
+        TEST(chance_names_nothing),
+        TEST(a_rival_too_weak_alone_still_makes_a_name_doubtful),
+        TEST(what_was_not_fitted_is_no_candidate),
+        TEST(a_size_at_its_bound_is_refused),
+        TEST(modes_held_out_speak),
+        TEST(modes_left_out_in_turn_speak),
+        TEST(the_margin_grows_with_what_is_left),
+        TEST(noise_of_the_frequencies_is_a_rival),
+        TEST(too_little_data_name_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,341 @@
+/* The diagnosis of the decks in input/: data of tests that were really made, and of 3-D solids that are no beams. Limits are those
+ * that were set before the diagnosis was written. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "deck/deck.h"
+#include "deck/deck_write.h"
+#include "diagnose/diagnose.h"
+#include "support.h"
+
+#define INPUT ROTID_SOURCE_DIR "/input/"
+
+static char directory[] = "/tmp/test_diagnose_cases_XXXXXX";
+
+static const char *path_of(const char *name)
+{
+    static char path[2][256];
+    static int next;
+    next = !next;
+    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
+    return path[next];
+}
+
+static void write_file(const char *path, const char *text)
+{
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
+}
+
+/* A deck of input/ with `old` replaced by `new` and `more` behind it, in the directory of the test. */
+static const char *changed_deck(const char *name, const char *old, const char *new, const char *more)
+{
+    static char text[20000];
+    FILE *stream = fopen(name, "rb");
+    assert_non_null(stream);
+    size_t count = fread(text, 1, sizeof text - 1000, stream);
+    (void)fclose(stream);
+    text[count] = 0;
+    if (old) {
+        char *at = strstr(text, old), *last = NULL;
+        for (; at; at = strstr(at + 1, old))
+            last = at;
+        assert_non_null(last);
+        size_t tail = strlen(last + strlen(old));
+        memmove(last + strlen(new), last + strlen(old), tail + 1);
+        memcpy(last, new, strlen(new));
+    }
+    (void)strcat(text, more);
+    write_file(path_of("deck.inp"), text);
+    return path_of("deck.inp");
+}
+
+struct run {
+    struct pool pool;
+    struct message_list messages, notes;
+    struct job job;
+    struct diagnosis d;
+};
+
+static void read_deck(struct pool *pool, struct message_list *messages, const char *path, struct job *job)
+{
+    message_open(messages, pool);
+    int status = deck_read(pool, path, 0, NULL, messages, job);
+    for (size_t i = 0; i < messages->count && status; i++)
+        print_error("%s:%d: %s\n", path, messages->item[i].line, messages->item[i].text);
+    assert_status(status, ROTID_OK);
+}
+
+static void diagnose(struct run *r, const char *path)
+{
+    const struct diagnose_options options = {.threads = 2, .seed = 1};
+    pool_open(&r->pool, NULL);
+    read_deck(&r->pool, &r->messages, path, &r->job);
+    message_open(&r->notes, &r->pool);
+    assert_status(diagnose_run(&r->pool, &r->job, &options, NULL, &r->notes, &r->d), ROTID_OK);
+    assert_non_null(r->d.sentence);
+}
+
+static void assert_kind(const struct run *r, enum verdict_kind kind)
+{
+    if (r->d.kind != kind)
+        print_error("%s\n", r->d.sentence);
+    assert_string_equal(verdict_name(r->d.kind), verdict_name(kind));
+}
+
+static void close_run(struct run *r)
+{
+    diagnose_free(&r->d);
+    pool_close(&r->pool);
+}
+
+static const struct candidate *find(int count, const struct candidate *candidate, const char *id)
+{
+    for (int i = 0; i < count; i++)
+        if (!strcmp(candidate[i].cause->id, id))
+            return &candidate[i];
+    return NULL;
+}
+
+static void solid_rotor(struct run *r, const char *file)
+{
+    diagnose(r, changed_deck(INPUT "solid_rotor.inp", "solid_rotor_uniform.uff", file, ""));
+    assert_kind(r, VERDICT_NAMED);
+    assert_string_equal(r->d.cause[0].cause->id, "step_stiffness");
+}
+
+/* What the extended model says of itself: run alone it ends where the diagnosis ended, as a job and as a deck written and read. */
+static void check_extended(struct run *r)
+{
+    const struct diagnosis *d = &r->d;
+    const rotid_fit_result *found = d->extended.fit;
+    struct identification again;
+    struct message_list quiet, messages;
+    struct job job;
+    char *text;
+    assert_non_null(found);
+    for (int way = 0; way < 2; way++) {
+        struct pool pool;
+        pool_open(&pool, NULL);
+        message_open(&quiet, &pool);
+        if (way) {
+            const struct deck_write_options options = {.x = found->x};
+            assert_status(deck_write(&pool, &d->extended_job, &options, &text), ROTID_OK);
+            write_file(path_of("extended.inp"), text);
+            read_deck(&pool, &messages, path_of("extended.inp"), &job);
+        } else
+            job = d->extended_job;
+        assert_status(identify_run(&pool, &job, 0, NULL, &quiet, &again), ROTID_OK);
+        assert_int_equal(again.fit->n, found->n);
+        for (int p = 0; p < found->n; p++)
+            assert_close(again.fit->x[p], found->x[p], 1e-8, 0);
+        assert_close(again.fit->objective, found->objective, 1e-8, 0);
+        rotid_fit_free(again.fit);
+        pool_close(&pool);
+    }
+}
+
+static void a_solid_has_corners_that_carry_nothing(void **state)
+{
+    (void)state;
+    struct run r;
+    solid_rotor(&r, "solid_rotor_uniform.uff");
+    const struct diagnosis *d = &r.d;
+    assert_int_equal(d->ncause, 1);
+    assert_true(d->adequate_after && d->nalternative == 0);
+    assert_true(d->before.frequency_rms_percent > 1.8);
+    assert_true(d->after.frequency_rms_percent <= 0.6);
+    assert_close(d->extended.fit->x[0], 1.05e11, 0.05, 0);
+    assert_close(d->extended.fit->x[1], 0.47e11, 0.05, 0);
+    assert_true(d->base.fit->x[0] < 0.85 * 1.05e11); /* what the moduli had to absorb */
+    assert_true(d->after.mode_out_frequency_rms_percent < 0.5 * d->before.mode_out_frequency_rms_percent);
+    assert_true(d->after.sensor_out_shape_rms < d->before.sensor_out_shape_rms);
+    check_extended(&r);
+    close_run(&r);
+}
+
+static void a_solid_with_a_mass_on_it(void **state)
+{
+    (void)state;
+    struct run r;
+    solid_rotor(&r, "solid_rotor_mass.uff");
+    assert_int_equal(r.d.ncause, 2);
+    assert_string_equal(r.d.cause[1].cause->id, "added_mass");
+    assert_close(r.d.cause[1].effect.value[1], 1.70, 0, 0.06);
+    check_extended(&r);
+    close_run(&r);
+}
+
+/* The second effect is weaker than the cone's own error: nothing more is said, or a set in which it is. */
+static void check_second(const char *file, const char *truth)
+{
+    struct run r;
+    solid_rotor(&r, file);
+    const struct diagnosis *d = &r.d;
+    if (d->ncause > 1) {
+        assert_int_equal(d->ncause, 2);
+        assert_string_equal(d->cause[1].cause->id, truth);
+    } else if (!d->adequate_after)
+        assert_non_null(find(d->nalternative, d->alternative, truth));
+    close_run(&r);
+}
+
+static void a_solid_with_a_soft_zone(void **state)
+{
+    (void)state;
+    check_second("solid_rotor_local.uff", "stiffness_local");
+}
+
+static void a_solid_with_a_gradient(void **state)
+{
+    (void)state;
+    check_second("solid_rotor_gradient.uff", "stiffness_gradient");
+}
+
+static void steel_predicts_modes_it_has_not_seen(void **state)
+{
+    (void)state;
+    struct run r;
+    diagnose(&r, changed_deck(INPUT "solid_steel.inp", NULL, NULL,
+                              "\n*NOISE, FREQUENCY=0.003, SHAPE=0.02\n*FIT, MODES=1-3, HOLDOUT=4-6\n"));
+    const struct diagnosis *d = &r.d;
+    assert_kind(&r, VERDICT_NAMED);
+    assert_int_equal(d->ncause, 1);
+    assert_string_equal(d->cause[0].cause->id, "step_stiffness");
+    assert_true(d->after.holdout_frequency_rms_percent < 0.1 * d->before.holdout_frequency_rms_percent);
+    check_extended(&r);
+    close_run(&r);
+}
+
+static const struct candidate *suspect(const struct diagnosis *d, const char *name)
+{
+    for (int i = 0; i < d->round[0].ncandidate; i++)
+        if (d->round[0].candidate[i].suspect && !strcmp(d->round[0].candidate[i].effect.name, name))
+            return &d->round[0].candidate[i];
+    return NULL;
+}
+
+static void a_bolted_lap_is_found(void **state)
+{
+    (void)state;
+    struct run r;
+    diagnose(&r, INPUT "brake_reuss_lap.inp");
+    const struct diagnosis *d = &r.d;
+    assert_kind(&r, VERDICT_NAMED);
+    assert_int_equal(d->ncause, 1);
+    assert_string_equal(d->cause[0].effect.name, "lap");
+    assert_close(d->cause[0].effect.value[1], 0.36, 0, 0.06);
+    assert_true(d->after.holdout_frequency_rms_percent <= 0.5 * 14.3);
+    const struct candidate *shear = suspect(d, "lap_shear");
+    assert_non_null(shear);
+    assert_non_null(shear->rejected_because);
+    assert_non_null(strstr(shear->rejected_because, "modes held out"));
+    assert_true(shear->holdout_rms > d->cause[0].holdout_rms);
+    check_extended(&r);
+    close_run(&r);
+}
+
+/* The best monolithic beam is the mark that the lap has to beat. */
+static void the_monolithic_beam_leaves_what_it_is_measured_by(void **state)
+{
+    (void)state;
+    struct run r;
+    diagnose(&r, INPUT "brake_reuss_beam.inp");
+    assert_close(r.d.before.holdout_frequency_rms_percent, 14.3, 0, 0.3);
+    assert_int_not_equal(r.d.kind, VERDICT_NAMED); /* the deck states no noise */
+    close_run(&r);
+}
+
+static void supports_are_a_false_lead(void **state)
+{
+    (void)state;
+    struct run r;
+    diagnose(&r, INPUT "foam_bar_supports.inp");
+    const struct diagnosis *d = &r.d;
+    int refused = 0;
+    for (int i = 0; i < d->round[0].ncandidate; i++) {
+        const struct candidate *c = &d->round[0].candidate[i];
+        if (strcmp(c->cause->id, "support") != 0)
+            continue;
+        refused++;
+        assert_true(c->chi2_drop > 0.5 * d->round[0].chi2); /* they do look good */
+        assert_true(c->holdout_rms > 1.5 * d->before.holdout_frequency_rms_percent);
+        assert_non_null(c->rejected_because);
+        assert_non_null(strstr(c->rejected_because, "modes held out get worse"));
+    }
+    assert_int_equal(refused, 2);
+    assert_null(find(d->ncause, d->cause, "support"));
+    assert_null(find(d->nalternative, d->alternative, "support"));
+    close_run(&r);
+}
+
+static void few_modes_of_a_slender_beam_leave_G_open(void **state)
+{
+    (void)state;
+    struct run r;
+    diagnose(&r, INPUT "roving_hammer_beam.inp");
+    assert_kind(&r, VERDICT_ADEQUATE);
+    assert_int_equal(r.d.undetermined, 1);
+    assert_non_null(strstr(r.d.sentence, "The data do not determine beam.G separately from beam.E"));
+    assert_non_null(strstr(r.d.sentence, "its 95 % interval is"));
+    close_run(&r);
+}
+
+static void six_frequencies_of_the_paper_carry_no_name(void **state)
+{
+    (void)state;
+    struct run r;
+    diagnose(&r, INPUT "paper_rotor.inp");
+    const struct diagnosis *d = &r.d;
+    assert_true(d->kind == VERDICT_AMBIGUOUS || d->kind == VERDICT_UNEXPLAINED);
+    assert_non_null(d->next_measurement);
+    assert_int_equal(d->ncause, 0);
+    assert_close(d->before.frequency_rms_percent, 4.8, 0, 0.1);
+    int guyan = 0;
+    for (int i = 0; i < d->nnumerical_finding; i++)
+        guyan += !strcmp(d->numerical_finding[i].cause->id, "guyan_reduction");
+    assert_int_equal(guyan, 1);
+    const struct candidate *mass = find(d->round[0].ncandidate, d->round[0].candidate, "added_mass");
+    assert_non_null(mass); /* fits well, and is beyond anything on this rotor */
+    assert_true(mass->at_bound);
+    assert_non_null(mass->rejected_because);
+    assert_non_null(find(d->round[0].ncandidate, d->round[0].candidate, "tie_shear"));
+    assert_non_null(find(d->round[0].ncandidate, d->round[0].candidate, "step_stiffness"));
+    close_run(&r);
+}
+
+static int open_directory(void **state)
+{
+    (void)state;
+    return mkdtemp(directory) == NULL || symlink(INPUT "data", path_of("data"));
+}
+
+static int remove_directory(void **state)
+{
+    (void)state;
+    (void)unlink(path_of("deck.inp"));
+    (void)unlink(path_of("extended.inp"));
+    (void)unlink(path_of("data"));
+    return rmdir(directory);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_solid_has_corners_that_carry_nothing),
+        cmocka_unit_test(a_solid_with_a_mass_on_it),
+        cmocka_unit_test(a_solid_with_a_soft_zone),
+        cmocka_unit_test(a_solid_with_a_gradient),
+        cmocka_unit_test(steel_predicts_modes_it_has_not_seen),
+        cmocka_unit_test(a_bolted_lap_is_found),
+        cmocka_unit_test(the_monolithic_beam_leaves_what_it_is_measured_by),
+        cmocka_unit_test(supports_are_a_false_lead),
+        cmocka_unit_test(few_modes_of_a_slender_beam_leave_G_open),
+        cmocka_unit_test(six_frequencies_of_the_paper_carry_no_name),
+    };
+    return cmocka_run_group_tests(tests, open_directory, remove_directory);
+}

@@ -1,0 +1,322 @@
+/* Prediction of what was not fitted, beside fits that really leave it out, and the errors of a fit beside their definitions. */
+#include <math.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "diagnose/leave_out.h"
+#include "effect_bench.h"
+#include "modal/prediction.h"
+#include "run/client.h"
+#include "run/identify.h"
+
+#define SENSORS 9
+#define MODES   5
+
+/* A beam with a core of unknown E and G: data are its own modes at 1.1e11 and 0.4e11 Pa with white noise of the stated size, which
+ * is so small that the fit is linear in it. */
+static struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1}, soft = {"soft", 1e11, 0.42e11, 0.3, 7600, 0};
+static struct group groups[3];
+static struct segment segments[3];
+static struct sensor sensors[SENSORS];
+static struct parameter parameters[2] = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}};
+static rotid_parameter bounds[2] = {{"core.E", "Pa", 0.5e11, 2e11, 1e11}, {"core.G", "Pa", 0.2e11, 0.8e11, 0.42e11}};
+static int number[MODES], holdout[MODES];
+static double hz[MODES], hz_std[MODES], shape[SENSORS * MODES], shape_std[SENSORS * MODES];
+
+static void open_rotor(struct rotor *rotor)
+{
+    static const double length[] = {0.4, 0.9, 0.5}, diameter[] = {0.15, 0.3, 0.17};
+    static const char *const name[] = {"left", "core", "right"};
+    for (int g = 0; g < 3; g++) {
+        groups[g] = (struct group){.name = name[g], .material = g == 1 ? soft : steel};
+        segments[g] =
+            (struct segment){.group = g, .elements = 8, .length = length[g], .outer = diameter[g], .stiff_outer = diameter[g]};
+    }
+    for (int s = 0; s < SENSORS; s++)
+        sensors[s] = (struct sensor){10 + s, 1.8 * s / (SENSORS - 1)};
+    *rotor = (struct rotor){.ngroup = 3, .group = groups, .nsegment = 3, .segment = segments, .nsensor = SENSORS, .sensor = sensors};
+}
+
+static struct job make_job(double noise)
+{
+    static const double truth[2] = {1.1e11, 0.4e11};
+    struct rotor rotor;
+    struct client client;
+    struct prediction p;
+    struct random_stream stream = {4};
+    int failed;
+    open_rotor(&rotor);
+    assert_status(client_open(&test_pool, &rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
+    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + MODES, 0, &p),
+                  ROTID_OK);
+    assert_status(prediction_compute(&p, truth), ROTID_OK);
+    for (int k = 0; k < MODES; k++) {
+        int pair = client.model.nrigid + k;
+        double largest = 0;
+        number[k] = k + 1;
+        holdout[k] = 0;
+        hz_std[k] = 0.02 * noise;
+        hz[k] = prediction_hz(&p, pair) * (1 + hz_std[k] * random_normal(&stream));
+        for (int s = 0; s < SENSORS; s++) {
+            shape[s + k * SENSORS] = prediction_at_sensor(&p, pair, s);
+            largest = fmax(largest, fabs(shape[s + k * SENSORS]));
+        }
+        for (int s = 0; s < SENSORS; s++) {
+            shape_std[s + k * SENSORS] = noise * (1 + 0.2 * (s % 3));
+            shape[s + k * SENSORS] *= (k % 2 ? -3.7 : 0.8) / largest; /* any scale */
+            shape[s + k * SENSORS] += (k % 2 ? 3.7 : 0.8) * shape_std[s + k * SENSORS] * random_normal(&stream);
+        }
+    }
+    shape[2 + 1 * SENSORS] = NAN;
+    return (struct job){.rotor = rotor,
+                        .nmode = MODES,
+                        .number = number,
+                        .frequency_hz = hz,
+                        .frequency_std = hz_std,
+                        .shape = shape,
+                        .shape_std = shape_std,
+                        .holdout = holdout,
+                        .nparameter = 2,
+                        .parameter = parameters,
+                        .bounds = bounds,
+                        .fit = {.functional = ROTID_LIKELIHOOD, .reduction = ROTID_REDUCTION_NONE, .derivative = ROTID_NELSON}};
+}
+
+static rotid_fit_result *fit_job(const struct job *job, const int *held)
+{
+    rotid_fit_result *fit;
+    struct job copy = *job;
+    assert_status(identify_fit(&test_pool, &copy, number, held, &job->fit, NULL, NULL, &fit), ROTID_OK);
+    assert_true(fit->converged);
+    return fit;
+}
+
+static double largest_of(const double *mode)
+{
+    double largest = 0;
+    for (int s = 0; s < SENSORS; s++)
+        largest = fmax(largest, isfinite(mode[s]) ? fabs(mode[s]) : 0);
+    return largest;
+}
+
+/* Standardised residuals of sensor s in all fitted modes, by a fit without it, summed into sums[0], their count into sums[1], and the
+ * differences of shapes into sums[2]. The scale of each mode is that of the other sensors. */
+static void leave_sensor_out(const struct job *job, int s, double *sums)
+{
+    double less[SENSORS * MODES], std[SENSORS * MODES], x[2];
+    struct job without = *job;
+    memcpy(less, shape, sizeof less);
+    memcpy(std, shape_std, sizeof std);
+    for (int k = 0; k < MODES; k++) {
+        less[s + k * SENSORS] = NAN;
+        double ratio = largest_of(shape + k * SENSORS) / largest_of(less + k * SENSORS); /* the noise stays what it is */
+        for (int i = 0; i < SENSORS; i++)
+            std[i + k * SENSORS] *= ratio;
+    }
+    without.shape = less;
+    without.shape_std = std;
+    rotid_fit_result *fit = fit_job(&without, job->holdout);
+    x[0] = fit->n ? fit->x[0] : soft.e;
+    x[1] = fit->n ? fit->x[1] : soft.g;
+    rotid_fit_free(fit);
+    struct client client;
+    struct prediction p;
+    int failed;
+    assert_status(client_open(&test_pool, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
+    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + MODES, 0, &p),
+                  ROTID_OK);
+    assert_status(prediction_compute(&p, x), ROTID_OK);
+    for (int k = 0; k < MODES; k++) {
+        double ab = 0, aa = 0, largest = largest_of(shape + k * SENSORS);
+        if (job->holdout[k] || !isfinite(shape[s + k * SENSORS]))
+            continue;
+        for (int i = 0; i < SENSORS; i++) {
+            if (i == s || !isfinite(shape[i + k * SENSORS]))
+                continue;
+            double phi = prediction_at_sensor(&p, client.model.nrigid + k, i), w = pow(shape_std[i + k * SENSORS], -2);
+            aa += w * phi * phi;
+            ab += w * phi * shape[i + k * SENSORS] / largest;
+        }
+        double off = ab / aa * prediction_at_sensor(&p, client.model.nrigid + k, s) - shape[s + k * SENSORS] / largest;
+        sums[0] += pow(off / shape_std[s + k * SENSORS], 2);
+        sums[1]++;
+        sums[2] += off * off;
+    }
+}
+
+static void compare_with_refits(const struct job *job, double tolerance)
+{
+    double sums[3] = {0}, standardised, rms;
+    rotid_fit_result *fit = fit_job(job, job->holdout);
+    assert_status(sensor_out(&test_pool, job, job->holdout, fit, &standardised, &rms), ROTID_OK);
+    rotid_fit_free(fit);
+    for (int s = 0; s < SENSORS; s++)
+        leave_sensor_out(job, s, sums);
+    assert_close(standardised, sqrt(sums[0] / sums[1]), tolerance, 0);
+    assert_close(rms, sqrt(sums[2] / sums[1]), tolerance, 0);
+}
+
+static void sensors_out_are_fits_without_them(void **state)
+{
+    (void)state;
+    struct job job = make_job(1e-4);
+    compare_with_refits(&job, 0.002);
+    holdout[1] = holdout[4] = 1;
+    compare_with_refits(&job, 0.002);
+    job = make_job(0.02); /* noise of real tests: still good */
+    compare_with_refits(&job, 0.02);
+}
+
+static void sensors_out_with_nothing_identified(void **state)
+{
+    (void)state;
+    struct job job = make_job(0.01);
+    job.nparameter = 0; /* the scales are left */
+    compare_with_refits(&job, 1e-9);
+}
+
+static void sensors_out_need_shapes(void **state)
+{
+    (void)state;
+    struct job job = make_job(1e-3);
+    double standardised = 0, rms = 0;
+    rotid_fit_result *fit = fit_job(&job, holdout);
+    job.shape = NULL;
+    assert_status(sensor_out(&test_pool, &job, holdout, fit, &standardised, &rms), ROTID_OK);
+    assert_true(isnan(standardised) && isnan(rms));
+    rotid_fit_free(fit);
+}
+
+/* sqrt of the mean square of what is left of the measured shape beside the best multiple of the predicted one. */
+static double shape_by_definition(const struct job *job, const double *x, int k)
+{
+    struct client client;
+    struct prediction p;
+    int failed, count = 0;
+    double ab = 0, aa = 0, sum = 0, largest = largest_of(shape + k * SENSORS);
+    assert_status(client_open(&test_pool, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
+    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + MODES, 0, &p),
+                  ROTID_OK);
+    assert_status(prediction_compute(&p, x), ROTID_OK);
+    for (int pass = 0; pass < 2; pass++)
+        for (int s = 0; s < SENSORS; s++) {
+            double phi = prediction_at_sensor(&p, client.model.nrigid + k, s), m = shape[s + k * SENSORS] / largest;
+            if (isnan(m))
+                continue;
+            if (!pass) {
+                aa += phi * phi;
+                ab += phi * m;
+            } else {
+                sum += pow(ab / aa * phi - m, 2);
+                count++;
+            }
+        }
+    return sqrt(sum / count);
+}
+
+static void errors_are_as_defined(void **state)
+{
+    (void)state;
+    struct job job = make_job(0.02);
+    double rms, most, shapes, squares = 0, largest = 0, shape_squares = 0;
+    holdout[2] = holdout[3] = 1;
+    rotid_fit_result *fit = fit_job(&job, holdout);
+    for (int held = 0; held < 2; held++) {
+        int count = 0;
+        squares = largest = shape_squares = 0;
+        for (int k = 0; k < MODES; k++) {
+            double error = 100 * (fit->predicted_hz[k] - hz[k]) / hz[k];
+            if (holdout[k] != held)
+                continue;
+            squares += error * error;
+            largest = fmax(largest, fabs(error));
+            shape_squares += pow(shape_by_definition(&job, fit->x, k), 2);
+            assert_close(shape_difference(&job, k, fit->mac[k]), shape_by_definition(&job, fit->x, k), 1e-6, 0);
+            count++;
+        }
+        fitted_errors(&job, holdout, fit, held, &rms, &most, &shapes);
+        assert_close(rms, sqrt(squares / count), 1e-12, 0);
+        assert_close(most, largest, 1e-12, 0);
+        assert_close(shapes, sqrt(shape_squares / count), 1e-6, 0);
+    }
+    memset(holdout, 0, sizeof holdout);
+    fitted_errors(&job, holdout, fit, 1, &rms, &most, &shapes);
+    assert_true(isnan(rms) && isnan(most) && isnan(shapes));
+    assert_true(isnan(shape_difference(&job, 0, NAN)));
+    job.shape = NULL;
+    assert_true(isnan(shape_difference(&job, 0, 0.9)));
+    fitted_errors(&job, holdout, fit, 0, &rms, &most, &shapes);
+    assert_true(isfinite(rms) && isnan(shapes));
+    rotid_fit_free(fit);
+}
+
+static void a_mode_out_is_a_fit_without_it(void **state)
+{
+    (void)state;
+    struct job job = make_job(0.02);
+    holdout[4] = 1;
+    for (int k = 0; k < MODES; k++) {
+        int held[MODES] = {0, 0, 0, 0, 1};
+        double error, difference;
+        held[k] = 1;
+        rotid_fit_result *fit = fit_job(&job, held);
+        assert_status(mode_out_fit(&job, number, holdout, k, NULL, NULL, &error, &difference), ROTID_OK);
+        assert_close(error, 100 * (fit->predicted_hz[k] / hz[k] - 1), 1e-5, 1e-6);
+        assert_close(difference, shape_by_definition(&job, fit->x, k), 1e-4, 0);
+        rotid_fit_free(fit);
+    }
+    struct failing_allocator failing;
+    double error, difference;
+    failing_allocator_open(&failing, 0);
+    assert_status(mode_out_fit(&job, number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_OK);
+    assert_int_equal(failing.in_use, 0);
+    failing_allocator_open(&failing, 5);
+    assert_status(mode_out_fit(&job, number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_ERROR_MEMORY);
+    assert_int_equal(failing.in_use, 0);
+}
+
+static void a_mode_out_leaves_enough_or_nothing_is_said(void **state)
+{
+    (void)state;
+    struct job job = make_job(0.02);
+    double error = 0, difference = 0;
+    job.shape = NULL;
+    holdout[2] = holdout[3] = holdout[4] = 1; /* two frequencies for two moduli; one of them left out is too few */
+    assert_status(mode_out_fit(&job, number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_true(isnan(error) && isnan(difference));
+    assert_status(mode_out_fit(&job, number, holdout, 2, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_true(isfinite(error) && isnan(difference));
+    holdout[1] = 1; /* the last one */
+    assert_status(mode_out_fit(&job, number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_true(isnan(error));
+}
+
+static int at_once(void *context)
+{
+    (void)context;
+    return 1;
+}
+
+static void a_host_can_cancel(void **state)
+{
+    (void)state;
+    struct job job = make_job(0.02);
+    double error, difference;
+    const rotid_environment environment = {.cancelled = at_once};
+    assert_status(mode_out_fit(&job, number, holdout, 0, &environment, NULL, &error, &difference), ROTID_STOP_CANCELLED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
+        TEST(sensors_out_are_fits_without_them),
+        TEST(sensors_out_with_nothing_identified),
+        TEST(sensors_out_need_shapes),
+        TEST(errors_are_as_defined),
+        TEST(a_mode_out_is_a_fit_without_it),
+        TEST(a_mode_out_leaves_enough_or_nothing_is_said),
+        TEST(a_host_can_cancel),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
