@@ -43,8 +43,8 @@ static struct job *open_job(enum bundle_model model)
     struct prediction p;
     int failed;
     assert_status(client_open(&test_pool, rotor, 0, NULL, 1, &client, &failed), ROTID_OK);
-    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + MODES, 0, &p),
-                  ROTID_OK);
+    int count = client.model.nrigid + MODES;
+    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, NULL), ROTID_OK);
     for (int k = 0; k < MODES; k++) {
         int pair = client.model.nrigid + k;
@@ -159,7 +159,8 @@ static void frequencies_alone_have_one_row_each(void **state)
 static void columns_with_effects_in_the_model(void **state)
 {
     (void)state;
-    static const double mass[] = {4, 1.603}, soft[] = {0.3, 0.81, 0.05}, both[] = {0.3, 0.6, 0.09, 0.5}, cone[] = {31}, joint[] = {3e-10};
+    static const double mass[4] = {4, 1.603}, soft[4] = {0.3, 0.81, 0.05}, both[4] = {0.3, 0.6, 0.09, 0.5}, cone[4] = {31},
+                        joint[4] = {3e-10};
     struct job *job = open_job(BUNDLE_TUBE);
     bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);
     bench_add(&job->rotor, cause_stiffness_local.effect, -1, 0, soft);
@@ -260,7 +261,7 @@ static void columns_of_causes_are_derivatives_at_neutral(void **state)
 static void columns_of_causes_beside_an_accepted_one(void **state)
 {
     (void)state;
-    static const double cone[] = {33}, mass[] = {6, 1.7};
+    static const double cone[4] = {33}, mass[4] = {6, 1.7};
     struct job *job = open_job(BUNDLE_RODS);
     bench_add(&job->rotor, cause_step_stiffness.effect, -1, 0, cone);
     bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);

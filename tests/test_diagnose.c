@@ -98,8 +98,8 @@ static void simulate(const char *cause, uint64_t seed, struct data *d)
     pool_open(&pool, NULL);
     assert_status(read_deck(&pool, &messages, &job), ROTID_OK);
     assert_status(client_open(&pool, &job.rotor, 0, NULL, 4, &client, &failed), ROTID_OK); /* finer than the deck's own mesh */
-    assert_status(prediction_new(&pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + MODES + 1, 0, &p),
-                  ROTID_OK);
+    int count = client.model.nrigid + MODES + 1;
+    assert_status(prediction_new(&pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, NULL), ROTID_OK);
     for (int k = 0; k <= MODES; k++) {
         int pair = client.model.nrigid + k;

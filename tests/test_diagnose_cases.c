@@ -1,5 +1,5 @@
-/* The diagnosis of the decks in input/: data of tests that were really made, and of 3-D solids that are no beams. Limits are those
- * that were set before the diagnosis was written. */
+/* The diagnosis of the decks in input/: data of tests that were really made, and of 3-D solids that are no beams. Limits are
+ * those that were set before the diagnosis was written. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -108,7 +108,7 @@ static void solid_rotor(struct run *r, const char *file)
     assert_string_equal(r->d.cause[0].cause->id, "step_stiffness");
 }
 
-/* What the extended model says of itself: run alone it ends where the diagnosis ended, as a job and as a deck written and read. */
+/* The extended model run alone ends where the diagnosis ended, as a job and as a deck written and read. */
 static void check_extended(struct run *r)
 {
     const struct diagnosis *d = &r->d;

@@ -34,7 +34,8 @@ static void open_rotor(struct rotor *rotor)
     }
     for (int s = 0; s < SENSORS; s++)
         sensors[s] = (struct sensor){10 + s, 1.8 * s / (SENSORS - 1)};
-    *rotor = (struct rotor){.ngroup = 3, .group = groups, .nsegment = 3, .segment = segments, .nsensor = SENSORS, .sensor = sensors};
+    *rotor = (struct rotor){
+        .ngroup = 3, .group = groups, .nsegment = 3, .segment = segments, .nsensor = SENSORS, .sensor = sensors};
 }
 
 static struct job make_job(double noise)
@@ -47,8 +48,8 @@ static struct job make_job(double noise)
     int failed;
     open_rotor(&rotor);
     assert_status(client_open(&test_pool, &rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
-    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + MODES, 0, &p),
-                  ROTID_OK);
+    int count = client.model.nrigid + MODES;
+    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, truth), ROTID_OK);
     for (int k = 0; k < MODES; k++) {
         int pair = client.model.nrigid + k;
@@ -99,8 +100,8 @@ static double largest_of(const double *mode)
     return largest;
 }
 
-/* Standardised residuals of sensor s in all fitted modes, by a fit without it, summed into sums[0], their count into sums[1], and the
- * differences of shapes into sums[2]. The scale of each mode is that of the other sensors. */
+/* Standardised residuals of sensor s in all fitted modes, by a fit without it, their squares added to sums[0], their count to
+ * sums[1], and the squares of the differences of shapes to sums[2]. The scale of each mode is that of the other sensors. */
 static void leave_sensor_out(const struct job *job, int s, double *sums)
 {
     double less[SENSORS * MODES], std[SENSORS * MODES], x[2];
@@ -123,8 +124,8 @@ static void leave_sensor_out(const struct job *job, int s, double *sums)
     struct prediction p;
     int failed;
     assert_status(client_open(&test_pool, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
-    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + MODES, 0, &p),
-                  ROTID_OK);
+    int count = client.model.nrigid + MODES;
+    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, x), ROTID_OK);
     for (int k = 0; k < MODES; k++) {
         double ab = 0, aa = 0, largest = largest_of(shape + k * SENSORS);
@@ -195,8 +196,8 @@ static double shape_by_definition(const struct job *job, const double *x, int k)
     int failed, count = 0;
     double ab = 0, aa = 0, sum = 0, largest = largest_of(shape + k * SENSORS);
     assert_status(client_open(&test_pool, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
-    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + MODES, 0, &p),
-                  ROTID_OK);
+    int count = client.model.nrigid + MODES;
+    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, x), ROTID_OK);
     for (int pass = 0; pass < 2; pass++)
         for (int s = 0; s < SENSORS; s++) {

@@ -50,8 +50,8 @@ static const char *sentence(struct engine *engine, const struct candidate *first
         return pool_format(engine->pool, "%smore modes will not separate %s from %s; to settle it, %s", shapes, first->cause->id,
                            second->cause->id, first->cause->check);
     return pool_format(engine->pool,
-                       "%smeasure mode %d: %.6g Hz if it is %s, %.6g Hz if it is %s (%.1f standard deviations apart); or %s", shapes,
-                       mode, hz_first, first->cause->id, hz_second, second->cause->id, apart, first->cause->check);
+                       "%smeasure mode %d: %.6g Hz if it is %s, %.6g Hz if it is %s (%.1f standard deviations apart); or %s",
+                       shapes, mode, hz_first, first->cause->id, hz_second, second->cause->id, apart, first->cause->check);
 }
 
 const char *advise(struct engine *engine, const struct diagnosis_round *round, const struct round_result *last)

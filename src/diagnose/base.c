@@ -7,8 +7,8 @@
 
 #define MOST_DROPPED 2 /* modes that nobody's shape fits */
 #define LEAST_LEFT   3
-#define MOST_CLEANED 3 /* passes of finding faults of channels */
-#define MOST_REFINED 3 /* times the mesh is halved */
+#define MOST_CLEANED 3   /* passes of finding faults of channels */
+#define MOST_REFINED 3   /* times the mesh is halved */
 #define NEGLIGIBLE   0.1 /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
 
 static int add_numerical(struct engine *engine, const char *id, int count, const double *error, const char *text)
@@ -22,8 +22,7 @@ static int add_numerical(struct engine *engine, const char *id, int count, const
         mode[k] = k + 1;
         copy[k] = error[k];
     }
-    out->numerical_finding[out->nnumerical_finding++] =
-        (struct numerical_finding){catalogue_find(id), count, mode, copy, text};
+    out->numerical_finding[out->nnumerical_finding++] = (struct numerical_finding){catalogue_find(id), count, mode, copy, text};
     return ROTID_OK;
 }
 
@@ -81,8 +80,12 @@ static int drop_clash(struct engine *engine)
 {
     struct job *job = &engine->job;
     int k = engine->out->base.compared.clash;
-    struct data_finding finding = {
-        .cause = catalogue_find("mode_pairing"), .nmode = 1, .mode = {job->number[k]}, .value = NAN, .std = NAN, .chi2_drop = NAN};
+    struct data_finding finding = {.cause = catalogue_find("mode_pairing"),
+                                   .nmode = 1,
+                                   .mode = {job->number[k]},
+                                   .value = NAN,
+                                   .std = NAN,
+                                   .chi2_drop = NAN};
     finding.text = pool_format(engine->pool,
                                "measured mode %d (%.6g Hz) looks like no mode of the model, and another one has the shape that "
                                "belongs to its number; it is left out",
@@ -101,7 +104,8 @@ static int fit_base(struct engine *engine, int say)
     rotid_fit_free(out->base.fit);
     out->base.fit = engine->fit = NULL;
     int status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
-    for (int pass = 0; status == ROTID_ERROR_UNPAIRED && pass < MOST_DROPPED && engine->job.nmode > LEAST_LEFT && !engine->job.raw; pass++) {
+    for (int pass = 0;
+         status == ROTID_ERROR_UNPAIRED && pass < MOST_DROPPED && engine->job.nmode > LEAST_LEFT && !engine->job.raw; pass++) {
         status = drop_clash(engine);
         message_open(&quiet, engine->pool);
         if (!status)
@@ -132,8 +136,9 @@ static int note_pairing(struct engine *engine)
                                        .value = NAN,
                                        .std = NAN,
                                        .chi2_drop = NAN};
-        finding.text = pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model; it is taken as that",
-                                   job->number[k], job->frequency_hz[k], engine->number[k]);
+        finding.text =
+            pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model; it is taken as that",
+                        job->number[k], job->frequency_hz[k], engine->number[k]);
         int status = data_add_finding(engine, &finding);
         if (status)
             return status;

@@ -10,7 +10,7 @@
 
 #define MOST_FAULTS 8
 #define FALSE_ALARM 0.005
-#define MUCH_LESS   0.7  /* of the stated noise */
+#define MUCH_LESS   0.7 /* of the stated noise */
 #define MUCH_MORE   1.3
 #define NOISIER     3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
 #define SHARED      0.35 /* correlation of neighbours; 0.1 is the error of its estimate, 0.2 what a smooth misfit adds */
@@ -29,16 +29,18 @@ int data_add_finding(struct engine *engine, const struct data_finding *finding)
     return ROTID_OK;
 }
 
-static const char *fault_id[] = {[FAULT_GAIN] = "sensor_gain",         [FAULT_SIGN] = "sensor_sign",
-                                 [FAULT_SWAP] = "sensor_swap",         [FAULT_POSITION] = "sensor_position",
-                                 [FAULT_DUPLICATE] = "duplicate_channel", [FAULT_DEAD] = "duplicate_channel"};
+static const char *fault_id[] = {[FAULT_GAIN] = "sensor_gain",
+                                 [FAULT_SIGN] = "sensor_sign",
+                                 [FAULT_SWAP] = "sensor_swap",
+                                 [FAULT_POSITION] = "sensor_position",
+                                 [FAULT_DUPLICATE] = "duplicate_channel",
+                                 [FAULT_DEAD] = "duplicate_channel"};
 
 static const char *describe(struct pool *pool, enum sensor_fault_kind kind, double value, const int *id)
 {
     switch (kind) {
     case FAULT_GAIN:
-        return pool_format(pool, "sensor %d reads %.3g times what it should; its components are divided by that", id[0],
-                           value);
+        return pool_format(pool, "sensor %d reads %.3g times what it should; its components are divided by that", id[0], value);
     case FAULT_SIGN:
         return pool_format(pool, "sensor %d has the wrong sign; it is turned", id[0]);
     case FAULT_SWAP:
@@ -124,8 +126,8 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
     return correct(engine, &finding, &correction);
 }
 
-/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. Where it is a little too
- * small, the second-order part of a large effect may be it; that is decided behind the fits (`least` 1). */
+/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. Where it is a little
+ * too small, the second-order part of a large effect may be it; that is decided behind the fits (`least` 1). */
 static int is_misstated(const struct noise_estimate *noise, double least)
 {
     return noise->usable && noise->misstated && (noise->factor < MUCH_LESS || (noise->factor > least && noise->factor < NOISIER));
@@ -198,11 +200,11 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
     if (!coloured && !(is_misstated(&noise, 1) && noise.factor > 1))
         return ROTID_OK;
     double factor = coloured ? noise.smooth_factor : noise.factor;
-    const char *text =
-        pool_format(engine->pool,
-                    coloured ? "neighbouring sensors share their noise: its smooth part is %.2f times the stated level, which is used"
-                             : "the noise of the shapes is %.2f times the stated one, which is used",
-                    factor);
+    const char *text = pool_format(
+        engine->pool,
+        coloured ? "neighbouring sensors share their noise: its smooth part is %.2f times the stated level, which is used"
+                 : "the noise of the shapes is %.2f times the stated one, which is used",
+        factor);
     engine->coloured |= coloured;
     *changed = 1;
     double *base = engine->out->job.shape_std; /* another array where a cause has added its discrepancy to the judged one */
@@ -252,9 +254,9 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
         *changed = 1;
     }
     if (!status && is_misstated(&noise, MUCH_MORE)) {
-        status = correct_noise(engine, noise.factor, noise.std,
-                               pool_format(engine->pool, "the noise of the shapes is %.2f times the stated one, which is used",
-                                           noise.factor));
+        status = correct_noise(
+            engine, noise.factor, noise.std,
+            pool_format(engine->pool, "the noise of the shapes is %.2f times the stated one, which is used", noise.factor));
         *changed = 1;
     }
     return status;

@@ -14,9 +14,10 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
-/* (K - lambda M)^+ on M phi and on the unit vectors of the sensors; the component that Nelson leaves out stays zero, and with zeros
- * for M phi and Q nothing is added along phi: that is the caller's. */
-static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *unit, struct columns_mode *mode)
+/* (K - lambda M)^+ on M phi and on the unit vectors of the sensors; the component that Nelson leaves out stays zero, and with
+ * zeros for M phi and Q nothing is added along phi: that is the caller's. */
+static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *unit,
+                          struct columns_mode *mode)
 {
     const struct prediction *p = &c->functional.prediction;
     int n = p->size;

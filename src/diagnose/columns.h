@@ -1,7 +1,7 @@
 /* Sensitivity of the residuals to anything that changes K and M, at one point of a model: the adjoint way. For every fitted mode
  * the rows of (K - lambda M)^+ at the sensors are solved for once; a change dK, dM then costs products only.
- * Residuals as in modal/functional.h for the likelihood: frequencies of the fitted modes first, then shapes mode by mode, each with
- * its best scale, so a column is already orthogonal to the scales. */
+ * Residuals as in modal/functional.h for the likelihood: frequencies of the fitted modes first, then shapes mode by mode, each
+ * with its best scale, so a column is already orthogonal to the scales. */
 #ifndef ROTID_DIAGNOSE_COLUMNS_H
 #define ROTID_DIAGNOSE_COLUMNS_H
 
@@ -27,9 +27,9 @@ struct columns {
     struct client client;
     struct functional functional;
     rotid_measured measured;
-    int nrow, nmode;           /* residuals, fitted modes */
-    struct columns_mode *mode; /* [nmode] */
-    double *x, *r;             /* [nparam], [nrow]: the point and its residual */
+    int nrow, nmode;                 /* residuals, fitted modes */
+    struct columns_mode *mode;       /* [nmode] */
+    double *x, *r;                   /* [nparam], [nrow]: the point and its residual */
     double *dk_phi, *dm_phi, *right; /* [n] */
     double *dphi;                    /* [nmaster] */
     rotid_matrix dk, dm;

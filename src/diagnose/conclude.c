@@ -130,7 +130,8 @@ static const char *verdict_sentence(struct engine *engine)
     case VERDICT_ADEQUATE:
         return pool_format(pool, "The model explains the data within their noise (p = %.2g).%s%s", out->p_value, faults, open);
     case VERDICT_NAMED:
-        return pool_format(pool, "The model lacks %s; with %s it %s (p = %.2g before).%s%s", causes, out->ncause > 1 ? "them" : "it",
+        return pool_format(pool, "The model lacks %s; with %s it %s (p = %.2g before).%s%s", causes,
+                           out->ncause > 1 ? "them" : "it",
                            out->adequate_after ? "explains the data within their noise"
                            : out->nalternative ? "leaves a rest that more than one cause would explain"
                                                : "still leaves more than noise",
@@ -140,10 +141,11 @@ static const char *verdict_sentence(struct engine *engine)
                            "The model does not explain the data (p = %.2g), and the data cannot tell which of %s it is%s.%s%s",
                            out->p_value, others, engine->confident ? "" : ", nor with confidence that it is any", faults, open);
     default:
-        return pool_format(pool,
-                           "The model does not explain the data (p = %.2g, chi2 %.3g for %d degrees of freedom), and nothing in the "
-                           "catalogue earns its parameters.%s%s",
-                           out->p_value, last ? out->round[0].chi2 : NAN, last ? out->round[0].dof : 0, faults, open);
+        return pool_format(
+            pool,
+            "The model does not explain the data (p = %.2g, chi2 %.3g for %d degrees of freedom), and nothing in the "
+            "catalogue earns its parameters.%s%s",
+            out->p_value, last ? out->round[0].chi2 : NAN, last ? out->round[0].dof : 0, faults, open);
     }
 }
 

@@ -7,11 +7,11 @@
 #include "diagnose/engine.h"
 #include "fit/quantile.h"
 
-#define NOISIER   3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
-#define COLOURED  2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
-#define CLEAR     2.0 /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
-#define WORSE     1.1 /* held-out modes predicted worse than this factor speak against a cause */
-#define BETTER    0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
+#define NOISIER  3.0  /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
+#define COLOURED 2.0  /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
+#define CLEAR    2.0  /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
+#define WORSE    1.1  /* held-out modes predicted worse than this factor speak against a cause */
+#define BETTER   0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
 double candidate_score(const struct candidate *c)
 {
@@ -30,8 +30,8 @@ static int compare(const void *left, const void *right)
     return (x > y) - (x < y);
 }
 
-/* Chi2 of the measured noise against a model that is wrong: by how much the best of what is left exceeds its noise, 1 where it does
- * not. Margins grow with it, as in quasi-likelihood. */
+/* Chi2 of the measured noise against a model that is wrong: by how much the best of what is left exceeds its noise, 1 where it
+ * does not. Margins grow with it, as in quasi-likelihood. */
 static double dispersion(const struct before *before, const struct candidate *best, double left_frequency)
 {
     int dof = before->dof - best->nparameter;
@@ -64,8 +64,8 @@ static const char *chance(struct pool *pool, const struct candidate *c)
     return pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value);
 }
 
-/* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than noise,
- * and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. */
+/* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
+ * noise, and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. */
 static const char *reason(const struct engine *engine, const struct before *before, const struct candidate *c)
 {
     struct pool *pool = engine->pool;
@@ -80,7 +80,8 @@ static const char *reason(const struct engine *engine, const struct before *befo
     int worse = isfinite(c->mode_out_rms) && c->mode_out_rms > WORSE * before->mode_out_rms,
         no_better = !(isfinite(c->sensor_out_rms) && c->sensor_out_rms < before->sensor_out_rms);
     if (worse && c->mode_out_rms > 2 * frequency_noise(&engine->job) && no_better)
-        return pool_format(pool, "modes left out in turn get worse: %.2g %% after %.2g %%", c->mode_out_rms, before->mode_out_rms);
+        return pool_format(pool, "modes left out in turn get worse: %.2g %% after %.2g %%", c->mode_out_rms,
+                           before->mode_out_rms);
     return NULL;
 }
 
@@ -127,16 +128,17 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         struct candidate *c = &round->candidate[i];
         double more = c->holdout_rms * c->holdout_rms - predicts * predicts; /* beyond what noise makes of two predictions */
         if (!c->rejected_because && isfinite(c->holdout_rms) && predicts < BETTER * c->holdout_rms && more > noise * noise)
-            c->rejected_because =
-                pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)", c->holdout_rms, predicts);
-        if (!c->rejected_because && c->chi2_drop > round->threshold &&
-            (!best || candidate_score(c) < candidate_score(best))) {
+            c->rejected_because = pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)",
+                                              c->holdout_rms, predicts);
+        if (!c->rejected_because && c->chi2_drop > round->threshold && (!best || candidate_score(c) < candidate_score(best))) {
             best = c;
             left_frequency = c->chi2_frequency;
         }
     }
     double doubt = engine->coloured ? COLOURED : 1;
     round->required_margin = best ? LEAST_MARGIN * doubt * dispersion(before, best, left_frequency) : NAN;
+    for (int i = 0; i < round->ncandidate; i++)
+        round->candidate[i].refused = round->candidate[i].rejected_because != NULL;
     double limit = best ? candidate_score(best) + round->required_margin : 0;
     const char *name = best ? best->cause->id : "";
     round->nset = 0;

@@ -1,12 +1,13 @@
-/* What this data set could have shown: for each cause the size that the scan finds nine times in ten, and along the axis where the
- * misfit of the base model lies. */
+/* What this data set could have shown: for each cause the size that the scan finds nine times in ten, and along the axis where
+ * the misfit of the base model lies. */
 #include <math.h>
 
 #include "diagnose/engine.h"
 
 #define POWER 1.2816 /* standard normal deviate of 90 % */
 
-/* A size s moves the whitened residual by s |c|: the score is normal about it with variance 1, so s |c| = sqrt(threshold) + 1.28. */
+/* A size s moves the whitened residual by s |c|: the score is normal about it with variance 1, so s |c| = sqrt(threshold) + 1.28.
+ */
 static double size_for(const struct scan_item *item, double threshold)
 {
     return item->usable ? (sqrt(threshold) + POWER) * item->unit / item->norm : INFINITY;

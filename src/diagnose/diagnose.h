@@ -40,10 +40,10 @@ struct numerical_finding {
 /* A cause at one target (for those with a place: at its best place), with what became of it. */
 struct candidate {
     const struct cause_kind *cause;
-    struct effect effect;   /* at the best values found; effect.name is that of the card it would get */
-    const char *target;     /* "core", "core|right", name of a spring or tie rod, "" */
-    int suspect;            /* the user asked for it */
-    int nparameter;         /* of the effect, in use */
+    struct effect effect; /* at the best values found; effect.name is that of the card it would get */
+    const char *target;   /* "core", "core|right", name of a spring or tie rod, "" */
+    int suspect;          /* the user asked for it */
+    int nparameter;       /* of the effect, in use */
     int fixed[EFFECT_MOST_PARAMETERS];
     double std[EFFECT_MOST_PARAMETERS], ci_lower[EFFECT_MOST_PARAMETERS], ci_upper[EFFECT_MOST_PARAMETERS]; /* NaN: not stated */
     double predicted_drop;  /* of chi2, from the linear scan */
@@ -59,6 +59,7 @@ struct candidate {
     const char *collinear_with; /* id of the candidate that looks most like it among those refitted, or NULL */
     const char *collinear_target;
     double cosine;
+    int refused;                  /* for a reason of its own (no fit, physical bound, held-out modes), whatever the others do */
     const char *rejected_because; /* NULL: named, or in the ambiguous set */
 };
 
@@ -113,9 +114,9 @@ struct diagnosis {
     struct numerical_finding *numerical_finding;
 
     struct identification base;
-    double *mode_z;      /* [nmode] standardised frequency residual of the base model */
-    double *sensor_rms;  /* [nsensor] rms of the standardised shape residuals, NaN where there are none */
-    int nlocal;          /* along the axis: force residual of the base model, largest 1 */
+    double *mode_z;     /* [nmode] standardised frequency residual of the base model */
+    double *sensor_rms; /* [nsensor] rms of the standardised shape residuals, NaN where there are none */
+    int nlocal;         /* along the axis: force residual of the base model, largest 1 */
     double *local_z, *local;
 
     int nround;

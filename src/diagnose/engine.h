@@ -14,9 +14,9 @@ struct engine {
     const rotid_environment *environment;
     struct message_list *notes;
     struct diagnosis *out;
-    struct job job;        /* judged, with the causes named so far; its starts are the fitted values */
-    int *number, *holdout; /* [nmode] */
-    rotid_fit_result *fit; /* of that job */
+    struct job job;                      /* judged, with the causes named so far; its starts are the fitted values */
+    int *number, *holdout;               /* [nmode] */
+    rotid_fit_result *fit;               /* of that job */
     double mode_out_rms, mode_out_shape; /* of that job, NaN where unknown: modes left out in turn, percent and shape */
     int confident;                       /* the data are enough for a name */
     int coloured;                        /* the noise of the shapes was raised for its smooth part */
@@ -37,7 +37,8 @@ int data_add_finding(struct engine *engine, const struct data_finding *finding);
 
 /* ---- clean.c */
 
-/* After the base fit: faults of channels and the level of the noise, taken out of the judged data; *changed when there were any. */
+/* After the base fit: faults of channels and the level of the noise, taken out of the judged data; *changed when there were any.
+ */
 int data_clean(struct engine *engine, const struct scan *scan, int *changed);
 /* Noise that neighbouring sensors share looks like physics to the scan. r [nrow] is the residual that the best candidate leaves:
  * where its smooth part, or all of it, is still too large, the noise of the shapes is raised to that, and the round has to be
@@ -48,8 +49,8 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
 
 /* Fit, faults of the data taken out, mesh fine enough. ROTID_ERROR_ARGUMENT where nothing is left to judge by. */
 int base_prepare(struct engine *engine);
-/* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to be
- * a cause still moves a modulus by part of its interval. */
+/* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to
+ * be a cause still moves a modulus by part of its interval. */
 int base_refine(struct engine *engine, struct job *job, const struct spectrum *spectrum);
 /* What the condensation of the user's own fit costs. */
 int base_note_reduction(struct engine *engine);
@@ -75,8 +76,8 @@ void round_free(struct round_result *result);
 /* Penalty of a parameter in chi2. Two more of them, a place and a width, cost as much as the least margin: they let a zone follow
  * almost anything, and a cause without them is named where the zone fits no better. */
 #define PARAMETER_PENALTY 3.0
-/* Least margin of a name, in chi2 with those penalties: noise turns a rival into the better one by so much once in a hundred times
- * at most, however well it mimics (the difference of two fits at distance d is normal with mean d^2 and deviation 2 d). */
+/* Least margin of a name, in chi2 with those penalties: noise turns a rival into the better one by so much once in a hundred
+ * times at most, however well it mimics (the difference of two fits at distance d is normal with mean d^2 and deviation 2 d). */
 #define LEAST_MARGIN 6.0
 
 /* The model before the round, as far as the candidates are compared with it. */
@@ -87,11 +88,15 @@ struct before {
 
 double candidate_score(const struct candidate *candidate);
 
-/* Sorts the candidates by their scores, gives every one that loses its reason, and the round its kind. The array of the candidates
- * has room for one more. */
+/* Sorts the candidates by their scores, gives every one that loses its reason, and the round its kind. The array of the
+ * candidates has room for one more. */
 int decide(const struct engine *engine, const struct before *before, struct diagnosis_round *round);
 
-/* ---- round.c again: prediction of modes left out in turn, for several jobs at once; error [models] in percent, shape [models] */
+/* ---- evidence.c */
+
+/* Fills the round's candidates from the refits and lets decide() judge them. */
+int evidence_collect(struct engine *engine, struct round_result *result, struct diagnosis_round *round);
+/* Prediction of modes left out in turn, for several jobs at once: error [models] in percent, shape [models]. */
 int modes_in_turn(const struct engine *engine, int models, const struct job *const *job, double *error, double *shape);
 
 /* ---- settle.c: from rounds to a verdict */

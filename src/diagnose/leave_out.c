@@ -111,7 +111,8 @@ int sensor_out(struct pool *pool, const struct job *job, const int *holdout, con
     if (!job->shape || !job_knows_shape_noise(job) || nrow <= nfitted || nfitted < 1)
         return ROTID_OK;
     int *row = POOL_ARRAY(pool, int, (size_t)nfitted *(size_t)nsensor), *at = POOL_ARRAY(pool, int, nfitted);
-    double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + nfitted + 1)), *right = POOL_ARRAY(pool, double, nfitted);
+    double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + nfitted + 1)),
+           *right = POOL_ARRAY(pool, double, nfitted);
     struct symmetric block;
     if (!row || !at || !basis || !right)
         return ROTID_ERROR_MEMORY;

@@ -1,13 +1,13 @@
-/* Prediction of what was not fitted: modes left out in turn (fitted again without each), sensors left out in turn (one Gauss-Newton
- * step, exact where the model is linear), modes the deck holds out. */
+/* Prediction of what was not fitted: modes left out in turn (fitted again without each), sensors left out in turn (one
+ * Gauss-Newton step, exact where the model is linear), modes the deck holds out. */
 #ifndef ROTID_DIAGNOSE_LEAVE_OUT_H
 #define ROTID_DIAGNOSE_LEAVE_OUT_H
 
 #include "base/pool.h"
 #include "run/job.h"
 
-/* Predicts mode k by a fit of all fitted modes but it: error of its frequency and rms difference of its shape, NaN where there is no
- * such fit. May run in several threads. Statuses of memory and cancellation only. */
+/* Predicts mode k by a fit of all fitted modes but it: error of its frequency and rms difference of its shape, NaN where there is
+ * no such fit. May run in several threads. Statuses of memory and cancellation only. */
 int mode_out_fit(const struct job *job, const int *number, const int *holdout, int k, const rotid_environment *environment,
                  const rotid_allocator *allocator, double *error_percent, double *shape);
 

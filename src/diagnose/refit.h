@@ -9,9 +9,9 @@
 #define REFIT_GRADIENT 1e-5
 #define REFIT_STEP     1e-7
 
-/* *to := the job `from` with the effect in its rotor and its parameters (those not fixed) behind the job's own, between their physical
- * bounds; starts are x [nparameter] (the job's own starts, where NULL) and the effect's values, moved off the bounds. `to` may be the
- * job itself. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* *to := the job `from` with the effect in its rotor and its parameters (those not fixed) behind the job's own, between their
+ * physical bounds; starts are x [nparameter] (the job's own starts, where NULL) and the effect's values, moved off the bounds.
+ * `to` may be the job itself. ROTID_OK or ROTID_ERROR_MEMORY. */
 int job_with_effect(struct pool *pool, const struct job *from, const double *x, const struct effect *effect,
                     const struct cause_kind *cause, const int *fixed, struct job *to);
 

@@ -235,3 +235,9 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
     }
     return ROTID_OK;
 }
+
+double scan_best_drop(const struct scan *scan, int candidate)
+{
+    const struct scan_candidate *c = &scan->candidate[candidate];
+    return c->best < 0 ? 0 : scan->item[c->best].drop;
+}

@@ -32,8 +32,8 @@ struct scan {
     struct scan_candidate *candidate;
     double *column; /* [nrow * nitem] projected, of unit length; zero where not usable */
     int nbasis;
-    double *basis;  /* [nrow * nbasis] orthonormal: free parameters and scales */
-    double *r;      /* [nrow] residual, projected */
+    double *basis; /* [nrow * nbasis] orthonormal: free parameters and scales */
+    double *r;     /* [nrow] residual, projected */
     double chi2, chi2_frequency;
     double largest; /* drop */
 };
@@ -44,5 +44,8 @@ int scan_list(struct pool *pool, const struct job *job, struct scan *scan);
 
 /* Columns and drops at the parameters x of the fitted job. Statuses of columns_open. */
 int scan_run(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x, struct scan *scan);
+
+/* Largest drop that a candidate promises, 0 where none of its columns is usable. */
+double scan_best_drop(const struct scan *scan, int candidate);
 
 #endif

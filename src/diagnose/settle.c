@@ -68,7 +68,7 @@ static double margin_of(const struct diagnosis_round *round)
     double margin = INFINITY;
     for (int i = 1; i < round->ncandidate; i++) {
         const struct candidate *c = &round->candidate[i];
-        if (c->refitted && isfinite(c->chi2))
+        if (c->refitted && isfinite(c->chi2) && !c->refused)
             margin = fmin(margin, candidate_score(c) - candidate_score(first));
     }
     return margin;
@@ -112,14 +112,15 @@ static int job_without(struct engine *engine, int left_out, struct job *job)
     int status = job_started_at(engine->pool, job, out->base.fit->x, job);
     for (int c = 0; c < out->ncause && !status; c++)
         if (c != left_out)
-            status = job_with_effect(engine->pool, job, NULL, &out->cause[c].effect, out->cause[c].cause, out->cause[c].fixed, job);
+            status =
+                job_with_effect(engine->pool, job, NULL, &out->cause[c].effect, out->cause[c].cause, out->cause[c].fixed, job);
     job->frequency_std = engine->job.frequency_std;
     job->shape_std = engine->job.shape_std;
     return status;
 }
 
-/* With two causes or more each is doubted again in the presence of the others: a first cause may have been the best single stand-in
- * for two. *round, *result: the one in which a cause was not named again; *doubtful: its index, or -1. */
+/* With two causes or more each is doubted again in the presence of the others: a first cause may have been the best single
+ * stand-in for two. *round, *result: the one in which a cause was not named again; *doubtful: its index, or -1. */
 static int confirm(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int *doubtful)
 {
     struct diagnosis *out = engine->out;

@@ -19,8 +19,8 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit);
 
-/* With nothing to identify the model is compared as it stands. baseline: NLopt as well. Notes and reasons go to the list. Statuses
- * of rotid_fit and of comparison_make, ROTID_ERROR_ARGUMENT where nothing is measured (the list says so). */
+/* With nothing to identify the model is compared as it stands. baseline: NLopt as well. Notes and reasons go to the list.
+ * Statuses of rotid_fit and of comparison_make, ROTID_ERROR_ARGUMENT where nothing is measured (the list says so). */
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out);
 

@@ -19,7 +19,7 @@ struct reference {
 
 /* A fault of the measurement chain, as a CAUSE card states it or the diagnosis finds it: see the causes of that class. */
 struct correction {
-    const char *name, *id; /* of the card; of the cause: "sensor_gain" */
+    const char *name, *id;  /* of the card; of the cause: "sensor_gain" */
     int nsensor, sensor[2]; /* ids */
     const char *block;      /* noise_level: "SHAPE" or "FREQUENCY", else NULL */
     double value;           /* gain, shift [m], factor; 1 where the cause has none */
