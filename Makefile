@@ -92,7 +92,7 @@ demo: all
 test: all $(TEST_PROGRAMS)
 	@sh tools/run-tests $(TEST_PROGRAMS)
 
-bench bench-quick: all
+bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
 check-asan:

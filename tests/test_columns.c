@@ -217,7 +217,8 @@ static int check_probe(const struct job *job, struct effect *effect, const struc
                    size->one_sided, moved);
         double apart = relative_difference((size_t)c.nrow, moved, column);
         if (!(apart < 4e-5))
-            print_error("%s, target %d, variant %d, parameter %d: %g off\n", cause->id, effect->target, effect->variant, p, apart);
+            print_error("%s, target %d, variant %d, parameter %d: %g off\n", cause->id, effect->target, effect->variant, p,
+                        apart);
         assert_true(apart < 4e-5);
         checked++;
     }

@@ -12,8 +12,8 @@
 #define SENSORS 9
 #define MODES   5
 
-/* A beam with a core of unknown E and G: data are its own modes at 1.1e11 and 0.4e11 Pa with white noise of the stated size, which
- * is so small that the fit is linear in it. */
+/* A beam with a core of unknown E and G: data are its own modes at 1.1e11 and 0.4e11 Pa with white noise of the stated size,
+ * which is so small that the fit is linear in it. */
 static struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1}, soft = {"soft", 1e11, 0.42e11, 0.3, 7600, 0};
 static struct group groups[3];
 static struct segment segments[3];
@@ -193,7 +193,7 @@ static double shape_by_definition(const struct job *job, const double *x, int k)
 {
     struct client client;
     struct prediction p;
-    int failed, count = 0;
+    int failed, used = 0;
     double ab = 0, aa = 0, sum = 0, largest = largest_of(shape + k * SENSORS);
     assert_status(client_open(&test_pool, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
     int count = client.model.nrigid + MODES;
@@ -209,10 +209,10 @@ static double shape_by_definition(const struct job *job, const double *x, int k)
                 ab += phi * m;
             } else {
                 sum += pow(ab / aa * phi - m, 2);
-                count++;
+                used++;
             }
         }
-    return sqrt(sum / count);
+    return sqrt(sum / used);
 }
 
 static void errors_are_as_defined(void **state)
