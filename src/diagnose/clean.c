@@ -13,7 +13,8 @@
 #define MUCH_LESS   0.7 /* of the stated noise */
 #define MUCH_MORE   1.3
 #define NOISIER     3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
-#define SHARED      0.35 /* correlation of neighbours; 0.1 is the error of its estimate, 0.2 what a smooth misfit adds */
+#define SHARED      0.45 /* correlation of neighbours; 0.08 is the error of its estimate, 0.2 what a smooth misfit adds */
+#define LITTLE      2.0  /* chi2 a residual: with more, it is not noise that is left */
 #define SLIGHT      0.05 /* excess of the smooth part of the noise that changes no verdict */
 
 int data_add_finding(struct engine *engine, const struct data_finding *finding)
@@ -157,9 +158,9 @@ static int check_noise(struct engine *engine, const struct scan *scan, const dou
     return rows > 0 ? noise_check(engine->pool, rows, columns, r + first, part, noise) : ROTID_OK;
 }
 
-/* Correlation between neighbours from differences, which a smooth misfit hardly touches: with noise of correlation rho the second
- * differences have (3 - rho) times the variance of the first ones. NaN where there are too few. */
-static double neighbour_correlation(const struct engine *engine, const double *r)
+/* Correlation between neighbours and level of the noise from differences, which a smooth misfit hardly touches: first differences
+ * have the variance 2 sigma^2 (1 - rho), second ones (3 - rho) times that. rho NaN where there are too few. */
+static void neighbours(const struct engine *engine, const double *r, double *rho, double *sigma)
 {
     const struct job *job = &engine->job;
     double first = 0, second = 0;
@@ -182,7 +183,25 @@ static double neighbour_correlation(const struct engine *engine, const double *r
             row++;
         }
     }
-    return nsecond > 50 && first > 0 ? 3 - second / nsecond / (first / nfirst) : NAN;
+    *rho = *sigma = NAN;
+    if (nsecond < 50 || !(first > 0))
+        return;
+    first /= nfirst;
+    *rho = fmin(3 - second / nsecond / first, 0.9);
+    *sigma = sqrt(first / (2 * (1 - *rho)));
+}
+
+/* Factor on the noise of smooth shapes where neighbours share it, 1 where they do not: the spectrum of such noise rises to
+ * (1 + rho)/(1 - rho) towards long waves. Only where the fit has left little else. */
+static double shared_noise(const struct engine *engine, const struct scan *scan, const double *r)
+{
+    double rho, sigma, chi2 = 0;
+    for (int i = scan->nfrequency; i < scan->nrow; i++)
+        chi2 += r[i] * r[i];
+    neighbours(engine, r, &rho, &sigma);
+    if (!(rho > SHARED) || chi2 > LITTLE * (scan->nrow - scan->nfrequency))
+        return 1;
+    return fmin(fmax(1, sigma * sqrt((1 + rho) / (1 - rho))), NOISIER);
 }
 
 int data_colour(struct engine *engine, const struct scan *scan, const double *r, int *changed)
@@ -195,11 +214,11 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
     int status = check_noise(engine, scan, r, &noise);
     if (status)
         return status;
-    int coloured = noise.usable && noise.coloured && noise.smooth_factor > 1 + SLIGHT && noise.smooth_factor < NOISIER &&
-                   neighbour_correlation(engine, r) > SHARED;
+    double shared = shared_noise(engine, scan, r);
+    int coloured = shared > 1 + SLIGHT;
     if (!coloured && !(is_misstated(&noise, 1) && noise.factor > 1))
         return ROTID_OK;
-    double factor = coloured ? noise.smooth_factor : noise.factor;
+    double factor = coloured ? shared : noise.factor;
     const char *text = pool_format(
         engine->pool,
         coloured ? "neighbouring sensors share their noise: its smooth part is %.2f times the stated level, which is used"
