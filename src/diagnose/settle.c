@@ -5,6 +5,8 @@
 
 #include "diagnose/engine.h"
 
+#define MANY 3 /* causes that together still leave something imitate what none of them is */
+
 /* The winner of a round becomes part of the model, with what it leaves as an approximation added to the noise. */
 int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result)
 {
@@ -132,14 +134,17 @@ static int confirm(struct engine *engine, struct diagnosis_round *round, struct 
         status = job_without(engine, c, &other.job);
         if (!status)
             status = refit_job(engine->pool, &other.job, engine->number, engine->holdout, engine->environment, &fit);
+        other.fit = fit;
         if (!status)
             status = job_started_at(engine->pool, &other.job, fit->x, &other.job);
-        other.fit = fit;
         round_free(result);
         if (!status)
             status = round_run(&other, round, result);
-        rotid_fit_free(fit);
+        rotid_fit_free(other.fit); /* the round may have put another one in its place */
         engine->clock = other.clock;
+        engine->coloured = other.coloured;
+        engine->job.correction = out->job.correction; /* noise that was raised there is raised here: the data are the same */
+        engine->job.ncorrection = out->job.ncorrection;
         if (!status && !(round->kind == VERDICT_NAMED && same_cause(&round->candidate[0], &out->cause[c])))
             *doubtful = c;
     }
@@ -163,7 +168,8 @@ int settle(struct engine *engine, struct round_result *last)
     out->adequate_after = end->kind == VERDICT_ADEQUATE;
     for (int r = 0; r < out->ncause && !status; r++) {
         const struct diagnosis_round *round = &out->round[r];
-        if (excess == 0 || margin_of(round) >= round->required_margin + excess)
+        int stacked = out->ncause >= MANY && !out->adequate_after;
+        if (!stacked && (excess == 0 || margin_of(round) >= round->required_margin + excess))
             continue;
         withdraw(engine);
         out->adequate_after = 0;
