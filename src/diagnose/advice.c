@@ -44,14 +44,17 @@ static const char *sentence(struct engine *engine, const struct candidate *first
                             double hz_first, double hz_second, double apart)
 {
     const struct job *job = &engine->job;
+    struct pool *pool = engine->pool;
     int has_shapes = job->shape && job_knows_shape_noise(job);
     const char *shapes = has_shapes ? "" : "measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); ";
+    const char *one = candidate_label(pool, first), *two = candidate_label(pool, second);
+    if (!one || !two)
+        return NULL;
     if (apart < 1)
-        return pool_format(engine->pool, "%smore modes will not separate %s from %s; to settle it, %s", shapes, first->cause->id,
-                           second->cause->id, first->cause->check);
-    return pool_format(engine->pool,
+        return pool_format(pool, "%smore modes will not separate %s from %s; %s", shapes, one, two, first->cause->check);
+    return pool_format(pool,
                        "%smeasure mode %d: %.6g Hz if it is %s, %.6g Hz if it is %s (%.1f standard deviations apart); or %s",
-                       shapes, mode, hz_first, first->cause->id, hz_second, second->cause->id, apart, first->cause->check);
+                       shapes, mode, hz_first, one, hz_second, two, apart, first->cause->check);
 }
 
 const char *advise(struct engine *engine, const struct diagnosis_round *round, const struct round_result *last)

@@ -54,12 +54,18 @@ static void settle_causes(struct diagnosis *out)
     }
 }
 
+const char *candidate_label(struct pool *pool, const struct candidate *c)
+{
+    if (c->suspect)
+        return pool_format(pool, "%s, a %s", c->effect.name, c->cause->id);
+    return pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
+}
+
 /* "joint of core|right (flexibility 4e-10 rad/(N.m))" */
 static const char *describe(struct pool *pool, const struct candidate *c)
 {
     const struct cause_kind *cause = c->cause;
-    const char *text = c->suspect ? pool_format(pool, "%s, a %s", c->effect.name, cause->id)
-                                  : pool_format(pool, "%s%s%s", cause->id, c->target[0] ? " of " : "", c->target);
+    const char *text = candidate_label(pool, c);
     if (!cause->effect) /* a rival that is no part of a model */
         return text ? pool_format(pool, "%s (%s %.3g)", text, cause->value.name, c->effect.value[0]) : NULL;
     for (int p = 0; p < c->nparameter && text; p++) {
@@ -108,7 +114,8 @@ static const char *open_parameters(struct engine *engine)
         int partner = partner_of(fit, p);
         text = pool_format(engine->pool, "%s The data do not determine %s%s%s: its 95 %% interval is %.3g to %.3g %s.", text,
                            parameter[p].name, partner < 0 ? "" : " separately from ", partner < 0 ? "" : parameter[partner].name,
-                           fit->ci_lower[p], fit->ci_upper[p], parameter[p].unit);
+                           fmax(fit->ci_lower[p], parameter[p].lower), fmin(fit->ci_upper[p], parameter[p].upper),
+                           parameter[p].unit);
         out->undetermined++;
     }
     return text;
@@ -130,13 +137,19 @@ static const char *verdict_sentence(struct engine *engine)
     case VERDICT_ADEQUATE:
         return pool_format(pool, "The model explains the data within their noise (p = %.2g).%s%s", out->p_value, faults, open);
     case VERDICT_NAMED:
+        if (!out->adequate_after && out->nalternative)
+            return pool_format(
+                pool, "The model lacks %s (p = %.2g before); what is left then, the data cannot tell which of %s it is.%s%s",
+                causes, out->p_value, others, faults, open);
         return pool_format(pool, "The model lacks %s; with %s it %s (p = %.2g before).%s%s", causes,
                            out->ncause > 1 ? "them" : "it",
-                           out->adequate_after ? "explains the data within their noise"
-                           : out->nalternative ? "leaves a rest that more than one cause would explain"
-                                               : "still leaves more than noise",
+                           out->adequate_after ? "explains the data within their noise" : "still leaves more than noise",
                            out->p_value, faults, open);
     case VERDICT_AMBIGUOUS:
+        if (out->nalternative == 1)
+            return pool_format(
+                pool, "The model does not explain the data (p = %.2g); %s would, but these data cannot carry the name.%s%s",
+                out->p_value, others, faults, open);
         return pool_format(pool,
                            "The model does not explain the data (p = %.2g), and the data cannot tell which of %s it is%s.%s%s",
                            out->p_value, others, engine->confident ? "" : ", nor with confidence that it is any", faults, open);

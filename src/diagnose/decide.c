@@ -140,7 +140,9 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     for (int i = 0; i < round->ncandidate; i++)
         round->candidate[i].refused = round->candidate[i].rejected_because != NULL;
     double limit = best ? candidate_score(best) + round->required_margin : 0;
-    const char *name = best ? best->cause->id : "";
+    const char *name = best ? candidate_label(pool, best) : "";
+    if (!name)
+        return ROTID_ERROR_MEMORY;
     round->nset = 0;
     int refused = 0; /* something refused for its size explains the data better than what is left */
     for (int i = 0; i < round->ncandidate && best; i++) {

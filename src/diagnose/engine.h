@@ -107,6 +107,9 @@ int settle(struct engine *engine, struct round_result *last);
 
 /* ---- conclude.c: the final model, the gain, the verdict in words */
 
+/* "density of core"; the user's own name where it is a suspect. NULL where memory is out. */
+const char *candidate_label(struct pool *pool, const struct candidate *candidate);
+
 /* last: the round that named nothing more, or NULL. */
 int conclude(struct engine *engine, const struct round_result *last);
 
