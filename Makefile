@@ -99,9 +99,10 @@ check-asan:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' test
 
+# without the programs that diagnose dozens of rotors: what they call is in the others
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(TEST_PROGRAMS)
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases),$(TEST_PROGRAMS))
 
 check-peers: all
 	@sh tests/peers/run $(BUILD) $(PYTHON)

@@ -9,7 +9,7 @@ import jsonschema
 
 from support import INPUT, ROOT, Checks, numbers, parse, rotid, temporary_folder
 
-COMMANDS = ("check", "modes", "sensitivity", "identify")
+COMMANDS = ("check", "modes", "sensitivity", "identify", "diagnose")
 
 SHAFT = """*MATERIAL, NAME=steel
 *ELASTIC
@@ -28,23 +28,23 @@ MODES = """*MODES
 2, 640
 3, 1690
 """
-# name: deck, options, exit codes of check, modes, sensitivity, identify
+# name: deck, options, exit codes of check, modes, sensitivity, identify, diagnose
 SMALL = {
-    "nothing measured": (SHAFT, (), (0, 0, 2, 2)),
-    "identified without data": (SHAFT + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 2)),
-    "one parameter, no noise": (SHAFT + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0)),
-    "at a bound": (SHAFT + MODES + "*IDENTIFY\ncore.E, 2.5e11, 1e12, 3e11\n", (), (0, 0, 0, 1)),
-    "no degree of freedom left": (SHAFT + MODES + "*FIT, FUNCTIONAL=HYBRID, MODES=1\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0)),
-    "not determined": (SHAFT + MODES + "*IDENTIFY\ncore.G, 1e9, 1e13, 8e10\ncore.nu, 0, 0.5, 0.3\nleft.nu, 0, 0.5, 0.3\n", (), (0, 0, 0, 1)),
+    "nothing measured": (SHAFT, (), (0, 0, 2, 2, 2)),
+    "identified without data": (SHAFT + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 2, 2)),
+    "one parameter, no noise": (SHAFT + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0, 0)),
+    "at a bound": (SHAFT + MODES + "*IDENTIFY\ncore.E, 2.5e11, 1e12, 3e11\n", (), (0, 0, 0, 1, 0)),
+    "no degree of freedom left": (SHAFT + MODES + "*FIT, FUNCTIONAL=HYBRID, MODES=1\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0, 2)),
+    "not determined": (SHAFT + MODES + "*IDENTIFY\ncore.G, 1e9, 1e13, 8e10\ncore.nu, 0, 0.5, 0.3\nleft.nu, 0, 0.5, 0.3\n", (), (0, 0, 0, 1, 2)),
     "condensed, noise stated, mode held out": (
         SHAFT + MODES + "*NOISE, FREQUENCY=0.01\n*FIT, FUNCTIONAL=HYBRID, REDUCTION=IRS, HOLDOUT=2\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n",
-        (), (0, 0, 0, 0)),
+        (), (0, 0, 0, 0, 0)),
     "few sensors": (
         SHAFT + "*SENSORS\n1, start\n2, 0.5\n3, end\n" + MODES +
         "*SHAPE, MODE=1\n1, 1\n2, -0.6\n3, 1\n*SHAPE, MODE=2\n1, 1\n3, -1\n*NOISE, FREQUENCY=0.01, SHAPE=0.05\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n",
-        (), (0, 0, 0, 0)),
-    "one sensor": (SHAFT + "*SENSORS\n1, start\n" + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0)),
-    "without the baseline": (SHAFT + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", ("--no-baseline",), (0, 0, 0, 0)),
+        (), (0, 0, 0, 0, 0)),
+    "one sensor": (SHAFT + "*SENSORS\n1, start\n" + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0, 0)),
+    "without the baseline": (SHAFT + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", ("--no-baseline",), (0, 0, 0, 0, 0)),
 }
 
 
@@ -112,6 +112,8 @@ def walk(schema, path=""):
     yield path, schema
     for name, value in schema.get("properties", {}).items():
         yield from walk(value, f"{path}/{name}")
+    for name, value in schema.get("$defs", {}).items():
+        yield from walk(value, f"{path}/$defs/{name}")
     if isinstance(schema.get("items"), dict):
         yield from walk(schema["items"], f"{path}[]")
 
