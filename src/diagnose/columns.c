@@ -5,14 +5,7 @@
 
 #include "beam/hinge.h"
 #include "linalg/matrix.h"
-
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
+#include "linalg/product.h"
 
 /* (K - lambda M)^+ on M phi and on the unit vectors of the sensors; the component that Nelson leaves out stays zero, and with
  * zeros for M phi and Q nothing is added along phi: that is the caller's. */
@@ -34,7 +27,7 @@ static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const d
         nelson_band_solve(nelson, mode->sensors, phi, zero, unit, zero, mode->adjoint);
     for (int i = 0; i < mode->sensors; i++)
         mode->adjoint_at[i] = mode->adjoint_m[c->client.model.master[mode->sensor[i]]];
-    mode->m_adjoint_m = dot(n, mode->adjoint_m, mode->m_phi);
+    mode->m_adjoint_m = product_dot(n, mode->adjoint_m, mode->m_phi);
     return ROTID_OK;
 }
 
@@ -149,7 +142,7 @@ static void project_scale(const struct columns_mode *mode, double *part)
 {
     if (!(mode->square > 0))
         return;
-    double along = dot(mode->sensors, mode->weighted, part) / mode->square;
+    double along = product_dot(mode->sensors, mode->weighted, part) / mode->square;
     for (int i = 0; i < mode->sensors; i++)
         part[i] -= along * mode->weighted[i];
 }
@@ -182,17 +175,18 @@ static double mode_derivative(struct columns *c, const struct columns_mode *mode
     double lambda = prediction->lambda[mode->pair];
     matrix_multiply(&c->dk, 1, phi, c->dk_phi);
     matrix_multiply(&c->dm, 1, phi, c->dm_phi);
-    double mass = dot(n, phi, c->dm_phi), dlambda = dot(n, phi, c->dk_phi) - lambda * mass;
+    double mass = product_dot(n, phi, c->dm_phi), dlambda = product_dot(n, phi, c->dk_phi) - lambda * mass;
     for (int i = 0; i < n; i++)
         c->right[i] = c->dk_phi[i] - lambda * c->dm_phi[i];
     while (first < n && c->right[first] == 0)
         first++;
     while (last > first && c->right[last - 1] == 0)
         last--;
-    double along = -0.5 * mass + dot(last - first, mode->adjoint_m + first, c->right + first) - dlambda * mode->m_adjoint_m;
+    double along =
+        -0.5 * mass + product_dot(last - first, mode->adjoint_m + first, c->right + first) - dlambda * mode->m_adjoint_m;
     for (int i = 0; i < mode->sensors; i++)
-        dphi[i] = -dot(last - first, mode->adjoint + (ptrdiff_t)i * n + first, c->right + first) + dlambda * mode->adjoint_at[i] +
-                  along * phi[model->master[mode->sensor[i]]];
+        dphi[i] = -product_dot(last - first, mode->adjoint + (ptrdiff_t)i * n + first, c->right + first) +
+                  dlambda * mode->adjoint_at[i] + along * phi[model->master[mode->sensor[i]]];
     return dlambda;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "diagnose/refit.h"
+#include "linalg/product.h"
 #include "linalg/symmetric.h"
 
 double shape_difference(const struct job *job, int k, double mac)
@@ -46,14 +47,6 @@ int mode_out_fit(const struct job *job, const int *number, const int *holdout, i
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 /* Directions of the scales of the fitted modes into the first columns of the basis, of unit length: they lie in different rows.
  * Residual plus measured shape is the predicted one. Returns their number. */
 static int scale_directions(const struct job *job, const int *holdout, const rotid_fit_result *fit, int next, double *basis)
@@ -82,21 +75,8 @@ static int scale_directions(const struct job *job, const int *holdout, const rot
 static int orthonormalise(int nrow, int n, const double *jacobian, int count, double *basis)
 {
     for (int p = 0; p < n; p++) {
-        double *q = basis + (ptrdiff_t)count * nrow;
-        memcpy(q, jacobian + (ptrdiff_t)p * nrow, (size_t)nrow * sizeof *q);
-        double raw = sqrt(dot(nrow, q, q));
-        for (int pass = 0; pass < 2; pass++)
-            for (int b = 0; b < count; b++) {
-                double along = dot(nrow, basis + (ptrdiff_t)b * nrow, q);
-                for (int i = 0; i < nrow; i++)
-                    q[i] -= along * basis[i + (ptrdiff_t)b * nrow];
-            }
-        double left = sqrt(dot(nrow, q, q));
-        if (!(left > 1e-10 * raw))
-            continue;
-        for (int i = 0; i < nrow; i++)
-            q[i] /= left;
-        count++;
+        memcpy(basis + (ptrdiff_t)count * nrow, jacobian + (ptrdiff_t)p * nrow, (size_t)nrow * sizeof *basis);
+        count = basis_extend(nrow, count, 1e-10, basis);
     }
     return count;
 }

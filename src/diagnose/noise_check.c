@@ -1,4 +1,5 @@
 #include "diagnose/noise_check.h"
+#include "linalg/product.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -33,14 +34,6 @@ struct basis {
     double *left;         /* [ncolumn] what is left of each column's squared length */
 };
 
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 static void subtract(int n, double part, const double *from, double *x)
 {
     for (int i = 0; i < n; i++)
@@ -56,9 +49,9 @@ static void add_direction(struct basis *basis, const double *column)
     for (int pass = 0; pass < 2; pass++)
         for (int j = 0; j < basis->count; j++) {
             const double *other = basis->q + (ptrdiff_t)j * m;
-            subtract(m, dot(m, other, q), other, q);
+            subtract(m, product_dot(m, other, q), other, q);
         }
-    double length = sqrt(dot(m, q, q));
+    double length = sqrt(product_dot(m, q, q));
     for (int i = 0; i < m; i++)
         q[i] /= length;
     basis->count++;
@@ -69,15 +62,15 @@ static void add_direction(struct basis *basis, const double *column)
 static void span(int n, const double *unit, const double *residual, int most, struct basis *basis)
 {
     int m = basis->m;
-    double size = sqrt(dot(m, residual, residual));
+    double size = sqrt(product_dot(m, residual, residual));
     for (int phase = 0; phase < 2; phase++) {
         for (int j = 0; j < n; j++) {
             const double *column = unit + (ptrdiff_t)j * m;
-            basis->left[j] = dot(m, column, column);
-            if (!phase && fabs(dot(m, column, residual)) > FITTED * size)
+            basis->left[j] = product_dot(m, column, column);
+            if (!phase && fabs(product_dot(m, column, residual)) > FITTED * size)
                 basis->left[j] = 0;
             for (int k = 0; k < basis->count; k++)
-                basis->left[j] -= pow(dot(m, basis->q + (ptrdiff_t)k * m, column), 2);
+                basis->left[j] -= pow(product_dot(m, basis->q + (ptrdiff_t)k * m, column), 2);
         }
         while (basis->count < most) {
             int best = 0;
@@ -90,7 +83,7 @@ static void span(int n, const double *unit, const double *residual, int most, st
             const double *q = basis->q + (ptrdiff_t)(basis->count - 1) * m;
             for (int j = 0; j < n; j++)
                 if (basis->left[j] > LEFT_OF_COLUMN * LEFT_OF_COLUMN)
-                    basis->left[j] -= pow(dot(m, q, unit + (ptrdiff_t)j * m), 2);
+                    basis->left[j] -= pow(product_dot(m, q, unit + (ptrdiff_t)j * m), 2);
             basis->left[best] = 0;
         }
         if (!phase)
@@ -161,7 +154,7 @@ static double fit_basis(const struct basis *basis, const double *residual, doubl
                 kept[i] = fabs(off) <= bound ? residual[i] : fitted;
         }
         for (int j = 0; j < p; j++)
-            coefficient[j] = dot(m, basis->q + (ptrdiff_t)j * m, kept);
+            coefficient[j] = product_dot(m, basis->q + (ptrdiff_t)j * m, kept);
         memcpy(rest, residual, (size_t)m * sizeof *rest);
         for (int j = 0; j < p; j++)
             subtract(m, coefficient[j], basis->q + (ptrdiff_t)j * m, rest);
@@ -195,11 +188,11 @@ static void take_out(struct effects *e, int skip)
         memcpy(g, e->c + (ptrdiff_t)e->column[k] * p, (size_t)p * sizeof *g);
         for (int pass = 0; pass < 2; pass++)
             for (int j = 0; j < used; j++)
-                subtract(p, dot(p, e->gone + (ptrdiff_t)j * p, g), e->gone + (ptrdiff_t)j * p, g);
-        double length = sqrt(dot(p, g, g));
+                subtract(p, product_dot(p, e->gone + (ptrdiff_t)j * p, g), e->gone + (ptrdiff_t)j * p, g);
+        double length = sqrt(product_dot(p, g, g));
         for (int i = 0; i < p; i++)
             g[i] /= length;
-        subtract(p, dot(p, g, e->rest), g, e->rest);
+        subtract(p, product_dot(p, g, e->rest), g, e->rest);
         used++;
     }
 }
@@ -212,9 +205,9 @@ static double best_column(struct effects *e, int skip, int *column)
     take_out(e, skip);
     for (int j = 0; j < e->n; j++) {
         const double *c = e->c + (ptrdiff_t)j * e->p;
-        double along = dot(e->p, c, e->rest), square = dot(e->p, c, c);
+        double along = product_dot(e->p, c, e->rest), square = product_dot(e->p, c, c);
         for (int k = 0; k < used; k++)
-            square -= pow(dot(e->p, e->gone + (ptrdiff_t)k * e->p, c), 2);
+            square -= pow(product_dot(e->p, e->gone + (ptrdiff_t)k * e->p, c), 2);
         if (square > 4 * LEFT_OF_COLUMN * LEFT_OF_COLUMN && along * along / square > most) {
             most = along * along / square;
             *column = j;
@@ -296,7 +289,8 @@ int noise_check(struct pool *pool, int nrow, int ncolumn, const double *residual
                               .rest = work + MOST_EFFECTS * (ptrdiff_t)p};
     for (int j = 0; j < ncolumn; j++)
         for (int k = 0; k < p; k++)
-            smooth[k + (ptrdiff_t)j * p] = dot(nrow, basis.q + (ptrdiff_t)(basis.fitted + k) * nrow, unit + (ptrdiff_t)j * nrow);
+            smooth[k + (ptrdiff_t)j * p] =
+                product_dot(nrow, basis.q + (ptrdiff_t)(basis.fitted + k) * nrow, unit + (ptrdiff_t)j * nrow);
     int dof = smooth_level(&effects, &estimate->smooth_factor, effects.rest + p);
     double ratio = estimate->smooth_factor / level, chance = sqrt((1.0 / dof + 1.0 / rows) / (2 * EFFICIENCY));
     estimate->coloured = ratio > COLOURED && ratio > 1 + QUANTILE_ONE * chance;

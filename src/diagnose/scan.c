@@ -13,14 +13,6 @@ static const double width_fraction[] = {0.12, 0.33, 0.57}; /* of the physical ra
 
 static const struct effect_kind nothing = {.id = "none"};
 
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 static int place_stride(int naxis)
 {
     return (naxis + MOST_PLACES - 1) / MOST_PLACES;
@@ -102,26 +94,6 @@ static int fill_columns(const struct job *job, struct columns *columns, struct s
     return status;
 }
 
-/* adds a column to the basis; what is left of it after projection decides whether it is new */
-static void add_to_basis(struct scan *scan, double *column)
-{
-    int n = scan->nrow;
-    double raw = sqrt(dot(n, column, column));
-    for (int pass = 0; pass < 2; pass++)
-        for (int b = 0; b < scan->nbasis; b++) {
-            const double *q = scan->basis + (ptrdiff_t)b * n;
-            double along = dot(n, q, column);
-            for (int i = 0; i < n; i++)
-                column[i] -= along * q[i];
-        }
-    double left = sqrt(dot(n, column, column));
-    if (!(left > INSEPARABLE * raw))
-        return;
-    for (int i = 0; i < n; i++)
-        column[i] /= left;
-    scan->nbasis++;
-}
-
 static int make_basis(const struct job *job, struct columns *columns, struct scan *scan)
 {
     int n = scan->nrow, row = columns->nmode, status = ROTID_OK;
@@ -133,13 +105,13 @@ static int make_basis(const struct job *job, struct columns *columns, struct sca
             memcpy(column + row, mode->weighted, (size_t)mode->sensors * sizeof *column);
         row += mode->sensors;
         if (mode->square > 0)
-            add_to_basis(scan, column);
+            scan->nbasis = basis_extend(n, scan->nbasis, INSEPARABLE, scan->basis);
     }
     for (int p = 0; p < job->nparameter && !status; p++) {
         double *column = scan->basis + (ptrdiff_t)scan->nbasis * n;
         status = columns_parameter(columns, p, column);
         if (!status)
-            add_to_basis(scan, column);
+            scan->nbasis = basis_extend(n, scan->nbasis, INSEPARABLE, scan->basis);
     }
     return status;
 }
@@ -153,7 +125,7 @@ static int project(struct pool *pool, struct scan *scan, double *raw)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < scan->nitem; i++) {
         const double *column = scan->column + (ptrdiff_t)i * n;
-        raw[i] = sqrt(dot(n, column, column));
+        raw[i] = sqrt(product_dot(n, column, column));
     }
     for (int pass = 0; pass < 2 && q && scan->nitem; pass++) {
         product_transposed(q, scan->nitem, n, scan->basis, scan->column, product);
@@ -167,13 +139,13 @@ static void predict(const struct rotor *rotor, struct scan *scan, struct scan_it
 {
     const struct cause_kind *cause = scan->candidate[item->candidate].cause;
     double lower = 0, upper = 1, neutral = cause->parameter[cause->size].neutral;
-    item->norm = sqrt(dot(scan->nrow, column, column));
+    item->norm = sqrt(product_dot(scan->nrow, column, column));
     item->usable = isfinite(item->norm) && item->norm > INSEPARABLE * raw && raw > 0;
     for (int j = 0; j < scan->nrow; j++)
         column[j] = item->usable ? column[j] / item->norm : 0;
     if (!item->usable)
         return;
-    double along = dot(scan->nrow, column, scan->r);
+    double along = product_dot(scan->nrow, column, scan->r);
     item->amplitude = -along / item->norm;
     if (item->side * item->amplitude < 0)
         item->amplitude = 0;
@@ -209,8 +181,8 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
     scan->nfrequency = columns.nmode;
     scan->nfree = job->nparameter;
     memcpy(scan->r, columns.r, (size_t)n * sizeof *scan->r);
-    scan->chi2 = dot(n, scan->r, scan->r);
-    scan->chi2_frequency = dot(columns.nmode, scan->r, scan->r);
+    scan->chi2 = product_dot(n, scan->r, scan->r);
+    scan->chi2_frequency = product_dot(columns.nmode, scan->r, scan->r);
     status = make_basis(job, &columns, scan);
     if (!status)
         status = fill_columns(job, &columns, scan);
@@ -221,7 +193,7 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
     scan->dof = n - scan->nbasis;
     for (int b = 0; b < scan->nbasis; b++) {
         const double *q = scan->basis + (ptrdiff_t)b * n;
-        double along = dot(n, q, scan->r);
+        double along = product_dot(n, q, scan->r);
         for (int i = 0; i < n; i++)
             scan->r[i] -= along * q[i];
     }

@@ -1,6 +1,34 @@
 #include "linalg/product.h"
 
 #include <cblas.h>
+#include <math.h>
+#include <stddef.h>
+
+double product_dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+int basis_extend(int n, int count, double least, double *basis)
+{
+    double *column = basis + (ptrdiff_t)count * n, raw = sqrt(product_dot(n, column, column));
+    for (int pass = 0; pass < 2; pass++)
+        for (int b = 0; b < count; b++) {
+            const double *q = basis + (ptrdiff_t)b * n;
+            double along = product_dot(n, q, column);
+            for (int i = 0; i < n; i++)
+                column[i] -= along * q[i];
+        }
+    double left = sqrt(product_dot(n, column, column));
+    if (!(left > least * raw))
+        return count;
+    for (int i = 0; i < n; i++)
+        column[i] /= left;
+    return count + 1;
+}
 
 void product_transposed(int m, int n, int k, const double *a, const double *b, double *c)
 {

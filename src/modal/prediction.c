@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "linalg/matrix.h"
+#include "linalg/product.h"
 
 static int new_matrices(struct pool *pool, const rotid_model *model, struct prediction *p)
 {
@@ -120,14 +121,6 @@ static int matrix_derivatives(struct prediction *p, const double *x, int q)
     return matrix_is_finite(&p->dk) && matrix_is_finite(&p->dm) ? ROTID_OK : ROTID_ERROR_FINITE;
 }
 
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
 /* (36) with the derivatives of the matrices in place */
 static double eigenvalue_derivative(struct prediction *p, int k)
 {
@@ -138,17 +131,17 @@ static double eigenvalue_derivative(struct prediction *p, int k)
         return reduction_eigenvalue_derivative(&p->condensed, &p->dk, &p->dm, p->lambda[k], phi, &p->mode[k]);
     matrix_multiply(&p->dk, 1, phi, a);
     matrix_multiply(&p->dm, 1, phi, b);
-    return dot(n, phi, a) - p->lambda[k] * dot(n, phi, b);
+    return product_dot(n, phi, a) - p->lambda[k] * product_dot(n, phi, b);
 }
 
 /* right-hand sides of (34, 35) from dK phi and dM phi, and lambda's derivative */
 static double right_side(int n, double lambda, const double *phi, const double *m_phi, const double *dk_phi, const double *dm_phi,
                          double *p, double *q)
 {
-    double dlambda = dot(n, phi, dk_phi) - lambda * dot(n, phi, dm_phi);
+    double dlambda = product_dot(n, phi, dk_phi) - lambda * product_dot(n, phi, dm_phi);
     for (int i = 0; i < n; i++)
         p[i] = -(dk_phi[i] - dlambda * m_phi[i] - lambda * dm_phi[i]);
-    *q = -0.5 * dot(n, phi, dm_phi);
+    *q = -0.5 * product_dot(n, phi, dm_phi);
     return dlambda;
 }
 

@@ -63,3 +63,19 @@ double mass_of_rotor(const struct rotor *rotor)
         sum += rotor->disk[i].mass;
     return sum;
 }
+
+int scale_along_group(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                      double (*shape)(double xi), struct effect_factors *factors)
+{
+    double from, to, mean = 0, dmean = 0, half = (span->to - span->from) / 2;
+    if (span->group != effect->target)
+        return 0;
+    rotor_group_span(rotor, span->group, &from, &to);
+    for (int g = 0; g < GAUSS_POINTS; g++) {
+        double z = span->from + half * (1 + gauss_place[g]), f = shape((2 * z - from - to) / (to - from));
+        double factor = 1 + effect->value[0] * f, w = gauss_weight[g] / 2;
+        mean += w / factor;
+        dmean -= w * f / (factor * factor);
+    }
+    return scale_stiffness(factor_of_compliance(mean, dmean, p), p, factors);
+}

@@ -13,6 +13,11 @@ extern const double gauss_place[GAUSS_POINTS], gauss_weight[GAUSS_POINTS];
  * and its derivative -d(mean)/mean^2 where p >= 0. */
 double factor_of_compliance(double mean, double dmean, int p);
 
+/* Stiffness of group `effect->target` times 1 + value f(xi), xi from -1 to 1 along the group: an `axis` hook but for the shape f.
+ */
+int scale_along_group(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                      double (*shape)(double xi), struct effect_factors *factors);
+
 /* EI and kGS times the factor (p < 0), or their derivative. Returns 1. */
 int scale_stiffness(double factor, int p, struct effect_factors *factors);
 

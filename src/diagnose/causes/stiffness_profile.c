@@ -3,20 +3,15 @@
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
 
+static double shape(double xi)
+{
+    return xi * xi - 1.0 / 3;
+}
+
 static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                    struct effect_factors *factors)
 {
-    double from, to, mean = 0, dmean = 0, half = (span->to - span->from) / 2;
-    if (span->group != effect->target)
-        return 0;
-    rotor_group_span(rotor, span->group, &from, &to);
-    for (int g = 0; g < GAUSS_POINTS; g++) {
-        double z = span->from + half * (1 + gauss_place[g]), xi = (2 * z - from - to) / (to - from);
-        double shape = xi * xi - 1.0 / 3, factor = 1 + effect->value[0] * shape, w = gauss_weight[g] / 2;
-        mean += w / factor;
-        dmean -= w * shape / (factor * factor);
-    }
-    return scale_stiffness(factor_of_compliance(mean, dmean, p), p, factors);
+    return scale_along_group(effect, rotor, span, p, shape, factors);
 }
 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
