@@ -46,8 +46,14 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
     return job_started_at(engine->pool, &job, engine->fit->x, &engine->job);
 }
 
+/* Excess of a chi2 over its expectation, where noise makes it that large less than once in a hundred times. */
+static double beyond_noise(double chi2, double dof)
+{
+    return chi2 > dof + 2.33 * sqrt(2 * dof) ? chi2 - dof : 0;
+}
+
 /* Evidence that is left when nothing more can be named: how far the best model that could be tried is from the data: by the whole
- * chi2 and by the frequencies, beyond what noise leaves once in a hundred times, and by the scan. */
+ * chi2, by the frequencies, and by the scan. */
 static double left_over(const struct diagnosis_round *last)
 {
     double chi2 = last->chi2, frequency = last->chi2_frequency, f = last->nfrequency;
@@ -58,7 +64,7 @@ static double left_over(const struct diagnosis_round *last)
             chi2 = last->candidate[i].chi2;
             frequency = last->candidate[i].chi2_frequency;
         }
-    double whole = chi2 - last->dof - 2.33 * sqrt(2.0 * last->dof), block = frequency - f - 2.33 * sqrt(2 * f);
+    double whole = beyond_noise(chi2, last->dof), block = beyond_noise(frequency, f);
     double scan = last->kind == VERDICT_UNEXPLAINED && last->largest > last->threshold ? last->largest : 0;
     return fmax(scan, fmax(whole, block));
 }
