@@ -49,6 +49,8 @@ static struct candidate *add(const char *id, const char *target, int parameters,
                             .holdout_rms = NAN,
                             .mode_out_rms = NAN,
                             .sensor_out_rms = NAN,
+                            .other_place = NAN,
+                            .other_chi2 = NAN,
                             .cosine = NAN};
     assert_non_null(c->cause);
     return c;
@@ -307,6 +309,33 @@ static void too_little_data_name_nothing(void **state)
     conclude_as(VERDICT_AMBIGUOUS, 1);
 }
 
+static void a_cause_that_fits_as_well_at_another_place_is_not_named(void **state)
+{
+    (void)state;
+    for (int apart = 3; apart < 12; apart += 6) {
+        open_round();
+        struct candidate *mass = add("added_mass", "", 2, 60);
+        mass->other_place = 1.2;
+        mass->other_chi2 = mass->chi2 + apart;
+        add("joint", "core|right", 1, 20);
+        conclude_as(apart < 6 ? VERDICT_AMBIGUOUS : VERDICT_NAMED, 1);
+    }
+}
+
+static void a_name_needs_residuals_that_could_contradict_it(void **state)
+{
+    (void)state;
+    for (int parameters = 1; parameters < 4; parameters++) { /* six frequencies, two moduli free: four degrees of freedom */
+        open_round();
+        before.dof = 4;
+        before.chi2 = 66;
+        before.chi2_frequency = 66;
+        struct candidate *c = add("stiffness_local", "", parameters, 64);
+        c->chi2_frequency = 2;
+        conclude_as(parameters == 1 ? VERDICT_NAMED : VERDICT_AMBIGUOUS, 1);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -323,6 +352,8 @@ int main(void)
         TEST(the_margin_grows_with_what_is_left),
         TEST(noise_of_the_frequencies_is_a_rival),
         TEST(too_little_data_name_nothing),
+        TEST(a_cause_that_fits_as_well_at_another_place_is_not_named),
+        TEST(a_name_needs_residuals_that_could_contradict_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,13 +40,19 @@ static double typical_noise(const struct job *job)
     return sqrt(sum / job->nmode);
 }
 
+static const char *shapes_missing(const struct job *job)
+{
+    return job->shape ? "state the noise of the shapes (*NOISE, SHAPE=), so that they count; "
+                      : "measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); ";
+}
+
 static const char *sentence(struct engine *engine, const struct candidate *first, const struct candidate *second, int mode,
                             double hz_first, double hz_second, double apart)
 {
     const struct job *job = &engine->job;
     struct pool *pool = engine->pool;
     int has_shapes = job->shape && job_knows_shape_noise(job);
-    const char *shapes = has_shapes ? "" : "measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); ";
+    const char *shapes = has_shapes ? "" : shapes_missing(job);
     const char *one = candidate_label(pool, first), *two = candidate_label(pool, second);
     if (!one || !two)
         return NULL;
@@ -78,9 +84,9 @@ const char *advise(struct engine *engine, const struct diagnosis_round *round, c
             pool_close(&scratch);
             break;
         }
-    if (count < 2)
+    if (count < 2 || !round->nset)
         return pool_format(engine->pool, "%smore modes and more points along the rotor; %s",
-                           job->shape && job_knows_shape_noise(job) ? "" : "measure mode shapes, ",
+                           job->shape && job_knows_shape_noise(job) ? "" : shapes_missing(job),
                            count ? member[0]->cause->check : "the geometry, masses and materials of the deck are worth checking");
     int best_mode = highest;
     double best = 0, noise = typical_noise(job);

@@ -63,7 +63,7 @@ int base_note_reduction(struct engine *engine)
     const struct diagnosis *out = engine->out;
     const struct spectrum *s = &out->today.spectrum;
     int at;
-    if (!out->has_today || out->today.fit == NULL)
+    if (!out->has_today || out->today.fit == NULL || engine->user_reduction == ROTID_REDUCTION_NONE)
         return ROTID_OK;
     double ratio = against_noise(engine, s->reduction_error_percent, s->count, &at);
     if (!(ratio > 1))

@@ -66,6 +66,8 @@ static const char *describe(struct pool *pool, const struct candidate *c)
 {
     const struct cause_kind *cause = c->cause;
     const char *text = candidate_label(pool, c);
+    if (text && isfinite(c->other_chi2) && c->other_chi2 - c->chi2 < LEAST_MARGIN)
+        text = pool_format(pool, "%s, as well at z = %.3g m", text, c->other_place);
     if (!cause->effect) /* a rival that is no part of a model */
         return text ? pool_format(pool, "%s (%s %.3g)", text, cause->value.name, c->effect.value[0]) : NULL;
     for (int p = 0; p < c->nparameter && text; p++) {
@@ -212,8 +214,6 @@ int conclude(struct engine *engine, const struct round_result *last)
     out->after = out->before;
     if (!status && out->ncause) {
         out->extended_job = engine->job;
-        out->extended_job.frequency_std = out->job.frequency_std; /* as stated: the discrepancy of a cause judged later rounds */
-        out->extended_job.shape_std = out->job.shape_std;
         out->extended_job.rotor.segment = out->job.rotor.segment;
         struct message_list quiet;
         message_open(&quiet, engine->pool);

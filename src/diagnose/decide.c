@@ -7,18 +7,25 @@
 #include "diagnose/engine.h"
 #include "fit/quantile.h"
 
-#define NOISIER  3.0  /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
-#define COLOURED 2.0  /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
-#define CLEAR    2.0  /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
-#define WORSE    1.1  /* held-out modes predicted worse than this factor speak against a cause */
-#define BETTER   0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
+#define NOISIER    3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
+#define COLOURED   2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
+#define CLEAR      2.0 /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
+#define LEAST_LEFT 3 /* residuals more than parameters, that could still contradict a name: six frequencies carry one parameter  \
+                      */
+#define WORSE  1.1   /* held-out modes predicted worse than this factor speak against a cause */
+#define BETTER 0.85  /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
+
+static int free_parameters(const struct candidate *c)
+{
+    int count = 0;
+    for (int p = 0; p < c->nparameter; p++)
+        count += !c->fixed[p];
+    return count ? count : 1; /* one that is there or not was searched for too */
+}
 
 double candidate_score(const struct candidate *c)
 {
-    int free = 0;
-    for (int p = 0; p < c->nparameter; p++)
-        free += !c->fixed[p];
-    return c->chi2 + PARAMETER_PENALTY * (free ? free : 1);
+    return c->chi2 + PARAMETER_PENALTY * free_parameters(c);
 }
 
 static int compare(const void *left, const void *right)
@@ -105,6 +112,8 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
                             .holdout_rms = NAN,
                             .mode_out_rms = NAN,
                             .sensor_out_rms = NAN,
+                            .other_place = NAN,
+                            .other_chi2 = NAN,
                             .cosine = NAN};
     c->effect.value[0] = sqrt(before->chi2_frequency / before->nfrequency);
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
@@ -168,7 +177,10 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     for (int i = 0; i < round->ncandidate; i++)
         round->candidate[i].refitted = round->candidate[i].refitted != 0;
     /* the model as it is counts as one more rival, and noise that happens to look like one cause is the rule among weak ones */
-    int weak = round->nset && !(round->candidate[0].chi2_drop > CLEAR * round->threshold);
+    const struct candidate *first = &round->candidate[0];
+    int weak = round->nset &&
+               (!(first->chi2_drop > CLEAR * round->threshold) || /* or its place is open, or little is left over */
+                first->other_chi2 - first->chi2 < round->required_margin || before->dof - free_parameters(first) < LEAST_LEFT);
     round->kind = round->nset == 0                                           ? VERDICT_UNEXPLAINED
                   : round->nset > 1 || !engine->confident || refused || weak ? VERDICT_AMBIGUOUS
                   : round->candidate[0].cause->class != CAUSE_PHYSICAL       ? VERDICT_UNEXPLAINED

@@ -104,6 +104,7 @@ int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose
                             .mode_out_shape = NAN,
                             .clock = clock_seconds()};
     struct round_result last = {0};
+    engine.user_reduction = job->fit.reduction;
     *out = (struct diagnosis){0};
     out->step = POOL_ARRAY(pool, struct diagnosis_step, MOST_STEPS);
     out->numerical_finding = POOL_ARRAY(pool, struct numerical_finding, 2);

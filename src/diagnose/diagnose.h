@@ -55,6 +55,7 @@ struct candidate {
     double holdout_rms;     /* relative frequency error of the modes the deck holds out, percent; NaN where there are none */
     double mode_out_rms;    /* of modes left out in turn, percent */
     double sensor_out_rms;  /* standardised shape residual of sensors left out in turn */
+    double other_place, other_chi2; /* the best fit of it at quite another place, NaN where all starts led to one */
     int at_bound;
     const char *collinear_with; /* id of the candidate that looks most like it among those refitted, or NULL */
     const char *collinear_target;

@@ -84,6 +84,8 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
                             .holdout_rms = NAN,
                             .mode_out_rms = NAN,
                             .sensor_out_rms = NAN,
+                            .other_place = NAN,
+                            .other_chi2 = NAN,
                             .cosine = NAN};
     memcpy(c->fixed, s->fixed, sizeof c->fixed);
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
@@ -99,6 +101,8 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->refitted = 1;
     if (!refit->fit)
         return ROTID_OK;
+    c->other_place = refit->other_place;
+    c->other_chi2 = refit->other_chi2;
     double unused, shape;
     c->chi2 = refit->chi2;
     c->chi2_drop = engine->fit->chi2 - refit->chi2;

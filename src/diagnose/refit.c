@@ -3,9 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#define STARTS 3    /* places a candidate is fitted from */
-#define APART  0.06 /* of the rotor's length: nearer ones lead to the same minimum */
-#define OFF    0.02 /* of the distance between the bounds: the bijection is flat at them */
+#define STARTS     3    /* places a candidate is fitted from */
+#define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */
+#define SAME_PLACE 0.03 /* of the rotor's length */
+#define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
 
 static double inside(const rotid_parameter *bounds, double value)
 {
@@ -122,13 +123,36 @@ static int choose_starts(const struct scan *scan, const struct scan_candidate *c
     return count;
 }
 
+/* Another minimum at another place that is nearly as good means that the place is not known. */
+static void note_place(const struct job *extended, const struct cause_kind *cause, const rotid_fit_result *fit,
+                       struct refit *refit)
+{
+    struct effect here;
+    int last = extended->rotor.neffect - 1, place = cause->place, width = cause->width;
+    if (place < 0)
+        return;
+    effect_at(extended, last, fit->x, &here);
+    double near = fmax(SAME_PLACE * rotor_length(&extended->rotor), width < 0 ? 0 : here.value[width]);
+    if (!refit->fit)
+        return;
+    double there = refit->job.rotor.effect[last].value[place];
+    if (fabs(here.value[place] - there) <= near)
+        return;
+    int better = fit->chi2 < refit->chi2; /* the one before becomes the other one */
+    double chi2 = better ? refit->chi2 : fit->chi2;
+    if (!(refit->other_chi2 <= chi2)) {
+        refit->other_chi2 = chi2;
+        refit->other_place = better ? there : here.value[place];
+    }
+}
+
 int refit_candidate(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
                     const struct scan *scan, int candidate, const rotid_environment *environment, struct refit *refit)
 {
     const struct scan_candidate *c = &scan->candidate[candidate];
     const struct cause_kind *cause = c->cause;
     int start[STARTS], count = choose_starts(scan, c, rotor_length(&job->rotor), start);
-    *refit = (struct refit){.chi2 = INFINITY};
+    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
     for (int s = 0; s < count; s++) {
         const struct scan_item *item = &scan->item[start[s]];
         struct effect effect = item->effect;
@@ -141,6 +165,8 @@ int refit_candidate(struct pool *pool, const struct job *job, const int *number,
             status = refit_job(pool, &extended, number, holdout, environment, &fit);
         if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
             return status;
+        if (!status)
+            note_place(&extended, cause, fit, refit);
         if (status || !(fit->chi2 < refit->chi2)) {
             rotid_fit_free(fit);
             continue;
@@ -153,7 +179,9 @@ int refit_candidate(struct pool *pool, const struct job *job, const int *number,
         for (int e = 0; e < started.rotor.neffect; e++)
             effect_at(&extended, e, fit->x, &started.rotor.effect[e]);
         rotid_fit_free(refit->fit);
-        *refit = (struct refit){.job = started, .fit = fit, .chi2 = fit->chi2};
+        refit->job = started;
+        refit->fit = fit;
+        refit->chi2 = fit->chi2;
     }
     return ROTID_OK;
 }

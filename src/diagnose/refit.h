@@ -22,6 +22,8 @@ struct refit {
     struct job job;        /* with the effect at the best values, which are also the starts */
     rotid_fit_result *fit; /* NULL where no start led anywhere */
     double chi2;
+    double other_chi2,
+        other_place; /* best fit that ended at another place, more than a width or 3 % of the length away; NaN: none */
 };
 
 /* Best of the fits from the most promising places of the candidate. Statuses of memory and cancellation only: a fit that fails

@@ -48,7 +48,7 @@ static const char *target_name(struct pool *pool, const struct rotor *rotor, enu
     case TARGET_INTERFACE:
         return pool_format(pool, "%s|%s", rotor->group[i].name, rotor->group[i + 1].name);
     case TARGET_SPRING:
-        return rotor->spring[i].name ? rotor->spring[i].name : "";
+        return rotor->spring[i].name ? rotor->spring[i].name : pool_format(pool, "at %.4g m", rotor->spring[i].position);
     case TARGET_TIEROD:
         return rotor->tierod[i].name;
     default:

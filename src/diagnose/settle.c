@@ -14,6 +14,11 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
     struct refit *refit = &result->refit[result->winner];
     const struct cause_kind *cause = round->candidate[0].cause;
     out->cause[out->ncause++] = round->candidate[0];
+    if (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0)
+        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "%s is an approximation: %.2g %% of the frequencies and %.2g %% of the largest component of the shapes are added "
+                    "to the noise behind it, in later rounds, in the extended model and its intervals",
+                    cause->id, 100 * cause->discrepancy_frequency, 100 * cause->discrepancy_shape);
     struct job job = refit->job;
     if (engine->fit != out->base.fit)
         rotid_fit_free(engine->fit);
@@ -98,9 +103,9 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
             if (taken[i] || !c->refitted || !(c->chi2_drop > round->threshold / 2))
                 continue;
             int near = candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
-            taken[i] = pass == 0   ? i < round->nset || (near && !c->at_bound && c->chi2_drop > round->threshold)
+            taken[i] = pass == 0   ? i < round->nset || (near && !c->refused && c->chi2_drop > round->threshold)
                        : pass == 1 ? near && c->at_bound
-                                   : out->nalternative < 2;
+                                   : !c->refused && out->nalternative < 2;
             if (taken[i])
                 out->alternative[out->nalternative++] = *c;
         }
