@@ -98,7 +98,7 @@ static void one_that_stands_out_is_named(void **state)
     conclude_as(VERDICT_NAMED, 1);
     assert_string_equal(candidates[0].cause->id, "stiffness_gradient");
     assert_close(decided.required_margin, LEAST_MARGIN, 1e-12, 0);
-    assert_reason("joint", "loses to stiffness_gradient by 20");
+    assert_reason("joint", "loses to stiffness_gradient of core by 20");
 }
 
 static void rivals_within_the_margin_are_a_set(void **state)

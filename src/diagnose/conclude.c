@@ -30,27 +30,38 @@ static int quality(struct engine *engine, const struct job *job, const struct id
     return status ? status : sensor_out(engine->pool, job, engine->holdout, fit, &standardised, &q->sensor_out_shape_rms);
 }
 
+/* Parameter p of the final fit, which belongs to the cause: its interval, unless the round found out that the fit's own says too
+ * much; and a place that the fit gives no interval for has that of the scan. */
+static void settle_parameter(const struct job *job, rotid_fit_result *fit, int p, struct candidate *cause)
+{
+    int component = job->parameter[p].component, from_round = isfinite(cause->ci_lower[component]);
+    if (isfinite(fit->std[p]) && from_round) {
+        cause->std[component] = fit->std[p];
+        cause->ci_lower[component] = fmax(fit->ci_lower[p], job->bounds[p].lower);
+        cause->ci_upper[component] = fmin(fit->ci_upper[p], job->bounds[p].upper);
+    } else if (from_round) {
+        fit->ci_lower[p] = cause->ci_lower[component];
+        fit->ci_upper[p] = cause->ci_upper[component];
+        fit->identifiable[p] = 1;
+    }
+}
+
 /* Values and intervals of the named causes in the final fit. */
 static void settle_causes(struct diagnosis *out)
 {
     const struct job *job = &out->extended_job;
-    const rotid_fit_result *fit = out->extended.fit;
+    rotid_fit_result *fit = out->extended.fit;
     for (int c = 0; c < out->ncause; c++) {
         struct candidate *cause = &out->cause[c];
-        for (int e = 0; e < job->rotor.neffect; e++) {
-            if (strcmp(job->rotor.effect[e].name, cause->effect.name))
-                continue;
-            effect_at(job, e, fit->x, &cause->effect);
-            for (int p = 0; p < fit->n; p++) {
-                const struct parameter *q = &job->parameter[p];
-                if (q->kind != PARAMETER_EFFECT || q->index != e || !isfinite(fit->std[p]) ||
-                    !isfinite(cause->ci_lower[q->component])) /* what the round found out about it stands */
-                    continue;
-                cause->std[q->component] = fit->std[p];
-                cause->ci_lower[q->component] = fmax(fit->ci_lower[p], job->bounds[p].lower);
-                cause->ci_upper[q->component] = fmin(fit->ci_upper[p], job->bounds[p].upper);
-            }
-        }
+        int e = 0;
+        while (e < job->rotor.neffect && strcmp(job->rotor.effect[e].name, cause->effect.name) != 0)
+            e++;
+        if (e == job->rotor.neffect)
+            continue;
+        effect_at(job, e, fit->x, &cause->effect);
+        for (int p = 0; p < fit->n; p++)
+            if (job->parameter[p].kind == PARAMETER_EFFECT && job->parameter[p].index == e)
+                settle_parameter(job, fit, p, cause);
     }
 }
 
@@ -133,34 +144,32 @@ static const char *verdict_sentence(struct engine *engine)
     if (out->ndata_finding)
         faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->ndata_finding,
                              out->ndata_finding == 1 ? "" : "s", out->ndata_finding == 1 ? "was" : "were");
-    if (!causes || !others || !open || !faults)
+    const char *chance = pool_format(pool, out->p_value < 1e-99 ? "p below 1e-99" : "p = %.2g", out->p_value);
+    if (!causes || !others || !open || !faults || !chance)
         return NULL;
     switch (out->kind) {
     case VERDICT_ADEQUATE:
-        return pool_format(pool, "The model explains the data within their noise (p = %.2g).%s%s", out->p_value, faults, open);
+        return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case VERDICT_NAMED:
         if (!out->adequate_after && out->nalternative)
-            return pool_format(
-                pool, "The model lacks %s (p = %.2g before); what is left then, the data cannot tell which of %s it is.%s%s",
-                causes, out->p_value, others, faults, open);
-        return pool_format(pool, "The model lacks %s; with %s it %s (p = %.2g before).%s%s", causes,
-                           out->ncause > 1 ? "them" : "it",
-                           out->adequate_after ? "explains the data within their noise" : "still leaves more than noise",
-                           out->p_value, faults, open);
+            return pool_format(pool,
+                               "The model lacks %s (%s before); what is left then, the data cannot tell which of %s it is.%s%s",
+                               causes, chance, others, faults, open);
+        return pool_format(pool, "The model lacks %s; with %s it %s (%s before).%s%s", causes, out->ncause > 1 ? "them" : "it",
+                           out->adequate_after ? "explains the data within their noise" : "still leaves more than noise", chance,
+                           faults, open);
     case VERDICT_AMBIGUOUS:
         if (out->nalternative == 1)
-            return pool_format(
-                pool, "The model does not explain the data (p = %.2g); %s would, but these data cannot carry the name.%s%s",
-                out->p_value, others, faults, open);
-        return pool_format(pool,
-                           "The model does not explain the data (p = %.2g), and the data cannot tell which of %s it is%s.%s%s",
-                           out->p_value, others, engine->confident ? "" : ", nor with confidence that it is any", faults, open);
+            return pool_format(pool,
+                               "The model does not explain the data (%s); %s would, but these data cannot carry the name.%s%s",
+                               chance, others, faults, open);
+        return pool_format(pool, "The model does not explain the data (%s), and the data cannot tell which of %s it is%s.%s%s",
+                           chance, others, engine->confident ? "" : ", nor with confidence that it is any", faults, open);
     default:
-        return pool_format(
-            pool,
-            "The model does not explain the data (p = %.2g, chi2 %.3g for %d degrees of freedom), and nothing in the "
-            "catalogue earns its parameters.%s%s",
-            out->p_value, last ? out->round[0].chi2 : NAN, last ? out->round[0].dof : 0, faults, open);
+        return pool_format(pool,
+                           "The model does not explain the data (%s, chi2 %.3g for %d degrees of freedom), and nothing in the "
+                           "catalogue earns its parameters.%s%s",
+                           chance, last ? out->round[0].chi2 : NAN, last ? out->round[0].dof : 0, faults, open);
     }
 }
 

@@ -7,13 +7,14 @@
 #include "diagnose/engine.h"
 #include "fit/quantile.h"
 
-#define NOISIER    3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
-#define COLOURED   2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
-#define CLEAR      2.0 /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
-#define LEAST_LEFT 3 /* residuals more than parameters, that could still contradict a name: six frequencies carry one parameter  \
-                      */
-#define WORSE  1.1   /* held-out modes predicted worse than this factor speak against a cause */
-#define BETTER 0.85  /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
+#define NOISIER  3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
+#define COLOURED 2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
+#define CLEAR    2.0 /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
+#define LEAST_LEFT                                                                                                               \
+    3               /* residuals more than parameters, that could still contradict a name: six frequencies carry one parameter   \
+                     */
+#define WORSE  1.1  /* held-out modes predicted worse than this factor speak against a cause */
+#define BETTER 0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
 static int free_parameters(const struct candidate *c)
 {

@@ -63,6 +63,7 @@ int detectable_sizes(struct engine *engine, const struct round_result *last)
         int side = cause->parameter[cause->size].one_sided;
         double most = side > 0 ? upper - neutral : side < 0 ? neutral - lower : fmax(upper - neutral, neutral - lower);
         d->beyond = !(d->smallest <= most);
+        d->worst = d->worst <= most ? d->worst : NAN;
     }
     return ROTID_OK;
 }

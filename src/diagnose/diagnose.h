@@ -91,7 +91,7 @@ struct detectable {
     const char *parameter, *unit;
     double smallest; /* deviation from neutral that this data set shows with 90 % power at 3 % false alarm; at its best place */
     double z;        /* that place, NaN where there is none */
-    double worst;    /* at the worst place; NaN where there is none */
+    double worst;    /* at the worst place; NaN where there is none, or where no physical size would show there */
     int beyond;      /* no size within physical bounds would show */
 };
 

@@ -15,10 +15,11 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
     const struct cause_kind *cause = round->candidate[0].cause;
     out->cause[out->ncause++] = round->candidate[0];
     if (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0)
-        message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "%s is an approximation: %.2g %% of the frequencies and %.2g %% of the largest component of the shapes are added "
-                    "to the noise behind it, in later rounds, in the extended model and its intervals",
-                    cause->id, 100 * cause->discrepancy_frequency, 100 * cause->discrepancy_shape);
+        message_add(
+            engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+            "%s is an approximation: %.2g %% of the frequencies and %.2g %% of the largest component of the shapes are added "
+            "to the noise behind it, in later rounds, in the extended model and its intervals",
+            cause->id, 100 * cause->discrepancy_frequency, 100 * cause->discrepancy_shape);
     struct job job = refit->job;
     if (engine->fit != out->base.fit)
         rotid_fit_free(engine->fit);

@@ -124,7 +124,7 @@ static void print_numerical(const struct diagnosis_view *view)
 {
     const struct diagnosis *d = view->diagnosis;
     if (d->nnumerical_finding)
-        (void)fprintf(view->out, "\nNUMBERS  errors of the model's own numbers, removed before anything else is blamed\n");
+        (void)fprintf(view->out, "\nNUMBERS  errors of the numbers themselves; the model that is judged is free of them\n");
     for (int i = 0; i < d->nnumerical_finding; i++) {
         const struct numerical_finding *finding = &d->numerical_finding[i];
         struct wrap wrap;

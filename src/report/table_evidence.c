@@ -25,7 +25,7 @@ static void print_candidate(const struct diagnosis_view *view, const struct diag
 {
     struct wrap wrap;
     (void)fprintf(view->out, "  %c ", in_set ? '*' : ' ');
-    text_cell(view->out, 19, c->cause->id);
+    text_cell(view->out, 19, c->suspect ? c->effect.name : c->cause->id);
     (void)fputc(' ', view->out);
     text_cell(view->out, 12, c->target ? c->target : "");
     digits_cell(view->out, 9, 4, c->predicted_drop);
@@ -43,7 +43,7 @@ static void print_candidate(const struct diagnosis_view *view, const struct diag
     if (c->at_bound)
         wrap_item(&wrap, "AT A BOUND");
     if (c->suspect)
-        wrap_item(&wrap, "[your suspicion]");
+        wrap_item(&wrap, "[your suspicion, a %s]", c->cause->id);
     if (c->collinear_with && isfinite(c->cosine))
         wrap_item(&wrap, "; looks like %s%s%s (%.2f)", c->collinear_with, c->collinear_target && *c->collinear_target ? " " : "",
                   c->collinear_target ? c->collinear_target : "", c->cosine);

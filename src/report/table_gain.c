@@ -147,12 +147,17 @@ static void print_detectable(const struct diagnosis_view *view, int first)
             wrap_item(&wrap, "%s, %s%s%s%s:", item->cause->id, item->parameter, pure ? "" : " [", pure ? "" : item->unit,
                       pure ? "" : "]");
         }
-        wrap_item(&wrap, "%s%s%s%.2g", shown > 1 ? "; " : "", item->target ? item->target : "",
-                  item->target && *item->target ? " " : "", item->smallest);
+        const struct cause_parameter *size = &item->cause->parameter[item->cause->size];
+        int falls = size->one_sided < 0; /* an angle that comes down from where it has no effect: say the angle */
+        wrap_item(&wrap, "%s%s%s%.2g%s", shown > 1 ? "; " : "", item->target ? item->target : "",
+                  item->target && *item->target ? " " : "", falls ? size->neutral - item->smallest : item->smallest,
+                  falls ? " or less" : "");
         if (isfinite(item->z))
             wrap_item(&wrap, "at z %.3g m", item->z);
         if (isfinite(item->worst))
             wrap_item(&wrap, "(worst place %.2g)", item->worst);
+        else if (isfinite(item->z))
+            wrap_words(&wrap, "(not at every place)");
     }
     if (shown)
         wrap_close(&wrap);
