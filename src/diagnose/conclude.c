@@ -65,13 +65,6 @@ static void settle_causes(struct diagnosis *out)
     }
 }
 
-const char *candidate_label(struct pool *pool, const struct candidate *c)
-{
-    if (c->suspect)
-        return pool_format(pool, "%s, a %s", c->effect.name, c->cause->id);
-    return pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
-}
-
 /* "joint of core|right (flexibility 4e-10 rad/(N.m))" */
 static const char *describe(struct pool *pool, const struct candidate *c)
 {

@@ -190,9 +190,9 @@ int data_prepare(struct engine *engine, const struct job *job)
     int fitted = count_fitted(judged), shapes = judged->shape && job_knows_shape_noise(judged);
     if (!shapes && fitted <= judged->nparameter) {
         message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
-                    "%d frequencies for %d parameters leave nothing to judge the model by, expected more modes, or shapes with "
-                    "*NOISE, SHAPE=",
-                    fitted, judged->nparameter);
+                    "%d %s for %d parameters leave nothing to judge the model by, expected more modes, or shapes with *NOISE, "
+                    "SHAPE=",
+                    fitted, fitted == 1 ? "frequency" : "frequencies", judged->nparameter);
         return ROTID_ERROR_ARGUMENT;
     }
     judge_amount(engine);

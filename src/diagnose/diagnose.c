@@ -7,35 +7,6 @@
 #include "diagnose/engine.h"
 
 #define REPLICATES 1000
-#define MOST_STEPS 64
-
-const char *verdict_name(enum verdict_kind kind)
-{
-    static const char *const names[] = {"adequate", "named", "ambiguous", "unexplained"};
-    return names[kind];
-}
-
-void engine_step(struct engine *engine, const char *name)
-{
-    struct diagnosis *out = engine->out;
-    double now = clock_seconds();
-    int i = 0;
-    while (i < out->nstep && strcmp(out->step[i].name, name) != 0)
-        i++;
-    if (i == out->nstep && out->nstep < MOST_STEPS)
-        out->step[out->nstep++] = (struct diagnosis_step){name, 0};
-    if (i < MOST_STEPS)
-        out->step[i].seconds += now - engine->clock;
-    engine->clock = now;
-}
-
-int engine_stage(const struct engine *engine, const char *stage, int step)
-{
-    const rotid_environment *e = engine->environment;
-    if (e && e->progress)
-        e->progress(e->context, stage, step);
-    return e && e->cancelled && e->cancelled(e->context) ? ROTID_STOP_CANCELLED : ROTID_OK;
-}
 
 static int run_rounds(struct engine *engine, struct round_result *last)
 {

@@ -24,6 +24,11 @@ struct engine {
     double clock;
 };
 
+#define MOST_STEPS 64 /* that the time is counted for */
+
+/* "density of core"; the user's own name where it is a suspect. NULL where memory is out. */
+const char *candidate_label(struct pool *pool, const struct candidate *candidate);
+
 /* Counts the time since the last call for a step. */
 void engine_step(struct engine *engine, const char *name);
 /* Says where the work is; ROTID_STOP_CANCELLED once the environment wants to stop. */
@@ -107,9 +112,6 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
 int settle(struct engine *engine, struct round_result *last);
 
 /* ---- conclude.c: the final model, the gain, the verdict in words */
-
-/* "density of core"; the user's own name where it is a suspect. NULL where memory is out. */
-const char *candidate_label(struct pool *pool, const struct candidate *candidate);
 
 /* last: the round that named nothing more, or NULL. */
 int conclude(struct engine *engine, const struct round_result *last);
