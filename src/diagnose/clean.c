@@ -77,7 +77,7 @@ static int shape_data(struct engine *engine, struct columns *columns, struct sha
         memcpy(shape + to, columns->functional.shape + from, (size_t)nsensor * sizeof *shape);
         memcpy(std + to, job->shape_std + from, (size_t)nsensor * sizeof *std);
         for (int i = 0; i < mesh->naxis; i++)
-            axis[i + (ptrdiff_t)m * mesh->naxis] = mode->scale * p->phi[2 * i + (ptrdiff_t)mode->pair * p->size];
+            axis[i + (ptrdiff_t)m * mesh->naxis] = mode->scale * p->phi[2 * (ptrdiff_t)i + (ptrdiff_t)mode->pair * p->size];
     }
     *data = (struct shape_data){nsensor, nmode, z, shape, std, mesh->naxis, mesh->z, axis};
     return ROTID_OK;

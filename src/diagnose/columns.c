@@ -52,7 +52,7 @@ static int open_mode(struct pool *pool, struct columns *c, int k, struct columns
     if (!mode->m_phi || !mode->adjoint_m || !mode->adjoint || !mode->weighted || !mode->adjoint_at)
         return ROTID_ERROR_MEMORY;
     double b = 0;
-    for (int i = 0; i < mode->sensors; i++) {
+    for (int i = 0; i < mode->sensors && f->shape && measured->shape_std; i++) {
         ptrdiff_t at = sensor[i] + (ptrdiff_t)k * nmaster;
         mode->weighted[i] = prediction_at_sensor(&f->prediction, mode->pair, sensor[i]) / measured->shape_std[at];
         mode->square += mode->weighted[i] * mode->weighted[i];

@@ -19,12 +19,11 @@ struct shape_data {
 enum sensor_fault_kind { FAULT_GAIN, FAULT_SIGN, FAULT_SWAP, FAULT_POSITION, FAULT_DUPLICATE, FAULT_DEAD };
 
 struct sensor_fault {
-    enum sensor_fault_kind kind;
+    enum sensor_fault_kind kind, alternative_kind;
     int sensor, other;  /* indices; other: the partner of a swap, the source of a copy; else -1 */
     double value, std;  /* gain, or shift [m] (true place = stated place + shift); NaN elsewhere */
     double chi2_drop;   /* twice the gain in log likelihood of all sensors over this one being sound */
-    double alternative; /* chi2 drop of the best explanation of another kind */
-    enum sensor_fault_kind alternative_kind;
+    double alternative; /* chi2 drop of the best explanation of another kind: alternative_kind */
 };
 
 /* Finds up to `most` faults, the worst first, each judged with all others taken out. `false_alarm`: family-wise probability of

@@ -64,6 +64,8 @@ double step_stiffness_diameter(const struct rotor *rotor, int segment, double z,
     return envelope(reaching_steps(rotor, z, z, here->stiff_outer, tangent, step), step, here, z, tangent, &slope);
 }
 
+#define CUTS 14 /* of an element: three of them are more than any rotor has */
+
 struct moments {
     double area, inertia;
 };
@@ -105,33 +107,82 @@ static double compliance(double own, double value, double dvalue, double own_dis
     return own / value;
 }
 
+static int add_cut(double from, double to, double z, int count, double *cut)
+{
+    if (!(z > from && z < to) || count > CUTS)
+        return count;
+    int at = count;
+    for (; at > 1 && cut[at - 1] > z; at--)
+        cut[at] = cut[at - 1];
+    cut[at] = z;
+    return count + 1;
+}
+
+/* Ends of the pieces of an element on which D(z) is one straight line: where a cone meets the section's own diameter, the least
+ * one or a cone from the other side. Integrated piece by piece the means are smooth functions of the angle, and a fit converges.
+ * Returns the number of ends; cut [CUTS + 2]. */
+static int find_pieces(int count, const struct step *step, const struct group *group, const struct segment *segment,
+                       const struct effect_span *span, double tangent, double *cut)
+{
+    double own = segment->stiff_outer, bore = segment->inner > 0 ? segment->inner + least_wall * (own - segment->inner) : 0;
+    double h = group->hole_diameter, e = group->hole_pitch, whole = group->holes ? fmin(1, (own / 2 - e) / h + 0.5) : 0;
+    const double diameter[] = {own, bore, 2 * e - h, 2 * e + h * (2 * whole - 1)};
+    int pieces = 1;
+    cut[0] = span->from;
+    for (int i = 0; i < count; i++) {
+        double side = step[i].z <= span->from ? 1 : -1;
+        for (int k = 0; k < (group->holes ? 4 : 2); k++)
+            pieces =
+                add_cut(span->from, span->to, step[i].z + side * (diameter[k] - step[i].diameter) / (2 * tangent), pieces, cut);
+        for (int j = 0; j < count && side > 0; j++)
+            if (step[j].z >= span->to)
+                pieces =
+                    add_cut(span->from, span->to,
+                            (step[i].z + step[j].z) / 2 + (step[j].diameter - step[i].diameter) / (4 * tangent), pieces, cut);
+    }
+    cut[pieces] = span->to;
+    return pieces + 1;
+}
+
+struct means { /* of the compliance in bending and shear over an element, and their derivatives with respect to the tangent */
+    double bending, shear, dbending, dshear;
+};
+
+static void add_point(const struct group *group, const struct segment *segment, double diameter, double slope, double weight,
+                      struct means *sum)
+{
+    double own = segment->stiff_outer, d2 = diameter * diameter, of_bending, of_shear;
+    struct moments unused, by_diameter, whole = moments_of(group, segment, own, &unused);
+    struct moments left = moments_of(group, segment, diameter, &by_diameter);
+    sum->bending += weight * compliance(whole.inertia, left.inertia, by_diameter.inertia * slope, own * own * own * own, d2 * d2,
+                                        &of_bending);
+    sum->shear += weight * compliance(whole.area, left.area, by_diameter.area * slope, own * own, d2, &of_shear);
+    sum->dbending += weight * of_bending;
+    sum->dshear += weight * of_shear;
+}
+
 static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                    struct effect_factors *factors)
 {
     const struct segment *segment = &rotor->segment[span->segment];
-    const struct group *group = &rotor->group[span->group];
-    double angle = effect->value[0] * pi / 180, tangent = tan(angle), own = segment->stiff_outer;
+    double angle = effect->value[0] * pi / 180, tangent = tan(angle), cut[CUTS + 2], length = span->to - span->from;
     struct step step[STEPS_AT_ONCE];
+    struct means mean = {0, 0, 0, 0};
     if (segment->rectangular || effect->value[0] >= 90)
         return 0;
-    int count = reaching_steps(rotor, span->from, span->to, own, tangent, step);
+    int count = reaching_steps(rotor, span->from, span->to, segment->stiff_outer, tangent, step);
     if (!count)
         return 0;
-    struct moments by_diameter, whole = moments_of(group, segment, own, &by_diameter);
-    double bending = 0, shear = 0, dbending = 0, dshear = 0;
-    for (int g = 0; g < GAUSS_POINTS; g++) {
-        double z = (span->from + span->to + gauss_place[g] * (span->to - span->from)) / 2, slope, of_bending, of_shear;
-        double diameter = envelope(count, step, segment, z, tangent, &slope), w = gauss_weight[g] / 2, d2 = diameter * diameter;
-        struct moments left = moments_of(group, segment, diameter, &by_diameter);
-        bending +=
-            w * compliance(whole.inertia, left.inertia, by_diameter.inertia * slope, own * own * own * own, d2 * d2, &of_bending);
-        shear += w * compliance(whole.area, left.area, by_diameter.area * slope, own * own, d2, &of_shear);
-        dbending += w * of_bending;
-        dshear += w * of_shear;
-    }
+    int ends = find_pieces(count, step, &rotor->group[span->group], segment, span, tangent, cut);
+    for (int i = 0; i + 1 < ends; i++)
+        for (int g = 0; g < GAUSS_POINTS; g++) {
+            double half = (cut[i + 1] - cut[i]) / 2, slope;
+            double diameter = envelope(count, step, segment, cut[i] + half * (1 + gauss_place[g]), tangent, &slope);
+            add_point(&rotor->group[span->group], segment, diameter, slope, gauss_weight[g] * half / length, &mean);
+        }
     double by_angle = (1 + tangent * tangent) * pi / 180;
-    *factors = (struct effect_factors){.ei = factor_of_compliance(bending, dbending * by_angle, p),
-                                       .kgs = factor_of_compliance(shear, dshear * by_angle, p),
+    *factors = (struct effect_factors){.ei = factor_of_compliance(mean.bending, mean.dbending * by_angle, p),
+                                       .kgs = factor_of_compliance(mean.shear, mean.dshear * by_angle, p),
                                        .rhos = p < 0,
                                        .rhoi = p < 0};
     return 1;
