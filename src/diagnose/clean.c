@@ -127,11 +127,26 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
     return correct(engine, &finding, &correction);
 }
 
+/* A cause that is an approximation stands in the model already, and the stated noise holds what it leaves. */
+static int allows_for_more(const struct rotor *rotor)
+{
+    for (int e = 0; e < rotor->neffect; e++) {
+        const struct cause_kind *cause = catalogue_of(&rotor->effect[e]);
+        if (cause && (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0))
+            return 1;
+    }
+    return 0;
+}
+
 /* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. Where it is a little
  * too small, the second-order part of a large effect may be it; that is decided behind the fits (`least` 1). */
-static int is_misstated(const struct noise_estimate *noise, double least)
+static int is_misstated(const struct engine *engine, const struct noise_estimate *noise, double least)
 {
-    return noise->usable && noise->misstated && (noise->factor < MUCH_LESS || (noise->factor > least && noise->factor < NOISIER));
+    if (!noise->usable || !noise->misstated)
+        return 0;
+    if (noise->factor < 1)
+        return noise->factor < MUCH_LESS && !allows_for_more(&engine->job.rotor);
+    return noise->factor > least && noise->factor < NOISIER;
 }
 
 static int correct_noise(struct engine *engine, double factor, double std, const char *text)
@@ -216,7 +231,7 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
         return status;
     double shared = shared_noise(engine, scan, r);
     int coloured = shared > 1 + SLIGHT;
-    if (!coloured && !(is_misstated(&noise, 1) && noise.factor > 1))
+    if (!coloured && !(is_misstated(engine, &noise, 1) && noise.factor > 1))
         return ROTID_OK;
     double factor = coloured ? shared : noise.factor;
     const char *text = pool_format(
@@ -252,7 +267,7 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
         status = shape_data(engine, &columns, &data);
     if (status)
         return status;
-    if (is_misstated(&noise, MUCH_MORE)) { /* the faults are judged by the noise that is there */
+    if (is_misstated(engine, &noise, MUCH_MORE)) { /* the faults are judged by the noise that is there */
         double *std = POOL_ARRAY(engine->pool, double, (size_t)data.nsensor *(size_t)data.nmode);
         if (!std)
             return ROTID_ERROR_MEMORY;
@@ -272,7 +287,7 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
         status = correct_fault(engine, &now);
         *changed = 1;
     }
-    if (!status && is_misstated(&noise, MUCH_MORE)) {
+    if (!status && is_misstated(engine, &noise, MUCH_MORE)) {
         status = correct_noise(
             engine, noise.factor, noise.std,
             pool_format(engine->pool, "the noise of the shapes is %.2f times the stated one, which is used", noise.factor));
