@@ -84,7 +84,7 @@ INLINE int lu(int n, int kd, double *band, int *pivot)
 {
     int lda = 3 * kd + 1;
     for (int j = 0, last = 0; j < n; j++) {
-        double *l = band + 2 * kd + (ptrdiff_t)j * lda, most = fabs(l[0]);
+        double *l = band + 2 * (ptrdiff_t)kd + (ptrdiff_t)j * lda, most = fabs(l[0]);
         int reach = least(kd, n - 1 - j), p = 0;
         for (int i = 1; i <= reach; i++)
             if (fabs(l[i]) > most) {
@@ -126,7 +126,7 @@ INLINE void lu_solve(int n, int kd, int lanes, const double *restrict band, cons
 {
     int lda = 3 * kd + 1;
     for (int j = 0; j < n; j++) {
-        const double *restrict l = band + 2 * kd + (ptrdiff_t)j * lda;
+        const double *restrict l = band + 2 * (ptrdiff_t)kd + (ptrdiff_t)j * lda;
         int reach = least(kd, n - 1 - j), p = pivot[j] - 1;
         double *restrict bj = b + (ptrdiff_t)j * lanes;
         for (int c = 0; c < lanes && p != j; c++) {
@@ -139,7 +139,7 @@ INLINE void lu_solve(int n, int kd, int lanes, const double *restrict band, cons
                 bj[d * lanes + c] -= l[d] * bj[c];
     }
     for (int j = n - 1; j >= 0; j--) {
-        const double *restrict u = band + 2 * kd + (ptrdiff_t)j * lda;
+        const double *restrict u = band + 2 * (ptrdiff_t)kd + (ptrdiff_t)j * lda;
         int reach = least(2 * kd, j);
         double *restrict bj = b + (ptrdiff_t)j * lanes, inverse = 1 / u[0];
         for (int c = 0; c < lanes; c++)

@@ -72,7 +72,7 @@ static void put_inner_column(struct factor *f, int column, int reach, const doub
         memcpy(f->band + (ptrdiff_t)column * f->lda, value, (size_t)(reach + 1) * sizeof *value);
         return;
     }
-    double *target = f->band + 2 * f->kd + (ptrdiff_t)column * f->lda;
+    double *target = f->band + 2 * (ptrdiff_t)f->kd + (ptrdiff_t)column * f->lda;
     for (int d = 0; d <= reach; d++)
         target[d] = target[(ptrdiff_t)d * (f->lda - 1)] = value[d];
 }
