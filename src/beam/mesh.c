@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/order.h"
 #include "rotid.h"
 
 #define NEAR 0.01 /* of an element: a node this close stands for the position */
@@ -13,12 +14,6 @@ struct builder {
     double *z;
     int *segment; /* of the element that begins at the node */
 };
-
-static int compare_doubles(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
 
 static int compare_ints(const void *left, const void *right)
 {
@@ -86,7 +81,7 @@ static int gather_positions(const struct rotor *rotor, double *position)
         position[count++] = rotor->tierod[i].from;
         position[count++] = rotor->tierod[i].to;
     }
-    qsort(position, (size_t)count, sizeof *position, compare_doubles);
+    sort_doubles((size_t)count, position);
     return count;
 }
 

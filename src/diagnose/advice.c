@@ -40,8 +40,11 @@ static double typical_noise(const struct job *job)
     return sqrt(sum / job->nmode);
 }
 
+/* What the shapes lack, as the beginning of a sentence; "" where they are fitted. */
 static const char *shapes_missing(const struct job *job)
 {
+    if (job_fits_shapes(job))
+        return "";
     return job->shape ? "state the noise of the shapes (*NOISE, SHAPE=), so that they count; "
                       : "measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); ";
 }
@@ -51,8 +54,7 @@ static const char *sentence(struct engine *engine, const struct candidate *first
 {
     const struct job *job = &engine->job;
     struct pool *pool = engine->pool;
-    int has_shapes = job->shape && job_knows_shape_noise(job);
-    const char *shapes = has_shapes ? "" : shapes_missing(job);
+    const char *shapes = shapes_missing(job);
     const char *one = candidate_label(pool, first), *two = candidate_label(pool, second);
     if (!one || !two)
         return NULL;
@@ -72,21 +74,18 @@ const char *advise(struct engine *engine, const struct diagnosis_round *round, c
     for (int k = 0; k < job->nmode; k++)
         highest = engine->number[k] > highest ? engine->number[k] : highest;
     int modes = highest + MORE_MODES < 32 ? highest + MORE_MODES : 32;
-    for (int i = 0; i < round->ncandidate && i < set && count < MOST_SET; i++)
-        for (int r = 0; r < last->nrefit; r++) {
-            const struct refit *refit = &last->refit[r];
-            if (!refit->fit || refit->chi2 != round->candidate[i].chi2)
-                continue;
-            struct pool scratch;
-            pool_open(&scratch, engine->pool->allocator);
-            if (!foresee(&scratch, &refit->job, refit->fit->x, modes, &future[count]))
-                member[count++] = &round->candidate[i];
-            pool_close(&scratch);
-            break;
-        }
+    for (int i = 0; last && i < round->ncandidate && i < set && count < MOST_SET; i++) {
+        if (round->candidate[i].refit < 0)
+            continue;
+        const struct refit *refit = &last->refit[round->candidate[i].refit];
+        struct pool scratch;
+        pool_open(&scratch, engine->pool->allocator);
+        if (!foresee(&scratch, &refit->job, refit->fit->x, modes, &future[count]))
+            member[count++] = &round->candidate[i];
+        pool_close(&scratch);
+    }
     if (count < 2 || !round->nset)
-        return pool_format(engine->pool, "%smore modes and more points along the rotor; %s",
-                           job->shape && job_knows_shape_noise(job) ? "" : shapes_missing(job),
+        return pool_format(engine->pool, "%smore modes and more points along the rotor; %s", shapes_missing(job),
                            count ? member[0]->cause->check : "the geometry, masses and materials of the deck are worth checking");
     int best_mode = highest;
     double best = 0, noise = typical_noise(job);

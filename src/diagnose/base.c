@@ -80,17 +80,12 @@ static int drop_clash(struct engine *engine)
 {
     struct job *job = &engine->job;
     int k = engine->out->base.compared.clash;
-    struct data_finding finding = {.cause = catalogue_find("mode_pairing"),
-                                   .nmode = 1,
-                                   .mode = {job->number[k]},
-                                   .value = NAN,
-                                   .std = NAN,
-                                   .chi2_drop = NAN};
-    finding.text = pool_format(engine->pool,
-                               "measured mode %d (%.6g Hz) looks like no mode of the model, and another one has the shape that "
-                               "belongs to its number; it is left out",
-                               job->number[k], job->frequency_hz[k]);
-    int status = data_add_finding(engine, &finding);
+    int status =
+        data_add_pairing(engine, job->number[k], 0,
+                         pool_format(engine->pool,
+                                     "measured mode %d (%.6g Hz) looks like no mode of the model, and another one has the "
+                                     "shape that belongs to its number; it is left out",
+                                     job->number[k], job->frequency_hz[k]));
     if (!status)
         data_remove_mode(job, k);
     return status;
@@ -130,16 +125,10 @@ static int note_pairing(struct engine *engine)
     for (int k = 0; k < job->nmode; k++) {
         if (engine->number[k] == job->number[k])
             continue;
-        struct data_finding finding = {.cause = catalogue_find("mode_pairing"),
-                                       .nmode = 2,
-                                       .mode = {job->number[k], engine->number[k]},
-                                       .value = NAN,
-                                       .std = NAN,
-                                       .chi2_drop = NAN};
-        finding.text =
+        int status = data_add_pairing(
+            engine, job->number[k], engine->number[k],
             pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model; it is taken as that",
-                        job->number[k], job->frequency_hz[k], engine->number[k]);
-        int status = data_add_finding(engine, &finding);
+                        job->number[k], job->frequency_hz[k], engine->number[k]));
         if (status)
             return status;
     }
@@ -154,10 +143,12 @@ int base_prepare(struct engine *engine)
     if (!status)
         status = note_pairing(engine);
     for (int pass = 0; pass < MOST_CLEANED && !status && changed; pass++) {
-        struct scan scan;
-        status = scan_run(engine->pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &scan);
+        struct scan *scan = POOL_NEW(engine->pool, struct scan);
+        status = scan ? scan_run(engine->pool, &engine->job, engine->number, engine->holdout, engine->fit->x, scan)
+                      : ROTID_ERROR_MEMORY;
         if (!status)
-            status = data_clean(engine, &scan, &changed);
+            status = data_clean(engine, scan, &changed);
+        engine->base_scan = changed ? NULL : scan;
         if (!status && changed)
             status = fit_base(engine, 0);
         if (!status)
@@ -173,6 +164,7 @@ int base_prepare(struct engine *engine)
                                    pool_format(engine->pool,
                                                "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer one is judged",
                                                at + 1, s->mesh_error_percent[at], ratio));
+        engine->base_scan = NULL;
         if (!status)
             status = refine_mesh(engine->pool, &engine->job.rotor);
         if (!status)
@@ -192,7 +184,7 @@ int base_residuals(struct engine *engine)
     struct diagnosis *out = engine->out;
     const struct job *job = &engine->job;
     const rotid_fit_result *fit = engine->fit;
-    int nsensor = job->rotor.nsensor, row = 0, shapes = job->shape && job_knows_shape_noise(job);
+    int nsensor = job->rotor.nsensor, row = 0, shapes = job_fits_shapes(job);
     out->mode_z = POOL_ARRAY(engine->pool, double, job->nmode);
     out->sensor_rms = POOL_ARRAY(engine->pool, double, nsensor);
     int *count = POOL_ARRAY(engine->pool, int, nsensor);

@@ -1,9 +1,9 @@
 #include "diagnose/bootstrap.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/order.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fit/quantile.h"
@@ -56,12 +56,6 @@ static int block(void *context, int index, int worker)
     return ROTID_OK;
 }
 
-static int compare(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /* share of the replicates that are at least as large, never quite zero */
 static double tail(int count, const double *sorted, double value)
 {
@@ -88,7 +82,7 @@ static double choose_threshold(struct pool *pool, const struct job_of_blocks *jo
             passed[left++] = job->largest[i];
     if (!passed || !left)
         return INFINITY;
-    qsort(passed, (size_t)left, sizeof *passed, compare);
+    sort_doubles((size_t)left, passed);
     int alarms = (int)(FAMILY_WISE * n) - (n - left), least = n / 200; /* half a per cent for the scan in any case */
     alarms = alarms > least ? alarms : least;
     return passed[left - 1 - (alarms < left ? alarms : left - 1)];
@@ -116,8 +110,8 @@ int bootstrap_run(struct pool *pool, const struct scan *scan, int replicates, un
         return status;
     memcpy(b->largest, job.largest, (size_t)replicates * sizeof(double));
     memcpy(b->frequency, job.frequency, (size_t)replicates * sizeof(double));
-    qsort(b->largest, (size_t)replicates, sizeof(double), compare);
-    qsort(b->frequency, (size_t)replicates, sizeof(double), compare);
+    sort_doubles((size_t)replicates, b->largest);
+    sort_doubles((size_t)replicates, b->frequency);
     int dof = scan->dof > 0 ? scan->dof : 1;
     b->threshold = choose_threshold(pool, &job, dof, b->frequency, &status);
     b->p_scan = bootstrap_p(b, scan->largest);

@@ -17,19 +17,6 @@
 #define LITTLE      2.0  /* chi2 a residual: with more, it is not noise that is left */
 #define SLIGHT      0.05 /* excess of the smooth part of the noise that changes no verdict */
 
-int data_add_finding(struct engine *engine, const struct data_finding *finding)
-{
-    struct diagnosis *out = engine->out;
-    struct data_finding *more = POOL_ARRAY(engine->pool, struct data_finding, out->ndata_finding + 1);
-    if (!more || !finding->text)
-        return ROTID_ERROR_MEMORY;
-    if (out->ndata_finding)
-        memcpy(more, out->data_finding, (size_t)out->ndata_finding * sizeof *more);
-    more[out->ndata_finding++] = *finding;
-    out->data_finding = more;
-    return ROTID_OK;
-}
-
 static const char *fault_id[] = {[FAULT_GAIN] = "sensor_gain",
                                  [FAULT_SIGN] = "sensor_sign",
                                  [FAULT_SWAP] = "sensor_swap",
@@ -224,7 +211,7 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
     struct noise_estimate noise;
     const struct job *job = &engine->job;
     *changed = 0;
-    if (engine->coloured || !job->shape || !job_knows_shape_noise(job))
+    if (engine->coloured || !job_fits_shapes(job))
         return ROTID_OK;
     int status = check_noise(engine, scan, r, &noise);
     if (status)
@@ -255,7 +242,7 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
     struct job *job = &engine->job;
     struct noise_estimate noise;
     *changed = 0;
-    if (!job->shape || !job_knows_shape_noise(job))
+    if (!job_fits_shapes(job))
         return ROTID_OK;
     int status = check_noise(engine, scan, scan->r, &noise), nfault = 0;
     struct columns columns;

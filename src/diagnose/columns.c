@@ -15,6 +15,12 @@ static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const d
     const struct prediction *p = &c->functional.prediction;
     int n = p->size;
     const double *phi = p->phi + (ptrdiff_t)mode->pair * n;
+    mode->m_phi = POOL_ARRAY(c->pool, double, n);
+    mode->adjoint_m = POOL_ARRAY(c->pool, double, n);
+    mode->adjoint = POOL_ARRAY(c->pool, double, (size_t)n *(size_t)mode->sensors);
+    mode->adjoint_at = POOL_ARRAY(c->pool, double, mode->sensors);
+    if (!mode->m_phi || !mode->adjoint_m || !mode->adjoint || !mode->adjoint_at)
+        return ROTID_ERROR_MEMORY;
     int status = nelson_band_prepare(nelson, &p->k, &p->m, p->lambda[mode->pair], phi);
     if (status)
         return status;
@@ -35,7 +41,7 @@ static int open_mode(struct pool *pool, struct columns *c, int k, struct columns
 {
     const struct functional *f = &c->functional;
     const rotid_measured *measured = &c->measured;
-    int nmaster = c->client.model.nmaster, n = f->prediction.size;
+    int nmaster = c->client.model.nmaster;
     *mode = (struct columns_mode){.k = k, .pair = f->pair[k]};
     int *sensor = POOL_ARRAY(pool, int, nmaster);
     if (!sensor)
@@ -44,12 +50,8 @@ static int open_mode(struct pool *pool, struct columns *c, int k, struct columns
         if (isfinite(f->shape[s + (ptrdiff_t)k * nmaster]))
             sensor[mode->sensors++] = s;
     mode->sensor = sensor;
-    mode->m_phi = POOL_ARRAY(pool, double, n);
-    mode->adjoint_m = POOL_ARRAY(pool, double, n);
-    mode->adjoint = POOL_ARRAY(pool, double, (size_t)n *(size_t)mode->sensors);
     mode->weighted = POOL_ARRAY(pool, double, mode->sensors);
-    mode->adjoint_at = POOL_ARRAY(pool, double, mode->sensors);
-    if (!mode->m_phi || !mode->adjoint_m || !mode->adjoint || !mode->weighted || !mode->adjoint_at)
+    if (!mode->weighted)
         return ROTID_ERROR_MEMORY;
     double b = 0;
     for (int i = 0; i < mode->sensors && f->shape && measured->shape_std; i++) {
@@ -90,7 +92,7 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
     int status = open_model(pool, job, extra, c);
     if (status)
         return status;
-    int n = c->client.model.n, nparam = c->client.model.nparam, shapes = job->shape && job_knows_shape_noise(job);
+    int nparam = c->client.model.nparam, shapes = job_fits_shapes(job);
     c->measured = (rotid_measured){.nmode = job->nmode,
                                    .number = number,
                                    .frequency_hz = job->frequency_hz,
@@ -106,34 +108,40 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
     c->mode = POOL_ARRAY(pool, struct columns_mode, job->nmode);
     c->x = POOL_ARRAY(pool, double, nparam);
     c->r = POOL_ARRAY(pool, double, c->nrow);
-    int most = c->client.model.nmaster > 1 ? c->client.model.nmaster : 1;
+    if (!c->mode || !c->x || !c->r)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < nparam; p++)
+        c->x[p] = x && p < job->nparameter ? x[p] : *parameter_value(&c->client.beam.rotor, c->client.beam.parameter[p]);
+    status = functional_residual(&c->functional, c->x, c->r);
+    for (int m = 0; m < job->nmode && !status; m++) {
+        if (holdout && holdout[m])
+            continue;
+        status = open_mode(pool, c, m, &c->mode[c->nmode++]);
+    }
+    return status;
+}
+
+int columns_prepare(struct columns *c)
+{
+    struct pool *pool = c->pool;
+    const rotid_matrix *k = &c->functional.prediction.k;
+    int n = c->client.model.n, most = c->client.model.nmaster > 1 ? c->client.model.nmaster : 1;
     double *vectors = POOL_ARRAY(pool, double, 3 * (size_t)n), *zero = POOL_ARRAY(pool, double, n > most ? n : most),
            *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
-    if (!c->dphi || !c->mode || !c->x || !c->r || !vectors || !zero || !unit)
+    if (!c->dphi || !vectors || !zero || !unit)
         return ROTID_ERROR_MEMORY;
     c->dk_phi = vectors;
     c->dm_phi = vectors + n;
     c->right = vectors + 2 * (ptrdiff_t)n;
-    for (int p = 0; p < nparam; p++)
-        c->x[p] = x && p < job->nparameter ? x[p] : *parameter_value(&c->client.beam.rotor, c->client.beam.parameter[p]);
-    const rotid_matrix *k = &c->functional.prediction.k;
-    status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dk);
+    struct nelson_band nelson;
+    int status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dk);
     if (!status)
         status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dm);
-    struct nelson_band nelson;
     if (!status)
         status = nelson_band_new(pool, k, most, &nelson);
-    if (!status)
-        status = functional_residual(&c->functional, c->x, c->r);
-    for (int m = 0; m < job->nmode && !status; m++) {
-        if (holdout && holdout[m])
-            continue;
-        struct columns_mode *mode = &c->mode[c->nmode++];
-        status = open_mode(pool, c, m, mode);
-        if (!status)
-            status = solve_adjoints(c, &nelson, zero, unit, mode);
-    }
+    for (int m = 0; m < c->nmode && !status; m++)
+        status = solve_adjoints(c, &nelson, zero, unit, &c->mode[m]);
     return status;
 }
 

@@ -5,7 +5,6 @@
 #include "base/text.h"
 #include "diagnose/engine.h"
 #include "diagnose/leave_out.h"
-#include "fit/quantile.h"
 
 #define LISTED   4    /* causes in a sentence: more stand in the table */
 #define WIDE     0.15 /* of a parameter, half its interval: wider says little about a modulus */

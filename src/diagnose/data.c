@@ -1,8 +1,8 @@
 /* The data that are judged: a copy of the job's, with a noise, without what cannot be judged, and without faults. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/order.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/engine.h"
 
@@ -38,10 +38,29 @@ static int copy_data(struct pool *pool, struct job *job)
     return ROTID_OK;
 }
 
-static int compare(const void *left, const void *right)
+int data_add_finding(struct engine *engine, const struct data_finding *finding)
 {
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
+    struct diagnosis *out = engine->out;
+    struct data_finding *more = POOL_ARRAY(engine->pool, struct data_finding, out->ndata_finding + 1);
+    if (!more || !finding->text)
+        return ROTID_ERROR_MEMORY;
+    if (out->ndata_finding)
+        memcpy(more, out->data_finding, (size_t)out->ndata_finding * sizeof *more);
+    more[out->ndata_finding++] = *finding;
+    out->data_finding = more;
+    return ROTID_OK;
+}
+
+int data_add_pairing(struct engine *engine, int first, int second, const char *text)
+{
+    const struct data_finding finding = {.cause = catalogue_find("mode_pairing"),
+                                         .nmode = second ? 2 : 1,
+                                         .mode = {first, second},
+                                         .value = NAN,
+                                         .std = NAN,
+                                         .chi2_drop = NAN,
+                                         .text = text};
+    return data_add_finding(engine, &finding);
 }
 
 void data_remove_mode(struct job *job, int k)
@@ -70,22 +89,18 @@ static int drop_doubles(struct engine *engine)
         double apart = job->frequency_hz[k] / job->frequency_hz[k - 1] - 1;
         if (fabs(apart) > 0.03 || rotid_mac(nsensor, shape - nsensor, shape) < 0.8)
             continue;
-        struct data_finding finding = {.cause = catalogue_find("mode_pairing"),
-                                       .nmode = 2,
-                                       .mode = {job->number[k - 1], job->number[k]},
-                                       .value = NAN,
-                                       .std = NAN,
-                                       .chi2_drop = NAN};
-        finding.text = pool_format(engine->pool,
-                                   "measured modes %d and %d (%.6g and %.6g Hz) have one shape: a mode measured twice, or the "
-                                   "pair of a rotor that is not quite round; the second is left out",
-                                   job->number[k - 1], job->number[k], job->frequency_hz[k - 1], job->frequency_hz[k]);
-        int status = data_add_finding(engine, &finding);
+        int status = data_add_pairing(
+            engine, job->number[k - 1], job->number[k],
+            pool_format(engine->pool,
+                        "measured modes %d and %d (%.6g and %.6g Hz) have one shape: a mode measured twice, or the pair of a "
+                        "rotor that is not quite round; the second is left out",
+                        job->number[k - 1], job->number[k], job->frequency_hz[k - 1], job->frequency_hz[k]));
         if (status)
             return status;
         data_remove_mode(job, k);
-        for (int l = k--; l + 1 < job->nmode + 1 && l < job->nmode; l++)
+        for (int l = k; l < job->nmode; l++)
             job->number[l]--;
+        k--; /* another one may follow it */
     }
     return ROTID_OK;
 }
@@ -111,7 +126,7 @@ static int look_like_radians(struct engine *engine)
     pool_close(&scratch);
     if (status || !count)
         return status;
-    qsort(ratio, (size_t)count, sizeof *ratio, compare);
+    sort_doubles((size_t)count, ratio);
     double middle = ratio[count / 2] / 6.283185307;
     if (middle > 0.7 && middle < 1.45 && ratio[0] > 0.7 * ratio[count / 2] && ratio[count - 1] < 1.45 * ratio[count / 2]) {
         message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
@@ -150,7 +165,7 @@ static void judge_amount(struct engine *engine)
                     "statements can be made",
                     100 * ASSUMED_FREQUENCY_NOISE);
     }
-    if (job->shape && job_knows_shape_noise(job) && rotor->nsensor &&
+    if (job_fits_shapes(job) && rotor->nsensor &&
         rotor->sensor[rotor->nsensor - 1].position - rotor->sensor[0].position < LEAST_SPAN * rotor_length(rotor)) {
         engine->confident = 0;
         message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
@@ -187,7 +202,7 @@ int data_prepare(struct engine *engine, const struct job *job)
         status = drop_doubles(engine);
     if (status)
         return status;
-    int fitted = count_fitted(judged), shapes = judged->shape && job_knows_shape_noise(judged);
+    int fitted = count_fitted(judged), shapes = job_fits_shapes(judged);
     if (!shapes && fitted <= judged->nparameter) {
         message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
                     "%d %s for %d parameters leave nothing to judge the model by, expected more modes, or shapes with *NOISE, "

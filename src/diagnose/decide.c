@@ -100,25 +100,14 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
     double drop = noise_drop(before);
     if (!(drop > round->threshold / 2))
         return;
-    *c = (struct candidate){.cause = catalogue_find("noise_level"),
-                            .target = "FREQUENCY",
-                            .nparameter = 1,
-                            .refitted = 1,
-                            .predicted_drop = drop,
-                            .chi2 = before->chi2 - drop,
-                            .chi2_drop = drop,
-                            .chi2_frequency = before->nfrequency,
-                            .bic = before->chi2 - drop + log(before->dof),
-                            .p_value = NAN,
-                            .holdout_rms = NAN,
-                            .mode_out_rms = NAN,
-                            .sensor_out_rms = NAN,
-                            .other_place = NAN,
-                            .other_chi2 = NAN,
-                            .cosine = NAN};
+    *c = candidate_blank(catalogue_find("noise_level"), "FREQUENCY");
+    c->nparameter = 1;
+    c->refitted = 1;
+    c->predicted_drop = c->chi2_drop = drop;
+    c->chi2 = before->chi2 - drop;
+    c->chi2_frequency = before->nfrequency;
+    c->bic = before->chi2 - drop + log(before->dof);
     c->effect.value[0] = sqrt(before->chi2_frequency / before->nfrequency);
-    for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
-        c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
     round->ncandidate++;
 }
 

@@ -24,7 +24,7 @@ static int run_rounds(struct engine *engine, struct round_result *last)
         out->nround++;
         if (out->nround == 1)
             status = localise(engine, &last->scan);
-        if (status || round->kind != VERDICT_NAMED || out->ncause == DIAGNOSE_MOST_CAUSES || last->winner < 0)
+        if (status || round->kind != VERDICT_NAMED || out->ncause == DIAGNOSE_MOST_CAUSES)
             return status;
         status = accept_cause(engine, round, last);
         if (status)

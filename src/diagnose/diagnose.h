@@ -47,6 +47,7 @@ struct candidate {
     int fixed[EFFECT_MOST_PARAMETERS];
     double std[EFFECT_MOST_PARAMETERS], ci_lower[EFFECT_MOST_PARAMETERS], ci_upper[EFFECT_MOST_PARAMETERS]; /* NaN: not stated */
     double predicted_drop;  /* of chi2, from the linear scan */
+    int refit;              /* index of that fit in the round, -1 where there is none */
     int refitted;           /* the following come from the nonlinear fit; NaN else */
     double chi2, chi2_drop; /* against the model of this round */
     double chi2_frequency;  /* the part of chi2 that the frequencies have */

@@ -21,6 +21,7 @@ struct engine {
     int confident;                       /* the data are enough for a name */
     int user_reduction;                  /* of the deck's own FIT */
     int coloured;                        /* the noise of the shapes was raised for its smooth part */
+    const struct scan *base_scan;        /* of the base as it stands, for the first round; NULL: to be made */
     double clock;
 };
 
@@ -28,6 +29,9 @@ struct engine {
 
 /* "density of core"; the user's own name where it is a suspect. NULL where memory is out. */
 const char *candidate_label(struct pool *pool, const struct candidate *candidate);
+
+/* A candidate of which nothing is known yet: NaN where a number may be missing, refit -1. */
+struct candidate candidate_blank(const struct cause_kind *cause, const char *target);
 
 /* Counts the time since the last call for a step. */
 void engine_step(struct engine *engine, const char *name);
@@ -40,6 +44,8 @@ int engine_stage(const struct engine *engine, const char *stage, int step);
 int data_prepare(struct engine *engine, const struct job *job);
 void data_remove_mode(struct job *job, int k);
 int data_add_finding(struct engine *engine, const struct data_finding *finding);
+/* A finding about measured modes; second 0: about the first alone. */
+int data_add_pairing(struct engine *engine, int first, int second, const char *text);
 
 /* ---- clean.c */
 
@@ -71,7 +77,6 @@ struct round_result {
     int nrefit;
     struct refit *refit; /* [nrefit] */
     int *candidate;      /* [nrefit] of the scan */
-    int winner;          /* of refit: what the round names, or would; -1 */
 };
 
 int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
@@ -121,7 +126,8 @@ int conclude(struct engine *engine, const struct round_result *last);
 int detectable_sizes(struct engine *engine, const struct round_result *last);
 int localise(struct engine *engine, const struct scan *scan);
 
-/* ---- advice.c: the measurement that separates the members of an ambiguous set best. NULL where memory is out. */
+/* ---- advice.c: the measurement that separates the members of an ambiguous set best; last: the fits of that
+ * round, NULL where they are gone. NULL where memory is out. */
 const char *advise(struct engine *engine, const struct diagnosis_round *round, const struct round_result *last);
 
 #endif

@@ -66,30 +66,19 @@ static double frequency_chi2(const rotid_fit_result *fit, int nfrequency)
     return sum;
 }
 
-static int fill_candidate(struct engine *engine, const struct round_result *result, const struct bootstrap *bootstrap, int index,
-                          const struct refit *refit, struct candidate *c)
+/* Candidate `index` of the scan; number: of its fit in the round, -1 where there is none. */
+static int fill_candidate(struct engine *engine, const struct round_result *result, int index, int number, struct candidate *c)
 {
     const struct scan *scan = &result->scan;
+    const struct bootstrap *bootstrap = &result->bootstrap;
     const struct scan_candidate *s = &scan->candidate[index];
-    *c = (struct candidate){.cause = s->cause,
-                            .effect = s->effect,
-                            .target = s->target,
-                            .suspect = s->suspect,
-                            .nparameter = cause_parameters(&s->effect),
-                            .predicted_drop = scan_best_drop(scan, index),
-                            .chi2 = NAN,
-                            .chi2_drop = NAN,
-                            .chi2_frequency = NAN,
-                            .bic = NAN,
-                            .holdout_rms = NAN,
-                            .mode_out_rms = NAN,
-                            .sensor_out_rms = NAN,
-                            .other_place = NAN,
-                            .other_chi2 = NAN,
-                            .cosine = NAN};
+    const struct refit *refit = number < 0 ? NULL : &result->refit[number];
+    *c = candidate_blank(s->cause, s->target);
+    c->effect = s->effect;
+    c->suspect = s->suspect;
+    c->nparameter = cause_parameters(&s->effect);
+    c->predicted_drop = scan_best_drop(scan, index);
     memcpy(c->fixed, s->fixed, sizeof c->fixed);
-    for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
-        c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
     c->p_value = bootstrap_p(bootstrap, c->predicted_drop);
     if (s->best >= 0) { /* where the scan sees it */
         c->effect = scan->item[s->best].effect;
@@ -101,6 +90,7 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->refitted = 1;
     if (!refit->fit)
         return ROTID_OK;
+    c->refit = number;
     c->other_place = refit->other_place;
     c->other_chi2 = refit->other_chi2;
     double unused, shape;
@@ -225,20 +215,19 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
     if (!round->candidate)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < result->nrefit && !status; i++)
-        status =
-            fill_candidate(engine, result, &result->bootstrap, result->candidate[i], &result->refit[i], &round->candidate[i]);
+        status = fill_candidate(engine, result, result->candidate[i], i, &round->candidate[i]);
     if (!status && result->nrefit)
         status = leave_modes_out(engine, result, round->candidate);
     if (status)
         return status;
     find_twins(result, round->candidate);
     round->ncandidate = result->nrefit;
-    for (int i = 0; i < scan->ncandidate; i++) {
+    for (int i = 0; i < scan->ncandidate && !status; i++) {
         int taken = 0;
         for (int j = 0; j < result->nrefit; j++)
             taken |= result->candidate[j] == i;
         if (!taken && scan_best_drop(scan, i) > SHOWN * scan->largest && scan->largest > 0) {
-            status = fill_candidate(engine, result, &result->bootstrap, i, NULL, &round->candidate[round->ncandidate]);
+            status = fill_candidate(engine, result, i, -1, &round->candidate[round->ncandidate]);
             round->ncandidate++;
         }
     }

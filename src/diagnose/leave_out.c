@@ -35,7 +35,7 @@ int mode_out_fit(const struct job *job, const int *number, const int *holdout, i
             without[m] = holdout[m] || m == k;
             left += !without[m];
         }
-        int enough = job->shape && job_knows_shape_noise(job) ? left > 0 : left >= job->nparameter;
+        int enough = job_fits_shapes(job) ? left > 0 : left >= job->nparameter;
         status = left && enough ? refit_job(&pool, job, number, without, environment, &fit) : ROTID_ERROR_ARGUMENT;
     }
     if (!status) {
@@ -88,7 +88,7 @@ int sensor_out(struct pool *pool, const struct job *job, const int *holdout, con
     *standardised = *shape_rms = NAN;
     for (int k = 0; k < job->nmode; k++)
         nfitted += !holdout[k];
-    if (!job->shape || !job_knows_shape_noise(job) || nrow <= nfitted || nfitted < 1)
+    if (!job_fits_shapes(job) || nrow <= nfitted || nfitted < 1)
         return ROTID_OK;
     int *row = POOL_ARRAY(pool, int, (size_t)nfitted *(size_t)nsensor), *at = POOL_ARRAY(pool, int, nfitted);
     double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + nfitted + 1)),

@@ -10,7 +10,6 @@
 
 struct refits {
     const struct engine *engine;
-    const struct scan *scan;
     struct round_result *result;
     struct pool *pool; /* [nrefit] one a task: pools are not shared between threads */
 };
@@ -20,7 +19,7 @@ static int refit_task(void *context, int index, int worker)
     struct refits *refits = context;
     const struct engine *e = refits->engine;
     (void)worker;
-    return refit_candidate(&refits->pool[index], &e->job, e->number, e->holdout, e->fit->x, refits->scan,
+    return refit_candidate(&refits->pool[index], &e->job, e->number, e->holdout, e->fit->x, &refits->result->scan,
                            refits->result->candidate[index], e->environment, &refits->result->refit[index]);
 }
 
@@ -55,7 +54,7 @@ static int choose(const struct scan *scan, double threshold, int *chosen)
 static int run_refits(struct engine *engine, struct round_result *result)
 {
     struct pool *pool = engine->pool;
-    struct refits refits = {engine, &result->scan, result, POOL_ARRAY(pool, struct pool, result->nrefit)};
+    struct refits refits = {engine, result, POOL_ARRAY(pool, struct pool, result->nrefit)};
     result->refit = POOL_ARRAY(pool, struct refit, result->nrefit);
     if (!refits.pool || !result->refit) {
         result->nrefit = 0;
@@ -90,24 +89,19 @@ static int check_colour(struct engine *engine, const struct round_result *result
     return ROTID_OK;
 }
 
-/* The refit behind the first candidate. */
-static int find_winner(const struct round_result *result, const struct diagnosis_round *round)
-{
-    for (int i = 0; i < result->nrefit && round->nset > 0; i++)
-        if (result->refit[i].fit && result->refit[i].chi2 == round->candidate[0].chi2)
-            return i;
-    return -1;
-}
-
 static int run_once(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int *again)
 {
     struct pool *pool = engine->pool;
     *round = (struct diagnosis_round){0};
-    *result = (struct round_result){.winner = -1};
+    *result = (struct round_result){0};
     *again = 0;
     int status = engine_stage(engine, "scan, round", engine->out->nround + 1);
-    if (!status)
+    if (!status && engine->base_scan) { /* nothing has changed since the data were checked */
+        result->scan = *engine->base_scan;
+        engine->base_scan = NULL;
+    } else if (!status) {
         status = scan_run(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan);
+    }
     engine_step(engine, "scan");
     const struct scan *scan = &result->scan;
     if (!status)
@@ -145,7 +139,6 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
         return status;
     if (adequate)
         round->kind = VERDICT_ADEQUATE;
-    result->winner = find_winner(result, round);
     return ROTID_OK;
 }
 

@@ -164,6 +164,8 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
     int status = scan_list(pool, job, scan);
     if (!status)
         status = columns_open(pool, job, number, holdout, &none, x, &columns);
+    if (!status)
+        status = columns_prepare(&columns);
     if (status)
         return status;
     const struct mesh *mesh = &columns.client.beam.mesh;

@@ -11,7 +11,7 @@
 int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result)
 {
     struct diagnosis *out = engine->out;
-    struct refit *refit = &result->refit[result->winner];
+    struct refit *refit = &result->refit[round->candidate[0].refit];
     const struct cause_kind *cause = round->candidate[0].cause;
     out->cause[out->ncause++] = round->candidate[0];
     if (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0)
@@ -163,10 +163,12 @@ static int confirm(struct engine *engine, struct diagnosis_round *round, struct 
     return status;
 }
 
-/* Takes the names back: the model is the base again. */
-static void withdraw(struct engine *engine)
+/* Takes the names back: what they would have explained is open between the members of a set. */
+static void withdraw(struct diagnosis *out)
 {
-    engine->out->ncause = 0;
+    out->ncause = 0;
+    out->adequate_after = 0;
+    out->kind = VERDICT_AMBIGUOUS;
 }
 
 int settle(struct engine *engine, struct round_result *last)
@@ -183,22 +185,18 @@ int settle(struct engine *engine, struct round_result *last)
         int stacked = out->ncause >= MANY && !out->adequate_after;
         if (!stacked && (excess == 0 || margin_of(round) >= round->required_margin + excess))
             continue;
-        withdraw(engine);
-        out->adequate_after = 0;
-        out->kind = VERDICT_AMBIGUOUS;
+        withdraw(out);
         status = take_set(engine, round, round->required_margin + excess);
         if (!status && out->nalternative < 2) /* none near it, yet the rest says that it is not all */
             out->kind = VERDICT_UNEXPLAINED;
-        out->next_measurement = advise(engine, round, last);
+        out->next_measurement = advise(engine, round, NULL); /* the fits of that round are gone */
         return status || !out->next_measurement ? ROTID_ERROR_MEMORY : ROTID_OK;
     }
     if (!status && out->ncause > 1) {
-        struct round_result result = {.winner = -1};
+        struct round_result result = {0};
         status = confirm(engine, again, &result, &doubtful);
         if (!status && doubtful >= 0) {
-            withdraw(engine);
-            out->adequate_after = 0;
-            out->kind = VERDICT_AMBIGUOUS;
+            withdraw(out);
             status = take_set(engine, again, again->required_margin);
             if (!status && !(out->next_measurement = advise(engine, again, &result)))
                 status = ROTID_ERROR_MEMORY;

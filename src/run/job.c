@@ -30,6 +30,11 @@ int job_knows_shape_noise(const struct job *job)
     return 1;
 }
 
+int job_fits_shapes(const struct job *job)
+{
+    return job->shape && job_knows_shape_noise(job);
+}
+
 const char *functional_name(int functional)
 {
     return functional == ROTID_HYBRID ? "HYBRID" : functional == ROTID_HYBRID_F ? "HYBRID_F" : "LIKELIHOOD";

@@ -77,6 +77,8 @@ const struct reference *job_reference(const struct job *job, const char *quantit
 /* Whether the noise of every measured frequency, and of every shape component, is known. */
 int job_knows_frequency_noise(const struct job *job);
 int job_knows_shape_noise(const struct job *job);
+/* Whether a likelihood can use shapes: there are some, with their noise. */
+int job_fits_shapes(const struct job *job);
 
 const char *functional_name(int functional);
 const char *reduction_name(int reduction);
