@@ -21,7 +21,7 @@ PYTHON     ?= python3
 CLANG_TIDY ?= clang-tidy
 CLANG_FORMAT ?= clang-format
 
-PACKAGES := lapacke openblas
+PACKAGES := lapacke openblas kissfft-float
 ifeq ($(WITH_NLOPT),1)
 PACKAGES += nlopt
 endif
@@ -33,9 +33,9 @@ ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L $(WARNINGS) -fvisibility=hidden 
 LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread
 PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
 
-LIBRARY_ROOMS := base linalg beam modal fit run diagnose/causes diagnose
+LIBRARY_ROOMS := base linalg beam modal fit signal ema run diagnose/causes diagnose
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
-IO_SOURCES := $(foreach room,uff deck report,$(wildcard src/$(room)/*.c))
+IO_SOURCES := $(foreach room,uff import deck report,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))

@@ -4,25 +4,7 @@
 
 #include "base/message.h"
 #include "base/pool.h"
-
-struct uff_node {
-    int id;
-    double x[3]; /* as written in the file, no units applied */
-};
-
-struct uff_shape {       /* one set 55 */
-    int line;            /* of the '-1' that opens the set, from 1 */
-    int analysis_type;   /* 2 normal mode; 3, 7 complex eigenvalue; 5 frequency response */
-    int number;          /* of the mode, or with analysis type 5 of the frequency; from record 7 */
-    double frequency_hz; /* 0: a mode that does not oscillate */
-    double damping;      /* viscous ratio, of a complex eigenvalue -Re lambda/|lambda|; 0 where the file has none */
-    int is_complex;      /* imag given */
-    int component_count; /* values per node, 1 to 6 */
-    int node_count;      /* the format lets a writer leave out nodes whose values are all zero */
-    int *node;           /* [node_count] ids, distinct, in the order of the file */
-    double *real;        /* [component_count * node_count], components of a node contiguous */
-    double *imag;        /* same, or NULL */
-};
+#include "uff/uff_data.h"
 
 struct uff_file {
     int node_count, shape_count;

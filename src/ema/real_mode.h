@@ -1,0 +1,18 @@
+/* Real normal modes from complex ones, and how far they are from real. */
+#ifndef ROTID_EMA_REAL_MODE_H
+#define ROTID_EMA_REAL_MODE_H
+
+#include <complex.h>
+
+/* Modal phase collinearity (Pappa, Elliott, Schenk 1993): 1 where all components lie on one line through the origin, 0 without a
+ * preferred direction: ((S_xx - S_yy)^2 + 4 S_xy^2)/(S_xx + S_yy)^2. NaN components are left out; 0 where all vanish. */
+double mode_phase_collinearity(int n, const double complex *shape);
+
+/* Mean deviation [degrees] of the phases from the line of best fit, weighted by the magnitude of the components. */
+double mode_phase_deviation(int n, const double complex *shape);
+
+/* The real vector nearest to a complex one: turned by the angle that makes the real part largest, the part that is left out of
+ * phase dropped. Returns the share sum Im^2/sum |.|^2 of that part. real may not overlap shape. */
+double mode_to_real(int n, const double complex *shape, double *real);
+
+#endif

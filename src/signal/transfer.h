@@ -1,0 +1,64 @@
+/* From time records of a hammer test to transfer functions. One channel is the force, the others respond; a record may hold one
+ * impact or several. */
+#ifndef ROTID_SIGNAL_TRANSFER_H
+#define ROTID_SIGNAL_TRANSFER_H
+
+#include "base/pool.h"
+#include "signal/frf.h"
+
+enum transfer_estimator { TRANSFER_H1, TRANSFER_H2, TRANSFER_HV };
+
+/* Zero takes the default in brackets. */
+struct transfer_options {
+    int estimator;       /* H1 = S_xf/S_ff (noise on the response), H2 = S_xx/S_fx (noise on the force), Hv (both, the vector of
+                            least total error of [S_ff S_fx; S_xf S_xx]) */
+    double threshold;    /* [0.1] an impact is where the force exceeds this share of its largest value */
+    double pretrigger;   /* [0.01] s before the impact that belong to the block */
+    double block;        /* s, length of a block; [to the next impact or the end of the record, the shortest of all] */
+    double force_window; /* s after the impact that the force is kept, then it fades to its mean before the impact within a
+                            quarter of that; [ten times the width of the pulse at the threshold]; < 0: none */
+    double exponential;  /* end value of the exponential window of the response and of the force, relative: 0.01 damps to 1 % at
+                            the  end of the block; [0: none]. It belongs on both, so that H keeps its form with every pole shifted
+                            by the decay */
+    double low_hz, high_hz; /* lines kept; [first line above 0 ... 0.45 of the sampling rate] */
+    int double_hits;        /* nonzero: keep impacts that hit twice; else they are left out, with a count */
+};
+
+struct impact { /* one found in a record */
+    int record;
+    long long sample; /* index of the largest force in its record */
+    double peak;      /* N */
+    double width;     /* s at the threshold */
+    int is_double;    /* a second pulse above the threshold inside the block */
+    int is_cut;       /* the block does not fit into the record */
+    int is_clipped;   /* the largest value is reached by several neighbouring samples: overload */
+    int used;
+};
+
+struct record { /* one measurement: force and one response, sampled together */
+    int line;   /* of the file, for messages */
+    int response_node, response_direction, reference_node, reference_direction;
+    long long count;
+    const double *force, *response; /* [count] N; m, m/s or m/s2 */
+};
+
+struct transfer {
+    struct frf_set set; /* a response and reference each; variance and coherence of each line; on the pool */
+    int nimpact;
+    struct impact *impact; /* [nimpact] all that were found, record by record */
+    /* Every impact by itself, for uncertainties by deleting one at a time: */
+    int *first;              /* [set.nfrf + 1] into single, per transfer function */
+    double complex *single;  /* [nline * first[nfrf]] S_xf of each used impact, column by column */
+    double *single_force;    /* same shape: its S_ff */
+    double *single_response; /* same: its S_xx */
+};
+
+/* Transfer functions of nrecord records at sampling rate `rate` [Hz]. Records with the same response and reference are averaged
+ * together. Variance of a line: from the spread of the impacts where there are three or more (delete-one jackknife of the chosen
+ * estimator), for two from their difference, for one NULL. Coherence |S_xf|^2/(S_ff S_xx) where there are two or more.
+ * ROTID_OK, ROTID_ERROR_ARGUMENT (*bad_record: the record without an impact, or with values that are not finite, or shorter than
+ * a block; -1 where the options are at fault), ROTID_ERROR_MEMORY. threads >= 1. */
+int transfer_compute(struct pool *pool, int nrecord, const struct record *record, double rate, enum frf_quantity quantity,
+                     const struct transfer_options *options, int threads, struct transfer *out, int *bad_record);
+
+#endif
