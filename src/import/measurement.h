@@ -12,6 +12,7 @@ struct measurement_options {
     struct transfer_options transfer; /* for time records */
     int reference;                    /* only transfer functions with this reference node; 0: all */
     double low_hz, high_hz;           /* only these lines; 0, 0: all */
+    int averages;                     /* behind each coherence of the file; 0: not known, so no variance follows from it */
     int threads;
 };
 
