@@ -1,6 +1,8 @@
 /* Sets that are written in one go: header, units, geometry. */
 #include "uff/uff_write.h"
 
+#include <math.h>
+
 #include "rotid.h"
 #include "uff/uff_put.h"
 
@@ -64,14 +66,18 @@ int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *nod
     return uff_put_close(&put);
 }
 
-/* Set 18 tells the axes by points: the origin, one on the x axis, one in the xz plane, all in the reference system. */
+/* Set 18 tells the axes by points: the origin, one on the x axis, one in the xz plane, all in the reference system. They lie as far
+ * from the origin as that from zero, for with six digits a point one unit away would say little about the direction. */
 static void put_system_18(struct uff_put *put, const struct uff_system *system)
 {
-    double point[9];
+    double point[9], reach = 1;
+    for (int c = 0; c < 3; ++c)
+        while (reach < fabs(system->origin[c]) && reach < 1e100)
+            reach *= 10;
     for (int c = 0; c < 3; ++c) {
         point[c] = system->origin[c];
-        point[3 + c] = system->origin[c] + system->matrix[c];
-        point[6 + c] = system->origin[c] + system->matrix[6 + c];
+        point[3 + c] = system->origin[c] + reach * system->matrix[c];
+        point[6 + c] = system->origin[c] + reach * system->matrix[6 + c];
     }
     uff_put_integer(put, 10, system->id);
     uff_put_integer(put, 10, system->type);
