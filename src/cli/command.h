@@ -3,10 +3,19 @@
 #define ROTID_CLI_COMMAND_H
 
 #include "deck/deck_text.h"
+#include "ema/ema.h"
+#include "import/measurement.h"
 #include "report/json.h"
 #include "run/job.h"
 
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };
+
+/* Of `ema`: what to read, and how to look for modes in it. */
+struct ema_arguments {
+    struct measurement_options measurement;
+    struct ema_options options;
+    int given; /* any option of it */
+};
 
 struct command {
     const char *name, *deck, *json, *at, *extended; /* files and texts NULL where they are not asked for */
@@ -15,6 +24,7 @@ struct command {
     double step, range;
     int noverride;
     struct override *override;
+    struct ema_arguments ema;
 
     struct pool pool;
     struct message_list messages;
@@ -54,6 +64,7 @@ int command_modes(struct command *command);
 int command_sensitivity(struct command *command);
 int command_identify(struct command *command);
 int command_diagnose(struct command *command);
+int command_ema(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;
