@@ -3,12 +3,13 @@
  *
  * What is recorded. The accelerance between the hammer's and the sensor's point is
  *
- *     A(s) = s^2 ( sum_k phi_hk phi_sk / (s^2 + 2 zeta_k omega_k s + omega_k^2) + S0 - S1 s^2 )
+ *     A(s) = s^2 ( sum_k phi_hk phi_sk / (s^2 + 2 zeta_k omega_k s + omega_k^2) + S(-s^2) )
  *
- * over all modes up to three times the band; the two terms of S are what the higher ones add, taken from the exact receptance.
- * The hammer's pulse is half a sine. Both channels pass one and the same anti-alias filter (Chebyshev, 12 poles, 0.1 dB, edge at
- * 0.4 of the sampling rate), so response over force is A whatever the filter does in the band. Every pole's answer to the pulse
- * is known in closed form, so no time is stepped and only what the filter lets through above half the sampling rate is aliased.
+ * over all modes up to 1.2 times the sampling rate; S, a cubic of omega^2, is what the higher ones add, from the exact
+ * receptance. The hammer's pulse is half a sine. Both channels pass one and the same anti-alias filter (Chebyshev, 12 poles, 0.1
+ * dB, edge at 0.4 of the sampling rate), so response over force is A whatever the filter does in the band. Every pole's answer to
+ * the pulse is known in closed form, so no time is stepped and only what the filter lets through above half the sampling rate is
+ * aliased.
  *
  * All is in memory and, once open, only read: records may be made in several threads at once. SI units, 0-based arrays. */
 #ifndef HAMMER_H
@@ -26,7 +27,9 @@ enum {
     HAMMER_FAILURE = 3 /* no memory, or the oracle gave up */
 };
 
-#define HAMMER_MOST_MODES   120
+#define HAMMER_MOST_MODES   300
+#define HAMMER_REST         4   /* coefficients of S */
+#define HAMMER_EDGE         0.4 /* of the filter, times the sampling rate: what folds down to f comes from rate - f */
 #define HAMMER_MOST_FAULTS  16
 #define HAMMER_MOST_DAMPING 32
 
@@ -45,13 +48,12 @@ struct hammer_fault {
 };
 
 struct hammer_options {
-    double rate, band_hz;           /* sampling rate [Hz]; modes reach up to three times the band, at most 0.4 of the rate */
-    double seconds;                 /* length of a record; 0: a power of two of samples after which the slowest elastic mode is
-                                       down to 1e-4 */
-    double pretrigger;              /* s before the impact */
-    int impacts;                    /* per point */
-    int roving_hammer;              /* the sensor stays and the hammer goes from point to point; else the other way round */
-    long fixed;                     /* node of what stays; 0: the first one of the deck */
+    double rate, band_hz; /* sampling rate [Hz]; end of the band that is measured, at most 0.4 of the rate */
+    double seconds;    /* length of a record; 0: a power of two of samples after which the slowest elastic mode is down to 1e-4 */
+    double pretrigger; /* s before the impact */
+    int impacts;       /* per point */
+    int roving_hammer; /* the sensor stays and the hammer goes from point to point; else the other way round */
+    long fixed;        /* node of what stays; 0: the first one of the deck */
     double sensor_mass;             /* kg, wherever the sensor is */
     double pulse_short, pulse_long; /* s, duration of the half-sine, drawn between them for every impact */
     double force, force_spread;     /* N, peak before the filter; relative, drawn within +- that */
@@ -115,7 +117,7 @@ struct hammer_test {
     struct hammer_parameter *parameter; /* true values of *IDENTIFY */
     double *bare_hz, *bare_shape;       /* [modes], [modes][points]: without the sensor, generalised mass 1 */
     double *hz, *residue;               /* [points][modes] as recorded there: phi_fixed phi_point */
-    double *rest;                       /* [points][2]: S0, S1 */
+    double *rest;                       /* [points][HAMMER_REST]: of S, the constant first */
     struct hammer_filter filter;
 };
 

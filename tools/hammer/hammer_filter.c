@@ -6,14 +6,13 @@
 static const double pi = 3.14159265358979323846;
 
 #define ORDER     (2 * HAMMER_FILTER_PAIRS)
-#define RIPPLE_DB 0.1
-#define EDGE      0.4 /* of the sampling rate: what folds down to f comes from rate - f, 80 dB down at 0.61 of the rate */
+#define RIPPLE_DB 0.1 /* 80 dB down at 0.61 of the rate, which folds down to the end of the band */
 
 /* Chebyshev poles of the first kind: all zeros lie at infinity, so that filter times accelerance has no direct term although the
- * accelerance grows with s^2 and its rest with s^4. */
+ * accelerance grows with s^2 and its rest with s^8. */
 void hammer_filter_open(double rate, struct hammer_filter *filter)
 {
-    double edge = 2 * pi * EDGE * rate, spread = asinh(1 / sqrt(pow(10, RIPPLE_DB / 10) - 1)) / ORDER;
+    double edge = 2 * pi * HAMMER_EDGE * rate, spread = asinh(1 / sqrt(pow(10, RIPPLE_DB / 10) - 1)) / ORDER;
     double complex *p = filter->pole;
     for (int i = 0; i < HAMMER_FILTER_PAIRS; i++) {
         double angle = pi * (2 * i + 1) / (2 * ORDER);

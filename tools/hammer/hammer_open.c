@@ -11,7 +11,7 @@
 
 static const double two_pi = 6.28318530717958647692;
 
-#define MODES_UP_TO 3.0 /* times the band */
+#define MODES_UP_TO 3.0 /* times what the filter lets through */
 #define DECAYED     1e-4
 
 static int failed(int wrong, const struct hide_message *m)
@@ -20,26 +20,38 @@ static int failed(int wrong, const struct hide_message *m)
                                           : hide_fail(m, HAMMER_FAILURE, "the oracle failed with status %d", wrong);
 }
 
-/* What is left over of the exact receptance at two negative omega^2, where nothing resonates, gives both terms of the rest. */
+/* What is left over of the exact receptance at negative omega^2, where nothing resonates, gives the polynomial of the rest: its
+ * divided differences after Newton, then its coefficients. */
 static int find_rest(const struct oracle_system *system, const struct hammer_test *test, int from, int to, const double *hz,
                      const double *residue, double *rest)
 {
-    double band = two_pi * test->options.band_hz, lambda[2] = {-0.5 * band * band, -0.1 * band * band};
-    double *exact = malloc(2 * (size_t)test->points * sizeof *exact);
+    static const double place[HAMMER_REST] = {-0.02, -0.15, -0.4, -0.8}; /* times the square of the filter's edge */
+    double band = two_pi * HAMMER_EDGE * test->options.rate, lambda[HAMMER_REST];
+    size_t points = (size_t)(to - from);
+    double *exact = malloc(HAMMER_REST * points * sizeof *exact);
     int status = exact ? ORACLE_OK : ORACLE_ERROR_MEMORY;
-    for (int i = 0; i < 2 && !status; i++)
-        status = hammer_receptance(system, lambda[i], test->z[test->fixed], to - from, test->z + from,
-                                   exact + (ptrdiff_t)i * test->points);
+    for (int i = 0; i < HAMMER_REST && !status; i++) {
+        lambda[i] = place[i] * band * band;
+        status =
+            hammer_receptance(system, lambda[i], test->z[test->fixed], to - from, test->z + from, exact + (size_t)i * points);
+    }
     for (int s = from; s < to && !status; s++) {
-        double left[2];
-        for (int i = 0; i < 2; i++) {
-            left[i] = exact[(ptrdiff_t)i * test->points + s - from];
+        double left[HAMMER_REST], *c = rest + (ptrdiff_t)s * HAMMER_REST;
+        for (int i = 0; i < HAMMER_REST; i++) {
+            left[i] = exact[(size_t)i * points + (size_t)(s - from)];
             for (int k = 0; k < test->modes; k++)
                 left[i] -=
                     residue[(ptrdiff_t)s * test->modes + k] / (pow(two_pi * hz[(ptrdiff_t)s * test->modes + k], 2) - lambda[i]);
         }
-        rest[2 * s + 1] = (left[1] - left[0]) / (lambda[1] - lambda[0]);
-        rest[2 * s] = left[0] - lambda[0] * rest[2 * s + 1];
+        for (int order = 1; order < HAMMER_REST; order++)
+            for (int i = HAMMER_REST - 1; i >= order; i--)
+                left[i] = (left[i] - left[i - 1]) / (lambda[i] - lambda[i - order]);
+        for (int j = 0; j < HAMMER_REST; j++)
+            c[j] = 0;
+        for (int i = HAMMER_REST - 1; i >= 0; i--) { /* c(lambda) becomes c(lambda) (lambda - lambda_i) + left_i */
+            for (int j = HAMMER_REST - 1; j >= 0; j--)
+                c[j] = (j > 0 ? c[j - 1] : left[i]) - lambda[i] * c[j];
+        }
     }
     free(exact);
     return status;
@@ -108,13 +120,13 @@ static int count_modes(const struct hide_physics *physics, struct hammer_test *t
     struct hide_model model;
     int status = hide_model_open(physics, &model, m), wrong = 0;
     if (!status)
-        wrong = oracle_count(&model.system, two_pi * MODES_UP_TO * test->options.band_hz, &test->modes);
+        wrong = oracle_count(&model.system, two_pi * MODES_UP_TO * HAMMER_EDGE * test->options.rate, &test->modes);
     hide_model_close(&model);
     if (status || wrong)
         return status ? status : failed(wrong, m);
     if (test->modes < test->rigid + 1 || test->modes > HAMMER_MOST_MODES)
-        return hide_fail(m, HAMMER_INPUT, "%d modes up to %g times the band, expected %d to %d: choose another band", test->modes,
-                         MODES_UP_TO, test->rigid + 1, HAMMER_MOST_MODES);
+        return hide_fail(m, HAMMER_INPUT, "%d modes up to %g Hz, expected %d to %d: choose another sampling rate", test->modes,
+                         MODES_UP_TO * HAMMER_EDGE * test->options.rate, test->rigid + 1, HAMMER_MOST_MODES);
     return HAMMER_OK;
 }
 
@@ -128,7 +140,7 @@ static int make_room(const struct hide_rotor *rotor, struct hammer_test *test)
     test->bare_shape = calloc(all, sizeof(double));
     test->hz = calloc(all, sizeof(double));
     test->residue = calloc(all, sizeof(double));
-    test->rest = calloc(2 * points, sizeof(double));
+    test->rest = calloc(HAMMER_REST * points, sizeof(double));
     return test->id && test->z && test->parameter && test->bare_hz && test->bare_shape && test->hz && test->residue && test->rest;
 }
 

@@ -26,9 +26,9 @@ int hammer_options_check(const struct hammer_options *o, const struct hide_messa
 {
     if (!between(o->rate, 100, 1e6))
         return hide_fail(m, HAMMER_INPUT, "--rate %g: expected 100 to 1e6 Hz", o->rate);
-    if (!(o->band_hz > 0 && o->band_hz <= 0.4 * o->rate))
+    if (!(o->band_hz > 0 && o->band_hz <= HAMMER_EDGE * o->rate))
         return hide_fail(m, HAMMER_INPUT, "--band %g: expected above 0 and at most 0.4 of the rate, %g Hz", o->band_hz,
-                         0.4 * o->rate);
+                         HAMMER_EDGE * o->rate);
     if (!between(o->pretrigger, 0, 10) ||
         !(o->seconds == 0 || (o->seconds > o->pretrigger && o->seconds * o->rate <= HAMMER_MOST_COUNT)))
         return hide_fail(m, HAMMER_INPUT,
@@ -65,7 +65,7 @@ int hammer_faults_check(const struct hammer_options *o, const struct hide_rotor 
             return hide_fail(m, HAMMER_INPUT, "--fault at %ld: expected a sensor of the deck", f->id);
         if (f->kind == HAMMER_DUPLICATE && (hide_find_sensor(rotor, f->other) < 0 || f->other == f->id))
             return hide_fail(m, HAMMER_INPUT, "--fault duplicate of %ld: expected another sensor of the deck", f->other);
-        if (f->kind == HAMMER_LOOSE && !between(f->value, 10, 0.4 * o->rate))
+        if (f->kind == HAMMER_LOOSE && !between(f->value, 10, HAMMER_EDGE * o->rate))
             return hide_fail(m, HAMMER_INPUT, "--fault loose at %g Hz: expected 10 Hz to 0.4 of the rate", f->value);
         if (f->kind == HAMMER_GAIN && !(isfinite(f->value) && f->value != 0))
             return hide_fail(m, HAMMER_INPUT, "--fault gain of %g: expected a number other than zero", f->value);

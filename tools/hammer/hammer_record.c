@@ -19,12 +19,14 @@ double hammer_damping(const struct hammer_test *test, int mode)
     return elastic < 0 ? o->suspension_damping : o->damping[elastic < o->dampings ? elastic : o->dampings - 1];
 }
 
-/* With all frequencies times drift: stiffness times drift^2, so the static terms fall. */
+/* With all frequencies times drift: stiffness times drift^2, so what the rest gives falls. */
 static double complex accelerance(const struct hammer_test *test, int point, double drift, double complex s)
 {
     const double *hz = test->hz + (ptrdiff_t)point * test->modes, *residue = test->residue + (ptrdiff_t)point * test->modes;
-    double d2 = drift * drift;
-    double complex sum = (test->rest[2 * point] - test->rest[2 * point + 1] * s * s / d2) / d2;
+    double complex lambda = -s * s / (drift * drift), sum = 0;
+    for (int j = HAMMER_REST - 1; j >= 0; j--)
+        sum = sum * lambda + test->rest[point * HAMMER_REST + j];
+    sum /= drift * drift;
     for (int k = 0; k < test->modes; k++) {
         double omega = 2 * pi * hz[k] * drift;
         sum += residue[k] / (s * s + 2 * hammer_damping(test, k) * omega * s + omega * omega);

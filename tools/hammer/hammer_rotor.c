@@ -19,7 +19,7 @@ static const struct section paper[] = {
     {NULL, 0.089489, 0.145809, 11}};
 
 #define SECTIONS     ((int)(sizeof paper / sizeof *paper))
-#define PAPER_FINER  4
+#define PAPER_FINER  5
 #define PAPER_NODES  175
 #define PAPER_POINTS 68
 
@@ -59,7 +59,7 @@ static void add_paper(struct hide_text *text)
 static void add_beam(struct hide_text *text)
 {
     hide_add(text, "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n1.9e11, 0.73e11, 0.30\n*DENSITY\n7850\n"
-                   "*SHAFT, NAME=bar, MATERIAL=steel\n1.2, 0.02848, 0, 240\n"
+                   "*SHAFT, NAME=bar, MATERIAL=steel\n1.2, 0.02848, 0, 480\n"
                    "*SPRING, NAME=cord_left\nstart, 200\n*SPRING, NAME=cord_right\nend, 200\n"
                    "*IDENTIFY\nbar.E, 1e11, 3e11, 1.9e11\nbar.G, 0.4e11, 1.2e11, 0.73e11\n*SENSORS\n");
     for (int k = 0; k < BEAM_POINTS; k++)

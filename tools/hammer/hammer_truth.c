@@ -17,7 +17,7 @@ static void add_numbers(struct hide_text *text, int count, int stride, const dou
 static void add_options(const struct hammer_test *test, uint64_t seed, struct hide_text *text)
 {
     const struct hammer_options *o = &test->options;
-    hide_add(text, "{\n  \"schema\": 1,\n  \"seed\": %llu,\n  \"rate_hz\": %.12g,\n  \"samples\": %d,\n",
+    hide_add(text, "{\n  \"schema\": 1,\n  \"seed\": %llu,\n  \"rate_hz\": %.12g,\n  \"band_hz\": %.12g,\n  \"samples\": %d,\n",
              (unsigned long long)seed, o->rate, test->count);
     hide_add(text, "  \"impacts\": %d,\n  \"roving\": \"%s\",\n  \"fixed\": %ld,\n  \"sensor_mass\": %.12g,\n", o->impacts,
              o->roving_hammer ? "hammer" : "sensor", test->id[test->fixed], o->sensor_mass);

@@ -13,10 +13,11 @@ enum { FORCE = 13, ACCELERATION = 12 };
 /* The date is fixed: the same seed gives the same file. */
 static void write_heading(const struct hammer_test *test, FILE *f)
 {
+    static const char date[] = "01-JAN-00", time[] = "00:00:00";
     fprintf(f, "%6d\n%6d\n%-80s\n%-80s\n%-80s\n", -1, 151, "hammer test",
             "simulated: force and acceleration of every impact, one load case each", "hammer");
-    fprintf(f, "%-10s%-10s%10d%10d%10d\n%-10s%-10s\n%-80s\n%6d\n", "01-JAN-00", "00:00:00", 0, 0, 0, "01-JAN-00", "00:00:00",
-            "hammer", -1);
+    fprintf(f, "%-10s%-10s%10d%10d%10d\n", date, time, 0, 0, 0);
+    fprintf(f, "%-10s%-10s\n%-80s\n%-10s%-10s\n%6d\n", date, time, "hammer", date, time, -1);
     fprintf(f, "%6d\n%6d\n%10d%-20s%10d\n%25.17e%25.17e%25.17e\n%25.17e\n%6d\n", -1, 164, 1, "SI: Meter (newton)", 2, 1.0, 1.0,
             1.0, 273.15, -1);
     fprintf(f, "%6d\n%6d\n", -1, 2411);
