@@ -1,6 +1,6 @@
 #include "cli/arguments_ema.h"
 
-#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +10,6 @@
 #define MOST_HZ 1e7
 
 const char *const ema_options_help =
-    "  -o FILE                  ema: the modes as universal file (sets 55), for MEASURED of a deck\n"
     "  --band LOW,HIGH          ema: in hertz (all lines)\n"
     "  --method M, --order N    ema: lscf or quadrature; highest order of the denominator (from the band)\n"
     "  --pick F1,F2,...         ema: modes nearest to these frequencies [Hz] instead of the stable ones\n"
@@ -96,7 +95,10 @@ int arguments_ema(struct command *command, int option, const char *value)
     static const char *const methods[] = {"lscf", "quadrature", NULL}, *const estimators[] = {"H1", "H2", "HV", NULL};
     struct ema_arguments *ema = &command->ema;
     struct transfer_options *transfer = &ema->measurement.transfer;
-    ema->given = 1;
+    static const struct option options[] = {EMA_LONG_OPTIONS};
+    for (size_t i = 0; i < sizeof options / sizeof *options && !ema->given; i++)
+        if (options[i].val == option)
+            ema->given = options[i].name;
     switch (option) {
     case EMA_OPTION_BAND:
         return take_band(command, value);

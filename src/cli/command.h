@@ -14,11 +14,12 @@ enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL
 struct ema_arguments {
     struct measurement_options measurement;
     struct ema_options options;
-    int given; /* any option of it */
+    const char *given; /* the first option of it that was given, or NULL */
 };
 
 struct command {
-    const char *name, *deck, *json, *at, *extended; /* files and texts NULL where they are not asked for */
+    /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
+    const char *name, *deck, *json, *at, *extended, *output, *format;
     int quiet, verbose, threads, baseline, points, replicates;
     unsigned long seed;
     double step, range;
@@ -65,6 +66,7 @@ int command_sensitivity(struct command *command);
 int command_identify(struct command *command);
 int command_diagnose(struct command *command);
 int command_ema(struct command *command);
+int command_uff(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;
