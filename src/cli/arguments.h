@@ -9,6 +9,7 @@
 struct command_entry {
     const char *name, *text; /* as help shows them */
     int (*run)(struct command *command);
+    int reads_deck; /* the file it is given is a deck, which is read before it runs */
 };
 
 /* The commands there are, ended by one without a name. */

@@ -21,12 +21,13 @@ int command_cancelled(void *unused)
 }
 
 const struct command_entry command_table[] = {
-    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check},
-    {"modes", "frequencies and shapes, full and condensed, beside the measured ones", command_modes},
-    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity},
-    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify},
-    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose},
-    {NULL, NULL, NULL},
+    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check, 1},
+    {"modes", "frequencies and shapes, full and condensed, beside the measured ones", command_modes, 1},
+    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity, 1},
+    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify, 1},
+    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose, 1},
+    {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, 0},
+    {NULL, NULL, NULL, 0},
 };
 
 static int processors(void)
@@ -48,10 +49,10 @@ static int run(struct command *command)
         command->provenance =
             (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
         build_set_threads(diagnoses ? 1 : command->threads); /* the diagnosis runs whole fits side by side */
-        int code = command_read_deck(command);
+        int code = c->reads_deck ? command_read_deck(command) : EXIT_DONE;
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify or diagnose", command->name);
+    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose or uff", command->name);
 }
 
 int main(int argc, char **argv)
