@@ -29,6 +29,7 @@ const struct command_entry command_table[] = {
      READS_DECK | PARALLEL},
     {"ema", "time records or transfer functions (58, 58b) to modes; -o: as universal file for *MEASURED", command_ema,
      PARALLEL | TAKES_OUTPUT},
+    {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
     {NULL, NULL, NULL, 0},
 };
 
