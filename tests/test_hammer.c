@@ -92,7 +92,7 @@ static void records_are_exact_at_a_higher_rate(void **state)
         worst = fmax(worst, m.error / m.largest);
     }
     print_message("paper at 32768 Hz: %.1e\n", worst);
-    assert_true(worst < 2e-6);
+    assert_true(worst < 1e-7);
     close_state(&s);
 }
 

@@ -1,4 +1,4 @@
-/* Modes, masses and static terms of the virtual hammer test, against a direct solution of the exact dynamic stiffness. */
+/* Modes, masses and the rest of the virtual hammer test, against a direct solution of the exact dynamic stiffness. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,8 +150,9 @@ static void place_nodes(const struct oracle_system *system, int points, const do
         add_node(d, z[i]);
 }
 
-/* Without damping and half a per cent off every resonance. The error is that of modes, masses and static terms, all of it, as a
- * share of the rms of the receptance over the points: relative to each, it would be that of the zeros between resonances. */
+/* Without damping and half a per cent off every resonance. The error is that of modes, masses and what the higher modes add, all
+ * of it, as a share of the rms of the receptance over the points: relative to each, it would be that of the zeros between
+ * resonances. */
 static void modal_sum_is_the_exact_receptance(void **state)
 {
     static const char *const name[] = {"paper", "beam"};
@@ -187,7 +188,7 @@ static void modal_sum_is_the_exact_receptance(void **state)
         }
         print_message("%s: modal sum differs from the direct solution by %.1e of its rms at most, at %.0f Hz\n", name[r], worst,
                       worst_hz);
-        assert_true(worst < 2e-3);
+        assert_true(worst < 5e-5);
         hammer_close(&test);
         close_system(&o);
     }

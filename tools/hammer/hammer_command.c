@@ -31,7 +31,7 @@ const char hammer_usage[] =
     "  --force-noise X         of the force, relative to its peak (0)\n"
     "  --floor X               of the converter, both channels, relative to the largest value of the record (0)\n"
     "  --double-hits P         probability of a second pulse (0)\n"
-    "  --clipped P             probability that the force is cut at 0.6 of its peak (0)\n"
+    "  --clipped P             probability that the force is cut at 0.6 of its peak or lower (0)\n"
     "  --drift X               standard deviation of the frequencies from point to point, relative (0)\n"
     "  --fault FAULT           dead:ID, duplicate:ID=OTHER, flip:ID, gain:ID=FACTOR, loose:ID=HZ; may be repeated\n"
     "  --ascii                 sets 58 as text in place of binary ones\n"

@@ -9,7 +9,7 @@ static const double pi = 3.14159265358979323846;
 
 #define MOUNT_DAMPING 0.02
 #define DEAD_NOISE    1e-3 /* of the rms that the channel would have had */
-#define CLIP_AT       0.6  /* of the peak: at 8192 Hz a pulse has so few samples that two have to be cut to look like overload */
+#define CLIP_AT       0.6  /* of the peak */
 #define UNHEARD       1e-7 /* a mode that the filter weakens by this rings in no record */
 
 double hammer_damping(const struct hammer_test *test, int mode)
@@ -124,6 +124,18 @@ static void add_noise(int count, double deviation, struct hide_random *random, d
         y[n] += deviation * hide_normal(random);
 }
 
+/* Overload. A short pulse has few samples, so the cut goes down to the second one: two neighbours then are equal. */
+static void clip(int count, double *force)
+{
+    int peak = 0;
+    for (int n = 1; n < count; n++)
+        peak = force[n] > force[peak] ? n : peak;
+    double before = peak > 0 ? force[peak - 1] : 0, after = peak + 1 < count ? force[peak + 1] : 0;
+    double limit = fmin(CLIP_AT * force[peak], fmax(before, after));
+    for (int n = 0; n < count; n++)
+        force[n] = fmin(force[n], limit);
+}
+
 /* A duplicate channel repeats what the other point records, faults of that one included, so it is only looked up. */
 static int recorded_point(const struct hammer_test *test, int point)
 {
@@ -165,6 +177,6 @@ void hammer_record(const struct hammer_test *test, uint64_t seed, int point, int
     open_stream(seed, OF_NOISE, source, impact, &random);
     add_noise(test->count, dead ? DEAD_NOISE * rms : hypot(o->noise * rms, o->floor * largest) * fabs(gain), &random, response);
     add_noise(test->count, force_peak * hypot(o->force_noise, o->floor), &random, force);
-    for (int n = 0; n < test->count && drawn->clipped; n++)
-        force[n] = fmin(force[n], CLIP_AT * force_peak);
+    if (drawn->clipped)
+        clip(test->count, force);
 }

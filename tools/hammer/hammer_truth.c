@@ -18,7 +18,7 @@ static void add_options(const struct hammer_test *test, uint64_t seed, struct hi
 {
     const struct hammer_options *o = &test->options;
     hide_add(text, "{\n  \"schema\": 1,\n  \"seed\": %llu,\n  \"rate_hz\": %.12g,\n  \"band_hz\": %.12g,\n  \"samples\": %d,\n",
-             (unsigned long long)seed, o->rate, test->count);
+             (unsigned long long)seed, o->rate, o->band_hz, test->count);
     hide_add(text, "  \"impacts\": %d,\n  \"roving\": \"%s\",\n  \"fixed\": %ld,\n  \"sensor_mass\": %.12g,\n", o->impacts,
              o->roving_hammer ? "hammer" : "sensor", test->id[test->fixed], o->sensor_mass);
     hide_add(text, "  \"noise\": {\"response\": %.12g, \"force\": %.12g, \"floor\": %.12g},\n  \"drift\": %.12g,\n", o->noise,
