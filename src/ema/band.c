@@ -1,6 +1,7 @@
 #include "ema/band.h"
 
 #include <math.h>
+#include <string.h>
 
 #define TWO_PI 6.283185307179586
 
@@ -72,6 +73,24 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
             smooth_variance(n, half, raw, band->variance + (size_t)n * (size_t)k);
         }
         band->channel[k++] = c;
+    }
+    return ROTID_OK;
+}
+
+int ema_band_part(struct pool *pool, const struct ema_band *band, int first, int nline, struct ema_band *part)
+{
+    size_t lines = (size_t)nline, size = lines * (size_t)band->nchannel;
+    *part = (struct ema_band){.nline = nline, .omega = band->omega + first, .low = band->omega[first],
+                              .high = band->omega[first + nline - 1], .nchannel = band->nchannel, .channel = band->channel};
+    part->h = POOL_ARRAY(pool, double complex, size);
+    part->variance = band->variance ? POOL_ARRAY(pool, double, size) : NULL;
+    if (!part->h || (band->variance && !part->variance))
+        return ROTID_ERROR_MEMORY;
+    for (int c = 0; c < band->nchannel; c++) {
+        size_t to = (size_t)c * lines, from = (size_t)c * (size_t)band->nline + (size_t)first;
+        memcpy(part->h + to, band->h + from, lines * sizeof *part->h);
+        if (band->variance)
+            memcpy(part->variance + to, band->variance + from, lines * sizeof *part->variance);
     }
     return ROTID_OK;
 }

@@ -26,6 +26,9 @@ struct ema_band {
 int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, double high_hz, const int *usable,
                  struct ema_band *band);
 
+/* Its lines first ... first + nline - 1, copied. ROTID_OK or ROTID_ERROR_MEMORY. */
+int ema_band_part(struct pool *pool, const struct ema_band *band, int first, int nline, struct ema_band *part);
+
 /* First line with omega >= value; nline where there is none. */
 int ema_band_line(const struct ema_band *band, double value);
 

@@ -8,6 +8,7 @@
 #include "ema/selection.h"
 #include "ema/shapes.h"
 #include "ema/stabilisation.h"
+#include "ema/zoom.h"
 
 #define TWO_PI        6.283185307179586
 #define LEAST_LINES   16
@@ -88,16 +89,14 @@ static int find_candidates(struct job *job, struct stabilisation *table)
 {
     const struct ema_options *o = &job->options;
     struct ema *out = job->out;
-    int status = stabilisation_compute(job->pool, &job->band, o->order, job->set->window_decay, o->frequency_tolerance,
-                                       o->damping_tolerance, o->threads, table);
+    int status = zoom_compute(job->pool, &job->band, job->set->window_decay, o, table, &job->ncandidate, &job->candidate);
     if (status != ROTID_OK)
         return status;
     out->order = table->order;
     out->npole = table->npole;
     out->pole = table->table;
     if (o->npick <= 0)
-        return stabilisation_candidates(job->pool, table, o->frequency_tolerance, o->damping_tolerance, &job->ncandidate,
-                                        &job->candidate);
+        return ROTID_OK;
     job->ncandidate = o->npick;
     job->candidate = POOL_ARRAY(job->pool, double complex, o->npick);
     job->unstable = POOL_ARRAY(job->pool, int, o->npick);

@@ -8,6 +8,7 @@
 
 #define LEAST_SHARE 0.05
 #define OVERDAMPED  0.2
+#define MOST_UNCERTAIN 0.2
 #define ITERATIONS  12
 #define CLOSE       4 /* half-power bandwidths: neighbours that may spoil each other */
 
@@ -44,7 +45,8 @@ static double failure(const struct ema_band *band, const struct modal_fit *fit, 
     int p = 2 * fit->nmode, n = fit->nchannel;
     double complex pole = fit->pole[r] * fit->scale;
     double half = fabs(creal(fit->pole[r])), share, limit = 2 * n + 12 * sqrt(n) + 30;
-    double variance = refinement->covariance[2 * r + 1 + (ptrdiff_t)(2 * r + 1) * p];
+    double variance = fmax(refinement->covariance[2 * r + 1 + (ptrdiff_t)(2 * r + 1) * p],
+                           refinement->covariance[2 * r + (ptrdiff_t)(2 * r) * p]);
     *strength = significance(band, fit, r, &share);
     int at = ema_band_line(band, cimag(pole));
     at = at < 1 ? 1 : at > band->nline - 1 ? band->nline - 1 : at;
@@ -52,7 +54,7 @@ static double failure(const struct ema_band *band, const struct modal_fit *fit, 
     if (refinement->moved[r] || half > OVERDAMPED * cabs(fit->pole[r]) || cimag(pole) < band->low || cimag(pole) > band->high ||
         2 * half * fit->scale < 0.2 * spacing)
         return 3;
-    if (!(variance >= 0) || sqrt(variance) > half)
+    if (!(variance >= 0) || sqrt(variance) > MOST_UNCERTAIN * half)
         return 2.5;
     if (*strength <= limit)
         return 2 - *strength / limit;

@@ -11,7 +11,7 @@
 #define FIT_LINES  8192
 
 /* Fits all candidates together and leaves out, worst first and fitting again, those that do not earn their place:
- *   - the pole grows, runs away, is damped above 0.2, leaves the band, or its frequency is not known to its half bandwidth;
+ *   - the pole grows, runs away, is damped above 0.2, leaves the band, or it is not known to a fifth of its half bandwidth;
  *   - sum over channels |A|^2/var(A) <= 2 n + 12 sqrt(n) + 30 for n channels: what the best of very many places in the noise
  *     reaches by chance;
  *   - at its frequency it is less than `least share` (0.05) of |H| in every channel: it corrects what others leave;
