@@ -10,6 +10,8 @@ struct uff_file {
     int node_count, shape_count;
     struct uff_node *node; /* ids distinct, in the order of the file */
     struct uff_shape *shape;
+    int extra_count;
+    struct uff_shape *extra;
 };
 
 /* Reads a file. Sets 15, 2411, 781 give nodes, sets 55 shapes; all others are skipped, with one note for each type. Everything
