@@ -246,7 +246,7 @@ static void smoothed_variance_has_many_degrees_of_freedom(void **state)
 static void smoothing_keeps_a_peak_to_itself(void **state)
 {
     enum { LINES = 200, PEAK = 100 };
-    double force[LINES], variance[LINES], work[LINES + 2 * ESTIMATOR_SMOOTH + 1];
+    double force[LINES], variance[LINES], work[LINES + 2 * ESTIMATOR_SMOOTH + 2];
     (void)state;
     for (int n = 1; n <= LINES; n += n < 2 ? 1 : 198) {
         for (int l = 0; l < n; l++) {

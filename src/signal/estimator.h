@@ -44,7 +44,7 @@ void estimator_jackknife(int estimator, int nline, int count, const struct spect
  * a resonance force noise and scatter of the impacts stand out: lines above ESTIMATOR_OUTLIER times the median of their
  * neighbourhood are averaged among themselves, and no line is averaged with them. The expectation stays; weights 1/variance of
  * few degrees of freedom would be dominated by lines that look good by chance (with one or two their expectation does not exist).
- * force [nline]: sum S_ff. Lines of infinite variance are left alone. work [nline + 2 ESTIMATOR_SMOOTH + 1]. */
+ * force [nline]: sum S_ff. Lines of infinite variance are left alone. work [nline + 2 ESTIMATOR_SMOOTH + 2]. */
 void estimator_smooth(int nline, const double *force, double *variance, double *work);
 
 #endif
