@@ -217,6 +217,25 @@ static void noise_makes_no_impacts(void **state)
     assert_close(sum[0] / sum[1], kept, 0.25, 0);
 }
 
+/* An offset of either channel and a window that would let it leak into all lines: taken off by the mean before the impact. */
+static void offsets_do_not_leak(void **state)
+{
+    static const double start[] = {0.1};
+    struct transfer_options options = {.exponential = 1e-3, .block = 0.8};
+    (void)state;
+    for (int noisy = 0; noisy < 2; noisy++) {
+        struct record record = hits(2, 1, start, NULL);
+        uint64_t seed = 6;
+        for (long long j = 0; j < record.count; j++) {
+            hammer_force(&record)[j] += 20;
+            hammer_response(&record)[j] -= 500; /* five times the motion */
+        }
+        hammer_noise(&seed, noisy ? 0.01 : 0, record.count, hammer_response(&record));
+        struct transfer out = compute(1, &record, &options);
+        assert_truth(&out, noisy ? 3e-3 : 1e-3);
+    }
+}
+
 static void the_tail_tells_a_block_that_ends_too_early(void **state)
 {
     static const double start[] = {0.1};
@@ -257,6 +276,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(overload_of_either_channel_is_found, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(coarse_steps_are_no_overload, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(noise_makes_no_impacts, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(offsets_do_not_leak, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_tail_tells_a_block_that_ends_too_early, open_test_pool, close_test_pool),
         cmocka_unit_test(spacing_is_that_of_impacts_not_of_bounces),
     };

@@ -243,7 +243,7 @@ static void lines_without_force_say_nothing(void **state)
 {
     enum { LINES = 60, GAP = 20 };
     double ff[2 * LINES], xx[2 * LINES], variance[LINES], coherence[LINES], sums[2 * LINES], weight[2];
-    double smooth[LINES + 2 * ESTIMATOR_SMOOTH + 1];
+    double smooth[LINES + 2 * ESTIMATOR_SMOOTH + 2];
     double complex xf[2 * LINES], h[LINES], part[LINES], sum_xf[LINES];
     struct spectra column = {ff, xx, xf}, sum = {sums, sums + LINES, sum_xf};
     (void)state;
