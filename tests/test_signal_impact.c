@@ -120,6 +120,19 @@ static void double_hits_are_told_from_the_next_impact(void **state)
         }
 }
 
+/* Half a second is no bounce, however long the record goes on: there the first impact has too little room. */
+static void a_quick_second_impact_is_no_double_hit(void **state)
+{
+    static const double start[] = {0.1, 0.6};
+    struct record record = hits(8, 2, start, NULL);
+    (void)state;
+    struct transfer out = compute(1, &record, &(struct transfer_options){0});
+    assert_int_equal(out.nimpact, 2);
+    assert_true(!out.impact[0].is_double && out.impact[0].is_cut && !out.impact[0].used);
+    assert_true(!out.impact[1].is_double && out.impact[1].used);
+    assert_int_equal(compute(1, &record, &(struct transfer_options){.block = 0.48}).set.frf[0].averages, 2);
+}
+
 /* The last impact comes just before the record ends, one has no time before it: neither shortens the blocks. */
 static void impacts_without_room_are_left_out(void **state)
 {
@@ -271,6 +284,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(an_impact_is_where_its_pulse_is, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(spreading_impacts_over_records_changes_nothing, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(double_hits_are_told_from_the_next_impact, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_quick_second_impact_is_no_double_hit, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(impacts_without_room_are_left_out, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(all_records_share_the_shortest_block, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(overload_of_either_channel_is_found, open_test_pool, close_test_pool),
