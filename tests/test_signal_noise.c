@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "hammer.h"
 #include "signal/estimator.h"
+#include "struck.h"
 
 #define RATE   1000.0
 #define BLOCK  1000 /* samples, a product of 2 and 5 */
@@ -44,8 +44,8 @@ static void run(const struct trial *trial, uint64_t *seed, struct transfer *out)
     for (long long j = 0; j < count; j++)
         response[j] = force[j] + (j > 0 ? 2 * RADIUS * cos(0.3 * PI) * response[j - 1] : 0) -
                       (j > 1 ? RADIUS * RADIUS * response[j - 2] : 0);
-    hammer_noise(seed, trial->force_noise, count, force);
-    hammer_noise(seed, trial->response_noise, count, response);
+    struck_noise(seed, trial->force_noise, count, force);
+    struck_noise(seed, trial->response_noise, count, response);
     options.block = 0.96; /* 960 samples fit before the next impact */
     options.force_window = -1;
     options.high_hz = 300;

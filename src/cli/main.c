@@ -1,14 +1,10 @@
 #include <errno.h>
-#include <getopt.h>
-#include <math.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/command.h"
+#include "cli/arguments.h"
 
 static volatile sig_atomic_t interrupted;
 
@@ -24,217 +20,18 @@ int command_cancelled(void *unused)
     return interrupted;
 }
 
-static const struct {
-    const char *name, *text;
-    int (*run)(struct command *command);
-} commands[] = {
-    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check},
-    {"modes", "frequencies and shapes, full and condensed, beside the measured ones", command_modes},
-    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity},
-    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify},
-    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose},
+const struct command_entry command_table[] = {
+    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check, READS_DECK},
+    {"modes", "frequencies and shapes, full and condensed, beside the measured ones", command_modes, READS_DECK},
+    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity, READS_DECK},
+    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify, READS_DECK},
+    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose,
+     READS_DECK | PARALLEL},
+    {"ema", "time records or transfer functions (58, 58b) to modes; -o: as universal file for *MEASURED", command_ema,
+     PARALLEL | TAKES_OUTPUT},
+    {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
+    {NULL, NULL, NULL, 0},
 };
-
-#define COMMANDS     (sizeof commands / sizeof *commands)
-#define THREADS_MOST 1024
-
-static void print_help(FILE *out)
-{
-    (void)fputs("usage: rotid COMMAND DECK [options]\n\n", out);
-    for (size_t c = 0; c < COMMANDS; c++)
-        (void)fprintf(out, "  %-12s %s\n", commands[c].name, commands[c].text);
-    (void)fputs(
-        "\n"
-        "  --json FILE              the result as JSON; - for standard output, which then carries nothing else\n"
-        "  --set CARD.OPTION=VALUE  another option on every such card of the deck, e.g. FIT.REDUCTION=NONE\n"
-        "  --quiet, --verbose       no tables; with shapes (modes), iterations (identify), notes of the readers\n"
-        "  --no-baseline            identify: without NLopt\n"
-        "  --at NAME[=VALUE],...    sensitivity: other parameters and reference values than those of *IDENTIFY\n"
-        "  --step 0.01, --range 0.5, --points 11   sensitivity: relative step, range and points of the curves\n"
-        "  --extended FILE          diagnose: a deck with the cause that was named\n"
-        "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
-        "  --threads N, --seed N    threads of the BLAS (1), of diagnose (one a processor); seed of random numbers (1)\n"
-        "  --version, --help\n\n"
-        "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"
-        "      2 wrong usage or input; 3 failure\n",
-        out);
-}
-
-static int usage(const char *format, const char *value)
-{
-    (void)fprintf(stderr, "rotid: ");
-    (void)fprintf(stderr, format, value);
-    (void)fprintf(stderr, " (rotid --help lists what there is)\n");
-    return EXIT_USAGE;
-}
-
-enum {
-    OPTION_JSON = 256,
-    OPTION_SET,
-    OPTION_QUIET,
-    OPTION_VERBOSE,
-    OPTION_NO_BASELINE,
-    OPTION_AT,
-    OPTION_STEP,
-    OPTION_RANGE,
-    OPTION_POINTS,
-    OPTION_THREADS,
-    OPTION_SEED,
-    OPTION_EXTENDED,
-    OPTION_REPLICATES,
-    OPTION_VERSION,
-    OPTION_HELP
-};
-
-static int number(const char *option, const char *text, double least, double most, int whole, double *value)
-{
-    char *end;
-    *value = strtod(text, &end);
-    if (end != text && !*end && *value >= least && *value <= most && (!whole || *value == floor(*value)))
-        return 0;
-    (void)fprintf(stderr, "rotid: %s %s: expected a %snumber from %g to %g\n", option, text, whole ? "whole " : "", least, most);
-    return 1;
-}
-
-/* Returns -1 to go on, or an exit code. */
-static int take_option(struct command *command, int option, const char *value)
-{
-    double n;
-    switch (option) {
-    case OPTION_JSON:
-        command->json = value;
-        return -1;
-    case OPTION_SET:
-        if (override_parse(&command->pool, value, &command->override[command->noverride]))
-            return usage("--set %s: expected CARD.OPTION=VALUE", value);
-        command->noverride++;
-        return -1;
-    case OPTION_QUIET:
-        command->quiet = 1;
-        return -1;
-    case OPTION_VERBOSE:
-        command->verbose = 1;
-        return -1;
-    case OPTION_NO_BASELINE:
-        command->baseline = 0;
-        return -1;
-    case OPTION_AT:
-        command->at = value;
-        return -1;
-    case OPTION_STEP:
-        return number("--step", value, 1e-9, 0.5, 0, &command->step) ? EXIT_USAGE : -1;
-    case OPTION_RANGE:
-        return number("--range", value, 1e-6, 0.95, 0, &command->range) ? EXIT_USAGE : -1;
-    case OPTION_POINTS:
-        if (number("--points", value, 1, 1000, 1, &n))
-            return EXIT_USAGE;
-        command->points = (int)n;
-        return -1;
-    case OPTION_THREADS:
-        if (number("--threads", value, 1, THREADS_MOST, 1, &n))
-            return EXIT_USAGE;
-        command->threads = (int)n;
-        return -1;
-    case OPTION_SEED:
-        if (number("--seed", value, 0, 4294967295.0, 1, &n))
-            return EXIT_USAGE;
-        command->seed = (unsigned long)n;
-        return -1;
-    case OPTION_EXTENDED:
-        command->extended = value;
-        return -1;
-    case OPTION_REPLICATES:
-        if (number("--replicates", value, 100, 1000000, 1, &n))
-            return EXIT_USAGE;
-        command->replicates = (int)n;
-        return -1;
-    case OPTION_VERSION:
-        (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
-        return EXIT_DONE;
-    case OPTION_HELP:
-        print_help(stdout);
-        return EXIT_DONE;
-    default:
-        (void)fprintf(stderr, "rotid --help lists the options\n");
-        return EXIT_USAGE;
-    }
-}
-
-static int parse_arguments(struct command *command, int argc, char **argv)
-{
-    static const struct option options[] = {{"json", required_argument, NULL, OPTION_JSON},
-                                            {"set", required_argument, NULL, OPTION_SET},
-                                            {"quiet", no_argument, NULL, OPTION_QUIET},
-                                            {"verbose", no_argument, NULL, OPTION_VERBOSE},
-                                            {"no-baseline", no_argument, NULL, OPTION_NO_BASELINE},
-                                            {"at", required_argument, NULL, OPTION_AT},
-                                            {"step", required_argument, NULL, OPTION_STEP},
-                                            {"range", required_argument, NULL, OPTION_RANGE},
-                                            {"points", required_argument, NULL, OPTION_POINTS},
-                                            {"threads", required_argument, NULL, OPTION_THREADS},
-                                            {"seed", required_argument, NULL, OPTION_SEED},
-                                            {"extended", required_argument, NULL, OPTION_EXTENDED},
-                                            {"replicates", required_argument, NULL, OPTION_REPLICATES},
-                                            {"version", no_argument, NULL, OPTION_VERSION},
-                                            {"help", no_argument, NULL, OPTION_HELP},
-                                            {NULL, 0, NULL, 0}};
-    int option;
-    command->override = POOL_ARRAY(&command->pool, struct override, argc);
-    if (!command->override)
-        return command_fail(command, ROTID_ERROR_MEMORY);
-    while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
-        int code = take_option(command, option, optarg);
-        if (code >= 0)
-            return code;
-    }
-    if (optind >= argc) {
-        print_help(stderr);
-        return EXIT_USAGE;
-    }
-    command->name = argv[optind++];
-    if (optind >= argc)
-        return usage("%s: no deck given, expected rotid COMMAND DECK", command->name);
-    command->deck = argv[optind++];
-    if (optind < argc)
-        return usage("%s is one argument too many, expected one deck", argv[optind]);
-    return -1;
-}
-
-/* Two names of one file, which may not exist yet. */
-static int same_file(const char *a, const char *b)
-{
-    struct stat first, second;
-    int exists = stat(a, &first) == 0;
-    if (exists != (stat(b, &second) == 0))
-        return 0;
-    if (exists)
-        return S_ISREG(first.st_mode) && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
-    const char *name_a = strrchr(a, '/'), *name_b = strrchr(b, '/');
-    char folder[2][4096];
-    (void)snprintf(folder[0], sizeof folder[0], "%.*s", name_a ? (int)(name_a - a) + 1 : 1, name_a ? a : ".");
-    (void)snprintf(folder[1], sizeof folder[1], "%.*s", name_b ? (int)(name_b - b) + 1 : 1, name_b ? b : ".");
-    return !strcmp(name_a ? name_a + 1 : a, name_b ? name_b + 1 : b) && stat(folder[0], &first) == 0 &&
-           stat(folder[1], &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
-}
-
-/* -1, or the exit code after saying which file would be lost, or which option this command has no use for. */
-static int refuse_options(const struct command *command)
-{
-    int diagnoses = !strcmp(command->name, "diagnose");
-    if (!diagnoses && (command->extended || command->replicates))
-        return usage("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
-    if (command->json && strcmp(command->json, "-") && same_file(command->deck, command->json))
-        return usage("--json %s is the deck itself, expected another file", command->json);
-    if (!command->extended)
-        return -1;
-    if (!strcmp(command->extended, "-"))
-        return usage("--extended %s: expected a file", command->extended);
-    if (same_file(command->deck, command->extended))
-        return usage("--extended %s is the deck itself, expected another file", command->extended);
-    if (command->json && same_file(command->json, command->extended))
-        return usage("--extended %s is the file of --json as well, expected another file", command->extended);
-    return -1;
-}
 
 static int processors(void)
 {
@@ -244,21 +41,21 @@ static int processors(void)
 
 static int run(struct command *command)
 {
-    for (size_t c = 0; c < COMMANDS; c++) {
-        if (strcmp(command->name, commands[c].name))
+    for (const struct command_entry *c = command_table; c->name; c++) {
+        if (strcmp(command->name, c->name))
             continue;
-        int refused = refuse_options(command), diagnoses = commands[c].run == command_diagnose;
+        int refused = arguments_refuse(command, c), parallel = c->flags & PARALLEL;
         if (refused >= 0)
             return refused;
         if (!command->threads)
-            command->threads = diagnoses ? processors() : 1;
+            command->threads = parallel ? processors() : 1;
         command->provenance =
             (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
-        build_set_threads(diagnoses ? 1 : command->threads); /* the diagnosis runs whole fits side by side */
-        int code = command_read_deck(command);
-        return code ? code : commands[c].run(command);
+        build_set_threads(parallel ? 1 : command->threads);
+        int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
+        return code ? code : c->run(command);
     }
-    return usage("%s is no command, expected check, modes, sensitivity, identify or diagnose", command->name);
+    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, ema or uff", command->name);
 }
 
 int main(int argc, char **argv)
@@ -269,7 +66,7 @@ int main(int argc, char **argv)
     (void)sigaction(SIGTERM, &action, NULL);
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
-    int code = parse_arguments(&command, argc, argv);
+    int code = arguments_parse(&command, argc, argv);
     if (code < 0)
         code = run(&command);
     if (fflush(stdout) != 0 || ferror(stdout)) {

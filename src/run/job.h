@@ -36,6 +36,7 @@ struct job_raw {
     int nsensor;
     struct sensor *sensor;
     double *shape, *shape_std, *frequency_std;
+    double *point_frequency_hz, *point_frequency_std;
 };
 
 struct job {
@@ -55,6 +56,9 @@ struct job {
     double *shape;         /* [nsensor * nmode] NaN where not measured, or NULL */
     double *shape_std;     /* [nsensor * nmode] relative to the largest component, NaN where there is none; or NULL */
     int *holdout;          /* [nmode] */
+    /* With the accelerometer at one sensor after the other, [nsensor * nmode] in Hz, NaN where not known; NULL where the deck has
+     * none. frequency_hz of a mode that has any is then their mean over all sensors: see run/point_fit.h. */
+    double *point_frequency_hz, *point_frequency_std;
 
     int ncorrection; /* already applied to the above; raw is NULL where there are none */
     struct correction *correction;

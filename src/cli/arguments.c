@@ -1,0 +1,249 @@
+#include "cli/arguments.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/arguments_ema.h"
+
+static void print_help(FILE *out)
+{
+    (void)fputs("usage: rotid COMMAND FILE [options]\n\n", out);
+    for (const struct command_entry *c = command_table; c->name; c++)
+        (void)fprintf(out, "  %-12s %s\n", c->name, c->text);
+    (void)fputs(
+        "\n"
+        "  --json FILE              the result as JSON; - for standard output, which then carries nothing else\n"
+        "  --set CARD.OPTION=VALUE  another option on every such card of the deck, e.g. FIT.REDUCTION=NONE\n"
+        "  --quiet, --verbose       no tables; with shapes (modes), iterations (identify), notes of the readers\n"
+        "  --no-baseline            identify: without NLopt\n"
+        "  --at NAME[=VALUE],...    sensitivity: other parameters and reference values than those of *IDENTIFY\n"
+        "  --step 0.01, --range 0.5, --points 11   sensitivity: relative step, range and points of the curves\n"
+        "  --extended FILE          diagnose: a deck with the cause that was named\n"
+        "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
+        "  -o, --output FILE        ema: the modes, for *MEASURED; uff: the file anew, its functions in the other format\n"
+        "  --format ascii|binary    uff: or in this one\n"
+        "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema (one a processor); seed of random numbers (1)\n"
+        "  --version, --help\n\n",
+        out);
+    (void)fputs(ema_options_help, out);
+    (void)fputs(
+        "\n"
+        "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"
+        "      2 wrong usage or input; 3 failure\n",
+        out);
+}
+
+int arguments_wrong(const char *format, const char *value)
+{
+    (void)fprintf(stderr, "rotid: ");
+    (void)fprintf(stderr, format, value);
+    (void)fprintf(stderr, " (rotid --help lists what there is)\n");
+    return EXIT_USAGE;
+}
+
+enum {
+    OPTION_JSON = 256,
+    OPTION_SET,
+    OPTION_QUIET,
+    OPTION_VERBOSE,
+    OPTION_NO_BASELINE,
+    OPTION_AT,
+    OPTION_STEP,
+    OPTION_RANGE,
+    OPTION_POINTS,
+    OPTION_THREADS,
+    OPTION_SEED,
+    OPTION_EXTENDED,
+    OPTION_REPLICATES,
+    OPTION_OUTPUT,
+    OPTION_FORMAT,
+    OPTION_VERSION,
+    OPTION_HELP
+};
+
+int arguments_number(const char *option, const char *text, double least, double most, int whole, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    if (end != text && !*end && *value >= least && *value <= most && (!whole || *value == floor(*value)))
+        return 0;
+    (void)fprintf(stderr, "rotid: %s %s: expected a %snumber from %g to %g\n", option, text, whole ? "whole " : "", least, most);
+    return 1;
+}
+
+/* Returns -1 to go on, or an exit code. */
+static int take_option(struct command *command, int option, const char *value)
+{
+    double n;
+    switch (option) {
+    case OPTION_JSON:
+        command->json = value;
+        return -1;
+    case OPTION_SET:
+        if (override_parse(&command->pool, value, &command->override[command->noverride]))
+            return arguments_wrong("--set %s: expected CARD.OPTION=VALUE", value);
+        command->noverride++;
+        return -1;
+    case OPTION_QUIET:
+        command->quiet = 1;
+        return -1;
+    case OPTION_VERBOSE:
+        command->verbose = 1;
+        return -1;
+    case OPTION_NO_BASELINE:
+        command->baseline = 0;
+        return -1;
+    case OPTION_AT:
+        command->at = value;
+        return -1;
+    case OPTION_STEP:
+        return arguments_number("--step", value, 1e-9, 0.5, 0, &command->step) ? EXIT_USAGE : -1;
+    case OPTION_RANGE:
+        return arguments_number("--range", value, 1e-6, 0.95, 0, &command->range) ? EXIT_USAGE : -1;
+    case OPTION_POINTS:
+        if (arguments_number("--points", value, 1, 1000, 1, &n))
+            return EXIT_USAGE;
+        command->points = (int)n;
+        return -1;
+    case OPTION_THREADS:
+        if (arguments_number("--threads", value, 1, THREADS_MOST, 1, &n))
+            return EXIT_USAGE;
+        command->threads = (int)n;
+        return -1;
+    case OPTION_SEED:
+        if (arguments_number("--seed", value, 0, 4294967295.0, 1, &n))
+            return EXIT_USAGE;
+        command->seed = (unsigned long)n;
+        return -1;
+    case OPTION_EXTENDED:
+        command->extended = value;
+        return -1;
+    case OPTION_REPLICATES:
+        if (arguments_number("--replicates", value, 100, 1000000, 1, &n))
+            return EXIT_USAGE;
+        command->replicates = (int)n;
+        return -1;
+    case 'o':
+    case OPTION_OUTPUT:
+        command->output = value;
+        return -1;
+    case OPTION_FORMAT:
+        command->format = value;
+        return -1;
+    case OPTION_VERSION:
+        (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
+        return EXIT_DONE;
+    case OPTION_HELP:
+        print_help(stdout);
+        return EXIT_DONE;
+    case '?':
+        (void)fprintf(stderr, "rotid --help lists the options\n");
+        return EXIT_USAGE;
+    default:
+        return arguments_ema(command, option, value);
+    }
+}
+
+int arguments_parse(struct command *command, int argc, char **argv)
+{
+    static const struct option options[] = {{"json", required_argument, NULL, OPTION_JSON},
+                                            {"set", required_argument, NULL, OPTION_SET},
+                                            {"quiet", no_argument, NULL, OPTION_QUIET},
+                                            {"verbose", no_argument, NULL, OPTION_VERBOSE},
+                                            {"no-baseline", no_argument, NULL, OPTION_NO_BASELINE},
+                                            {"at", required_argument, NULL, OPTION_AT},
+                                            {"step", required_argument, NULL, OPTION_STEP},
+                                            {"range", required_argument, NULL, OPTION_RANGE},
+                                            {"points", required_argument, NULL, OPTION_POINTS},
+                                            {"threads", required_argument, NULL, OPTION_THREADS},
+                                            {"seed", required_argument, NULL, OPTION_SEED},
+                                            {"extended", required_argument, NULL, OPTION_EXTENDED},
+                                            {"replicates", required_argument, NULL, OPTION_REPLICATES},
+                                            {"output", required_argument, NULL, OPTION_OUTPUT},
+                                            {"format", required_argument, NULL, OPTION_FORMAT},
+                                            EMA_LONG_OPTIONS,
+                                            {"version", no_argument, NULL, OPTION_VERSION},
+                                            {"help", no_argument, NULL, OPTION_HELP},
+                                            {NULL, 0, NULL, 0}};
+    int option;
+    command->override = POOL_ARRAY(&command->pool, struct override, argc);
+    if (!command->override)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    while ((option = getopt_long(argc, argv, "o:", options, NULL)) != -1) {
+        int code = take_option(command, option, optarg);
+        if (code >= 0)
+            return code;
+    }
+    if (optind >= argc) {
+        print_help(stderr);
+        return EXIT_USAGE;
+    }
+    command->name = argv[optind++];
+    if (optind >= argc)
+        return arguments_wrong("%s: no file given, expected rotid COMMAND FILE", command->name);
+    command->deck = argv[optind++];
+    if (optind < argc)
+        return arguments_wrong("%s is one argument too many, expected one file", argv[optind]);
+    return -1;
+}
+
+/* Two names of one file, which may not exist yet. */
+static int same_file(const char *a, const char *b)
+{
+    struct stat first, second;
+    int exists = stat(a, &first) == 0;
+    if (exists != (stat(b, &second) == 0))
+        return 0;
+    if (exists)
+        return S_ISREG(first.st_mode) && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+    const char *name_a = strrchr(a, '/'), *name_b = strrchr(b, '/');
+    char folder[2][4096];
+    (void)snprintf(folder[0], sizeof folder[0], "%.*s", name_a ? (int)(name_a - a) + 1 : 1, name_a ? a : ".");
+    (void)snprintf(folder[1], sizeof folder[1], "%.*s", name_b ? (int)(name_b - b) + 1 : 1, name_b ? b : ".");
+    return !strcmp(name_a ? name_a + 1 : a, name_b ? name_b + 1 : b) && stat(folder[0], &first) == 0 &&
+           stat(folder[1], &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+/* -1, or the exit code after saying what is wrong with -o and --format. */
+static int refuse_output(const struct command *command, const struct command_entry *entry)
+{
+    int converts = !strcmp(command->name, "uff");
+    if (command->output && !(entry->flags & TAKES_OUTPUT))
+        return arguments_wrong("--output is no option of %s", command->name);
+    if (command->format && !converts)
+        return arguments_wrong("--format is no option of %s", command->name);
+    if (command->format && strcmp(command->format, "ascii") && strcmp(command->format, "binary"))
+        return arguments_wrong("--format %s: expected ascii or binary", command->format);
+    if (!command->output)
+        return command->format ? arguments_wrong("--format %s: expected --output as well", command->format) : -1;
+    if (!strcmp(command->output, "-"))
+        return arguments_wrong("--output %s: expected a file", command->output);
+    if (same_file(command->deck, command->output))
+        return arguments_wrong("--output %s is the file that is read, expected another one", command->output);
+    if (command->json && same_file(command->json, command->output))
+        return arguments_wrong("--output %s is the file of --json as well, expected another file", command->output);
+    return -1;
+}
+
+int arguments_refuse(const struct command *command, const struct command_entry *entry)
+{
+    int diagnoses = !strcmp(command->name, "diagnose");
+    if (!diagnoses && (command->extended || command->replicates))
+        return arguments_wrong("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
+    if (command->ema.given && strcmp(command->name, "ema"))
+        return arguments_wrong("--%s is an option of ema alone", command->ema.given);
+    if (command->json && strcmp(command->json, "-") && same_file(command->deck, command->json))
+        return arguments_wrong("--json %s is the file that is read, expected another one", command->json);
+    if (!command->extended)
+        return refuse_output(command, entry);
+    if (!strcmp(command->extended, "-"))
+        return arguments_wrong("--extended %s: expected a file", command->extended);
+    if (same_file(command->deck, command->extended))
+        return arguments_wrong("--extended %s is the deck itself, expected another file", command->extended);
+    if (command->json && same_file(command->json, command->extended))
+        return arguments_wrong("--extended %s is the file of --json as well, expected another file", command->extended);
+    return -1;
+}

@@ -1,0 +1,269 @@
+/* What a file holds is listed first; then the functions that are wanted are read, the rest never leaves the disk. */
+#include "import/measurement.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/contents.h"
+#include "import/records.h"
+
+/* A set 58 that is no longer than its neighbours is not worth losing the rest for; a file with nothing usable is. */
+static int refuse(struct message_list *messages, const char *path, const struct contents *c)
+{
+    if (!messages->errors)
+        message_add(messages, SEVERITY_ERROR, path, 1, 1,
+                    "%d functions, none of them a transfer function (58, type 4) or a time record of a force with a response "
+                    "(type 1, specific data types 13 and 8, 11 or 12), expected one or the other",
+                    c->count);
+    return ROTID_ERROR_ARGUMENT;
+}
+
+static int same_lines(const struct content *left, const struct content *right)
+{
+    const struct uff_function *a = &left->function, *b = &right->function;
+    if (a->count != b->count || !left->x != !right->x)
+        return 0;
+    if (left->x)
+        return memcmp(left->x, right->x, (size_t)a->count * sizeof *left->x) == 0;
+    return fabs(a->step - b->step) <= 1e-6 * fabs(b->step) && fabs(a->start - b->start) <= 1e-3 * fabs(b->step);
+}
+
+static double line_of(const struct content *item, long long i)
+{
+    return item->x ? item->x[i] : item->function.start + (double)i * item->function.step;
+}
+
+static int lines_rise(const struct content *item)
+{
+    for (long long i = 1; i < item->function.count && item->x; i++)
+        if (!(item->x[i] > item->x[i - 1]))
+            return 0;
+    return item->x || item->function.step > 0;
+}
+
+/* The lines that most transfer functions have: -1, or the index of one of them. */
+static int common_lines(const struct contents *c)
+{
+    int best = -1, most = 0;
+    for (int i = 0; i < c->count; i++) {
+        if (c->item[i].function.type != UFF_TRANSFER || c->item[i].function.count < 1)
+            continue;
+        if (best >= 0 && same_lines(&c->item[i], &c->item[best]))
+            continue;
+        int count = 0;
+        for (int j = i; j < c->count; j++)
+            count += c->item[j].function.type == UFF_TRANSFER && same_lines(&c->item[j], &c->item[i]);
+        if (count > most) {
+            most = count;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static int wanted(const struct measurement_options *options, const struct uff_function *f)
+{
+    return !options->reference || f->reference_node == options->reference;
+}
+
+/* Why a transfer function cannot be used beside the others, or NULL. */
+static const char *unusable(const struct content *item, const struct content *model)
+{
+    const struct uff_function *f = &item->function;
+    if (f->ordinate != UFF_COMPLEX_SINGLE && f->ordinate != UFF_COMPLEX_DOUBLE)
+        return "its values are real, expected complex ones";
+    if (!lines_rise(item))
+        return "its lines do not rise";
+    if (!same_lines(item, model))
+        return "its lines are not those of most others";
+    if (motion_of(&f->numerator) < 0)
+        return "its response is no displacement, velocity or acceleration (specific data type 8, 11 or 12)";
+    if (!is_force(&f->denominator) && f->denominator.specific_type > 1)
+        return "its reference is no force (specific data type 13)";
+    return NULL;
+}
+
+/* The lines that are kept: first and how many. */
+static void choose_lines(const struct content *item, const struct measurement_options *options, long long *first,
+                         long long *count)
+{
+    long long low = 0, high = item->function.count;
+    double rounding = 1e-9 * line_of(item, high - 1);
+    while (low < high && line_of(item, low) < options->low_hz - rounding)
+        low++;
+    while (high > low && options->high_hz > 0 && line_of(item, high - 1) > options->high_hz + rounding)
+        high--;
+    *first = low;
+    *count = high - low;
+}
+
+struct loader {
+    struct pool *pool;
+    struct uff_reader *reader;
+    const char *path;
+    const struct contents *contents;
+    const struct measurement_options *options;
+    struct message_list *messages;
+    struct measurement *out;
+};
+
+/* Values first ... first + count - 1 of a function, times a factor. imag NULL for real ones. */
+static int load(struct loader *l, const struct content *item, long long first, long long count, double factor, double *real,
+                double *imag)
+{
+    struct uff_function f;
+    double skip_real[256], skip_imag[256];
+    long long got = 1, done = 0;
+    int status = uff_return_to(l->reader, &item->set);
+    if (!status)
+        status = uff_read_function(l->reader, &f);
+    for (long long left = first; left > 0 && got > 0 && !status; left -= got)
+        status = uff_read_values(l->reader, left < 256 ? left : 256, NULL, skip_real, skip_imag, &got);
+    while (done < count && !status && got > 0) {
+        status = uff_read_values(l->reader, count - done, NULL, real + done, imag ? imag + done : NULL, &got);
+        done += got;
+    }
+    for (long long i = 0; i < done; i++) {
+        real[i] *= factor;
+        if (imag)
+            imag[i] *= factor;
+    }
+    return status;
+}
+
+static int find_frf(const struct frf_set *set, const struct uff_function *f)
+{
+    for (int c = 0; c < set->nfrf; c++)
+        if (set->frf[c].response_node == f->response_node && set->frf[c].response_direction == f->response_direction &&
+            set->frf[c].reference_node == f->reference_node && set->frf[c].reference_direction == f->reference_direction)
+            return c;
+    return -1;
+}
+
+/* The complex variance of the mean of K impacts with this coherence (Bendat and Piersol 2010, 9.1, both parts). */
+static double variance_from(double coherence, double magnitude, int averages)
+{
+    double g = fmin(fmax(coherence, 1e-6), 1);
+    return (1 - g) / (g * averages) * magnitude * magnitude;
+}
+
+static int load_coherences(struct loader *l, const struct content *model, long long first)
+{
+    struct frf_set *set = &l->out->set;
+    int averages = l->options->averages;
+    for (int i = 0; i < l->contents->count; i++) {
+        const struct content *item = &l->contents->item[i];
+        int c = item->function.type == UFF_COHERENCE ? find_frf(set, &item->function) : -1;
+        if (c < 0 || !same_lines(item, model) || set->frf[c].coherence)
+            continue;
+        struct frf *frf = &set->frf[c];
+        frf->coherence = POOL_ARRAY(l->pool, double, set->nline);
+        frf->variance = averages > 0 ? POOL_ARRAY(l->pool, double, set->nline) : NULL;
+        frf->averages = averages;
+        if (!frf->coherence || (averages > 0 && !frf->variance))
+            return ROTID_ERROR_MEMORY;
+        int status = load(l, item, first, set->nline, 1, frf->coherence, NULL);
+        if (status)
+            return status;
+        for (int n = 0; n < set->nline && frf->variance; n++)
+            frf->variance[n] = variance_from(frf->coherence[n], cabs(frf->h[n]), averages);
+    }
+    return ROTID_OK;
+}
+
+static int load_transfer(struct loader *l, const struct content *item, long long first, double *real, double *imag)
+{
+    struct frf_set *set = &l->out->set;
+    const struct uff_function *f = &item->function;
+    struct frf *frf = &set->frf[set->nfrf];
+    double factor = uff_si_factor(l->contents->has_units ? &l->contents->units : NULL, &f->numerator) /
+                    uff_si_factor(l->contents->has_units ? &l->contents->units : NULL, &f->denominator);
+    *frf = (struct frf){
+        f->line, f->response_node, f->response_direction, f->reference_node, f->reference_direction, NULL, NULL, NULL, 0};
+    frf->h = POOL_ARRAY(l->pool, double complex, set->nline);
+    int status = frf->h ? load(l, item, first, set->nline, factor, real, imag) : ROTID_ERROR_MEMORY;
+    for (int n = 0; n < set->nline && !status; n++)
+        frf->h[n] = real[n] + I * imag[n];
+    if (!status)
+        set->nfrf++;
+    return status;
+}
+
+static int load_transfers(struct loader *l, int model_index)
+{
+    const struct contents *c = l->contents;
+    const struct content *model = &c->item[model_index];
+    struct frf_set *set = &l->out->set;
+    long long first, count;
+    choose_lines(model, l->options, &first, &count);
+    if (count < 1 || count > INT_MAX) {
+        message_add(l->messages, SEVERITY_ERROR, l->path, model->function.line, 1,
+                    "%lld of %lld lines from %.6g to %.6g Hz lie in the band asked for, expected some", count,
+                    model->function.count, line_of(model, 0), line_of(model, model->function.count - 1));
+        return ROTID_ERROR_ARGUMENT;
+    }
+    set->nline = (int)count;
+    set->quantity = (enum frf_quantity)motion_of(&model->function.numerator);
+    set->frequency_hz = POOL_ARRAY(l->pool, double, count);
+    set->frf = POOL_ARRAY(l->pool, struct frf, c->count);
+    struct pool scratch;
+    pool_open(&scratch, l->pool->allocator);
+    double *real = POOL_ARRAY(&scratch, double, count), *imag = POOL_ARRAY(&scratch, double, count);
+    int status = set->frequency_hz && set->frf && real && imag ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (long long n = 0; n < count && !status; n++)
+        set->frequency_hz[n] = line_of(model, first + n);
+    for (int i = 0; i < c->count && !status; i++) {
+        const struct uff_function *f = &c->item[i].function;
+        if (f->type != UFF_TRANSFER || !wanted(l->options, f))
+            continue;
+        const char *reason = unusable(&c->item[i], model);
+        if (!reason && (enum frf_quantity)motion_of(&f->numerator) != set->quantity)
+            reason = "its response is another quantity than that of most others";
+        if (!reason && find_frf(set, f) >= 0)
+            reason = "another one has the same response and reference";
+        if (reason)
+            message_add(l->messages, SEVERITY_WARNING, l->path, f->line, 1,
+                        "transfer function of node %d over node %d left out: %s", f->response_node, f->reference_node, reason);
+        else
+            status = load_transfer(l, &c->item[i], first, real, imag);
+    }
+    pool_close(&scratch);
+    if (!status && !set->nfrf) {
+        message_add(l->messages, SEVERITY_ERROR, l->path, 1, 1, "no transfer function is left to use, expected at least one");
+        return ROTID_ERROR_ARGUMENT;
+    }
+    return status ? status : load_coherences(l, model, first);
+}
+
+int measurement_read(struct pool *pool, const char *path, const struct measurement_options *options,
+                     struct message_list *messages, struct measurement *out)
+{
+    struct contents contents;
+    struct loader l = {.pool = pool, .path = path, .contents = &contents, .options = options, .messages = messages, .out = out};
+    struct pool scratch;
+    *out = (struct measurement){0};
+    pool_open(&scratch, pool->allocator);
+    int status = uff_open(&scratch, path, messages, &l.reader);
+    if (!status)
+        status = contents_read(pool, l.reader, path, messages, &contents);
+    if (!status) {
+        out->node_count = contents.node_count;
+        out->node = contents.node;
+        out->units = contents.units;
+        out->has_units = contents.has_units;
+        int model = common_lines(&contents);
+        if (model >= 0)
+            status = load_transfers(&l, model);
+        else if (contents_have_records(&contents))
+            status = records_load(pool, l.reader, path, &contents, options, messages, out);
+        else
+            status = refuse(messages, path, &contents);
+    }
+    uff_close(l.reader);
+    pool_close(&scratch);
+    if (messages->out_of_memory)
+        status = ROTID_ERROR_MEMORY;
+    return status;
+}
