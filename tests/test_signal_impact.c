@@ -120,6 +120,28 @@ static void double_hits_are_told_from_the_next_impact(void **state)
         }
 }
 
+/* Behind an anti-alias filter the force swings on by 0.3 of the pulse, above the threshold, on both sides of its base line. */
+static void ringing_of_a_filter_is_no_double_hit(void **state)
+{
+    static const double start[] = {0.1};
+    (void)state;
+    for (int bounce = 0; bounce < 2; bounce++) {
+        struct record record = hits(2, 1, start, NULL);
+        double *force = struck_force(&record);
+        for (long long j = 0; j < record.count; j++) {
+            double t = (double)j / hammer.rate - 0.104;
+            if (t > 0)
+                force[j] -= 30 * exp(-t / 0.001) * sin(2 * PI * 1500 * t);
+            if (bounce && t > 0.03 && t < 0.033)
+                force[j] += 30 * sin(PI * (t - 0.03) / 0.003);
+        }
+        struct transfer out = compute(1, &record, &(struct transfer_options){.double_hits = 1});
+        assert_int_equal(out.nimpact, 1);
+        assert_int_equal(out.impact[0].is_double, bounce);
+        assert_close(out.impact[0].width, 0.004 * (1 - 2 * asin(0.1) / PI), 0, 1.5 / hammer.rate);
+    }
+}
+
 /* Half a second is no bounce, however long the record goes on: there the first impact has too little room. */
 static void a_quick_second_impact_is_no_double_hit(void **state)
 {
@@ -284,6 +306,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(an_impact_is_where_its_pulse_is, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(spreading_impacts_over_records_changes_nothing, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(double_hits_are_told_from_the_next_impact, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(ringing_of_a_filter_is_no_double_hit, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_quick_second_impact_is_no_double_hit, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(impacts_without_room_are_left_out, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(all_records_share_the_shortest_block, open_test_pool, close_test_pool),

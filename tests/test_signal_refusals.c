@@ -286,8 +286,8 @@ static void units_may_be_of_any_size(void **state)
             struct transfer_options options = {.estimator = estimator, .exponential = 0.1};
             double unit = ldexp(1, sign * 140);
             for (int j = 0; j < LENGTH; j++) {
-                hammer_force(&scaled)[j] = plain.force[j] * unit;
-                hammer_response(&scaled)[j] = plain.response[j] / unit;
+                struck_force(&scaled)[j] = plain.force[j] * unit;
+                struck_response(&scaled)[j] = plain.response[j] / unit;
             }
             assert_status(transfer_compute(&test_pool, 1, &plain, RATE, FRF_VELOCITY, &options, 1, &out, &bad), ROTID_OK);
             assert_status(transfer_compute(&test_pool, 1, &scaled, RATE, FRF_VELOCITY, &options, 1, &far, &bad), ROTID_OK);
