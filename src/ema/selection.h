@@ -13,7 +13,8 @@
 /* Fits all candidates together and leaves out, worst first and fitting again, those that do not earn their place:
  *   - the pole grows, runs away, is damped above 0.2, leaves the band, or it is not known to a fifth of its half bandwidth;
  *   - sum over channels |A|^2/var(A) <= 2 n + 12 sqrt(n) + 30 for n channels: what the best of very many places in the noise
- *     reaches by chance;
+ *     reaches by chance; var from what is left around the mode where that is more than the noise;
+ *   - of three channels or more, two at least show it, and with a phase in common (MPC 0.4 where it can be told);
  *   - at its frequency it is less than `least share` (0.05) of |H| in every channel: it corrects what others leave;
  *   - its half-power bandwidth is under a fifth of the line spacing: a single line (mains hum).
  * pole [*count] in, the refined ones out; candidate [*count] tells which of those that came in each was. ROTID_OK,
