@@ -137,7 +137,7 @@ static int fit_modes(struct job *job)
     int status = line ? modes_new(job->pool, n, job->options.per_point, out) : ROTID_ERROR_MEMORY;
     if (status != ROTID_OK || n == 0)
         return status;
-    int nline = modal_fit_lines(band, n, job->candidate, FIT_WIDTHS, FIT_LINES, line);
+    int nline = modal_fit_lines(band, n, job->candidate, FIT_WIDTHS, selection_lines(band, n, FIT_PRODUCTS), line);
     status = modal_fit_new(job->pool, band, nline, line, 0, band->nchannel, n, job->options.threads, &fit);
     if (status == ROTID_OK)
         status = refinement_new(job->pool, &fit, &refinement);

@@ -18,6 +18,7 @@
 #define MERGE_REACH   0.02
 #define MOST_TOGETHER 6
 #define LEAST_MPC     0.4
+#define LEAST_GAIN    0.1 /* share of chi2, or log of the variance: below it noise decides */
 
 double local_reach(double complex pole)
 {
@@ -145,7 +146,7 @@ static int compare(struct pool *scratch, const struct ema_band *band, int n, con
     for (int r = 0; r < n; r++)
         fit.pole[r] = cluster[r] / fit.scale;
     (void)refine_poles(&fit, ITERATIONS, NULL, &refinement);
-    double gain = 0;
+    double gain = 0, sum = 0;
     int known = 0;
     for (int k = 0; k < band->nchannel; k++) {
         struct local_pole alone;
@@ -156,6 +157,7 @@ static int compare(struct pool *scratch, const struct ema_band *band, int n, con
         pool_close(&inner);
         if (status != ROTID_OK)
             return status;
+        sum += fit.weight ? alone.chi2 : 2 * nline;
         gain += fit.weight ? common - alone.chi2 : 2 * nline * log(fmax(common, 1e-300) / fmax(alone.chi2, 1e-300));
         if (alone.known) {
             residue[known] = alone.residue;
@@ -164,8 +166,8 @@ static int compare(struct pool *scratch, const struct ema_band *band, int n, con
         }
     }
     /* peaks of several channels that have nothing to do with each other have no phase in common */
-    *none = gain > 0 && known > 2 && mode_phase_collinearity(known, residue) < LEAST_MPC;
-    if (gain > 0 && known > 0 && !*none)
+    *none = gain > LEAST_GAIN * sum && known > 2 && mode_phase_collinearity(known, residue) < LEAST_MPC;
+    if (gain > LEAST_GAIN * sum && known > 0 && !*none)
         *one = CMPLX(median(known, re), median(known, im));
     return ROTID_OK;
 }

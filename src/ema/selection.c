@@ -13,8 +13,14 @@
 #define LEAST_MPC 0.4
 #define VISIBLE 12 /* |A|^2/var: chance reaches that once in four hundred */
 #define NOISE_WIDTHS 3
-#define ITERATIONS  12
+#define ITERATIONS  8
 #define CLOSE       4 /* half-power bandwidths: neighbours that may spoil each other */
+
+int selection_lines(const struct ema_band *band, int nmode, double products)
+{
+    double columns = 4 * nmode + 5, lines = products / (2 * columns * columns * band->nchannel);
+    return (int)fmin(fmax(lines, fmax(40 * nmode, 1000)), band->nline);
+}
 
 /* sum |A|^2/var over the channels; *share: largest |A g|/|H| at the mode; *seen_in: channels that show it */
 static double significance(const struct ema_band *band, const struct modal_fit *fit, int r, double *share, int *seen_in,
@@ -89,8 +95,8 @@ static int is_close(const struct modal_fit *fit, int a, int b)
 }
 
 /* One fit of all; keep [count] := 0 for what goes: of neighbours the weakest only, since it may be what spoils the other. */
-static int judge(struct pool *scratch, const struct ema_band *band, int threads, const rotid_environment *environment, int count,
-                 double complex *pole, int *keep, int *dropped)
+static int judge(struct pool *scratch, const struct ema_band *band, int threads, const rotid_environment *environment, int first,
+                 int count, double complex *pole, int *keep, int *dropped)
 {
     struct modal_fit fit;
     struct refinement refinement;
@@ -99,7 +105,7 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
     double complex *residue = POOL_ARRAY(scratch, double complex, band->nchannel);
     if (!line || !bad || !strength || !residue)
         return ROTID_ERROR_MEMORY;
-    int nline = modal_fit_lines(band, count, pole, FIT_WIDTHS, FIT_LINES, line);
+    int nline = modal_fit_lines(band, count, pole, FIT_WIDTHS, selection_lines(band, count, EARN_PRODUCTS), line);
     int status = modal_fit_new(scratch, band, nline, line, 0, band->nchannel, count, threads, &fit);
     if (status == ROTID_OK)
         status = refinement_new(scratch, &fit, &refinement);
@@ -107,7 +113,7 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
         return status;
     for (int r = 0; r < count; r++)
         fit.pole[r] = pole[r] / fit.scale;
-    status = refine_poles(&fit, ITERATIONS, environment, &refinement);
+    status = refine_poles(&fit, first ? 0 : ITERATIONS, environment, &refinement);
     if (status != ROTID_OK)
         return status;
     for (int r = 0; r < count; r++)
@@ -131,15 +137,17 @@ int selection_earn(const struct pool *pool, const struct ema_band *band, int thr
 {
     for (int r = 0; r < *count; r++)
         candidate[r] = r;
-    /* every round leaves one out at least */
-    for (int dropped = 1; dropped && *count;) {
+    /* the first round takes the poles as they come, which is quick; every later one leaves one out at least, or is the last */
+    for (int dropped = 1, first = 1; dropped && *count;) {
         struct pool scratch;
         pool_open(&scratch, pool->allocator);
         int *keep = POOL_ARRAY(&scratch, int, *count);
         /* no more unknowns than two thirds of the lines can carry: the last candidates are the ones at the upper end */
         int most = (2 * band->nline * 2 / 3 - 4) / 4;
         *count = *count < most ? *count : most > 0 ? most : 0;
-        int status = !keep ? ROTID_ERROR_MEMORY : judge(&scratch, band, threads, environment, *count, pole, keep, &dropped);
+        int status = !keep ? ROTID_ERROR_MEMORY : judge(&scratch, band, threads, environment, first, *count, pole, keep, &dropped);
+        dropped += first;
+        first = 0;
         int kept = 0;
         for (int r = 0; status == ROTID_OK && r < *count; r++)
             if (keep[r]) {
