@@ -9,10 +9,11 @@ import tarfile
 import warnings
 from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pyuff
 
-from support import Checks, parse, rotid, temporary_folder
+from support import ROOT, Checks, parse, rotid, temporary_folder
 
 VERSION = "2.4.2"
 SINGLE, DOUBLE, TEXT = 6e-8, 6e-13, 6e-6  # half a unit of the last digit: a single, 13 digits, 6 digits
@@ -36,6 +37,9 @@ def data_folder():
         with tarfile.open(build / f"pyuff-{VERSION}.tar.gz") as archive:
             archive.extractall(build, filter="data")
     return folder / "data"
+
+
+SCHEMA = jsonschema.Draft202012Validator(parse((ROOT / "docs" / "schema" / "uff.schema.json").read_text()))
 
 
 def listing(path):
@@ -113,6 +117,8 @@ def check_listing(checks, path):
         return None
     if not checks.true(f"{name}: listed", code == 0, (code, err[:300])):
         return None
+    wrong = [f"{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in SCHEMA.iter_errors(seen)]
+    checks.true(f"{name}: the JSON follows its schema", not wrong, wrong[:3])
     types, sets = read(path)
     checks.true(f"{name}: the same {len(types)} sets", [s["set"] for s in seen["sets"]] == types, [s["set"] for s in seen["sets"]][:20])
     unread = sum(s is None for s in sets)
