@@ -159,6 +159,8 @@ def differences(types, sets, other_types, other_sets, tolerance):
         for key, value in a.items():
             if key in changed or value is None:
                 continue
+            if types[i] == 82 and key == "nodes":  # Testlab fills the last line with zeros, which pyuff takes for nodes
+                value = value[: a["n_nodes"]]
             if not same_value(value, b.get(key), tolerance if key in ("data", "x") else TEXT):
                 wrong.append(f"set {i + 1}, {types[i]}: {key} {str(b.get(key))[:60]} for {str(value)[:60]}")
     return wrong
