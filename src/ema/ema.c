@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "ema/channels.h"
+#include "ema/guard.h"
 #include "ema/local.h"
 #include "ema/modes.h"
 #include "ema/per_point.h"
@@ -53,8 +54,8 @@ static int find_lines(struct job *job)
     const struct frf_set *set = job->set;
     const struct ema_options *o = &job->options;
     job->last = set->nline;
-    while (job->first < job->last && (set->frequency_hz[job->first] <= 0 ||
-                                      (o->low_hz > 0 && set->frequency_hz[job->first] < o->low_hz)))
+    while (job->first < job->last &&
+           (set->frequency_hz[job->first] <= 0 || (o->low_hz > 0 && set->frequency_hz[job->first] < o->low_hz)))
         job->first++;
     while (job->last > job->first && o->high_hz > 0 && set->frequency_hz[job->last - 1] > o->high_hz)
         job->last--;
@@ -133,24 +134,35 @@ static int fit_modes(struct job *job)
     struct refinement refinement;
     const struct ema_band *band = &job->band;
     struct ema *out = job->out;
-    int n = job->ncandidate, *line = POOL_ARRAY(job->pool, int, band->nline);
-    int status = line ? modes_new(job->pool, n, job->options.per_point, out) : ROTID_ERROR_MEMORY;
+    int n = job->ncandidate, nguard = 0, status = ROTID_OK, *line = POOL_ARRAY(job->pool, int, band->nline);
+    double complex *pole = POOL_ARRAY(job->pool, double complex, n + GUARD_MOST);
+    if (!line || !pole)
+        return ROTID_ERROR_MEMORY;
+    memcpy(pole, job->candidate, (size_t)n * sizeof *pole);
+    if (!job->options.no_refinement)
+        status = guard_poles(job->pool, band, job->options.threads, job->environment, n, pole, &nguard);
+    n += nguard;
+    if (status == ROTID_OK)
+        status = modes_new(job->pool, n, job->options.per_point, out);
     if (status != ROTID_OK || n == 0)
         return status;
-    int nline = modal_fit_lines(band, n, job->candidate, FIT_WIDTHS, selection_lines(band, n, FIT_PRODUCTS), line);
+    int nline = modal_fit_lines(band, n, pole, FIT_WIDTHS, selection_lines(band, n, FIT_PRODUCTS), line);
     status = modal_fit_new(job->pool, band, nline, line, 0, band->nchannel, n, job->options.threads, &fit);
     if (status == ROTID_OK)
         status = refinement_new(job->pool, &fit, &refinement);
     if (status != ROTID_OK)
         return status;
     for (int r = 0; r < n; r++)
-        fit.pole[r] = job->candidate[r] / fit.scale;
+        fit.pole[r] = pole[r] / fit.scale;
     status = refine_poles(&fit, job->options.no_refinement ? 0 : ITERATIONS, job->environment, &refinement);
     if (status != ROTID_OK)
         return status;
     out->refined = refinement.iterations;
     out->std_from_impacts = band->variance != NULL;
     modes_from_fit(band, &fit, &refinement, job->set->window_decay, out);
+    n -= nguard;
+    out->nmode = n;
+    out->nguard = nguard;
     for (int r = 0; r < n; r++)
         if (job->unstable && job->unstable[r])
             out->mode[r].doubts |= EMA_UNSTABLE;

@@ -10,7 +10,7 @@ void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int
     for (int i = 0; i < n; i++) {
         double omega = TWO_PI * frequency_hz[i];
         double complex s = I * omega, sum = 0;
-        for (int r = 0; r < ema->nmode; r++) {
+        for (int r = 0; r < ema->nmode + ema->nguard; r++) {
             double complex a = ema->mode[r].residue[c], pole = ema->mode[r].pole - set->window_decay;
             if (ema->mode[r].local_pole && !isnan(creal(ema->mode[r].local_pole[c])))
                 pole = ema->mode[r].local_pole[c] - set->window_decay;
