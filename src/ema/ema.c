@@ -1,6 +1,7 @@
 #include "ema/ema.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "ema/channels.h"
@@ -8,6 +9,7 @@
 #include "ema/local.h"
 #include "ema/modes.h"
 #include "ema/per_point.h"
+#include "ema/picking.h"
 #include "ema/selection.h"
 #include "ema/shapes.h"
 #include "ema/stabilisation.h"
@@ -18,6 +20,7 @@
 #define LARGEST_ORDER 120
 #define ITERATIONS    40
 #define SUSPECT       2
+#define NOT_PICKED    (-1)
 
 struct job {
     struct pool *pool;
@@ -30,7 +33,7 @@ struct job {
     struct ema_band band;
     int ncandidate;
     double complex *candidate;
-    int *unstable; /* [ncandidate] of picks, else NULL */
+    int *doubts; /* [ncandidate] of picks, or NOT_PICKED; NULL without picks */
     struct ema *out;
 };
 
@@ -99,22 +102,12 @@ static int find_candidates(struct job *job, struct stabilisation *table)
     out->order = table->order;
     out->npole = table->npole;
     out->pole = table->table;
-    if (o->npick <= 0)
-        return ROTID_OK;
-    job->ncandidate = o->npick;
-    job->candidate = POOL_ARRAY(job->pool, double complex, o->npick);
-    job->unstable = POOL_ARRAY(job->pool, int, o->npick);
-    if (!job->candidate || !job->unstable)
-        return ROTID_ERROR_MEMORY;
-    stabilisation_picks(table, o->npick, o->pick_hz, job->candidate, job->unstable);
-    return ROTID_OK;
+    return status;
 }
 
 /* Keeps the candidates that earn their place: refined, or where no refinement is wanted as they came. */
 static int earn(struct job *job)
 {
-    if (job->options.npick > 0)
-        return ROTID_OK;
     int *from = POOL_ARRAY(job->pool, int, job->ncandidate);
     double complex *pole = POOL_ARRAY(job->pool, double complex, job->ncandidate);
     if (!from || !pole)
@@ -126,6 +119,39 @@ static int earn(struct job *job)
     if (status == ROTID_OK)
         status = local_merge(job->pool, &job->band, &job->ncandidate, job->candidate);
     return status;
+}
+
+/* What the user picked joins what was found, or marks it where the pole of the table for that frequency is the same to half a
+ * half-power bandwidth. The modes that were not picked stay in the fit, where they are not mistaken for residuals, and are not
+ * reported. */
+static int add_picks(struct job *job, const struct stabilisation *table)
+{
+    int npick = job->options.npick, found = job->ncandidate, all = found;
+    double complex *pick = POOL_ARRAY(job->pool, double complex, npick);
+    double complex *pole = POOL_ARRAY(job->pool, double complex, found + npick);
+    int *unstable = POOL_ARRAY(job->pool, int, npick);
+    job->doubts = POOL_ARRAY(job->pool, int, found + npick);
+    if (!pick || !pole || !unstable || !job->doubts)
+        return ROTID_ERROR_MEMORY;
+    stabilisation_picks(table, npick, job->options.pick_hz, pick, unstable);
+    for (int r = 0; r < found; r++) {
+        pole[r] = job->candidate[r];
+        job->doubts[r] = NOT_PICKED;
+    }
+    for (int i = 0; i < npick; i++) {
+        int same = -1;
+        for (int r = 0; r < found && same < 0; r++)
+            if (fabs(cimag(pole[r]) - cimag(pick[i])) < fmax(fabs(creal(pole[r])), fabs(creal(pick[i]))))
+                same = r;
+        if (same < 0) {
+            same = all;
+            pole[all++] = pick[i];
+        }
+        job->doubts[same] = unstable[i] ? EMA_UNSTABLE : 0;
+    }
+    job->candidate = pole;
+    job->ncandidate = all;
+    return ROTID_OK;
 }
 
 static int fit_modes(struct job *job)
@@ -160,12 +186,27 @@ static int fit_modes(struct job *job)
     out->refined = refinement.iterations;
     out->std_from_impacts = band->variance != NULL;
     modes_from_fit(band, &fit, &refinement, job->set->window_decay, out);
-    n -= nguard;
-    out->nmode = n;
-    out->nguard = nguard;
-    for (int r = 0; r < n; r++)
-        if (job->unstable && job->unstable[r])
-            out->mode[r].doubts |= EMA_UNSTABLE;
+    /* what is not reported goes behind, where the synthesis still finds it */
+    struct ema_mode *behind = POOL_ARRAY(job->pool, struct ema_mode, n);
+    if (!behind)
+        return ROTID_ERROR_MEMORY;
+    int reported = 0, others = 0;
+    for (int r = 0; r < n; r++) {
+        double complex at = fit.pole[r] * fit.scale;
+        int inside = r < n - nguard && !refinement.moved[r] && cimag(at) >= band->low && cimag(at) <= band->high;
+        if (r >= n - nguard || (job->doubts ? job->doubts[r] == NOT_PICKED : !inside)) {
+            behind[others++] = out->mode[r];
+            continue;
+        }
+        struct ema_mode mode = out->mode[r];
+        mode.doubts |= job->doubts ? job->doubts[r] : 0;
+        refinement.widened[2 * reported + 1] = refinement.widened[2 * r + 1];
+        out->mode[reported++] = mode;
+    }
+    if (others)
+        memcpy(out->mode + reported, behind, (size_t)others * sizeof *behind);
+    out->nmode = n = reported;
+    out->nguard = others;
     int *suspect = POOL_ARRAY(job->pool, int, n);
     if (!suspect)
         return ROTID_ERROR_MEMORY;
@@ -189,6 +230,43 @@ static int finish(struct job *job)
     return channels_compare(job->pool, job->set, job->first, job->last, job->usable, out);
 }
 
+static int by_frequency_of_mode(const void *a, const void *b)
+{
+    double x = ((const struct ema_mode *)a)->frequency_hz, y = ((const struct ema_mode *)b)->frequency_hz;
+    return (x > y) - (x < y);
+}
+
+static int by_frequency(const void *a, const void *b)
+{
+    double x = cimag(*(const double complex *)a), y = cimag(*(const double complex *)b);
+    return (x > y) - (x < y);
+}
+
+static int extract(struct job *job, struct stabilisation *table)
+{
+    int status = find_candidates(job, table);
+    if (status == ROTID_OK)
+        status = earn(job);
+    if (status != ROTID_OK)
+        return status;
+    qsort(job->candidate, (size_t)job->ncandidate, sizeof *job->candidate, by_frequency);
+    if (job->options.npick > 0)
+        status = add_picks(job, table);
+    if (status != ROTID_OK)
+        return status;
+    status = fit_modes(job);
+    if (status != ROTID_OK)
+        return status;
+    qsort(job->out->mode, (size_t)job->out->nmode, sizeof *job->out->mode, by_frequency_of_mode);
+    double complex *pole = POOL_ARRAY(job->pool, double complex, job->out->nmode);
+    if (!pole)
+        return ROTID_ERROR_MEMORY;
+    for (int r = 0; r < job->out->nmode; r++)
+        pole[r] = job->out->mode[r].pole - job->set->window_decay;
+    stabilisation_assign(table, job->out->nmode, pole, job->options.frequency_tolerance, job->options.damping_tolerance);
+    return ROTID_OK;
+}
+
 int ema_compute(struct pool *pool, const struct frf_set *set, const struct ema_options *options,
                 const rotid_environment *environment, struct ema *out)
 {
@@ -198,12 +276,10 @@ int ema_compute(struct pool *pool, const struct frf_set *set, const struct ema_o
         job.options = *options;
     *out = (struct ema){0};
     int status = prepare(&job);
-    if (status == ROTID_OK)
-        status = find_candidates(&job, &table);
-    if (status == ROTID_OK)
-        status = earn(&job);
-    if (status == ROTID_OK)
-        status = fit_modes(&job);
+    if (status == ROTID_OK && job.options.method == EMA_QUADRATURE)
+        status = picking_compute(pool, &job.band, &job.options, set->window_decay, out);
+    else if (status == ROTID_OK)
+        status = extract(&job, &table);
     if (status == ROTID_OK)
         status = finish(&job);
     return status;

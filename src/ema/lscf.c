@@ -108,7 +108,7 @@ static void add_channel(int n, const double *sum, double *r, double *x, double *
     if (cholesky_factor(n, r))
         return;
     cholesky_forward(n, r, n, x);
-    product_transposed(n, n, n, x, x, y);
+    product_gram(n, n, x, y);
     for (int k = 0; k < n; k++)
         for (int j = 0; j < n; j++)
             normal[j + (ptrdiff_t)k * n] += ts[abs(k - j)] - y[j + (ptrdiff_t)k * n];

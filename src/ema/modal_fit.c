@@ -149,7 +149,7 @@ static void channel_gram(const struct modal_fit *fit, int c, double *rows, doubl
             to[i + n] = weight[i] * from[i + n];
         }
     }
-    product_transposed(all, all, 2 * n, rows, rows, gram);
+    product_gram(all, 2 * n, rows, gram);
 }
 
 /* From the Gram matrix G: x = G_phi^-1 phi'y, derivatives D = psi B(x), schur = D'D - D'phi G_phi^-1 phi'D, score = D'(y - phi
@@ -252,7 +252,7 @@ double modal_fit_evaluate(struct modal_fit *fit, int with_spread)
 {
     fill_basis(fit);
     if (!fit->weight) {
-        product_transposed(fit->ncolumn, fit->ncolumn, 2 * fit->nline, fit->basis, fit->basis, fit->gram);
+        product_gram(fit->ncolumn, 2 * fit->nline, fit->basis, fit->gram);
         product_transposed(fit->ncolumn, fit->nchannel, 2 * fit->nline, fit->basis, fit->y, fit->right);
     }
     struct evaluation evaluation = {fit, with_spread};

@@ -19,7 +19,7 @@
 int selection_lines(const struct ema_band *band, int nmode, double products)
 {
     double columns = 4 * nmode + 5, lines = products / (2 * columns * columns * band->nchannel);
-    return (int)fmin(fmax(lines, fmax(40 * nmode, 1000)), band->nline);
+    return (int)fmin(fmax(lines, fmax(30 * nmode, 400)), band->nline);
 }
 
 /* sum |A|^2/var over the channels; *share: largest |A g|/|H| at the mode; *seen_in: channels that show it */

@@ -9,10 +9,10 @@
  * that were not picked bias less what does not try to explain them. Those more than three bandwidths away carry little of what is
  * known of a pole: they are thinned so that an evaluation takes no more than the given number of products, of a tenth of a second. */
 #define FIT_WIDTHS    50
-#define FIT_PRODUCTS  1e9
-#define EARN_PRODUCTS 2e8
+#define FIT_PRODUCTS  3e8
+#define EARN_PRODUCTS 5e7
 
-/* That number of lines, at least 40 a mode and 1000. */
+/* That number of lines, at least 30 a mode and 400. */
 int selection_lines(const struct ema_band *band, int nmode, double products);
 
 /* Fits all candidates together and leaves out, worst first and fitting again, those that do not earn their place:

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LEAST_LINES 400
+#define LEAST_LINES 150
 #define MOST_LINES  5000
 #define MOST_PARTS  20
 #define PART_ORDER  60

@@ -39,3 +39,11 @@ void product_subtract(int m, int n, int k, const double *a, const double *b, dou
 {
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, n, k, -1, a, m, b, k, 1, c, m);
 }
+
+void product_gram(int n, int k, const double *a, double *c)
+{
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, k, 1, a, k, 0, c, n);
+    for (int j = 0; j < n; j++)
+        for (int i = j + 1; i < n; i++)
+            c[j + (ptrdiff_t)i * n] = c[i + (ptrdiff_t)j * n];
+}

@@ -12,6 +12,8 @@ int basis_extend(int n, int count, double least, double *basis);
 
 /* C [m * n] := A' B, A [k * m], B [k * n]; all sizes >= 1. */
 void product_transposed(int m, int n, int k, const double *a, const double *b, double *c);
+/* C [n * n] := A' A, both triangles, A [k * n]; sizes >= 1. Half the work of product_transposed. */
+void product_gram(int n, int k, const double *a, double *c);
 /* C [m * n] := C - A B, A [m * k], B [k * n]. */
 void product_subtract(int m, int n, int k, const double *a, const double *b, double *c);
 
