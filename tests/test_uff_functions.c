@@ -241,7 +241,7 @@ static void binary_lengths(void **state)
         uff_fixture_warns(&fixture, "13 values make 208");
         assert_int_equal(uff_return_to(fixture.reader, &set), ROTID_OK);
         check_function(&fixture, &s, 5);
-        assert_int_equal(fixture.messages.errors, 0);
+        uff_fixture_warns(&fixture, "13 values make 208"); /* still once */
         uff_fixture_close(&fixture);
     }
 
