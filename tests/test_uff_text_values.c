@@ -44,6 +44,10 @@ static void text_as_writers_write_it(void **state)
         /* free format: other numbers a line, filled beyond the last value, blank lines before the end */
         {"2 8 1 0 1 0", "1 2\n3\n4 5 6 7 8\n\n" UFF_EDGE, 8, {1, 2, 3, 4, 5, 6, 7, 8}},
         {"2 8 1 0 1 0", "1 2 3 4 5 6 7 8\n" UFF_EDGE, 8, {1, 2, 3, 4, 5, 6, 7, 8}},
+        {"2 4 1 0 1 0",
+         "   1.000000000000E+00   2.000000000000E+00\n   3.000000000000E+00   4.000000000000E+00\n" UFF_EDGE,
+         4,
+         {1, 2, 3, 4}},
         {"         2         2         1                                       ",
          "  1.00000E+00  2.00000E+00  0.00000E+00\n" UFF_EDGE,
          2,
