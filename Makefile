@@ -135,7 +135,7 @@ lint:
 	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(IO_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
 
 format:
-	$(CLANG_FORMAT) -i $(wildcard src/*/*.[ch] include/*.h tests/*.[ch] tools/*/*.[ch])
+	$(CLANG_FORMAT) -i $(wildcard src/*/*.[ch] include/*.h tests/*.[ch] tests/*/*.[ch] tools/*/*.[ch])
 
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include

@@ -147,16 +147,16 @@ static void check_abscissa(struct search *search, int line, const char *name, co
         add(search, "uneven", line, "%s: uneven abscissa, steps from %g to %g", name, v->x_least_step, v->x_most_step);
 }
 
-/* Units of an axis by its text and by set 164. */
+/* The unit of an axis by its text, and by what counts: set 164 or, where there is none, SI but for an acceleration in g. */
 static void check_unit(struct search *search, int line, const char *name, const struct uff_axis *axis)
 {
+    const struct uff_units *units = search->listing->units;
     struct uff_axis bare = *axis;
     bare.unit[0] = '\0';
-    double by_set = uff_si_factor(search->listing->units, &bare);
-    double by_text = unit_text_factor(axis->specific_type, axis->unit);
-    if (by_text > 0 && fabs(by_text - by_set) > 1e-3 * fabs(by_set))
-        add(search, "unit", line, "%s: unit text '%s', which is %.6g %s, where %s says %.6g", name, axis->unit, by_text,
-            si_unit(axis->specific_type), search->listing->units ? "set 164" : "no set 164", by_set);
+    double by_text = unit_text_factor(axis->specific_type, axis->unit), counts = uff_si_factor(units, units ? &bare : axis);
+    if (by_text > 0 && fabs(by_text - counts) > 1e-3 * fabs(counts))
+        add(search, "unit", line, "%s: unit text '%s', which is %.6g %s, where %s %.6g", name, axis->unit, by_text,
+            si_unit(axis->specific_type), units ? "set 164 says" : "no set 164 does and it is taken as", counts);
 }
 
 static void check_function(struct search *search, const struct listing_set *set)

@@ -72,7 +72,7 @@ static const char *describe_group(struct pool *pool, const struct listing *listi
 
 static const char *describe_shapes(struct pool *pool, const struct listing *listing)
 {
-    int complex_count = 0;
+    int complex_count = 0, points = listing->shape[0].shape.node_count;
     double least = INFINITY, most = -INFINITY;
     for (int i = 0; i < listing->shape_count; ++i) {
         const struct uff_shape *shape = &listing->shape[i].shape;
@@ -81,8 +81,8 @@ static const char *describe_shapes(struct pool *pool, const struct listing *list
         most = fmax(most, shape->frequency_hz);
     }
     const char *kind = !complex_count ? "real" : complex_count == listing->shape_count ? "complex" : "real and complex";
-    return pool_format(pool, "%d shape%s, %s, %.6g to %.6g Hz, %d points", listing->shape_count,
-                       listing->shape_count == 1 ? "" : "s", kind, least, most, listing->shape[0].shape.node_count);
+    return pool_format(pool, "%d shape%s, %s, %.6g to %.6g Hz, %d point%s", listing->shape_count,
+                       listing->shape_count == 1 ? "" : "s", kind, least, most, points, points == 1 ? "" : "s");
 }
 
 static const char *describe_nodes(struct pool *pool, const struct listing *listing)

@@ -35,7 +35,7 @@ struct uff_system { /* coordinate systems, sets 18 and 2420 */
 };
 
 struct uff_element {    /* set 2412 */
-    int id, descriptor; /* 11, 21, 22, 24: beams, which have one record more */
+    int id, descriptor; /* 11, 21 to 24: rods and beams, which have one record more */
     int property, material, color;
     int beam[3]; /* orientation node, fore-end and aft-end cross section; of beams */
     int node_count, *node;
@@ -120,7 +120,7 @@ struct uff_function { /* sets 58 and 58b without their values */
 struct uff_analysis {
     int line, label;
     char name[UFF_TEXT + 1];
-    int location; /* 1 at nodes, 2 on elements, 3 at nodes on elements, 5 at points, 6 on elements at nodes */
+    int location; /* 1 at nodes, 2 on elements, 3 at nodes on elements, 5 at points; others are not read */
     char id[UFF_ID_LINES][UFF_TEXT + 1];
     int model_type, analysis_type, data_characteristic, result_type, data_type, value_count; /* record 9 */
     int integer[18];                                                                         /* records 10 and 11 */

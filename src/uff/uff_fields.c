@@ -181,53 +181,60 @@ static enum uff_fault parse_reals(const struct uff_lines *lines, int count, cons
     return parse_fields(lines, &form, field, may_touch, bad, NULL, value);
 }
 
+/* Fields that all end with a column, one of which is left blank before the last: there a Fortran reader sees a zero. Where they
+ * do not, the line is in free format. */
+static int has_hole(int columns, const int *width, int found, const struct uff_field *field)
+{
+    int next = 0, passed = 0;
+    for (size_t end = 0; passed < columns && next < found; ++passed) {
+        end += (size_t)width[passed];
+        next += field[next].start + field[next].length == end;
+    }
+    return next == found && passed > found;
+}
+
+/* The columns that the line fills, 0 when one of them is blank or the line is longer. */
+static int cut_columns(const struct uff_lines *lines, int columns, const int *width, struct uff_field *column)
+{
+    int count = 0;
+    size_t start = 0;
+    for (; count < columns && start < lines->length; start += (size_t)width[count], ++count) {
+        column[count] = uff_cut_column(lines, start, (size_t)width[count]);
+        if (!column[count].length)
+            return 0;
+    }
+    return lines->length <= start ? count : 0;
+}
+
 int uff_parse_values(struct uff_lines *lines, int columns, const int *width, long long left, const char *what, double *value,
                      int *taken)
 {
     struct uff_field blank[UFF_VALUE_LIMIT + 1], column[UFF_VALUE_LIMIT], sign[UFF_VALUE_LIMIT + 1];
-    int bad = 0, due = left < columns ? (int)left : columns;
+    int bad = 0, bad_column = 0, bad_sign = 0, due = left < columns ? (int)left : columns;
     int found = uff_split_blanks(lines, blank, UFF_VALUE_LIMIT + 1);
-
-    size_t filled = 0; /* by so many columns */
-    for (int i = 0; i < found && i < columns; ++i)
-        filled += (size_t)width[i];
-    /* fewer than are due only without a hole, which would be a zero; more also as filling of the last line */
-    int fits = found > 0 && found <= UFF_VALUE_LIMIT && (found >= due || lines->length <= filled);
-    fits = fits && (found <= left || found <= columns);
-    enum uff_fault fault = UFF_FAULT_COUNT;
-    if (fits)
-        fault = parse_reals(lines, found, blank, 0, &bad, value);
+    /* more than are left only as filling of the last line */
+    int fits = found > 0 && found <= UFF_VALUE_LIMIT && (found <= left || found <= columns) &&
+               (found >= due || !has_hole(columns, width, found, blank));
+    enum uff_fault fault = fits ? parse_reals(lines, found, blank, 0, &bad, value) : UFF_FAULT_COUNT;
     *taken = found <= left ? found : (int)left;
     if (fault == UFF_FAULT_NONE)
         return ROTID_OK;
-    struct uff_field wrong = fits ? blank[bad] : (struct uff_field){0, lines->length};
-    if (fault != UFF_FAULT_NOT_FINITE) { /* which is a number for certain */
-        int cut = 0, complete = 1;
-        for (size_t start = 0; cut < columns && start < lines->length; start += (size_t)width[cut], ++cut) {
-            column[cut] = uff_cut_column(lines, start, (size_t)width[cut]);
-            complete = complete && column[cut].length > 0;
-        }
-        int bad_column = 0;
-        filled = 0;
-        for (int i = 0; i < cut; ++i)
-            filled += (size_t)width[i];
-        complete = complete && cut > 0 && lines->length <= filled;
-        *taken = cut <= left ? cut : (int)left;
-        enum uff_fault column_fault = complete ? parse_reals(lines, cut, column, 1, &bad_column, value) : UFF_FAULT_COUNT;
-        if (column_fault == UFF_FAULT_NONE)
-            return ROTID_OK;
-        if (column_fault == UFF_FAULT_NOT_FINITE) {
-            fault = column_fault;
-            wrong = column[bad_column];
-        }
-        int bad_sign = 0;
-        *taken = due;
-        if (uff_split_signs(lines, sign, due + 1) == due && parse_reals(lines, due, sign, 1, &bad_sign, value) == UFF_FAULT_NONE)
-            return ROTID_OK;
-    }
+
     char expected[48];
     (void)snprintf(expected, sizeof expected, "%d real%s", due, due == 1 ? "" : "s");
-    if (fault == UFF_FAULT_COUNT)
-        return uff_fail(lines, 0, "%s: expected %s, found %d field%s", what, expected, found, found == 1 ? "" : "s");
-    return uff_fail_field(lines, what, fault, wrong, 0, expected);
+    if (fault == UFF_FAULT_NOT_FINITE) /* a number for certain, do not cut it in two */
+        return uff_fail_field(lines, what, fault, blank[bad], 0, expected);
+    int cut = cut_columns(lines, columns, width, column);
+    enum uff_fault column_fault = cut ? parse_reals(lines, cut, column, 1, &bad_column, value) : UFF_FAULT_COUNT;
+    *taken = cut <= left ? cut : (int)left;
+    if (column_fault == UFF_FAULT_NONE)
+        return ROTID_OK;
+    *taken = due;
+    if (uff_split_signs(lines, sign, due + 1) == due && parse_reals(lines, due, sign, 1, &bad_sign, value) == UFF_FAULT_NONE)
+        return ROTID_OK;
+    if (column_fault == UFF_FAULT_NOT_FINITE)
+        return uff_fail_field(lines, what, column_fault, column[bad_column], 0, expected);
+    if (fits)
+        return uff_fail_field(lines, what, fault, blank[bad], 0, expected);
+    return uff_fail(lines, 0, "%s: expected %s, found %d field%s", what, expected, found, found == 1 ? "" : "s");
 }

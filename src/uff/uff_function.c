@@ -143,7 +143,7 @@ static int enter_binary(struct uff_reader *reader)
         if (status != ROTID_OK)
             return status;
     }
-    int status = uff_measure_binary(lines, &reader->binary, &values->function, &bytes, &values->x_size);
+    int status = uff_measure_binary(reader, &values->function, &bytes, &values->x_size);
     if (status != ROTID_OK)
         return status;
     long long needed = values->function.count * (values->x_size + values->y_size);

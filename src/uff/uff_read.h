@@ -30,8 +30,9 @@ int uff_next(struct uff_reader *reader, struct uff_set *set);
 /* Goes back to a set that uff_next returned before, as if it had just been returned. ROTID_OK or ROTID_ERROR_IO. */
 int uff_return_to(struct uff_reader *reader, const struct uff_set *set);
 
-/* Each reads the set that uff_next has just returned, and fails with ROTID_ERROR_SYNTAX (messages say where), _IO or _MEMORY.
- * Arrays lie on `pool`. */
+/* Each reads the set that uff_next has just returned, and fails with ROTID_ERROR_SYNTAX (messages say where), _IO or _MEMORY, or
+ * with ROTID_ERROR_ARGUMENT when the set at hand is of another number or has been read. Arrays lie on `pool`; no memory is taken
+ * for what is announced, only for what is there. Numbers that are not finite are errors. */
 int uff_read_header(struct uff_reader *reader, struct uff_header *header);                                     /* 151 */
 int uff_read_units(struct uff_reader *reader, struct uff_units *units);                                        /* 164 */
 int uff_read_nodes(struct uff_reader *reader, struct pool *pool, int *count, struct uff_node **node);          /* 15, 781, 2411 */
@@ -43,7 +44,9 @@ int uff_read_analysis(struct uff_reader *reader, struct pool *pool, struct uff_a
 
 /* The records 1 to 11 of a set 58 or 58b, then, in pieces of any length, its values in turn: `*got` <= most of them, x (of an
  * uneven abscissa as in the file, else start + i step; or NULL), real, imag (0 for real data; or NULL). ROTID_OK with *got = 0 at
- * the end of the values, after which the set has been checked to be complete. */
+ * the end of the values, after which the set has been checked to be complete. A 58b whose number of bytes is wrong is taken, with
+ * a warning, where its end stands behind the bytes its values need. Numbers in DEC or IBM format are refused by uff_read_values.
+ */
 int uff_read_function(struct uff_reader *reader, struct uff_function *function);
 int uff_read_values(struct uff_reader *reader, long long most, double *x, double *real, double *imag, long long *got);
 

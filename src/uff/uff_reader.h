@@ -31,7 +31,8 @@ struct uff_reader {
     struct uff_set set;
     struct uff_binary binary;
     enum uff_place place;
-    int opened_sets; /* so far */
+    int opened_sets;         /* so far */
+    long long warned_before; /* this offset: what was to say about lengths of sets 58b */
     struct uff_values values;
 };
 
@@ -63,8 +64,7 @@ int uff_read_shape_rest(struct uff_reader *reader, struct pool *pool, struct uff
 /* From the end of the records of a 58b: how many bytes its data have. The number in the first line is wrong with some writers,
  * so the '-1' behind the data decides. `function` holds record 7, or has ordinate 0 when that is not known. Sets *bytes, and in
  * *x_size the size of an abscissa of double precision data, which is 4 by the format and 8 with some writers. */
-int uff_measure_binary(struct uff_lines *lines, const struct uff_binary *binary, const struct uff_function *function,
-                       long long *bytes, int *x_size);
+int uff_measure_binary(struct uff_reader *reader, const struct uff_function *function, long long *bytes, int *x_size);
 
 /* Record 7 of sets 58: what the values are. Returns the cell that is wrong, or -1. */
 int uff_cut_data_form(const struct uff_lines *lines, struct uff_cell cell[6], struct uff_function *function);

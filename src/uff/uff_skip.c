@@ -47,7 +47,7 @@ static int skip_binary(struct uff_reader *reader)
         if (i == 6 && reader->set.number == 58 && uff_cut_data_form(lines, cell, &function) >= 0)
             function = (struct uff_function){0};
     }
-    int status = uff_measure_binary(lines, &reader->binary, &function, &bytes, &x_size);
+    int status = uff_measure_binary(reader, &function, &bytes, &x_size);
     return status == ROTID_OK ? uff_close_values(lines, bytes) : status;
 }
 
@@ -74,9 +74,20 @@ static int try_length(struct uff_lines *lines, long long length, long long *byte
     return status;
 }
 
-int uff_measure_binary(struct uff_lines *lines, const struct uff_binary *binary, const struct uff_function *function,
-                       long long *bytes, int *x_size)
+/* Says so once, however often the set is come back to: those seen before lie before it. */
+static void warn_of_length(struct uff_reader *reader, long long count, long long bytes)
 {
+    if (reader->set.offset < reader->warned_before)
+        return;
+    reader->warned_before = reader->set.offset + 1;
+    uff_warn(&reader->lines, "%lld bytes announced, but %lld values make %lld, behind which the set ends", reader->binary.bytes,
+             count, bytes);
+}
+
+int uff_measure_binary(struct uff_reader *reader, const struct uff_function *function, long long *bytes, int *x_size)
+{
+    struct uff_lines *lines = &reader->lines;
+    const struct uff_binary *binary = &reader->binary;
     int is_double = function->ordinate == UFF_REAL_DOUBLE || function->ordinate == UFF_COMPLEX_DOUBLE;
     int is_complex = function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
     int y_size = (is_double ? 8 : 4) * (is_complex ? 2 : 1);
@@ -108,8 +119,7 @@ int uff_measure_binary(struct uff_lines *lines, const struct uff_binary *binary,
                 *x_size = size[i];
         }
     if (found && *bytes != binary->bytes)
-        uff_warn(lines, "%lld bytes announced, but %lld values make %lld, behind which the set ends", binary->bytes,
-                 function->count, *bytes);
+        warn_of_length(reader, function->count, *bytes);
     if (!found && status == ROTID_OK)
         status = try_length(lines, binary->bytes, bytes, &found);
     if (found || status != ROTID_OK)
