@@ -2,7 +2,23 @@
 #ifndef ROTID_REPORT_OUTPUT_H
 #define ROTID_REPORT_OUTPUT_H
 
+#include <stdio.h>
+
 /* Writes text to path, "-" being standard output. ROTID_OK or ROTID_ERROR_IO (errno tells why), ROTID_ERROR_MEMORY. */
 int output_write(const char *path, const char *text);
+
+/* The same for what is written piece by piece: the caller writes to `stream`, then closes or abandons the output. */
+struct output {
+    FILE *stream;
+    const char *path; /* of the caller, who keeps it until the end */
+    char *beside;
+};
+
+/* ROTID_OK, ROTID_ERROR_IO (errno tells why) or ROTID_ERROR_MEMORY; then there is nothing to close. */
+int output_open(struct output *output, const char *path);
+/* Renames the file when all of it has arrived, else removes it: ROTID_OK or ROTID_ERROR_IO (errno). */
+int output_close(struct output *output);
+/* Removes it. */
+void output_abandon(struct output *output);
 
 #endif

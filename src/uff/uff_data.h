@@ -79,7 +79,6 @@ enum { /* function types of set 58 */
        UFF_AUTO_CORRELATION,
        UFF_CROSS_CORRELATION,
        UFF_AUTO_PSD,
-       UFF_CROSS_PSD,
        UFF_ESD,
        UFF_PROBABILITY,
        UFF_SPECTRUM

@@ -1,8 +1,8 @@
 /* Universal files, written set by set to a stream that the caller has opened and will close and check (ferror): the formats of
  * the sets that uff_read.h reads, with the same structs. Reading what was written gives the same values to the digits of the
  * format, and bit by bit for binary sets. Every routine returns ROTID_OK, ROTID_ERROR_IO, or ROTID_ERROR_ARGUMENT for what the
- * format cannot hold: a value that is not finite, an id line that looks like the end of a set, a label beyond the width of its
- * field. */
+ * format cannot hold: a value that is not finite (binary sets hold it), a line of text that looks like the end of a set, a label
+ * beyond the width of its field. The stream may hold a part of the set then. */
 #ifndef ROTID_UFF_UFF_WRITE_H
 #define ROTID_UFF_UFF_WRITE_H
 
@@ -17,7 +17,7 @@ int uff_write_systems(FILE *stream, int set, int count, const struct uff_system 
 int uff_write_elements(FILE *stream, int count, const struct uff_element *element);       /* 2412 */
 int uff_write_trace(FILE *stream, const struct uff_trace *trace);                         /* 82 */
 int uff_write_shape(FILE *stream, const struct uff_shape *shape);                         /* 55 */
-int uff_write_analysis(FILE *stream, const struct uff_analysis *analysis);                /* 2414 */
+int uff_write_analysis(FILE *stream, const struct uff_analysis *analysis);                /* 2414, at nodes or on elements */
 
 /* Set 58, or 58b in the byte order of function->binary.order with IEEE numbers when function->binary.is_binary. The values come
  * in pieces: uff_write_function writes the records before them, uff_write_values any number of values (x only of an uneven

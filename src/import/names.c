@@ -1,0 +1,134 @@
+#include "import/names.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
+
+const char *name_of_set(int number)
+{
+    static const struct {
+        int number;
+        const char *name;
+    } sets[] = {
+        {15, "nodes"},
+        {18, "coordinate systems"},
+        {55, "data at nodes"},
+        {58, "function at a degree of freedom"},
+        {82, "trace line"},
+        {151, "header"},
+        {164, "units"},
+        {781, "nodes, double precision"},
+        {2411, "nodes, double precision"},
+        {2412, "elements"},
+        {2414, "analysis data"},
+        {2420, "coordinate systems"},
+    };
+    for (int i = 0; i < COUNT(sets); ++i)
+        if (sets[i].number == number)
+            return sets[i].name;
+    return NULL;
+}
+
+const char *name_of_function(int type, int plural)
+{
+    static const char *const names[][2] = {
+        {"general function", "general functions"},
+        {"time record", "time records"},
+        {"auto spectrum", "auto spectra"},
+        {"cross spectrum", "cross spectra"},
+        {"transfer function", "transfer functions"},
+        {"transmissibility", "transmissibilities"},
+        {"coherence", "coherences"},
+        {"auto correlation", "auto correlations"},
+        {"cross correlation", "cross correlations"},
+        {"power spectral density", "power spectral densities"},
+        {"energy spectral density", "energy spectral densities"},
+        {"probability density", "probability densities"},
+        {"spectrum", "spectra"},
+    };
+    static const char *const other[] = {"function of another type", "functions of another type"};
+    return type >= 0 && type < COUNT(names) ? names[type][plural != 0] : other[plural != 0];
+}
+
+const char *name_of_ordinate(int ordinate)
+{
+    switch (ordinate) {
+    case UFF_REAL_SINGLE:
+        return "real single";
+    case UFF_REAL_DOUBLE:
+        return "real double";
+    case UFF_COMPLEX_SINGLE:
+        return "complex single";
+    case UFF_COMPLEX_DOUBLE:
+        return "complex double";
+    default:
+        return "unknown";
+    }
+}
+
+const char *name_of_analysis(int type)
+{
+    static const char *const names[] = {"unknown",
+                                        "static",
+                                        "normal mode",
+                                        "complex mode, first order",
+                                        "transient",
+                                        "frequency response",
+                                        "buckling",
+                                        "complex mode, second order"};
+    return type >= 0 && type < COUNT(names) ? names[type] : "other";
+}
+
+const char *name_of_units(int code)
+{
+    static const char *const names[] = {"none",           "SI (m, N)",           "foot, pound force", "m, kilogram force",
+                                        "foot, poundal",  "mm, milli newton",    "cm, centi newton",  "inch, pound force",
+                                        "mm, kilogram force", "user defined"};
+    return code >= 0 && code < COUNT(names) ? names[code] : "unknown";
+}
+
+const char *place_text(int node, int direction, char buffer[PLACE_TEXT])
+{
+    static const char *const axes[] = {"", "X", "Y", "Z", "RX", "RY", "RZ"};
+    if (direction && abs(direction) < COUNT(axes))
+        (void)snprintf(buffer, PLACE_TEXT, "%d:%c%s", node, direction < 0 ? '-' : '+', axes[abs(direction)]);
+    else
+        (void)snprintf(buffer, PLACE_TEXT, "%d", node);
+    return buffer;
+}
+
+int has_time_axis(const struct uff_function *function)
+{
+    enum { TIME = 17, FREQUENCY = 18 };
+    int type = function->type;
+    if (function->abscissa.specific_type == TIME || function->abscissa.specific_type == FREQUENCY)
+        return function->abscissa.specific_type == TIME;
+    return type == UFF_TIME || type == UFF_AUTO_CORRELATION || type == UFF_CROSS_CORRELATION;
+}
+
+const char *si_unit(int specific_type)
+{
+    switch (specific_type) {
+    case 8:
+        return "m";
+    case 9:
+    case 13:
+        return "N";
+    case 11:
+        return "m/s";
+    case 12:
+        return "m/s2";
+    case 2:
+    case 15:
+        return "Pa";
+    case 16:
+        return "kg";
+    case 17:
+        return "s";
+    case 18:
+        return "Hz";
+    default:
+        return "";
+    }
+}

@@ -1,0 +1,160 @@
+/* Sets that are written in one go: header, units, geometry. */
+#include "uff/uff_write.h"
+
+#include <math.h>
+
+#include "rotid.h"
+#include "uff/uff_put.h"
+
+/* A date and a time of ten columns each, kept as one text. */
+static void put_date(struct uff_put *put, const char *text)
+{
+    uff_put_text(put, 20, text, "");
+}
+
+int uff_write_header(FILE *stream, const struct uff_header *header)
+{
+    struct uff_put put;
+    uff_put_open(&put, stream, 151);
+    uff_put_text_line(&put, header->model);
+    uff_put_text_line(&put, header->description);
+    uff_put_text_line(&put, header->program);
+    put_date(&put, header->created);
+    uff_put_integer(&put, 10, header->version[0]);
+    uff_put_integer(&put, 10, header->version[1]);
+    uff_put_integer(&put, 10, header->file_type);
+    uff_put_line(&put);
+    put_date(&put, header->saved);
+    uff_put_line(&put);
+    uff_put_text_line(&put, header->written_by);
+    put_date(&put, header->written);
+    uff_put_line(&put);
+    return uff_put_close(&put);
+}
+
+int uff_write_units(FILE *stream, const struct uff_units *units)
+{
+    const double factor[] = {units->length, units->force, units->temperature, units->temperature_offset};
+    struct uff_put put;
+    uff_put_open(&put, stream, 164);
+    uff_put_integer(&put, 10, units->code);
+    uff_put_text(&put, 20, units->description, "NONE");
+    uff_put_integer(&put, 10, units->temperature_mode);
+    uff_put_line(&put);
+    uff_put_reals(&put, 25, 16, 3, 4, factor);
+    return uff_put_close(&put);
+}
+
+int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *node)
+{
+    struct uff_put put;
+    if ((set != 15 && set != 2411) || count < 0)
+        return ROTID_ERROR_ARGUMENT;
+    uff_put_open(&put, stream, set);
+    for (int i = 0; i < count && put.status == ROTID_OK; ++i) {
+        uff_put_integer(&put, 10, node[i].id);
+        uff_put_integer(&put, 10, node[i].definition_system);
+        uff_put_integer(&put, 10, node[i].displacement_system);
+        uff_put_integer(&put, 10, node[i].color);
+        if (set == 15) {
+            uff_put_reals(&put, 13, 5, 3, 3, node[i].x);
+        } else {
+            uff_put_line(&put);
+            uff_put_reals(&put, 25, 16, 3, 3, node[i].x);
+        }
+    }
+    return uff_put_close(&put);
+}
+
+/* Set 18 tells the axes by points: the origin, one on the x axis, one in the xz plane, all in the reference system. They lie as far
+ * from the origin as that from zero, for with six digits a point one unit away would say little about the direction. */
+static void put_system_18(struct uff_put *put, const struct uff_system *system)
+{
+    double point[9], reach = 1;
+    for (int c = 0; c < 3; ++c)
+        while (reach < fabs(system->origin[c]) && reach < 1e100)
+            reach *= 10;
+    for (int c = 0; c < 3; ++c) {
+        point[c] = system->origin[c];
+        point[3 + c] = system->origin[c] + reach * system->matrix[c];
+        point[6 + c] = system->origin[c] + reach * system->matrix[6 + c];
+    }
+    uff_put_integer(put, 10, system->id);
+    uff_put_integer(put, 10, system->type);
+    uff_put_integer(put, 10, system->reference);
+    uff_put_integer(put, 10, system->color);
+    uff_put_integer(put, 10, 1);
+    uff_put_line(put);
+    uff_put_text(put, 40, system->name, "NONE");
+    uff_put_line(put);
+    uff_put_reals(put, 13, 5, 6, 9, point);
+}
+
+static void put_system_2420(struct uff_put *put, const struct uff_system *system)
+{
+    uff_put_integer(put, 10, system->id);
+    uff_put_integer(put, 10, system->type);
+    uff_put_integer(put, 10, system->color);
+    uff_put_line(put);
+    uff_put_text(put, 40, system->name, "NONE");
+    uff_put_line(put);
+    uff_put_reals(put, 25, 16, 3, 9, system->matrix);
+    uff_put_reals(put, 25, 16, 3, 3, system->origin);
+}
+
+int uff_write_systems(FILE *stream, int set, int count, const struct uff_system *system)
+{
+    struct uff_put put;
+    if ((set != 18 && set != 2420) || count < 0)
+        return ROTID_ERROR_ARGUMENT;
+    uff_put_open(&put, stream, set);
+    if (set == 2420) { /* the part the systems belong to */
+        uff_put_integer(&put, 10, 1);
+        uff_put_line(&put);
+        uff_put_text_line(&put, "");
+    }
+    for (int i = 0; i < count && put.status == ROTID_OK; ++i) {
+        if (set == 18)
+            put_system_18(&put, &system[i]);
+        else
+            put_system_2420(&put, &system[i]);
+    }
+    return uff_put_close(&put);
+}
+
+static int is_beam(int descriptor)
+{
+    return (descriptor >= 21 && descriptor <= 24) || descriptor == 11;
+}
+
+int uff_write_elements(FILE *stream, int count, const struct uff_element *element)
+{
+    struct uff_put put;
+    if (count < 0)
+        return ROTID_ERROR_ARGUMENT;
+    uff_put_open(&put, stream, 2412);
+    for (int i = 0; i < count && put.status == ROTID_OK; ++i) {
+        const struct uff_element *e = &element[i];
+        const int record[] = {e->id, e->descriptor, e->property, e->material, e->color, e->node_count};
+        if (e->node_count < 1)
+            return ROTID_ERROR_ARGUMENT;
+        uff_put_integers(&put, 10, 6, 6, record);
+        if (is_beam(e->descriptor))
+            uff_put_integers(&put, 10, 3, 3, e->beam);
+        uff_put_integers(&put, 10, 8, e->node_count, e->node);
+    }
+    return uff_put_close(&put);
+}
+
+int uff_write_trace(FILE *stream, const struct uff_trace *trace)
+{
+    const int record[] = {trace->number, trace->node_count, trace->color};
+    struct uff_put put;
+    if (trace->node_count < 0)
+        return ROTID_ERROR_ARGUMENT;
+    uff_put_open(&put, stream, 82);
+    uff_put_integers(&put, 10, 3, 3, record);
+    uff_put_text_line(&put, trace->name);
+    uff_put_integers(&put, 10, 8, trace->node_count, trace->node);
+    return uff_put_close(&put);
+}

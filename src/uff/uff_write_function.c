@@ -1,0 +1,182 @@
+/* Sets 58 and 58b. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rotid.h"
+#include "uff/uff_put.h"
+#include "uff/uff_write.h"
+
+#define TEXT_LINES 11         /* records 1 to 11 */
+#define COUNT_MOST 9999999999 /* I10; the bytes fit into I12 then */
+
+static int is_complex(const struct uff_function *function)
+{
+    return function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
+}
+
+static int is_double(const struct uff_function *function)
+{
+    return function->ordinate == UFF_REAL_DOUBLE || function->ordinate == UFF_COMPLEX_DOUBLE;
+}
+
+/* Numbers per value, the abscissa among them. */
+static int numbers_of(const struct uff_function *function)
+{
+    return (function->is_even ? 0 : 1) + (is_complex(function) ? 2 : 1);
+}
+
+/* Six digits as the format has it, or a seventh where the number has one and it leaves a blank before it: a step of a sixth digit
+ * would move the end of 64000 lines by a third of a line. */
+static void put_step(struct uff_put *put, double value)
+{
+    char short_text[32], long_text[32];
+    if (!isfinite(value)) {
+        uff_put_real(put, 13, 5, value);
+        return;
+    }
+    (void)snprintf(short_text, sizeof short_text, "%.5E", value);
+    int length = snprintf(long_text, sizeof long_text, "%.6E", value);
+    uff_put_real(put, 13, length < 13 && strtod(long_text, NULL) != strtod(short_text, NULL) ? 6 : 5, value);
+}
+
+static void put_axis(struct uff_put *put, const struct uff_axis *axis)
+{
+    uff_put_integer(put, 10, axis->specific_type);
+    uff_put_integer(put, 5, axis->length);
+    uff_put_integer(put, 5, axis->force);
+    uff_put_integer(put, 5, axis->temperature);
+    uff_put_text(put, 1, "", " ");
+    uff_put_text(put, 20, axis->label, "NONE");
+    uff_put_text(put, 1, "", " ");
+    uff_put_text(put, 20, axis->unit, "NONE");
+    uff_put_line(put);
+}
+
+static void put_place(struct uff_put *put, const char *name, int node, int direction)
+{
+    uff_put_text(put, 1, "", " ");
+    uff_put_text(put, 10, name, "NONE");
+    uff_put_integer(put, 10, node);
+    uff_put_integer(put, 4, direction);
+}
+
+static void put_records(struct uff_put *put, const struct uff_function *function)
+{
+    for (int i = 0; i < UFF_ID_LINES; ++i)
+        uff_put_text_line(put, function->id[i]);
+    uff_put_integer(put, 5, function->type);
+    uff_put_integer(put, 10, function->number);
+    uff_put_integer(put, 5, function->version);
+    uff_put_integer(put, 10, function->load_case);
+    put_place(put, function->response_name, function->response_node, function->response_direction);
+    put_place(put, function->reference_name, function->reference_node, function->reference_direction);
+    uff_put_line(put);
+    uff_put_integer(put, 10, function->ordinate);
+    uff_put_integer(put, 10, function->count);
+    uff_put_integer(put, 10, function->is_even != 0);
+    put_step(put, function->is_even ? function->start : 0);
+    put_step(put, function->is_even ? function->step : 0);
+    uff_put_real(put, 13, 5, function->z);
+    uff_put_line(put);
+    put_axis(put, &function->abscissa);
+    put_axis(put, &function->numerator);
+    put_axis(put, &function->denominator);
+    put_axis(put, &function->z_axis);
+}
+
+int uff_write_function(FILE *stream, const struct uff_function *function, struct uff_function_writer *writer)
+{
+    struct uff_put put = {.stream = stream};
+    *writer = (struct uff_function_writer){.stream = stream, .function = function};
+    int known = function->ordinate == UFF_REAL_SINGLE || is_complex(function) || is_double(function);
+    if (!known || function->count < 0 || function->count > COUNT_MOST)
+        return ROTID_ERROR_ARGUMENT;
+    if (!function->binary.is_binary) {
+        uff_put_open(&put, stream, 58);
+    } else {
+        int order = function->binary.order;
+        long long bytes = function->count * numbers_of(function) * (is_double(function) ? 8 : 4);
+        if (order != 1 && order != 2)
+            return ROTID_ERROR_ARGUMENT;
+        if (fprintf(stream, "    -1\n%6db%6d%6d%12d%12lld%6d%6d%12d%12d\n", 58, order, 2, TEXT_LINES, bytes, 0, 0, 0, 0) < 0)
+            put.status = ROTID_ERROR_IO;
+    }
+    put_records(&put, function);
+    return put.status;
+}
+
+/* The columns of the format: 6E13.5, 4E20.12, 2(E13.5,E20.12), E13.5,2E20.12. */
+static int write_text(struct uff_function_writer *writer, int count, const double *number, const int *is_abscissa)
+{
+    const struct uff_function *function = writer->function;
+    int wide = is_double(function), uneven = !function->is_even;
+    int per_line = !wide ? 6 : uneven && is_complex(function) ? 3 : 4;
+    for (int i = 0; i < count; ++i) {
+        int ordinate = wide && !is_abscissa[i];
+        if (!isfinite(number[i]))
+            return ROTID_ERROR_ARGUMENT;
+        if (fprintf(writer->stream, ordinate ? "%20.12E" : "%13.5E", number[i]) < 0)
+            return ROTID_ERROR_IO;
+        if (++writer->on_line == per_line) {
+            writer->on_line = 0;
+            if (putc('\n', writer->stream) == EOF)
+                return ROTID_ERROR_IO;
+        }
+    }
+    return ROTID_OK;
+}
+
+static int write_bytes(struct uff_function_writer *writer, int count, const double *number)
+{
+    unsigned char byte[3 * 8];
+    int wide = is_double(writer->function), size = wide ? 8 : 4;
+    for (int i = 0; i < count; ++i) {
+        uint64_t bits = 0;
+        if (wide) {
+            memcpy(&bits, &number[i], sizeof bits);
+        } else {
+            float single = (float)number[i];
+            uint32_t word;
+            if (isfinite(number[i]) && !isfinite(single))
+                return ROTID_ERROR_ARGUMENT;
+            memcpy(&word, &single, sizeof word);
+            bits = word;
+        }
+        for (int b = 0; b < size; ++b)
+            byte[size * i + (writer->function->binary.order == 1 ? b : size - 1 - b)] = (unsigned char)(bits >> (8 * b));
+    }
+    size_t bytes = (size_t)(size * count);
+    return fwrite(byte, 1, bytes, writer->stream) == bytes ? ROTID_OK : ROTID_ERROR_IO;
+}
+
+int uff_write_values(struct uff_function_writer *writer, long long count, const double *x, const double *real, const double *imag)
+{
+    const struct uff_function *function = writer->function;
+    int uneven = !function->is_even, pair = is_complex(function), status = ROTID_OK;
+    if (count < 0 || count > function->count - writer->written || (count && (!real || (uneven && !x) || (pair && !imag))))
+        return ROTID_ERROR_ARGUMENT;
+    for (long long i = 0; i < count && status == ROTID_OK; ++i) {
+        double number[3];
+        int is_abscissa[3] = {uneven, 0, 0}, n = 0;
+        if (uneven)
+            number[n++] = x[i];
+        number[n++] = real[i];
+        if (pair)
+            number[n++] = imag[i];
+        status = function->binary.is_binary ? write_bytes(writer, n, number) : write_text(writer, n, number, is_abscissa);
+    }
+    if (status == ROTID_OK)
+        writer->written += count;
+    return status;
+}
+
+int uff_end_function(struct uff_function_writer *writer)
+{
+    if (writer->written != writer->function->count)
+        return ROTID_ERROR_ARGUMENT;
+    if (writer->on_line && putc('\n', writer->stream) == EOF)
+        return ROTID_ERROR_IO;
+    return fputs("    -1\n", writer->stream) < 0 || ferror(writer->stream) ? ROTID_ERROR_IO : ROTID_OK;
+}
