@@ -13,7 +13,7 @@ static const struct {
     const char *name;
     void (*read)(struct deck_reader *reader, const struct card *card);
     int phase;
-    const char *options[10];
+    const char *options[13];
 } table[] = {
     {"MATERIAL", deck_material, 0, {"NAME", NULL}},
     {"ELASTIC", deck_elastic, 0, {"TYPE", NULL}},
@@ -33,6 +33,7 @@ static const struct {
     {"NOISE", deck_noise, 3, {"FREQUENCY", "SHAPE", NULL}},
     {"SHAPE", deck_shape, 4, {"MODE", NULL}},
     {"MEASURED", deck_measured, 4, {"FILE", "AXIS", "DIRECTION", "ORIGIN", "FLIP", "SCALE", NULL}},
+    {"FRF", deck_frf, 4, {"FILE", "LOW", "HIGH", "STEP", "LINES", "QUANTITY", "DAMPING", "AXIS", "ORIGIN", "FLIP", NULL}},
     {"CAUSE", deck_cause, 5, {"NAME", "TYPE", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", "SUSPECT", NULL}},
     {"IDENTIFY", deck_identify, 6, {NULL}},
     {"FIT", deck_fit, 6, {"FUNCTIONAL", "REDUCTION", "MODES", "HOLDOUT", "DERIVATIVE", "TIE", NULL}},
