@@ -19,6 +19,7 @@ int command_identify(struct command *command)
         (void)fputs("\r\033[K", stderr);
     if (status)
         return command_fail(command, status);
+    identify_warn_of_mesh(job, &result, &command->messages);
     const rotid_fit_result *fit = result.fit;
     int code = fit->converged && !fit->any_at_bound && !fit->any_undetermined ? EXIT_DONE : EXIT_DOUBTFUL;
     if (command_wants_table(command)) {

@@ -98,3 +98,24 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
         uses_shapes(job) && !(job->fit.functional != ROTID_LIKELIHOOD && job->fit.reduction == ROTID_REDUCTION_NONE);
     return ROTID_OK;
 }
+
+void identify_warn_of_mesh(const struct job *job, const struct identification *result, struct message_list *notes)
+{
+    const struct spectrum *s = &result->spectrum;
+    const int *number = result->compared.number;
+    double largest = 1;
+    int worst = -1;
+    for (int k = 0; k < job->nmode && job_knows_frequency_noise(job); k++) {
+        int mode = number[k] - 1;
+        double ratio = mode < s->count ? fabs(s->mesh_error_percent[mode]) / (100 * job->frequency_std[k]) : NAN;
+        if (ratio > largest) {
+            largest = ratio;
+            worst = k;
+        }
+    }
+    if (worst >= 0)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "
+                    "allow for it",
+                    job->number[worst], s->mesh_error_percent[number[worst] - 1], largest);
+}

@@ -24,4 +24,7 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out);
 
+/* Warns where the mesh moves a measured mode by more than the noise of its frequency: the intervals rest on the noise alone. */
+void identify_warn_of_mesh(const struct job *job, const struct identification *result, struct message_list *notes);
+
 #endif

@@ -1,0 +1,135 @@
+#include "import/modes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "uff/uff_write.h"
+
+enum { SET_NODES = 2411, NORMAL_MODE = 2, UNKNOWN_ANALYSIS = 0, VECTOR = 2, DISPLACEMENT = 8, REAL_DATA = 2 };
+
+struct writing {
+    FILE *stream;
+    struct pool scratch;
+    const struct ema *ema;
+    int node_count, *node; /* of the shapes, rising */
+    double *value;         /* [3 * node_count] */
+};
+
+static int compare_ids(const void *left, const void *right)
+{
+    const int *a = left, *b = right;
+    return (*a > *b) - (*a < *b);
+}
+
+static int collect_nodes(struct writing *w)
+{
+    w->node = POOL_ARRAY(&w->scratch, int, w->ema->npoint);
+    w->value = POOL_ARRAY(&w->scratch, double, 3 * (size_t)w->ema->npoint);
+    if (!w->node || !w->value)
+        return ROTID_ERROR_MEMORY;
+    memcpy(w->node, w->ema->point_node, (size_t)w->ema->npoint * sizeof *w->node);
+    qsort(w->node, (size_t)w->ema->npoint, sizeof *w->node, compare_ids);
+    for (int i = 0; i < w->ema->npoint; i++)
+        if (!i || w->node[i] != w->node[w->node_count - 1])
+            w->node[w->node_count++] = w->node[i];
+    return ROTID_OK;
+}
+
+static int write_nodes(const struct writing *w, const struct measurement *measurement)
+{
+    struct pool scratch;
+    int count = 0;
+    pool_open(&scratch, w->scratch.allocator);
+    struct uff_node *node = POOL_ARRAY(&scratch, struct uff_node, w->node_count);
+    int status = node ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (int i = 0, j = 0; i < w->node_count && !status; i++) {
+        while (j < measurement->node_count && measurement->node[j].id < w->node[i])
+            j++;
+        if (j < measurement->node_count && measurement->node[j].id == w->node[i])
+            node[count++] = measurement->node[j];
+    }
+    if (!status && count)
+        status = uff_write_nodes(w->stream, SET_NODES, count, node);
+    pool_close(&scratch);
+    return status;
+}
+
+/* One set 55: the component of each node goes to the axis of its direction, directions without one (scalars) to the first.
+ * Rotations have no place in a vector of three and are left out. Values that are not known are zero. */
+static int write_values(struct writing *w, struct uff_shape *shape, const double *value)
+{
+    const struct ema *ema = w->ema;
+    memset(w->value, 0, 3 * (size_t)w->node_count * sizeof *w->value);
+    for (int p = 0; p < ema->npoint; p++) {
+        const int *at = bsearch(&ema->point_node[p], w->node, (size_t)w->node_count, sizeof *w->node, compare_ids);
+        int direction = abs(ema->point_direction[p]);
+        if (at && direction <= 3 && isfinite(value[p]))
+            w->value[3 * (at - w->node) + (direction ? direction - 1 : 0)] = value[p];
+    }
+    shape->model_type = 1;
+    shape->data_characteristic = VECTOR;
+    shape->data_type = REAL_DATA;
+    shape->load_case = 1;
+    shape->component_count = 3;
+    shape->node_count = w->node_count;
+    shape->node = w->node;
+    shape->real = w->value;
+    return uff_write_shape(w->stream, shape);
+}
+
+static int write_companion(struct writing *w, int number, const char *what, const struct ema_mode *mode, const double *value)
+{
+    struct uff_shape shape = {.analysis_type = UNKNOWN_ANALYSIS, .specific_type = 0, .number = number};
+    (void)snprintf(shape.id[0], sizeof shape.id[0], "ROTID %s OF MODE %d", what, number);
+    if (mode)
+        (void)snprintf(shape.id[1], sizeof shape.id[1], "FREQUENCY_HZ %.10e DAMPING %.10e", mode->frequency_std,
+                       mode->damping_std);
+    return write_values(w, &shape, value);
+}
+
+static int write_mode(struct writing *w, const char *source, int k)
+{
+    const struct ema_mode *mode = &w->ema->mode[k];
+    struct uff_shape shape = {.analysis_type = NORMAL_MODE,
+                              .specific_type = DISPLACEMENT,
+                              .number = k + 1,
+                              .frequency_hz = mode->frequency_hz,
+                              .damping = mode->damping,
+                              .modal_mass = isfinite(mode->modal_mass) ? mode->modal_mass : 0};
+    const char *name = strrchr(source, '/');
+    (void)snprintf(shape.id[0], sizeof shape.id[0], "mode %d, %.6g Hz, real normal mode", k + 1, mode->frequency_hz);
+    (void)snprintf(shape.id[1], sizeof shape.id[1], "from %.70s", name ? name + 1 : source);
+    (void)snprintf(shape.id[2], sizeof shape.id[2], "MPC %.4f MPD %.2f deg", mode->mpc, mode->mpd);
+    int status = write_values(w, &shape, mode->shape);
+    if (!status && isfinite(mode->frequency_std))
+        status = write_companion(w, k + 1, "STANDARD DEVIATION", mode, mode->shape_std);
+    if (!status && mode->point_frequency_hz)
+        status = write_companion(w, k + 1, "FREQUENCY AT POINT", NULL, mode->point_frequency_hz);
+    if (!status && mode->point_frequency_hz)
+        status = write_companion(w, k + 1, "STANDARD DEVIATION OF FREQUENCY AT POINT", NULL, mode->point_frequency_std);
+    return status;
+}
+
+int modes_write(FILE *stream, const char *source, const char *program, const struct measurement *measurement,
+                const struct ema *ema)
+{
+    static const struct uff_units si = {1, "SI", 2, 1, 1, 1, 273.15};
+    struct uff_header header = {.version = {0, 0}};
+    struct writing w = {.stream = stream, .ema = ema};
+    pool_open(&w.scratch, NULL);
+    (void)snprintf(header.model, sizeof header.model, "modes");
+    (void)snprintf(header.description, sizeof header.description, "experimental modal analysis of %.50s", source);
+    (void)snprintf(header.program, sizeof header.program, "%.70s", program);
+    int status = collect_nodes(&w);
+    if (!status)
+        status = uff_write_header(stream, &header);
+    if (!status)
+        status = uff_write_units(stream, &si);
+    if (!status)
+        status = write_nodes(&w, measurement);
+    for (int k = 0; k < ema->nmode && !status; k++)
+        status = write_mode(&w, source, k);
+    pool_close(&w.scratch);
+    return status;
+}
