@@ -22,6 +22,7 @@ static void print_help(FILE *out)
         "  --step 0.01, --range 0.5, --points 11   sensitivity: relative step, range and points of the curves\n"
         "  --extended FILE          diagnose: a deck with the cause that was named\n"
         "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
+        "  -o, --output FILE        frf: the synthesised functions as a universal file\n"
         "  --threads N, --seed N    threads of the BLAS (1), of diagnose (one a processor); seed of random numbers (1)\n"
         "  --version, --help\n\n"
         "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"
@@ -51,6 +52,7 @@ enum {
     OPTION_SEED,
     OPTION_EXTENDED,
     OPTION_REPLICATES,
+    OPTION_OUTPUT,
     OPTION_VERSION,
     OPTION_HELP
 };
@@ -117,6 +119,10 @@ static int take_option(struct command *command, int option, const char *value)
             return EXIT_USAGE;
         command->replicates = (int)n;
         return -1;
+    case 'o':
+    case OPTION_OUTPUT:
+        command->output = value;
+        return -1;
     case OPTION_VERSION:
         (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
         return EXIT_DONE;
@@ -144,6 +150,7 @@ int arguments_parse(struct command *command, int argc, char **argv)
                                             {"seed", required_argument, NULL, OPTION_SEED},
                                             {"extended", required_argument, NULL, OPTION_EXTENDED},
                                             {"replicates", required_argument, NULL, OPTION_REPLICATES},
+                                            {"output", required_argument, NULL, OPTION_OUTPUT},
                                             {"version", no_argument, NULL, OPTION_VERSION},
                                             {"help", no_argument, NULL, OPTION_HELP},
                                             {NULL, 0, NULL, 0}};
@@ -151,7 +158,7 @@ int arguments_parse(struct command *command, int argc, char **argv)
     command->override = POOL_ARRAY(&command->pool, struct override, argc);
     if (!command->override)
         return command_fail(command, ROTID_ERROR_MEMORY);
-    while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
+    while ((option = getopt_long(argc, argv, "o:", options, NULL)) != -1) {
         int code = take_option(command, option, optarg);
         if (code >= 0)
             return code;
@@ -186,6 +193,22 @@ static int same_file(const char *a, const char *b)
            stat(folder[1], &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
 }
 
+/* -1, or the exit code after saying what is wrong with -o. */
+static int refuse_output(const struct command *command)
+{
+    if (!command->output)
+        return -1;
+    if (strcmp(command->name, "frf"))
+        return arguments_wrong("%s is an option of frf alone", "--output");
+    if (!strcmp(command->output, "-"))
+        return arguments_wrong("--output %s: expected a file", command->output);
+    if (same_file(command->deck, command->output))
+        return arguments_wrong("--output %s is the file that is read, expected another one", command->output);
+    if (command->json && same_file(command->json, command->output))
+        return arguments_wrong("--output %s is the file of --json as well, expected another file", command->output);
+    return -1;
+}
+
 int arguments_refuse(const struct command *command)
 {
     int diagnoses = !strcmp(command->name, "diagnose");
@@ -194,7 +217,7 @@ int arguments_refuse(const struct command *command)
     if (command->json && strcmp(command->json, "-") && same_file(command->deck, command->json))
         return arguments_wrong("--json %s is the deck itself, expected another file", command->json);
     if (!command->extended)
-        return -1;
+        return refuse_output(command);
     if (!strcmp(command->extended, "-"))
         return arguments_wrong("--extended %s: expected a file", command->extended);
     if (same_file(command->deck, command->extended))

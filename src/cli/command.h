@@ -9,7 +9,7 @@
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };
 
 struct command {
-    const char *name, *deck, *json, *at, *extended; /* files and texts NULL where they are not asked for */
+    const char *name, *deck, *json, *at, *extended, *output; /* files and texts NULL where they are not asked for */
     int quiet, verbose, threads, baseline, points, replicates;
     unsigned long seed;
     double step, range;
@@ -54,6 +54,7 @@ int command_modes(struct command *command);
 int command_sensitivity(struct command *command);
 int command_identify(struct command *command);
 int command_diagnose(struct command *command);
+int command_frf(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;

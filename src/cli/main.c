@@ -26,6 +26,7 @@ const struct command_entry command_table[] = {
     {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity},
     {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify},
     {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose},
+    {"frf", "synthesised transfer functions with measured damping, beside the measured ones; -o: as universal file", command_frf},
     {NULL, NULL, NULL},
 };
 
@@ -51,7 +52,7 @@ static int run(struct command *command)
         int code = command_read_deck(command);
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify or diagnose", command->name);
+    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose or frf", command->name);
 }
 
 int main(int argc, char **argv)

@@ -256,7 +256,7 @@ int deck_read(struct pool *pool, const char *path, int noverride, const struct o
               struct job *job)
 {
     struct deck_reader reader = {.pool = pool, .messages = messages, .job = job};
-    *job = (struct job){.deck = pool_copy_text(pool, path)};
+    *job = (struct job){.deck = pool_copy_text(pool, path), .frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
     rotid_fit_defaults(&job->fit);
     int status = deck_text_read(pool, path, messages, &reader.text);
     if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !reader.text.ncard) {

@@ -211,8 +211,11 @@ int frf_place_points(struct pool *pool, const struct job *job, int parameters, c
     for (int i = 0; i < *npoint && !status; i++)
         dof[i] = 2 * mesh_node_at(&client->beam.mesh, point[i].z);
     for (int i = 0; i < out->nrow && !status; i++) {
-        pair[i].response = find(point, *npoint, out->row[i].response);
-        pair[i].reference = find(point, *npoint, out->row[i].reference);
+        struct frf_row *row = &out->row[i];
+        pair[i].response = find(point, *npoint, row->response);
+        pair[i].reference = find(point, *npoint, row->reference);
+        row->response_z = point[pair[i].response].z;
+        row->reference_z = point[pair[i].reference].z;
     }
     return status;
 }

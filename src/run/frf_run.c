@@ -60,8 +60,6 @@ static int requested_lines(struct pool *pool, const struct job *job, struct mess
         hz[l] = step > 0 ? low + step * l : low + (high - low) * l / (out->nline - 1);
     out->frequency_hz = hz;
     out->quantity = request->quantity;
-    if (!request->given)
-        out->quantity = FRF_ACCELERATION;
     return ROTID_OK;
 }
 

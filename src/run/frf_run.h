@@ -30,12 +30,13 @@ enum frf_damping { /* where the ratio of a mode comes from */
 };
 
 struct frf_row {
-    int response, reference;    /* ids */
-    const struct frf *measured; /* NULL where there is none */
-    double sign;                /* -1 where measured along one opposite direction */
-    int is_reciprocal;          /* measured with the force at the response: H_ij = H_ji */
-    struct frf_sums sums;       /* over all lines; the sign is taken into account */
-    struct frf_sums moved;      /* with the measured frequencies in place of the model's */
+    int response, reference;        /* ids */
+    double response_z, reference_z; /* m, in the model */
+    const struct frf *measured;     /* NULL where there is none */
+    double sign;                    /* -1 where measured along one opposite direction */
+    int is_reciprocal;              /* measured with the force at the response: H_ij = H_ji */
+    struct frf_sums sums;           /* over all lines; the sign is taken into account */
+    struct frf_sums moved;          /* with the measured frequencies in place of the model's */
 };
 
 /* What one function shows at one mode. */
