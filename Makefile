@@ -43,7 +43,7 @@ IO_OBJECTS := $(call OBJECTS_OF,$(IO_SOURCES))
 
 TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c)) \
-                   $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c,$(wildcard tools/hide/*.c tools/power/*.c)))
+                   $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
 .PHONY: all demo test power bench bench-quick check-asan check-valgrind check-peers coverage lint format install uninstall clean
@@ -74,7 +74,11 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(BUILD)/libroti
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
-$(BUILD)/tools/hide/%.o $(BUILD)/tools/power/%.o: ALL_CFLAGS += -Itools -Itests
+$(BUILD)/tools/hide/%.o $(BUILD)/tools/power/%.o $(BUILD)/tools/hammer/%.o: ALL_CFLAGS += -Itools -Itests
+
+# A hammer test as it would be recorded: time records in a universal file.
+$(BUILD)/hammer: $(call OBJECTS_OF,$(wildcard tools/hammer/*.c tools/oracle/*.c) $(filter-out %/hide_main.c,$(wildcard tools/hide/*.c)))
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
 # Fresh hidden effects by the thousand; POWER holds options, such as "--cases 200 --no-shapes".
 $(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(BUILD)/librotid.a

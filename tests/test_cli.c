@@ -152,9 +152,9 @@ static void wrong_usage_exits_2_and_says_what_was_expected(void **state)
 {
     (void)state;
     assert_true(is(run(NULL), 2, NULL, "usage: rotid COMMAND DECK"));
-    assert_true(is(run("identify"), 2, NULL, "no deck given, expected rotid COMMAND DECK"));
+    assert_true(is(run("identify"), 2, NULL, "no file given, expected rotid COMMAND FILE"));
     assert_true(is(run("identity", PAPER), 2, NULL, "identity is no command, expected"));
-    assert_true(is(run("check", PAPER, BRAKE), 2, NULL, "is one argument too many, expected one deck"));
+    assert_true(is(run("check", PAPER, BRAKE), 2, NULL, "is one argument too many, expected one file"));
     assert_true(is(run("check", PAPER, "--fast"), 2, NULL, "--fast"));
     assert_true(is(run("check", PAPER, "--json"), 2, NULL, "'--json' requires an argument"));
     assert_true(is(run("check", PAPER, "--threads", "0"), 2, NULL, "--threads 0: expected a whole number from 1"));
@@ -319,7 +319,7 @@ static void a_result_is_replaced_as_a_whole_or_not_at_all(void **state)
     (void)state;
     const char *wrong = write_deck("deck.inp", MODEL "*SHAFT\n"), *result = write_deck("out.json", "old\n");
     assert_true(is(run("check", wrong, "--json", result), 2, NULL, "expected"));
-    assert_true(is(run("check", wrong, "--json", wrong), 2, NULL, "is the deck itself, expected another file"));
+    assert_true(is(run("check", wrong, "--json", wrong), 2, NULL, "is the file that is read, expected another one"));
     char *text = read_file(result);
     assert_string_equal(text, "old\n");
     free(text);

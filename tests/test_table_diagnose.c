@@ -719,7 +719,7 @@ static void no_option_lets_a_file_of_the_user_be_lost(void **state)
 #define DECK ROTID_SOURCE_DIR "/input/solid_steel.inp"
     static const char *const wrong[][2] = {
         {"diagnose " DECK " --extended " DECK, "is the deck itself"},
-        {"diagnose " DECK " --json " DECK, "is the deck itself"},
+        {"diagnose " DECK " --json " DECK, "is the file that is read"},
         {"diagnose " DECK " --extended /tmp/none.x --json /tmp/../tmp/none.x", "is the file of --json as well"},
         {"diagnose " DECK " --extended -", "--extended -: expected a file"},
         {"diagnose " DECK " --replicates 3", "--replicates 3: expected a whole number from 100"},

@@ -1,15 +1,16 @@
 #include "cli/arguments.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/arguments_ema.h"
+
 static void print_help(FILE *out)
 {
-    (void)fputs("usage: rotid COMMAND DECK [options]\n\n", out);
+    (void)fputs("usage: rotid COMMAND FILE [options]\n\n", out);
     for (const struct command_entry *c = command_table; c->name; c++)
         (void)fprintf(out, "  %-12s %s\n", c->name, c->text);
     (void)fputs(
@@ -22,9 +23,15 @@ static void print_help(FILE *out)
         "  --step 0.01, --range 0.5, --points 11   sensitivity: relative step, range and points of the curves\n"
         "  --extended FILE          diagnose: a deck with the cause that was named\n"
         "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
-        "  -o, --output FILE        frf: the synthesised functions as a universal file\n"
-        "  --threads N, --seed N    threads of the BLAS (1), of diagnose (one a processor); seed of random numbers (1)\n"
-        "  --version, --help\n\n"
+        "  -o, --output FILE        ema: the modes, for *MEASURED; uff: the file anew, its functions in the other format\n"
+        "                           frf: the synthesised functions\n"
+        "  --format ascii|binary    uff: or in this one\n"
+        "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema (one a processor); seed of random numbers (1)\n"
+        "  --version, --help\n\n",
+        out);
+    (void)fputs(ema_options_help, out);
+    (void)fputs(
+        "\n"
         "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"
         "      2 wrong usage or input; 3 failure\n",
         out);
@@ -53,11 +60,12 @@ enum {
     OPTION_EXTENDED,
     OPTION_REPLICATES,
     OPTION_OUTPUT,
+    OPTION_FORMAT,
     OPTION_VERSION,
     OPTION_HELP
 };
 
-static int number(const char *option, const char *text, double least, double most, int whole, double *value)
+int arguments_number(const char *option, const char *text, double least, double most, int whole, double *value)
 {
     char *end;
     *value = strtod(text, &end);
@@ -93,21 +101,21 @@ static int take_option(struct command *command, int option, const char *value)
         command->at = value;
         return -1;
     case OPTION_STEP:
-        return number("--step", value, 1e-9, 0.5, 0, &command->step) ? EXIT_USAGE : -1;
+        return arguments_number("--step", value, 1e-9, 0.5, 0, &command->step) ? EXIT_USAGE : -1;
     case OPTION_RANGE:
-        return number("--range", value, 1e-6, 0.95, 0, &command->range) ? EXIT_USAGE : -1;
+        return arguments_number("--range", value, 1e-6, 0.95, 0, &command->range) ? EXIT_USAGE : -1;
     case OPTION_POINTS:
-        if (number("--points", value, 1, 1000, 1, &n))
+        if (arguments_number("--points", value, 1, 1000, 1, &n))
             return EXIT_USAGE;
         command->points = (int)n;
         return -1;
     case OPTION_THREADS:
-        if (number("--threads", value, 1, THREADS_MOST, 1, &n))
+        if (arguments_number("--threads", value, 1, THREADS_MOST, 1, &n))
             return EXIT_USAGE;
         command->threads = (int)n;
         return -1;
     case OPTION_SEED:
-        if (number("--seed", value, 0, 4294967295.0, 1, &n))
+        if (arguments_number("--seed", value, 0, 4294967295.0, 1, &n))
             return EXIT_USAGE;
         command->seed = (unsigned long)n;
         return -1;
@@ -115,7 +123,7 @@ static int take_option(struct command *command, int option, const char *value)
         command->extended = value;
         return -1;
     case OPTION_REPLICATES:
-        if (number("--replicates", value, 100, 1000000, 1, &n))
+        if (arguments_number("--replicates", value, 100, 1000000, 1, &n))
             return EXIT_USAGE;
         command->replicates = (int)n;
         return -1;
@@ -123,15 +131,20 @@ static int take_option(struct command *command, int option, const char *value)
     case OPTION_OUTPUT:
         command->output = value;
         return -1;
+    case OPTION_FORMAT:
+        command->format = value;
+        return -1;
     case OPTION_VERSION:
         (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
         return EXIT_DONE;
     case OPTION_HELP:
         print_help(stdout);
         return EXIT_DONE;
-    default:
+    case '?':
         (void)fprintf(stderr, "rotid --help lists the options\n");
         return EXIT_USAGE;
+    default:
+        return arguments_ema(command, option, value);
     }
 }
 
@@ -151,6 +164,8 @@ int arguments_parse(struct command *command, int argc, char **argv)
                                             {"extended", required_argument, NULL, OPTION_EXTENDED},
                                             {"replicates", required_argument, NULL, OPTION_REPLICATES},
                                             {"output", required_argument, NULL, OPTION_OUTPUT},
+                                            {"format", required_argument, NULL, OPTION_FORMAT},
+                                            EMA_LONG_OPTIONS,
                                             {"version", no_argument, NULL, OPTION_VERSION},
                                             {"help", no_argument, NULL, OPTION_HELP},
                                             {NULL, 0, NULL, 0}};
@@ -169,10 +184,10 @@ int arguments_parse(struct command *command, int argc, char **argv)
     }
     command->name = argv[optind++];
     if (optind >= argc)
-        return arguments_wrong("%s: no deck given, expected rotid COMMAND DECK", command->name);
+        return arguments_wrong("%s: no file given, expected rotid COMMAND FILE", command->name);
     command->deck = argv[optind++];
     if (optind < argc)
-        return arguments_wrong("%s is one argument too many, expected one deck", argv[optind]);
+        return arguments_wrong("%s is one argument too many, expected one file", argv[optind]);
     return -1;
 }
 
@@ -193,13 +208,18 @@ static int same_file(const char *a, const char *b)
            stat(folder[1], &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
 }
 
-/* -1, or the exit code after saying what is wrong with -o. */
-static int refuse_output(const struct command *command)
+/* -1, or the exit code after saying what is wrong with -o and --format. */
+static int refuse_output(const struct command *command, const struct command_entry *entry)
 {
+    int converts = !strcmp(command->name, "uff");
+    if (command->output && !(entry->flags & TAKES_OUTPUT))
+        return arguments_wrong("--output is no option of %s", command->name);
+    if (command->format && !converts)
+        return arguments_wrong("--format is no option of %s", command->name);
+    if (command->format && strcmp(command->format, "ascii") && strcmp(command->format, "binary"))
+        return arguments_wrong("--format %s: expected ascii or binary", command->format);
     if (!command->output)
-        return -1;
-    if (strcmp(command->name, "frf"))
-        return arguments_wrong("%s is an option of frf alone", "--output");
+        return command->format ? arguments_wrong("--format %s: expected --output as well", command->format) : -1;
     if (!strcmp(command->output, "-"))
         return arguments_wrong("--output %s: expected a file", command->output);
     if (same_file(command->deck, command->output))
@@ -209,15 +229,17 @@ static int refuse_output(const struct command *command)
     return -1;
 }
 
-int arguments_refuse(const struct command *command)
+int arguments_refuse(const struct command *command, const struct command_entry *entry)
 {
     int diagnoses = !strcmp(command->name, "diagnose");
     if (!diagnoses && (command->extended || command->replicates))
         return arguments_wrong("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
+    if (command->ema.given && strcmp(command->name, "ema"))
+        return arguments_wrong("--%s is an option of ema alone", command->ema.given);
     if (command->json && strcmp(command->json, "-") && same_file(command->deck, command->json))
-        return arguments_wrong("--json %s is the deck itself, expected another file", command->json);
+        return arguments_wrong("--json %s is the file that is read, expected another one", command->json);
     if (!command->extended)
-        return refuse_output(command);
+        return refuse_output(command, entry);
     if (!strcmp(command->extended, "-"))
         return arguments_wrong("--extended %s: expected a file", command->extended);
     if (same_file(command->deck, command->extended))

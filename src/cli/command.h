@@ -3,18 +3,29 @@
 #define ROTID_CLI_COMMAND_H
 
 #include "deck/deck_text.h"
+#include "ema/ema.h"
+#include "import/measurement.h"
 #include "report/json.h"
 #include "run/job.h"
 
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };
 
+/* Of `ema`: what to read, and how to look for modes in it. */
+struct ema_arguments {
+    struct measurement_options measurement;
+    struct ema_options options;
+    const char *given; /* the first option of it that was given, or NULL */
+};
+
 struct command {
-    const char *name, *deck, *json, *at, *extended, *output; /* files and texts NULL where they are not asked for */
+    /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
+    const char *name, *deck, *json, *at, *extended, *output, *format;
     int quiet, verbose, threads, baseline, points, replicates;
     unsigned long seed;
     double step, range;
     int noverride;
     struct override *override;
+    struct ema_arguments ema;
 
     struct pool pool;
     struct message_list messages;
@@ -55,6 +66,8 @@ int command_sensitivity(struct command *command);
 int command_identify(struct command *command);
 int command_diagnose(struct command *command);
 int command_frf(struct command *command);
+int command_ema(struct command *command);
+int command_uff(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;

@@ -21,13 +21,18 @@ int command_cancelled(void *unused)
 }
 
 const struct command_entry command_table[] = {
-    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check},
-    {"modes", "frequencies and shapes, full and condensed, beside the measured ones", command_modes},
-    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity},
-    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify},
-    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose},
-    {"frf", "synthesised transfer functions with measured damping, beside the measured ones; -o: as universal file", command_frf},
-    {NULL, NULL, NULL},
+    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check, READS_DECK},
+    {"modes", "frequencies and shapes, full and condensed, beside the measured ones", command_modes, READS_DECK},
+    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", command_sensitivity, READS_DECK},
+    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify, READS_DECK},
+    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose,
+     READS_DECK | PARALLEL},
+    {"frf", "synthesised transfer functions with measured damping, beside measured ones; -o: as universal file", command_frf,
+     READS_DECK | TAKES_OUTPUT},
+    {"ema", "time records or transfer functions (58, 58b) to modes; -o: as universal file for *MEASURED", command_ema,
+     PARALLEL | TAKES_OUTPUT},
+    {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
+    {NULL, NULL, NULL, 0},
 };
 
 static int processors(void)
@@ -41,18 +46,19 @@ static int run(struct command *command)
     for (const struct command_entry *c = command_table; c->name; c++) {
         if (strcmp(command->name, c->name))
             continue;
-        int refused = arguments_refuse(command), diagnoses = c->run == command_diagnose;
+        int refused = arguments_refuse(command, c), parallel = c->flags & PARALLEL;
         if (refused >= 0)
             return refused;
         if (!command->threads)
-            command->threads = diagnoses ? processors() : 1;
+            command->threads = parallel ? processors() : 1;
         command->provenance =
             (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
-        build_set_threads(diagnoses ? 1 : command->threads); /* the diagnosis runs whole fits side by side */
-        int code = command_read_deck(command);
+        build_set_threads(parallel ? 1 : command->threads);
+        int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose or frf", command->name);
+    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema or uff",
+                           command->name);
 }
 
 int main(int argc, char **argv)

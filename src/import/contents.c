@@ -1,10 +1,14 @@
 #include "import/contents.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
 #include "signal/frf.h"
+
+#define PIECE    4096
+#define ROUNDING 5.1e-5 /* half a unit of the fifth digit, which is what E11.4 and E13.5 leave of an abscissa at worst */
 
 enum { DISPLACEMENT = 8, REACTION_FORCE = 9, VELOCITY = 11, ACCELERATION = 12, EXCITATION_FORCE = 13 };
 
@@ -105,6 +109,71 @@ static int join_nodes(struct growing *g)
     return ROTID_OK;
 }
 
+/* Many writers put down every abscissa although the lines are even, with so few digits that it looks uneven: the straight line
+ * through all of them is what was meant, where none is off by more than its own rounding. */
+static int settle_abscissa(struct growing *g, struct uff_reader *reader, struct content *item)
+{
+    struct uff_function *f = &item->function;
+    struct pool scratch;
+    long long got = 1, done = 0, room = 0;
+    double *x = NULL;
+    int status = ROTID_OK;
+    pool_open(&scratch, g->pool->allocator);
+    while (done < f->count && got > 0 && !status) { /* the count is only announced: room comes with the values */
+        if (done == room) {
+            room = room ? 2 * room : PIECE;
+            double *more = POOL_ARRAY(&scratch, double, room);
+            if (more && done)
+                memcpy(more, x, (size_t)done * sizeof *x);
+            x = more;
+        }
+        status =
+            x ? uff_read_values(reader, room - done < f->count - done ? room - done : f->count - done, x + done, NULL, NULL, &got)
+              : ROTID_ERROR_MEMORY;
+        done += status ? 0 : got;
+    }
+    double middle = 0.5 * (double)(done - 1), mean = 0, slope = 0, spread = 0;
+    for (long long i = 0; i < done; i++)
+        mean += x[i] / (double)done;
+    for (long long i = 0; i < done; i++) {
+        slope += ((double)i - middle) * (x[i] - mean);
+        spread += ((double)i - middle) * ((double)i - middle);
+    }
+    int even = !status && done > 2 && slope > 0;
+    slope /= spread;
+    for (long long i = 0; i < done && even; i++)
+        even = fabs(x[i] - mean - ((double)i - middle) * slope) <= ROUNDING * fabs(x[i]) + 1e-6 * slope;
+    if (even) {
+        f->is_even = 1;
+        f->step = slope;
+        f->start = mean - middle * slope;
+        if (fabs(f->start) < 1e-3 * slope)
+            f->start = 0;
+    } else if (!status) {
+        item->x = POOL_ARRAY(g->pool, double, done);
+        if (item->x && done)
+            memcpy(item->x, x, (size_t)done * sizeof *x);
+        status = item->x ? ROTID_OK : ROTID_ERROR_MEMORY;
+    }
+    pool_close(&scratch);
+    return status;
+}
+
+static int read_function(struct growing *g, struct uff_reader *reader, const struct uff_set *set)
+{
+    struct contents *c = g->contents;
+    c->item = pool_grow(g->pool, c->item, (size_t)c->count, &g->item_room, sizeof *c->item);
+    if (!c->item)
+        return ROTID_ERROR_MEMORY;
+    struct content *item = &c->item[c->count];
+    *item = (struct content){.set = *set};
+    int status = uff_read_function(reader, &item->function);
+    if (!status && !item->function.is_even)
+        status = settle_abscissa(g, reader, item);
+    c->count += !status;
+    return status;
+}
+
 static int read_set(struct growing *g, struct uff_reader *reader, const struct uff_set *set)
 {
     struct contents *c = g->contents;
@@ -121,13 +190,7 @@ static int read_set(struct growing *g, struct uff_reader *reader, const struct u
         c->has_units |= !status;
         return status;
     case 58:
-        c->item = pool_grow(g->pool, c->item, (size_t)c->count, &g->item_room, sizeof *c->item);
-        if (!c->item)
-            return ROTID_ERROR_MEMORY;
-        c->item[c->count].set = *set;
-        status = uff_read_function(reader, &c->item[c->count].function);
-        c->count += !status;
-        return status;
+        return read_function(g, reader, set);
     default:
         return ROTID_OK;
     }

@@ -8,7 +8,9 @@
 
 struct content {
     struct uff_set set; /* where it stands */
-    struct uff_function function;
+    struct uff_function
+        function; /* is_even, start and step also where an uneven abscissa is even to the digits it was written with */
+    double *x;    /* [function.count] of one that is not, NULL else */
 };
 
 struct contents {

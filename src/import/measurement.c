@@ -20,10 +20,27 @@ static int refuse(struct message_list *messages, const char *path, const struct 
     return ROTID_ERROR_ARGUMENT;
 }
 
-static int same_lines(const struct uff_function *a, const struct uff_function *b)
+static int same_lines(const struct content *left, const struct content *right)
 {
-    return a->is_even && b->is_even && a->count == b->count && fabs(a->step - b->step) <= 1e-6 * fabs(b->step) &&
-           fabs(a->start - b->start) <= 1e-3 * fabs(b->step);
+    const struct uff_function *a = &left->function, *b = &right->function;
+    if (a->count != b->count || !left->x != !right->x)
+        return 0;
+    if (left->x)
+        return memcmp(left->x, right->x, (size_t)a->count * sizeof *left->x) == 0;
+    return fabs(a->step - b->step) <= 1e-6 * fabs(b->step) && fabs(a->start - b->start) <= 1e-3 * fabs(b->step);
+}
+
+static double line_of(const struct content *item, long long i)
+{
+    return item->x ? item->x[i] : item->function.start + (double)i * item->function.step;
+}
+
+static int lines_rise(const struct content *item)
+{
+    for (long long i = 1; i < item->function.count && item->x; i++)
+        if (!(item->x[i] > item->x[i - 1]))
+            return 0;
+    return item->x || item->function.step > 0;
 }
 
 /* The lines that most transfer functions have: -1, or the index of one of them. */
@@ -31,13 +48,13 @@ static int common_lines(const struct contents *c)
 {
     int best = -1, most = 0;
     for (int i = 0; i < c->count; i++) {
-        if (c->item[i].function.type != UFF_TRANSFER)
+        if (c->item[i].function.type != UFF_TRANSFER || c->item[i].function.count < 1)
             continue;
-        if (best >= 0 && same_lines(&c->item[i].function, &c->item[best].function))
+        if (best >= 0 && same_lines(&c->item[i], &c->item[best]))
             continue;
         int count = 0;
         for (int j = i; j < c->count; j++)
-            count += c->item[j].function.type == UFF_TRANSFER && same_lines(&c->item[j].function, &c->item[i].function);
+            count += c->item[j].function.type == UFF_TRANSFER && same_lines(&c->item[j], &c->item[i]);
         if (count > most) {
             most = count;
             best = i;
@@ -52,13 +69,14 @@ static int wanted(const struct measurement_options *options, const struct uff_fu
 }
 
 /* Why a transfer function cannot be used beside the others, or NULL. */
-static const char *unusable(const struct uff_function *f, const struct uff_function *model)
+static const char *unusable(const struct content *item, const struct content *model)
 {
+    const struct uff_function *f = &item->function;
     if (f->ordinate != UFF_COMPLEX_SINGLE && f->ordinate != UFF_COMPLEX_DOUBLE)
         return "its values are real, expected complex ones";
-    if (!f->is_even)
-        return "its lines are not evenly spaced, expected an even abscissa";
-    if (!same_lines(f, model))
+    if (!lines_rise(item))
+        return "its lines do not rise";
+    if (!same_lines(item, model))
         return "its lines are not those of most others";
     if (motion_of(&f->numerator) < 0)
         return "its response is no displacement, velocity or acceleration (specific data type 8, 11 or 12)";
@@ -68,17 +86,17 @@ static const char *unusable(const struct uff_function *f, const struct uff_funct
 }
 
 /* The lines that are kept: first and how many. */
-static void choose_lines(const struct uff_function *f, const struct measurement_options *options, long long *first,
+static void choose_lines(const struct content *item, const struct measurement_options *options, long long *first,
                          long long *count)
 {
-    long long last = f->count - 1;
-    *first = 0;
-    if (options->low_hz > 0)
-        *first = (long long)ceil((options->low_hz - f->start) / f->step - 1e-9);
-    if (options->high_hz > 0 && (options->high_hz - f->start) / f->step < (double)last)
-        last = (long long)floor((options->high_hz - f->start) / f->step + 1e-9);
-    *first = *first < 0 ? 0 : *first;
-    *count = last >= *first ? last - *first + 1 : 0;
+    long long low = 0, high = item->function.count;
+    double rounding = 1e-9 * line_of(item, high - 1);
+    while (low < high && line_of(item, low) < options->low_hz - rounding)
+        low++;
+    while (high > low && options->high_hz > 0 && line_of(item, high - 1) > options->high_hz + rounding)
+        high--;
+    *first = low;
+    *count = high - low;
 }
 
 struct loader {
@@ -131,14 +149,14 @@ static double variance_from(double coherence, double magnitude, int averages)
     return (1 - g) / (g * averages) * magnitude * magnitude;
 }
 
-static int load_coherences(struct loader *l, const struct uff_function *model, long long first)
+static int load_coherences(struct loader *l, const struct content *model, long long first)
 {
     struct frf_set *set = &l->out->set;
     int averages = l->options->averages;
     for (int i = 0; i < l->contents->count; i++) {
         const struct content *item = &l->contents->item[i];
         int c = item->function.type == UFF_COHERENCE ? find_frf(set, &item->function) : -1;
-        if (c < 0 || !same_lines(&item->function, model) || set->frf[c].coherence)
+        if (c < 0 || !same_lines(item, model) || set->frf[c].coherence)
             continue;
         struct frf *frf = &set->frf[c];
         frf->coherence = POOL_ARRAY(l->pool, double, set->nline);
@@ -176,18 +194,18 @@ static int load_transfer(struct loader *l, const struct content *item, long long
 static int load_transfers(struct loader *l, int model_index)
 {
     const struct contents *c = l->contents;
-    const struct uff_function *model = &c->item[model_index].function;
+    const struct content *model = &c->item[model_index];
     struct frf_set *set = &l->out->set;
     long long first, count;
     choose_lines(model, l->options, &first, &count);
     if (count < 1 || count > INT_MAX) {
-        message_add(l->messages, SEVERITY_ERROR, l->path, model->line, 1,
-                    "%lld of %lld lines from %.6g to %.6g Hz lie in the band asked for, expected some", count < 1 ? 0 : count,
-                    model->count, model->start, model->start + (double)(model->count - 1) * model->step);
+        message_add(l->messages, SEVERITY_ERROR, l->path, model->function.line, 1,
+                    "%lld of %lld lines from %.6g to %.6g Hz lie in the band asked for, expected some", count,
+                    model->function.count, line_of(model, 0), line_of(model, model->function.count - 1));
         return ROTID_ERROR_ARGUMENT;
     }
     set->nline = (int)count;
-    set->quantity = (enum frf_quantity)motion_of(&model->numerator);
+    set->quantity = (enum frf_quantity)motion_of(&model->function.numerator);
     set->frequency_hz = POOL_ARRAY(l->pool, double, count);
     set->frf = POOL_ARRAY(l->pool, struct frf, c->count);
     struct pool scratch;
@@ -195,12 +213,12 @@ static int load_transfers(struct loader *l, int model_index)
     double *real = POOL_ARRAY(&scratch, double, count), *imag = POOL_ARRAY(&scratch, double, count);
     int status = set->frequency_hz && set->frf && real && imag ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (long long n = 0; n < count && !status; n++)
-        set->frequency_hz[n] = model->start + (double)(first + n) * model->step;
+        set->frequency_hz[n] = line_of(model, first + n);
     for (int i = 0; i < c->count && !status; i++) {
         const struct uff_function *f = &c->item[i].function;
         if (f->type != UFF_TRANSFER || !wanted(l->options, f))
             continue;
-        const char *reason = unusable(f, model);
+        const char *reason = unusable(&c->item[i], model);
         if (!reason && (enum frf_quantity)motion_of(&f->numerator) != set->quantity)
             reason = "its response is another quantity than that of most others";
         if (!reason && find_frf(set, f) >= 0)

@@ -16,6 +16,12 @@ struct writing {
     double *value;         /* [3 * node_count] */
 };
 
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 static int compare_ids(const void *left, const void *right)
 {
     const int *a = left, *b = right;
@@ -97,9 +103,8 @@ static int write_mode(struct writing *w, const char *source, int k)
                               .frequency_hz = mode->frequency_hz,
                               .damping = mode->damping,
                               .modal_mass = isfinite(mode->modal_mass) ? mode->modal_mass : 0};
-    const char *name = strrchr(source, '/');
     (void)snprintf(shape.id[0], sizeof shape.id[0], "mode %d, %.6g Hz, real normal mode", k + 1, mode->frequency_hz);
-    (void)snprintf(shape.id[1], sizeof shape.id[1], "from %.70s", name ? name + 1 : source);
+    (void)snprintf(shape.id[1], sizeof shape.id[1], "from %.70s", base_name(source));
     (void)snprintf(shape.id[2], sizeof shape.id[2], "MPC %.4f MPD %.2f deg", mode->mpc, mode->mpd);
     int status = write_values(w, &shape, mode->shape);
     if (!status && isfinite(mode->frequency_std))
@@ -119,7 +124,7 @@ int modes_write(FILE *stream, const char *source, const char *program, const str
     struct writing w = {.stream = stream, .ema = ema};
     pool_open(&w.scratch, NULL);
     (void)snprintf(header.model, sizeof header.model, "modes");
-    (void)snprintf(header.description, sizeof header.description, "experimental modal analysis of %.50s", source);
+    (void)snprintf(header.description, sizeof header.description, "modal extraction from %.50s", base_name(source));
     (void)snprintf(header.program, sizeof header.program, "%.70s", program);
     int status = collect_nodes(&w);
     if (!status)

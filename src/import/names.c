@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
@@ -69,22 +70,25 @@ const char *name_of_ordinate(int ordinate)
 
 const char *name_of_analysis(int type)
 {
-    static const char *const names[] = {"unknown",
-                                        "static",
-                                        "normal mode",
-                                        "complex mode, first order",
-                                        "transient",
-                                        "frequency response",
-                                        "buckling",
-                                        "complex mode, second order"};
+    static const char *const names[] = {"unknown",     "static",
+                                        "normal mode", "complex mode, first order",
+                                        "transient",   "frequency response",
+                                        "buckling",    "complex mode, second order"};
     return type >= 0 && type < COUNT(names) ? names[type] : "other";
 }
 
 const char *name_of_units(int code)
 {
-    static const char *const names[] = {"none",           "SI (m, N)",           "foot, pound force", "m, kilogram force",
-                                        "foot, poundal",  "mm, milli newton",    "cm, centi newton",  "inch, pound force",
-                                        "mm, kilogram force", "user defined"};
+    static const char *const names[] = {"none",
+                                        "SI (m, N)",
+                                        "foot, pound force",
+                                        "m, kilogram force",
+                                        "foot, poundal",
+                                        "mm, milli newton",
+                                        "cm, centi newton",
+                                        "inch, pound force",
+                                        "mm, kilogram force",
+                                        "user defined"};
     return code >= 0 && code < COUNT(names) ? names[code] : "unknown";
 }
 
@@ -131,4 +135,29 @@ const char *si_unit(int specific_type)
     default:
         return "";
     }
+}
+
+double unit_text_factor(int specific_type, const char *text)
+{
+    static const struct {
+        int type;
+        const char *text;
+        double factor;
+    } units[] = {
+        {8, "m", 1},          {8, "mm", 1e-3},       {8, "um", 1e-6},
+        {8, "in", 0.0254},    {11, "m/s", 1},        {11, "mm/s", 1e-3},
+        {11, "in/s", 0.0254}, {12, "m/s2", 1},       {12, "m/s^2", 1},
+        {12, "m/s**2", 1},    {12, "m/s/s", 1},      {12, "mm/s2", 1e-3},
+        {12, "mm/s^2", 1e-3}, {12, "in/s2", 0.0254}, {12, "in/s^2", 0.0254},
+        {12, "g", 9.80665},   {12, "gn", 9.80665},   {13, "N", 1},
+        {13, "kN", 1e3},      {13, "mN", 1e-3},      {13, "lbf", 4.4482216152605},
+        {15, "Pa", 1},        {15, "kPa", 1e3},      {15, "MPa", 1e6},
+        {17, "s", 1},         {17, "sec", 1},        {17, "ms", 1e-3},
+        {18, "Hz", 1},        {18, "kHz", 1e3},
+    };
+    int type = specific_type == 9 ? 13 : specific_type;
+    for (int i = 0; i < COUNT(units); ++i)
+        if (units[i].type == type && !strcmp(units[i].text, text)) /* mN is not MN */
+            return units[i].factor;
+    return 0;
 }

@@ -29,4 +29,8 @@ int has_time_axis(const struct uff_function *function);
 /* SI unit of a quantity (specific data type of set 58), "" where that is not known. */
 const char *si_unit(int specific_type);
 
+/* What a value in the unit that a text names must be multiplied with to be in that SI unit; 0 where the text is none of the usual
+ * ones for the quantity. */
+double unit_text_factor(int specific_type, const char *text);
+
 #endif

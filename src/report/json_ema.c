@@ -110,7 +110,7 @@ char *json_ema(const struct provenance *provenance, const struct ema_report *r, 
 {
     struct json_tree tree;
     json_open(&tree);
-    json_begin(&tree, provenance, NULL);
+    json_provenance(&tree, provenance);
     add_source(&tree, r);
     json_text(&tree, tree.root, "method", r->options->method == EMA_QUADRATURE ? "quadrature" : "lscf");
     json_number(&tree, tree.root, "order", r->ema->order);

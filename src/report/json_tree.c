@@ -92,9 +92,8 @@ void json_open(struct json_tree *tree)
     tree->failed = !tree->root;
 }
 
-void json_begin(struct json_tree *tree, const struct provenance *provenance, const struct job *job)
+void json_provenance(struct json_tree *tree, const struct provenance *provenance)
 {
-    json_open(tree);
     json_number(tree, tree->root, "schema", 1);
     json_text(tree, tree->root, "rotid", provenance->version);
     json_text(tree, tree->root, "commit", provenance->commit);
@@ -102,6 +101,12 @@ void json_begin(struct json_tree *tree, const struct provenance *provenance, con
     json_number(tree, tree->root, "seed", (double)provenance->seed);
     json_number(tree, tree->root, "threads", provenance->threads);
     json_text(tree, tree->root, "command", provenance->command);
+}
+
+void json_begin(struct json_tree *tree, const struct provenance *provenance, const struct job *job)
+{
+    json_open(tree);
+    json_provenance(tree, provenance);
     json_text(tree, tree->root, "deck", job->deck);
     cJSON *heading = json_array(tree, tree->root, "heading");
     for (int i = 0; i < job->nheading; i++)

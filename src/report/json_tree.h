@@ -12,7 +12,9 @@ struct json_tree {
 };
 
 void json_open(struct json_tree *tree);
-/* The same with what stands at the head of every result. */
+/* What stands at the head of every result. */
+void json_provenance(struct json_tree *tree, const struct provenance *provenance);
+/* A tree with that and with the deck and its heading. */
 void json_begin(struct json_tree *tree, const struct provenance *provenance, const struct job *job);
 /* The text, to be freed with json_free, or NULL where memory was out. The tree is gone then. */
 char *json_close(struct json_tree *tree);

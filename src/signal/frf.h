@@ -12,7 +12,7 @@ struct frf {
     int response_node, response_direction;   /* as in set 58: +-1 x, +-2 y, +-3 z, 0 scalar */
     int reference_node, reference_direction; /* of the force */
     double complex *h;                       /* [nline] response over force [m/N, m/(s N), m/(s2 N)] */
-    double *variance;                        /* [nline] E|h - E h|^2 of the mean, or NULL */
+    double *variance;                        /* [nline] E|h - E h|^2 of the mean, or NULL; INFINITY where the line says nothing */
     double *coherence;                       /* [nline] in [0, 1], or NULL */
     int averages;                            /* impacts that were averaged, 0 where not known */
 };
@@ -21,9 +21,23 @@ struct frf_set {
     int nline;
     double *frequency_hz; /* [nline] rising, > 0 but perhaps the first */
     enum frf_quantity quantity;
-    double window_decay; /* 1/s: the exponential window multiplied every response by exp(-decay t), to be taken off each pole */
+    double window_decay; /* 1/s: the exponential window multiplied force and response by exp(-decay t), so that h is the transfer
+                            function at s = i omega + decay: each pole seen has to get the decay back, and the powers of i omega
+                            between the quantities are powers of s */
     int nfrf;
     struct frf *frf;
 };
+
+/* The same set in terms of another quantity: h is multiplied by (i omega + window_decay)^q, q = 1 for each derivative, -1 for
+ * each integral, the variance by the square of its magnitude. A first line at 0 Hz, without a window, is left
+ * out: divided by zero it says nothing, multiplied by zero it would seem to be known exactly. */
+void frf_convert(struct frf_set *set, enum frf_quantity quantity);
+
+/* Leaves the lines with low_hz <= frequency <= high_hz, perhaps none. The arrays of the set keep their place in memory. */
+void frf_cut(struct frf_set *set, double low_hz, double high_hz);
+
+/* Frequency response assurance criterion |a^H b|^2/(a^H a b^H b) in [0, 1]: 1 where a is b times any complex number; 0 where one
+ * of them vanishes. a, b [n]. */
+double frf_assurance(int n, const double complex *a, const double complex *b);
 
 #endif

@@ -26,12 +26,15 @@ struct transfer_options {
 
 struct impact { /* one found in a record */
     int record;
-    long long sample; /* index of the largest force in its record */
-    double peak;      /* N */
+    long long onset;  /* index of its first sample above the threshold */
+    long long sample; /* of the largest force */
+    double peak;      /* N, from the base line of the force; negative where the hammer's cable has that sign */
     double width;     /* s at the threshold */
-    int is_double;    /* a second pulse above the threshold inside the block */
-    int is_cut;       /* the block does not fit into the record */
-    int is_clipped;   /* the largest value is reached by several neighbouring samples: overload */
+    double tail;    /* rms of the response over the last tenth of the block, windowed, over that of all of it: above some 0.1 the
+                       block ends too early and lines leak (longer block, or exponential window); 0 where it is not used */
+    int is_double;  /* a second pulse above the threshold inside the block */
+    int is_cut;     /* the block does not fit into the record or before the next impact */
+    int is_clipped; /* force or response stays at its largest value: overload */
     int used;
 };
 

@@ -7,9 +7,10 @@
 #include "uff/uff_data.h"
 
 struct uff_file {
-    int node_count, shape_count;
+    int node_count, shape_count, extra_count;
     struct uff_node *node; /* ids distinct, in the order of the file */
     struct uff_shape *shape;
+    struct uff_shape *extra; /* sets 55 of analysis type 0 that rotid has written itself: their first line begins with "ROTID " */
 };
 
 /* Reads a file. Sets 15, 2411, 781 give nodes, sets 55 shapes; all others are skipped, with one note for each type. Everything

@@ -2,20 +2,14 @@
 #include <limits.h>
 #include <string.h>
 
-#include "uff/uff_lines.h"
-#include "uff/uff_numbers.h"
-
-struct field {
-    size_t start, length;
-};
+#include "uff/uff_fields.h"
 
 static int is_blank(char c)
 {
     return c == ' ' || c == '\t';
 }
 
-/* Blank-separated fields, at most `limit` of them. */
-static int split_blanks(const struct uff_lines *lines, struct field *field, int limit)
+int uff_split_blanks(const struct uff_lines *lines, struct uff_field *field, int limit)
 {
     int count = 0;
     for (size_t i = 0; i < lines->length && count < limit;) {
@@ -26,14 +20,12 @@ static int split_blanks(const struct uff_lines *lines, struct field *field, int 
         size_t start = i;
         while (i < lines->length && !is_blank(lines->text[i]))
             ++i;
-        field[count++] = (struct field){start, i - start};
+        field[count++] = (struct uff_field){start, i - start};
     }
     return count;
 }
 
-/* The same, but a field also ends where a sign cannot belong to it any more, as in -1.00000e+00-2.00000e+00: behind an
- * exponent, or where the number has no point (a sign behind digits with a point is an exponent without its letter). */
-static int split_signs(const struct uff_lines *lines, struct field *field, int limit)
+int uff_split_signs(const struct uff_lines *lines, struct uff_field *field, int limit)
 {
     int count = 0;
     for (size_t i = 0; i < lines->length && count < limit;) {
@@ -54,25 +46,22 @@ static int split_signs(const struct uff_lines *lines, struct field *field, int l
             point |= c == '.';
             exponent |= memchr("eEdDqQ", c, 6) != NULL;
         }
-        field[count++] = (struct field){start, i - start};
+        field[count++] = (struct uff_field){start, i - start};
     }
     return count;
 }
 
-/* What the columns start to start + width - 1 hold, without the blanks around it. */
-static struct field cut_column(const struct uff_lines *lines, size_t start, size_t width)
+struct uff_field uff_cut_column(const struct uff_lines *lines, size_t start, size_t width)
 {
     size_t end = start + width < lines->length ? start + width : lines->length;
     while (start < end && is_blank(lines->text[start]))
         ++start;
     while (end > start && is_blank(lines->text[end - 1]))
         --end;
-    return (struct field){start, end > start ? end - start : 0};
+    return (struct uff_field){start, end > start ? end - start : 0};
 }
 
-/* A real that touches its neighbour must show its point: else a long number would be cut in two valid ones, and a Fortran
- * reader would scale it. */
-static int is_cut_off(const struct uff_lines *lines, struct field field)
+int uff_is_cut_off(const struct uff_lines *lines, struct uff_field field)
 {
     size_t end = field.start + field.length;
     int touches_left = field.start > 0 && !is_blank(lines->text[field.start - 1]);
@@ -80,7 +69,7 @@ static int is_cut_off(const struct uff_lines *lines, struct field field)
     return (touches_left || touches_right) && !memchr(lines->text + field.start, '.', field.length);
 }
 
-static enum uff_fault parse_fields(const struct uff_lines *lines, const struct uff_form *form, const struct field *field,
+static enum uff_fault parse_fields(const struct uff_lines *lines, const struct uff_form *form, const struct uff_field *field,
                                    int may_touch, int *bad, int *integer, double *real)
 {
     int total = form->integers + form->reals;
@@ -97,7 +86,7 @@ static enum uff_fault parse_fields(const struct uff_lines *lines, const struct u
                 integer[*bad] = (int)value;
         } else {
             fault = uff_parse_real(text, length, &real[*bad - form->integers]);
-            if (fault == UFF_FAULT_NONE && may_touch && is_cut_off(lines, field[*bad]))
+            if (fault == UFF_FAULT_NONE && may_touch && uff_is_cut_off(lines, field[*bad]))
                 fault = UFF_FAULT_MALFORMED;
         }
         if (fault != UFF_FAULT_NONE)
@@ -119,28 +108,34 @@ static const char *count_numbers(const struct uff_form *form, char buffer[64])
     return buffer;
 }
 
-static int report(struct uff_lines *lines, const struct uff_form *form, const char *what, enum uff_fault fault,
-                  struct field field, int is_integer)
+int uff_fail_field(struct uff_lines *lines, const char *what, enum uff_fault fault, struct uff_field field, int is_integer,
+                   const char *expected)
 {
-    char excerpt[UFF_EXCERPT], numbers[64];
+    char excerpt[UFF_EXCERPT];
     int column = (int)field.start + 1;
     uff_excerpt(lines->text + field.start, field.length, excerpt);
     if (fault == UFF_FAULT_RANGE)
-        return uff_fail(lines, column, "%s: %s is too large for a 32-bit integer; expected %s", what, excerpt,
-                        count_numbers(form, numbers));
+        return uff_fail(lines, column, "%s: %s is too large for a 32-bit integer; expected %s", what, excerpt, expected);
     if (fault == UFF_FAULT_NOT_FINITE)
-        return uff_fail(lines, column, "%s: %s is not a finite number; expected %s", what, excerpt, count_numbers(form, numbers));
+        return uff_fail(lines, column, "%s: %s is not a finite number; expected %s", what, excerpt, expected);
     return uff_fail(lines, column, "%s: '%s' is not %s; expected %s", what, excerpt, is_integer ? "an integer" : "a real",
-                    count_numbers(form, numbers));
+                    expected);
+}
+
+static int report(struct uff_lines *lines, const struct uff_form *form, const char *what, enum uff_fault fault,
+                  struct uff_field field, int is_integer)
+{
+    char numbers[64];
+    return uff_fail_field(lines, what, fault, field, is_integer, count_numbers(form, numbers));
 }
 
 int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const char *what, int *integer, double *real)
 {
-    struct field blank[UFF_VALUE_LIMIT + 3], column[UFF_VALUE_LIMIT + 2], sign[UFF_VALUE_LIMIT + 3];
+    struct uff_field blank[UFF_VALUE_LIMIT + 3], column[UFF_VALUE_LIMIT + 2], sign[UFF_VALUE_LIMIT + 3];
     int total = form->integers + form->reals;
 
     int bad = 0;
-    int found = split_blanks(lines, blank, total + 1);
+    int found = uff_split_blanks(lines, blank, total + 1);
     enum uff_fault fault = UFF_FAULT_COUNT;
     if (found == total)
         fault = parse_fields(lines, form, blank, 0, &bad, integer, real);
@@ -153,7 +148,7 @@ int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const c
     int complete = 1, bad_column = 0;
     for (int i = 0; i < total; ++i) {
         size_t width = (size_t)(i < form->integers ? form->integer_width : form->real_width);
-        column[i] = cut_column(lines, start, width);
+        column[i] = uff_cut_column(lines, start, width);
         complete = complete && column[i].length > 0;
         start += width;
     }
@@ -165,7 +160,7 @@ int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const c
         return ROTID_OK;
 
     int bad_sign = 0;
-    if (split_signs(lines, sign, total + 1) == total &&
+    if (uff_split_signs(lines, sign, total + 1) == total &&
         parse_fields(lines, form, sign, 1, &bad_sign, integer, real) == UFF_FAULT_NONE)
         return ROTID_OK;
 
@@ -178,62 +173,61 @@ int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const c
                     found > total ? "at least " : "", found, found == 1 ? "" : "s");
 }
 
-/* How many of the numbers still missing the current line should hold. */
-static int on_this_line(const struct uff_lines *lines, int left, int columns)
+/* Parses `count` fields that are reals; the first that is none to *bad. */
+static enum uff_fault parse_reals(const struct uff_lines *lines, int count, const struct uff_field *field, int may_touch,
+                                  int *bad, double *value)
 {
-    struct field field[UFF_VALUE_LIMIT + 3];
-    return left <= columns || split_blanks(lines, field, left + 1) == left ? left : columns;
+    const struct uff_form form = {.reals = count};
+    return parse_fields(lines, &form, field, may_touch, bad, NULL, value);
 }
 
-int uff_read_reals(struct uff_lines *lines, int count, const char *what, double *real)
+int uff_parse_values(struct uff_lines *lines, int columns, const int *width, long long left, const char *what, double *value,
+                     int *taken)
 {
-    for (int done = 0; done < count;) {
-        int status = uff_expect_line(lines, what);
-        if (status != ROTID_OK)
-            return status;
-        struct uff_form form = {.reals = on_this_line(lines, count - done, 6), .real_width = 13};
-        status = uff_parse_line(lines, &form, what, NULL, real + done);
-        if (status != ROTID_OK)
-            return status;
-        done += form.reals;
-    }
-    return ROTID_OK;
-}
+    struct uff_field blank[UFF_VALUE_LIMIT + 1], column[UFF_VALUE_LIMIT], sign[UFF_VALUE_LIMIT + 1];
+    int bad = 0, due = left < columns ? (int)left : columns;
+    int found = uff_split_blanks(lines, blank, UFF_VALUE_LIMIT + 1);
 
-int uff_read_integers(struct uff_lines *lines, int count, const char *what, int *integer)
-{
-    for (int done = 0; done < count;) {
-        int status = done ? uff_expect_line(lines, what) : ROTID_OK;
-        if (status != ROTID_OK)
-            return status;
-        struct uff_form form = {.integers = on_this_line(lines, count - done, 8), .integer_width = 10};
-        status = uff_parse_line(lines, &form, what, integer + done, NULL);
-        if (status != ROTID_OK)
-            return status;
-        done += form.integers;
+    size_t filled = 0; /* by so many columns */
+    for (int i = 0; i < found && i < columns; ++i)
+        filled += (size_t)width[i];
+    /* fewer than are due only without a hole, which would be a zero; more also as filling of the last line */
+    int fits = found > 0 && found <= UFF_VALUE_LIMIT && (found >= due || lines->length <= filled);
+    fits = fits && (found <= left || found <= columns);
+    enum uff_fault fault = UFF_FAULT_COUNT;
+    if (fits)
+        fault = parse_reals(lines, found, blank, 0, &bad, value);
+    *taken = found <= left ? found : (int)left;
+    if (fault == UFF_FAULT_NONE)
+        return ROTID_OK;
+    struct uff_field wrong = fits ? blank[bad] : (struct uff_field){0, lines->length};
+    if (fault != UFF_FAULT_NOT_FINITE) { /* which is a number for certain */
+        int cut = 0, complete = 1;
+        for (size_t start = 0; cut < columns && start < lines->length; start += (size_t)width[cut], ++cut) {
+            column[cut] = uff_cut_column(lines, start, (size_t)width[cut]);
+            complete = complete && column[cut].length > 0;
+        }
+        int bad_column = 0;
+        filled = 0;
+        for (int i = 0; i < cut; ++i)
+            filled += (size_t)width[i];
+        complete = complete && cut > 0 && lines->length <= filled;
+        *taken = cut <= left ? cut : (int)left;
+        enum uff_fault column_fault = complete ? parse_reals(lines, cut, column, 1, &bad_column, value) : UFF_FAULT_COUNT;
+        if (column_fault == UFF_FAULT_NONE)
+            return ROTID_OK;
+        if (column_fault == UFF_FAULT_NOT_FINITE) {
+            fault = column_fault;
+            wrong = column[bad_column];
+        }
+        int bad_sign = 0;
+        *taken = due;
+        if (uff_split_signs(lines, sign, due + 1) == due && parse_reals(lines, due, sign, 1, &bad_sign, value) == UFF_FAULT_NONE)
+            return ROTID_OK;
     }
-    return ROTID_OK;
-}
-
-int uff_find_integers(const struct uff_lines *lines, int count, const int *start, const int *width, const int *field,
-                      long long *value)
-{
-    int found = 0;
-    for (int i = 0; i < count; ++i) {
-        struct field column = cut_column(lines, (size_t)start[i], (size_t)width[i]);
-        found += column.length && uff_parse_integer(lines->text + column.start, column.length, &value[i]) == UFF_FAULT_NONE;
-    }
-    if (found == count)
-        return 1;
-
-    struct field token[UFF_VALUE_LIMIT];
-    int tokens = split_blanks(lines, token, UFF_VALUE_LIMIT);
-    for (int i = 0; i < count; ++i) {
-        if (field[i] >= tokens)
-            return 0;
-        struct field one = token[field[i]];
-        if (uff_parse_integer(lines->text + one.start, one.length, &value[i]) != UFF_FAULT_NONE)
-            return 0;
-    }
-    return 1;
+    char expected[48];
+    (void)snprintf(expected, sizeof expected, "%d real%s", due, due == 1 ? "" : "s");
+    if (fault == UFF_FAULT_COUNT)
+        return uff_fail(lines, 0, "%s: expected %s, found %d field%s", what, expected, found, found == 1 ? "" : "s");
+    return uff_fail_field(lines, what, fault, wrong, 0, expected);
 }

@@ -1,9 +1,29 @@
+#define _FILE_OFFSET_BITS 64 /* files above 2 GB, also where off_t would be an int */
 #include "uff/uff_lines.h"
 
 #include <errno.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <string.h>
+#include <sys/stat.h>
+
+int uff_open_lines(struct uff_lines *lines)
+{
+    struct stat about;
+    errno = 0;
+    lines->stream = fopen(lines->path, "rb");
+    if (!lines->stream || fstat(fileno(lines->stream), &about) != 0) {
+        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be opened: %s", strerror(errno));
+        return ROTID_ERROR_IO;
+    }
+    if (S_ISDIR(about.st_mode)) {
+        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be read: %s", strerror(EISDIR));
+        return ROTID_ERROR_IO;
+    }
+    lines->size = S_ISREG(about.st_mode) ? (long long)about.st_size : -1;
+    (void)setvbuf(lines->stream, NULL, _IONBF, 0); /* `buffer` is the only one */
+    return ROTID_OK;
+}
 
 int uff_fail(struct uff_lines *lines, int column, const char *format, ...)
 {
@@ -18,6 +38,16 @@ int uff_fail(struct uff_lines *lines, int column, const char *format, ...)
     else
         message_add(lines->messages, SEVERITY_ERROR, lines->path, lines->line, column, "%s", text);
     return ROTID_ERROR_SYNTAX;
+}
+
+void uff_warn(struct uff_lines *lines, const char *format, ...)
+{
+    char text[512];
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    message_add(lines->messages, SEVERITY_WARNING, lines->path, lines->line, 1, "set %d: %s", lines->set, text);
 }
 
 const char *uff_excerpt(const char *text, size_t length, char buffer[UFF_EXCERPT])
@@ -35,29 +65,52 @@ static int fail_reading(struct uff_lines *lines)
     return ROTID_ERROR_IO;
 }
 
+/* ROTID_OK when there are bytes in the buffer, UFF_END or ROTID_ERROR_IO. */
+static int fill(struct uff_lines *lines)
+{
+    if (lines->at < lines->filled)
+        return ROTID_OK;
+    lines->base += (long long)lines->filled;
+    lines->at = 0;
+    errno = 0;
+    lines->filled = fread(lines->buffer, 1, sizeof lines->buffer, lines->stream);
+    if (lines->filled)
+        return ROTID_OK;
+    return ferror(lines->stream) ? fail_reading(lines) : UFF_END;
+}
+
 int uff_take_line(struct uff_lines *lines)
 {
-    int c = getc(lines->stream);
-    if (c == EOF)
-        return ferror(lines->stream) ? fail_reading(lines) : UFF_END;
+    int status = fill(lines);
+    if (status != ROTID_OK)
+        return status;
 
+    lines->before.line = lines->line;
+    lines->before.offset = lines->offset;
+    lines->before.is_delimiter = uff_is_delimiter(lines, 0);
+    lines->before.is_strict = uff_is_delimiter(lines, 1);
     lines->line += lines->line < INT_MAX;
+    lines->offset = lines->base + (long long)lines->at;
     lines->overlong = 0;
     size_t length = 0;
-    for (; c != EOF && c != '\n'; c = getc(lines->stream)) {
-        if (length < UFF_LINE_LIMIT)
-            lines->text[length++] = (char)c;
-        else
-            lines->overlong = 1;
+    const char *end = NULL;
+    while (!end && (status = fill(lines)) == ROTID_OK) {
+        const char *start = lines->buffer + lines->at;
+        size_t there = lines->filled - lines->at, room = UFF_LINE_LIMIT - length;
+        end = memchr(start, '\n', there);
+        size_t piece = end ? (size_t)(end - start) : there;
+        lines->at += piece + (end != NULL);
+        lines->overlong |= piece > room;
+        piece = piece < room ? piece : room;
+        memcpy(lines->text + length, start, piece);
+        length += piece;
     }
-    if (ferror(lines->stream))
-        return fail_reading(lines);
     /* the carriage return of a file from Windows counts as a trailing blank */
     while (length && (lines->text[length - 1] == ' ' || lines->text[length - 1] == '\t' || lines->text[length - 1] == '\r'))
         --length;
     lines->text[length] = '\0';
     lines->length = length;
-    return ROTID_OK;
+    return status == UFF_END ? ROTID_OK : status;
 }
 
 int uff_expect_line(struct uff_lines *lines, const char *expected)
@@ -84,17 +137,79 @@ int uff_is_delimiter(const struct uff_lines *lines, int strict)
     return 1;
 }
 
+static int fail_short(struct uff_lines *lines, long long missing)
+{
+    return uff_fail(lines, 0, "the file ends %lld bytes before the binary data do", missing);
+}
+
+int uff_take_bytes(struct uff_lines *lines, size_t count, void *bytes)
+{
+    for (char *to = bytes; count;) {
+        int status = fill(lines);
+        if (status != ROTID_OK)
+            return status == UFF_END ? fail_short(lines, (long long)count) : status;
+        size_t there = lines->filled - lines->at, piece = there < count ? there : count;
+        memcpy(to, lines->buffer + lines->at, piece);
+        lines->at += piece;
+        to += piece;
+        count -= piece;
+    }
+    lines->length = 0; /* the line before is no neighbour of what comes now */
+    return ROTID_OK;
+}
+
 int uff_skip_bytes(struct uff_lines *lines, long long count)
 {
+    long long here = lines->base + (long long)lines->at;
+    if (lines->size >= 0 && count > lines->size - here)
+        return fail_short(lines, count - (lines->size - here));
+    if (lines->size >= 0)
+        return uff_seek(lines, here + count, lines->line + 1);
     while (count > 0) {
-        size_t wanted = count < UFF_LINE_LIMIT ? (size_t)count : UFF_LINE_LIMIT;
-        size_t got = fread(lines->text, 1, wanted, lines->stream);
-        for (size_t i = 0; i < got; ++i) /* so that line numbers stay those an editor shows */
-            lines->line += lines->text[i] == '\n' && lines->line < INT_MAX;
-        count -= (long long)got;
-        if (got < wanted)
-            return ferror(lines->stream) ? fail_reading(lines)
-                                         : uff_fail(lines, 0, "the file ends %lld bytes before the binary data do", count);
+        int status = fill(lines);
+        if (status != ROTID_OK)
+            return status == UFF_END ? fail_short(lines, count) : status;
+        size_t there = lines->filled - lines->at, piece = (long long)there < count ? there : (size_t)count;
+        lines->at += piece;
+        count -= (long long)piece;
     }
+    lines->length = 0;
     return ROTID_OK;
+}
+
+int uff_seek(struct uff_lines *lines, long long offset, int line)
+{
+    if (offset >= lines->base && offset - lines->base <= (long long)lines->filled) {
+        lines->at = (size_t)(offset - lines->base);
+    } else {
+        errno = ESPIPE;
+        if (lines->size < 0 || fseeko(lines->stream, (off_t)offset, SEEK_SET) != 0)
+            return fail_reading(lines);
+        lines->base = offset;
+        lines->at = lines->filled = 0;
+    }
+    lines->length = 0;
+    lines->line = line - 1;
+    return ROTID_OK;
+}
+
+int uff_look_for_end(struct uff_lines *lines, long long count, int *found)
+{
+    char text[16];
+    long long here = lines->base + (long long)lines->at, left = lines->size - here - count;
+    *found = 0;
+    if (lines->size < 0 || count > lines->size - here || left < 2)
+        return ROTID_OK;
+    size_t length = left < (long long)sizeof text ? (size_t)left : sizeof text, i = 0;
+    int line = lines->line;
+    int status = uff_seek(lines, here + count, line + 1);
+    if (status == ROTID_OK)
+        status = uff_take_bytes(lines, length, text);
+    if (status == ROTID_OK)
+        status = uff_seek(lines, here, line + 1);
+    while (i < length && memchr("\r\n \t", text[i], 4))
+        ++i;
+    *found = status == ROTID_OK && i + 2 <= length && memcmp(text + i, "-1", 2) == 0 &&
+             (i + 2 == length || memchr("\r\n \t", text[i + 2], 4));
+    return status;
 }

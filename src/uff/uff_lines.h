@@ -1,17 +1,18 @@
-/* Lines of a universal file and the numbers in them. Internal to uff_*.c. */
+/* Lines of a universal file, the bytes of its binary sets, and the numbers in its lines. Internal to uff_*.c. */
 #ifndef ROTID_UFF_UFF_LINES_H
 #define ROTID_UFF_UFF_LINES_H
 
 #include <stdio.h>
 
 #include "base/message.h"
+#include "uff/uff_read.h"
 
 /* The formats stop at 80 columns; ID lines and free-format writers go beyond. */
 #define UFF_LINE_LIMIT 4096
 /* Numbers of one record. The formats allow 12; a record 7 may announce more, which are read over. */
 #define UFF_VALUE_LIMIT 64
-
-enum { UFF_END = 1 }; /* beside the statuses of rotid.h: the file ends */
+/* Bytes read at once: large beside a line, small beside what a seek over a binary set saves. */
+#define UFF_BUFFER 32768
 
 struct uff_lines {
     FILE *stream;
@@ -23,10 +24,23 @@ struct uff_lines {
     int overlong;  /* text holds only the beginning of the line */
     size_t length; /* of text, without line end and trailing blanks */
     char text[UFF_LINE_LIMIT + 1];
+    long long offset; /* of the first byte of text in the file */
+    struct {          /* the line before */
+        int line, is_delimiter, is_strict;
+        long long offset;
+    } before;
+    long long size;    /* of the file; -1 of a pipe, in which there is no seeking */
+    long long base;    /* of buffer[0] in the file */
+    size_t at, filled; /* in buffer */
+    char buffer[UFF_BUFFER];
 };
+
+/* Opens lines->path. ROTID_OK or ROTID_ERROR_IO (in the message list). */
+int uff_open_lines(struct uff_lines *lines);
 
 /* Adds an error at the current line and returns ROTID_ERROR_SYNTAX. Column from 1, or 0. */
 int uff_fail(struct uff_lines *lines, int column, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void uff_warn(struct uff_lines *lines, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* A piece of the file fit for a message: shortened, what is not printable replaced. Returns buffer. */
 #define UFF_EXCERPT 32
@@ -41,8 +55,16 @@ int uff_expect_line(struct uff_lines *lines, const char *expected);
 /* Whether the current line is '-1' alone. With `strict`, in the columns 5 and 6 it belongs into. */
 int uff_is_delimiter(const struct uff_lines *lines, int strict);
 
-/* Reads over `count` bytes that are not lines. */
+/* Reads or skips `count` bytes that are not lines; lines are not counted there, since what can be skipped is not looked at. */
+int uff_take_bytes(struct uff_lines *lines, size_t count, void *bytes);
 int uff_skip_bytes(struct uff_lines *lines, long long count);
+
+/* Goes to a byte of the file, after which uff_take_line returns line number `line`. ROTID_OK or ROTID_ERROR_IO (in the list). */
+int uff_seek(struct uff_lines *lines, long long offset, int line);
+
+/* Whether a '-1' that ends a set stands behind `count` bytes from here, at once or in a line of its own; 0 also where there is no
+ * seeking. ROTID_OK or ROTID_ERROR_IO. */
+int uff_look_for_end(struct uff_lines *lines, long long count, int *found);
 
 /* The columns of a line: so many integers of that width, then so many reals of that width. */
 struct uff_form {
@@ -53,15 +75,51 @@ struct uff_form {
  * by blanks or else in the columns of the form. `what` names the record in messages. ROTID_OK or ROTID_ERROR_SYNTAX. */
 int uff_parse_line(struct uff_lines *lines, const struct uff_form *form, const char *what, int *integer, double *real);
 
-/* Reads lines until `count` reals are there, 6 columns of 13 a line; a free-format writer may put all that are left on one. */
-int uff_read_reals(struct uff_lines *lines, int count, const char *what, double *real);
+/* Reads lines until `count` <= UFF_VALUE_LIMIT reals are there, `columns` of `width` a line; a free-format writer may put all
+ * that are left on one. */
+int uff_read_reals(struct uff_lines *lines, int count, int columns, int width, const char *what, double *real);
 
 /* The same for integers, 8 columns of 10 a line, where the first line has been read already. */
 int uff_read_integers(struct uff_lines *lines, int count, const char *what, int *integer);
+
+/* The reals of the current line, of which at most `left` are due, in columns of those widths: a full line, or as many as there
+ * are, up to UFF_VALUE_LIMIT. *taken of them to value. */
+int uff_parse_values(struct uff_lines *lines, int columns, const int *width, long long left, const char *what, double *value,
+                     int *taken);
+
+/* The integers of the current line, 8 columns of 10, of which `left` > 0 are still due: 8 or what is left, or in free format
+ * more. To integer [UFF_VALUE_LIMIT]. */
+int uff_parse_integers(struct uff_lines *lines, int left, const char *what, int *integer, int *taken);
 
 /* Some integers of the current line whose other contents are not known yet: value[i] from column start[i] (from 0) of
  * width[i], or, unless every one of them is there, blank-separated field number field[i] (from 0). Nonzero when found. */
 int uff_find_integers(const struct uff_lines *lines, int count, const int *start, const int *width, const int *field,
                       long long *value);
+
+/* A record of mixed contents in columns. A blank number is 0, as Fortran reads it, unless it is required. */
+enum uff_kind { UFF_INTEGER, UFF_REQUIRED_INTEGER, UFF_REAL, UFF_WORDS };
+struct uff_column {
+    enum uff_kind kind;
+    int start, width; /* start from 0 */
+};
+struct uff_cell {
+    size_t start, length; /* in the line, without blanks around it */
+    long long integer;
+    double real;
+};
+#define UFF_CELL_LIMIT 10
+
+/* Cuts the current line in these columns or, when a number is none there, at blanks if that gives `count` fields. Returns the
+ * number of the first cell that is wrong, or -1 when none is. */
+int uff_cut_line(const struct uff_lines *lines, int count, const struct uff_column *column, struct uff_cell *cell);
+
+/* The same, with an error in the list when there is one. ROTID_OK or ROTID_ERROR_SYNTAX. */
+int uff_cut_record(struct uff_lines *lines, int count, const struct uff_column *column, const char *what, struct uff_cell *cell);
+
+/* Copies a text to out [room], without trailing blanks, cut to its room; NONE gives the empty text. */
+void uff_copy_text(const char *text, size_t length, size_t room, char *out);
+
+/* The next line as a text of at most UFF_TEXT characters. */
+int uff_read_text(struct uff_lines *lines, const char *expected, char out[UFF_TEXT + 1]);
 
 #endif

@@ -3,99 +3,118 @@
 #include <limits.h>
 #include <math.h>
 
-#include "uff/uff_sets.h"
+#include "uff/uff_reader.h"
 
 enum { NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, FREQUENCY_RESPONSE = 5, COMPLEX_SECOND_ORDER = 7 }; /* analysis type */
 enum { REAL_DATA = 2, COMPLEX_DATA = 5 };                                                            /* data type */
 
 static const double two_pi = 6.283185307179586;
 
-/* Notes that this set is no shape of a vibration; nonzero when it is to be skipped. */
-static int note_other_data(struct uff_job *job, int analysis, int characteristic, int quantity)
-{
-    static const char *const analysis_name[] = {"unknown", "static", "", "", "transient", "", "buckling"};
-    int is_mode = analysis == NORMAL_MODE || analysis == COMPLEX_FIRST_ORDER || analysis == COMPLEX_SECOND_ORDER;
-    if (!is_mode && analysis != FREQUENCY_RESPONSE) {
-        int named = analysis >= 0 && analysis < (int)(sizeof analysis_name / sizeof *analysis_name);
-        uff_note_skip(job, "set 55 of analysis type %d (%s)", analysis, named ? analysis_name[analysis] : "not known here");
-        return 1;
-    }
-    if (characteristic < 0 || characteristic > 3) { /* unknown, scalar, 3 or 6 degrees of freedom */
-        uff_note_skip(job, "set 55 of data characteristic %d (not a vector)", characteristic);
-        return 1;
-    }
-    if (quantity != 0 && quantity != 8 && quantity != 11 && quantity != 12) {
-        uff_note_skip(job, "set 55 of specific data type %d (not displacement, velocity or acceleration)", quantity);
-        return 1;
-    }
-    return 0;
-}
+struct placed_values { /* of one node */
+    int node, line;
+    double value[12]; /* as in the file: of a complex number the real and the imaginary part in turn */
+};
 
-/* Record 6. *read is 0 when the set is to be skipped. */
-static int read_kind(struct uff_job *job, struct uff_shape *shape, int *read)
+/* What grows, on a pool of its own, until it is copied to its length. */
+struct growing {
+    struct pool scratch;
+    struct placed_values *values;
+    size_t capacity;
+    struct uff_label_list labels;
+};
+
+static int read_kind(struct uff_lines *lines, struct uff_shape *shape)
 {
     static const char what[] = "record 6 (model, analysis, characteristic, quantity, data type, values per node)";
     const struct uff_form form = {.integers = 6, .integer_width = 10};
-    struct uff_lines *lines = &job->lines;
-    int field[6];
-    int status = uff_expect_line(lines, what);
+    int field[6], status = ROTID_OK;
+    for (int i = 0; i < UFF_ID_LINES && status == ROTID_OK; ++i)
+        status = uff_read_text(lines, "five lines of text", shape->id[i]);
+    if (status == ROTID_OK)
+        status = uff_expect_line(lines, what);
     if (status == ROTID_OK)
         status = uff_parse_line(lines, &form, what, field, NULL);
     if (status != ROTID_OK)
         return status;
-
-    *read = !note_other_data(job, field[1], field[2], field[3]);
-    if (!*read)
-        return ROTID_OK;
-    if (field[4] != REAL_DATA && field[4] != COMPLEX_DATA)
-        return uff_fail(lines, 0, "record 6: data type %d; expected 2 (real) or 5 (complex)", field[4]);
-    if (field[5] < 1 || field[5] > 6)
-        return uff_fail(lines, 0, "record 6: %d values per node; expected 1 to 6", field[5]);
+    shape->model_type = field[0];
     shape->analysis_type = field[1];
+    shape->data_characteristic = field[2];
+    shape->specific_type = field[3];
+    shape->data_type = field[4];
     shape->is_complex = field[4] == COMPLEX_DATA;
     shape->component_count = field[5];
     return ROTID_OK;
 }
 
+int uff_read_shape_kind(struct uff_reader *reader, struct uff_shape *shape)
+{
+    *shape = (struct uff_shape){.line = reader->set.line};
+    int status = uff_begin(reader, 55);
+    return status == ROTID_OK ? uff_end(reader, read_kind(&reader->lines, shape), UFF_AT_DATA) : status;
+}
+
+static int is_eigenvalue(const struct uff_shape *shape)
+{
+    return shape->analysis_type == COMPLEX_FIRST_ORDER || shape->analysis_type == COMPLEX_SECOND_ORDER;
+}
+
+/* What record 8 says, as frequency and damping. */
+static void take_reals(struct uff_shape *shape, int count, const double *real)
+{
+    double six[6] = {0};
+    for (int i = 0; i < count && i < 6; ++i)
+        six[i] = real[i];
+    if (is_eigenvalue(shape)) {
+        double modulus = hypot(real[0], real[1]);
+        int oscillates = real[1] != 0; /* else it is as a rigid-body mode, which has zero here */
+        for (int i = 0; i < 2; ++i) {
+            shape->eigenvalue[i] = six[i];
+            shape->modal_a[i] = six[2 + i];
+            shape->modal_b[i] = six[4 + i];
+        }
+        shape->frequency_hz = oscillates ? modulus / two_pi : 0;
+        shape->damping = oscillates ? -real[0] / modulus : 0;
+    } else if (shape->analysis_type == NORMAL_MODE) {
+        shape->frequency_hz = six[0];
+        shape->modal_mass = six[1];
+        shape->damping = six[2];
+        shape->hysteretic = six[3];
+    } else if (shape->analysis_type == FREQUENCY_RESPONSE || shape->analysis_type == 0) {
+        shape->frequency_hz = six[0];
+    }
+}
+
 /* Records 7 and 8: number, frequency and damping. */
-static int read_mode(struct uff_job *job, struct uff_shape *shape)
+static int read_mode(struct uff_lines *lines, struct uff_shape *shape)
 {
     static const int start[] = {0, 10}, width[] = {10, 10}, field[] = {0, 1};
-    struct uff_lines *lines = &job->lines;
     int integer[UFF_VALUE_LIMIT + 2];
     double real[UFF_VALUE_LIMIT];
     long long counts[2];
-    int is_eigenvalue = shape->analysis_type == COMPLEX_FIRST_ORDER || shape->analysis_type == COMPLEX_SECOND_ORDER;
-    int least = is_eigenvalue ? 2 : 1;
+    int is_mode = is_eigenvalue(shape) || shape->analysis_type == NORMAL_MODE || shape->analysis_type == FREQUENCY_RESPONSE;
+    int least_integers = is_mode ? 2 : 1, least_reals = is_eigenvalue(shape) ? 2 : 1;
 
     int status = uff_expect_line(lines, "record 7 (numbers of integers and reals, load case, mode number)");
     if (status != ROTID_OK)
         return status;
     if (!uff_find_integers(lines, 2, start, width, field, counts))
         return uff_fail(lines, 1, "record 7: expected the numbers of integers and reals");
-    if (counts[0] < 2 || counts[0] > UFF_VALUE_LIMIT)
+    if (counts[0] < least_integers || counts[0] > UFF_VALUE_LIMIT)
         return uff_fail(lines, 0, "record 7: %lld integers announced; expected load case and mode number", counts[0]);
-    if (counts[1] < least || counts[1] > UFF_VALUE_LIMIT)
-        return uff_fail(lines, 0, "record 7: %lld reals announced; expected at least %d", counts[1], least);
+    if (counts[1] < least_reals || counts[1] > UFF_VALUE_LIMIT)
+        return uff_fail(lines, 0, "record 7: %lld reals announced; expected at least %d", counts[1], least_reals);
     status = uff_read_integers(lines, (int)counts[0] + 2, "record 7", integer);
     if (status != ROTID_OK)
         return status;
-    shape->number = integer[3];
+    int has_case = counts[0] > 1 || shape->analysis_type != 0; /* of unknown data the one integer is a number */
+    shape->load_case = has_case ? integer[2] : 0;
+    shape->number = counts[0] > 1 ? integer[3] : has_case ? 0 : integer[2];
 
     int line = lines->line + 1;
-    status = uff_read_reals(lines, (int)counts[1], "record 8", real);
+    status = uff_read_reals(lines, (int)counts[1], 6, 13, "record 8", real);
     if (status != ROTID_OK)
         return status;
-    shape->frequency_hz = real[0];
-    if (is_eigenvalue) {
-        double modulus = hypot(real[0], real[1]);
-        shape->frequency_hz = modulus / two_pi;
-        shape->damping = modulus > 0 ? -real[0] / modulus : 0;
-    } else if (shape->analysis_type == NORMAL_MODE && counts[1] >= 3) {
-        shape->damping = real[2];
-    }
-    if (is_eigenvalue && real[1] == 0)
-        shape->frequency_hz = shape->damping = 0; /* it does not oscillate: as a rigid-body mode, which has zero here */
+    take_reals(shape, (int)counts[1], real);
     if (shape->frequency_hz >= 0 && isfinite(shape->frequency_hz))
         return ROTID_OK;
     message_add(lines->messages, SEVERITY_ERROR, lines->path, line, 1,
@@ -104,101 +123,98 @@ static int read_mode(struct uff_job *job, struct uff_shape *shape)
 }
 
 /* The nodes with their values, to the closing '-1'. */
-static int read_values(struct uff_job *job, struct uff_shape *shape)
+static int read_values(struct uff_reader *reader, struct growing *growing, struct uff_shape *shape)
 {
     const struct uff_form form = {.integers = 1, .integer_width = 10};
-    struct uff_lines *lines = &job->lines;
+    struct uff_lines *lines = &reader->lines;
     int value_count = shape->component_count * (shape->is_complex ? 2 : 1);
-    uff_clear_labels(&job->labels);
     for (size_t count = 0;; ++count) {
-        int status = uff_expect_line(lines, "a node number or '-1'");
-        if (status != ROTID_OK)
+        int is_end, status = uff_next_record(reader, "a node number or '-1'", &is_end);
+        if (status != ROTID_OK || is_end)
             return status;
-        if (uff_is_delimiter(lines, 0))
-            return ROTID_OK;
         if (count >= INT_MAX / 6)
             return uff_fail(lines, 0, "more than %d nodes", INT_MAX / 6);
-        struct uff_placed_values *grown = pool_grow(&job->scratch, job->values, count, &job->values_capacity, sizeof *grown);
+        struct placed_values *grown = pool_grow(&growing->scratch, growing->values, count, &growing->capacity, sizeof *grown);
         if (!grown)
             return ROTID_ERROR_MEMORY;
-        job->values = grown;
-        struct uff_placed_values *values = &job->values[count];
+        growing->values = grown;
+        struct placed_values *values = &growing->values[count];
         values->line = lines->line;
         status = uff_parse_line(lines, &form, "a node number", &values->node, NULL);
         /* values are due now, and a line '-1' is one of them */
         if (status == ROTID_OK)
-            status = uff_read_reals(lines, value_count, "values of a node", values->value);
+            status = uff_read_reals(lines, value_count, 6, 13, "values of a node", values->value);
         if (status == ROTID_OK)
-            status = uff_add_label(&job->scratch, &job->labels, values->node);
+            status = uff_add_label(&growing->scratch, &growing->labels, values->node);
         if (status != ROTID_OK)
             return status;
         shape->node_count = (int)count + 1;
     }
 }
 
-static int refuse_repeated_nodes(struct uff_job *job)
+static int refuse_repeated_nodes(struct uff_lines *lines, struct growing *growing)
 {
-    struct uff_label_list *labels = &job->labels;
+    struct uff_label_list *labels = &growing->labels;
     uff_sort_labels(labels);
     for (size_t i = 1; i < labels->count; ++i) {
         if (labels->item[i].id != labels->item[i - 1].id)
             continue;
-        const struct uff_placed_values *first = &job->values[labels->item[i - 1].order];
-        const struct uff_placed_values *again = &job->values[labels->item[i].order];
-        message_add(job->lines.messages, SEVERITY_ERROR, job->lines.path, again->line, 1,
+        const struct placed_values *first = &growing->values[labels->item[i - 1].order];
+        const struct placed_values *again = &growing->values[labels->item[i].order];
+        message_add(lines->messages, SEVERITY_ERROR, lines->path, again->line, 1,
                     "set 55: node %d occurs twice in the set, first in line %d, expected once", again->node, first->line);
         return ROTID_ERROR_SYNTAX;
     }
     return ROTID_OK;
 }
 
-static int keep_values(struct uff_job *job, struct uff_shape *shape)
+static int keep_values(const struct growing *growing, struct pool *pool, struct uff_shape *shape)
 {
     size_t count = (size_t)shape->node_count, components = (size_t)shape->component_count;
     size_t value_count = components * count;
-    shape->node = POOL_ARRAY(job->pool, int, count);
-    shape->real = POOL_ARRAY(job->pool, double, value_count);
-    shape->imag = shape->is_complex ? POOL_ARRAY(job->pool, double, value_count) : NULL;
+    shape->node = POOL_ARRAY(pool, int, count);
+    shape->real = POOL_ARRAY(pool, double, value_count);
+    shape->imag = shape->is_complex ? POOL_ARRAY(pool, double, value_count) : NULL;
     if (!shape->node || !shape->real || (shape->is_complex && !shape->imag))
         return ROTID_ERROR_MEMORY;
     for (size_t i = 0; i < count; ++i) {
-        const double *value = job->values[i].value;
-        shape->node[i] = job->values[i].node;
+        const double *value = growing->values[i].value;
+        shape->node[i] = growing->values[i].node;
         for (size_t c = 0; c < components; ++c) {
             shape->real[components * i + c] = shape->is_complex ? value[2 * c] : value[c];
             if (shape->imag)
                 shape->imag[components * i + c] = value[2 * c + 1];
         }
     }
-
-    struct uff_shape *grown = pool_grow(&job->scratch, job->shape, job->shape_count, &job->shape_capacity, sizeof *grown);
-    if (!grown)
-        return ROTID_ERROR_MEMORY;
-    job->shape = grown;
-    job->shape[job->shape_count++] = *shape;
     return ROTID_OK;
 }
 
-int uff_read_shape(struct uff_job *job)
+int uff_read_shape_rest(struct uff_reader *reader, struct pool *pool, struct uff_shape *shape)
 {
-    struct uff_shape shape = {.line = job->set_line};
-    int status = ROTID_OK, read = 1;
-    for (int i = 0; i < 5 && status == ROTID_OK; ++i)
-        status = uff_expect_line(&job->lines, "five lines of text");
+    struct uff_lines *lines = &reader->lines;
+    int type = shape->data_type, components = shape->component_count;
+    if (type != REAL_DATA && type != COMPLEX_DATA)
+        return uff_end(reader, uff_fail(lines, 0, "record 6: data type %d; expected 2 (real) or 5 (complex)", type), UFF_BETWEEN);
+    if (components < 1 || components > 6)
+        return uff_end(reader, uff_fail(lines, 0, "record 6: %d values per node; expected 1 to 6", components), UFF_BETWEEN);
+
+    struct growing growing = {0};
+    pool_open(&growing.scratch, reader->allocator);
+    int status = read_mode(lines, shape);
     if (status == ROTID_OK)
-        status = read_kind(job, &shape, &read);
-    if (status == ROTID_OK && !read)
-        return uff_skip_lines(job);
+        status = read_values(reader, &growing, shape);
     if (status == ROTID_OK)
-        status = read_mode(job, &shape);
+        status = refuse_repeated_nodes(lines, &growing);
+    if (status == ROTID_OK && !shape->node_count)
+        uff_warn(lines, "no nodes, which means that all values are zero");
     if (status == ROTID_OK)
-        status = read_values(job, &shape);
-    if (status == ROTID_OK)
-        status = refuse_repeated_nodes(job);
-    if (status != ROTID_OK)
-        return status;
-    if (!shape.node_count)
-        message_add(job->lines.messages, SEVERITY_WARNING, job->lines.path, job->lines.line, 1,
-                    "set 55: no nodes, which means that all values are zero");
-    return keep_values(job, &shape);
+        status = keep_values(&growing, pool, shape);
+    pool_close(&growing.scratch);
+    return uff_end(reader, status, UFF_BETWEEN);
+}
+
+int uff_read_shape_set(struct uff_reader *reader, struct pool *pool, struct uff_shape *shape)
+{
+    int status = uff_read_shape_kind(reader, shape);
+    return status == ROTID_OK ? uff_read_shape_rest(reader, pool, shape) : status;
 }

@@ -1,0 +1,88 @@
+#include "cli/command.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "import/modes.h"
+#include "report/output.h"
+#include "report/report_ema.h"
+
+/* Whole or not there. */
+static int write_modes(struct command *command, const struct measurement *measurement, const struct ema *ema)
+{
+    struct output output;
+    int status = output_open(&output, command->output);
+    if (!status) {
+        status = modes_write(output.stream, command->deck, "rotid " ROTID_VERSION, measurement, ema);
+        if (status)
+            output_abandon(&output);
+        else
+            status = output_close(&output);
+    }
+    if (status == ROTID_ERROR_IO) {
+        (void)fprintf(stderr, "rotid: %s: cannot be written: %s\n", command->output, strerror(errno));
+        return EXIT_INTERNAL;
+    }
+    return status ? command_fail(command, status) : EXIT_DONE;
+}
+
+static int is_doubtful(const struct ema *ema)
+{
+    int doubtful = !ema->nmode;
+    for (int k = 0; k < ema->nmode; k++)
+        doubtful |= (ema->mode[k].doubts & (EMA_UNSTABLE | EMA_WEAK | EMA_NEGATIVE_DAMPING | EMA_NOT_REFINED)) != 0;
+    return doubtful;
+}
+
+int command_ema(struct command *command)
+{
+    struct measurement measurement;
+    struct ema ema;
+    double last = 0, started = clock_seconds();
+    int terminal = command_wants_progress(command);
+    const rotid_environment environment = {
+        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    struct measurement_options from = command->ema.measurement;
+    struct ema_options options = command->ema.options;
+    from.threads = options.threads = command->threads;
+    from.low_hz = options.low_hz;
+    from.high_hz = options.high_hz;
+    int status = measurement_read(&command->pool, command->deck, &from, &command->messages, &measurement);
+    if (!status && command_cancelled(NULL))
+        status = ROTID_STOP_CANCELLED;
+    if (!status)
+        status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
+    if (terminal)
+        (void)fputs("\r\033[K", stderr);
+    if (status == ROTID_STOP_CANCELLED) {
+        (void)fprintf(stderr, "rotid: interrupted; nothing was written\n");
+        return EXIT_DOUBTFUL;
+    }
+    if (status == ROTID_ERROR_ARGUMENT && !command->messages.errors)
+        message_add(
+            &command->messages, SEVERITY_ERROR, command->deck, 1, 1,
+            "%d transfer functions of %d lines from %.6g to %.6g Hz, expected at least one that is not dead with at least 16 "
+            "lines in the band",
+            measurement.set.nfrf, measurement.set.nline, options.low_hz, options.high_hz);
+    if (status)
+        return command_fail(command, status);
+    command_print_messages(command);
+    int code = is_doubtful(&ema) ? EXIT_DOUBTFUL : EXIT_DONE;
+    const struct ema_report report = {.file = command->deck,
+                                      .output = command->output && ema.nmode ? command->output : NULL,
+                                      .measurement = &measurement,
+                                      .options = &options,
+                                      .ema = &ema,
+                                      .seconds = clock_seconds() - started};
+    if (report.output) {
+        int failed = write_modes(command, &measurement, &ema);
+        if (failed)
+            return failed;
+    }
+    if (command_wants_table(command))
+        table_ema(stdout, &report, command->verbose);
+    char *text = command->json ? json_ema(&command->provenance, &report, &command->messages) : NULL;
+    return command_write_json(command, text, code);
+}

@@ -1,0 +1,80 @@
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "import/convert.h"
+#include "import/listing.h"
+#include "report/json_uff.h"
+#include "report/output.h"
+#include "report/table_uff.h"
+
+static int fail_output(const struct command *command)
+{
+    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", command->output, strerror(errno));
+    return EXIT_INTERNAL;
+}
+
+/* The file that -o asks for, or none. */
+static int convert(struct command *command)
+{
+    struct convert_options options = {.cancelled = command_cancelled};
+    struct convert_result result;
+    struct output output;
+    if (command->format)
+        options.format = strcmp(command->format, "ascii") ? CONVERT_BINARY : CONVERT_ASCII;
+    int status = output_open(&output, command->output);
+    if (status)
+        return status == ROTID_ERROR_IO ? fail_output(command) : command_fail(command, status);
+    status = convert_file(command->deck, &options, output.stream, &command->messages, &result);
+    if (status) {
+        int reason = errno, writing = status == ROTID_ERROR_IO && !command->messages.errors;
+        output_abandon(&output);
+        errno = reason;
+        if (status == ROTID_STOP_CANCELLED) {
+            (void)fprintf(stderr, "rotid: interrupted, %s was not written\n", command->output);
+            return EXIT_DOUBTFUL;
+        }
+        return writing ? fail_output(command) : command_fail(command, status);
+    }
+    if (output_close(&output))
+        return fail_output(command);
+    if (command_wants_table(command))
+        (void)printf("\n%s: %d function%s %s, %d other set%s, %d of them copied as they are\n", command->output, result.functions,
+                     result.functions == 1 ? "" : "s", result.is_binary ? "in binary (58b, little endian)" : "as text (58)",
+                     result.others + result.copied, result.others + result.copied == 1 ? "" : "s", result.copied);
+    return EXIT_DONE;
+}
+
+int command_uff(struct command *command)
+{
+    const struct listing_options options = {.keep_shapes = command->verbose && command->json, .cancelled = command_cancelled};
+    struct listing listing;
+    int summary_count = 0;
+    const char **summary = NULL;
+    int status = listing_read(&command->pool, command->deck, &options, &command->messages, &listing);
+    if (status == ROTID_STOP_CANCELLED) {
+        (void)fprintf(stderr, "rotid: interrupted\n");
+        return EXIT_DOUBTFUL;
+    }
+    if (!status)
+        status = listing_summarise(&command->pool, &listing, &summary_count, &summary);
+    if (status)
+        return command_fail(command, status);
+    command_print_messages(command);
+    int code = listing.faulty_count ? EXIT_DOUBTFUL : EXIT_DONE;
+    if (command_wants_table(command))
+        table_uff(stdout, command->deck, &listing, summary_count, summary, command->verbose);
+    char *text = command->json ? json_uff(&command->provenance, command->deck, &listing, summary_count, summary, command->verbose,
+                                          &command->messages)
+                               : NULL;
+    code = command_write_json(command, text, code);
+    if (code == EXIT_INTERNAL || !command->output)
+        return code;
+    if (listing.faulty_count) {
+        (void)fprintf(stderr, "rotid: %s is not written, for a part of %s cannot be read\n", command->output, command->deck);
+        return EXIT_USAGE;
+    }
+    int converted = convert(command);
+    return converted ? converted : code;
+}

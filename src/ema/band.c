@@ -1,0 +1,109 @@
+#include "ema/band.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TWO_PI 6.283185307179586
+
+static void smooth_variance(int n, int half, const double *raw, double *smooth)
+{
+    double mean = 0;
+    for (int i = 0; i < n; i++)
+        mean += raw[i] / n;
+    for (int i = 0; i < n; i++) {
+        int first = i < half ? 0 : i - half, last = i + half < n ? i + half : n - 1;
+        double sum = 0;
+        for (int j = first; j <= last; j++)
+            sum += raw[j];
+        smooth[i] = fmax(sum / (last - first + 1), fmax(1e-6 * mean, 1e-300));
+    }
+}
+
+/* neighbours on each side that make 20 degrees of freedom of averages that have 2 (averages - 1) each */
+static int smoothing_width(int averages)
+{
+    int half = 0;
+    if (averages >= 2)
+        while ((2 * half + 1) * 2 * (averages - 1) < 20)
+            half++;
+    return half;
+}
+
+int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, double high_hz, const int *usable,
+                 struct ema_band *band)
+{
+    *band = (struct ema_band){0};
+    int first = 0, last = set->nline, known = 1;
+    while (first < last && (set->frequency_hz[first] <= 0 || (low_hz > 0 && set->frequency_hz[first] < low_hz)))
+        first++;
+    while (last > first && high_hz > 0 && set->frequency_hz[last - 1] > high_hz)
+        last--;
+    for (int c = 0; c < set->nfrf; c++) {
+        band->nchannel += usable[c] != 0;
+        known = known && (!usable[c] || set->frf[c].variance);
+    }
+    int n = last - first, half = 0;
+    size_t size = (size_t)n * (size_t)band->nchannel;
+    band->nline = n;
+    band->omega = POOL_ARRAY(pool, double, n);
+    band->channel = POOL_ARRAY(pool, int, band->nchannel);
+    band->h = POOL_ARRAY(pool, double complex, size);
+    band->variance = known ? POOL_ARRAY(pool, double, size) : NULL;
+    double *raw = POOL_ARRAY(pool, double, n);
+    if (!band->omega || !band->channel || !band->h || (known && !band->variance) || !raw)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n; i++)
+        band->omega[i] = TWO_PI * set->frequency_hz[first + i];
+    band->low = n ? band->omega[0] : 0;
+    band->high = n ? band->omega[n - 1] : 0;
+    int power = 2 - (int)set->quantity;
+    for (int c = 0, k = 0; c < set->nfrf; c++) {
+        if (!usable[c])
+            continue;
+        double complex *h = band->h + (size_t)n * (size_t)k;
+        for (int i = 0; i < n; i++) {
+            h[i] = set->frf[c].h[first + i];
+            for (int p = 0; p < power; p++)
+                h[i] *= I * band->omega[i];
+        }
+        if (known) {
+            half = smoothing_width(set->frf[c].averages);
+            for (int i = 0; i < n; i++)
+                raw[i] = set->frf[c].variance[first + i] * pow(band->omega[i], 2.0 * power);
+            smooth_variance(n, half, raw, band->variance + (size_t)n * (size_t)k);
+        }
+        band->channel[k++] = c;
+    }
+    return ROTID_OK;
+}
+
+int ema_band_part(struct pool *pool, const struct ema_band *band, int first, int nline, struct ema_band *part)
+{
+    size_t lines = (size_t)nline, size = lines * (size_t)band->nchannel;
+    *part = (struct ema_band){.nline = nline, .omega = band->omega + first, .low = band->omega[first],
+                              .high = band->omega[first + nline - 1], .nchannel = band->nchannel, .channel = band->channel};
+    part->h = POOL_ARRAY(pool, double complex, size);
+    part->variance = band->variance ? POOL_ARRAY(pool, double, size) : NULL;
+    if (!part->h || (band->variance && !part->variance))
+        return ROTID_ERROR_MEMORY;
+    for (int c = 0; c < band->nchannel; c++) {
+        size_t to = (size_t)c * lines, from = (size_t)c * (size_t)band->nline + (size_t)first;
+        memcpy(part->h + to, band->h + from, lines * sizeof *part->h);
+        if (band->variance)
+            memcpy(part->variance + to, band->variance + from, lines * sizeof *part->variance);
+    }
+    return ROTID_OK;
+}
+
+int ema_band_line(const struct ema_band *band, double value)
+{
+    int low = 0, high = band->nline;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (band->omega[middle] < value)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}

@@ -1,0 +1,165 @@
+#include "ema/channels.h"
+
+#include <math.h>
+
+#include "base/order.h"
+
+#define DEAD_SHARE     1e-3
+#define TWIN_SHARE     1e-6
+#define TWIN_FRAC      0.99999
+#define TWIN_NOISE     5e-3
+#define NOISY_RATIO    5
+#define NOISY_LINES    5 /* a fifth of the band */
+#define MISFIT_RATIO   3
+#define LEAST_COHERENT 0.8
+
+static int is_finite(const struct frf *frf, int first, int last)
+{
+    for (int i = first; i < last; i++)
+        if (!isfinite(creal(frf->h[i])) || !isfinite(cimag(frf->h[i])) ||
+            (frf->variance && !(frf->variance[i] >= 0 && isfinite(frf->variance[i]))))
+            return 0;
+    return 1;
+}
+
+/* Largest |H|, sum |H|^2; whether all values are the same */
+static double largest(const struct frf *frf, int first, int last, double *power, int *constant)
+{
+    double most = 0;
+    *power = 0;
+    *constant = 1;
+    for (int i = first; i < last; i++) {
+        double size = cabs(frf->h[i]);
+        most = fmax(most, size);
+        *power += size * size;
+        *constant = *constant && frf->h[i] == frf->h[first];
+    }
+    return most;
+}
+
+static double median(size_t count, double *value)
+{
+    sort_doubles(count, value);
+    return count ? (value[(count - 1) / 2] + value[count / 2]) / 2 : NAN;
+}
+
+static int is_twin(const struct frf *a, const struct frf *b, int first, int last, double noise_a, double noise_b, double most)
+{
+    double apart = 0, aa = 0, bb = 0;
+    double complex ab = 0;
+    for (int i = first; i < last; i++) {
+        apart = fmax(apart, cabs(a->h[i] - b->h[i]));
+        aa += creal(a->h[i] * conj(a->h[i]));
+        bb += creal(b->h[i] * conj(b->h[i]));
+        ab += conj(a->h[i]) * b->h[i];
+    }
+    if (apart <= TWIN_SHARE * most)
+        return 1;
+    return noise_a > TWIN_NOISE && noise_b > TWIN_NOISE && noise_a < 2 * noise_b && noise_b < 2 * noise_a &&
+           cabs(ab) * cabs(ab) > TWIN_FRAC * aa * bb;
+}
+
+/* rms of noise over rms of signal; sum of coherence by |H|^2, NaN where there is none */
+static void noise_of(const struct frf *frf, int first, int last, double power, double *noise, double *coherence)
+{
+    double sum = 0, coherent = 0;
+    for (int i = first; i < last; i++) {
+        sum += frf->variance ? frf->variance[i] : 0;
+        coherent += frf->coherence ? frf->coherence[i] * creal(frf->h[i] * conj(frf->h[i])) : 0;
+    }
+    *noise = frf->variance && power > 0 ? sqrt(sum / power) : NAN;
+    *coherence = frf->coherence && power > 0 ? coherent / power : NAN;
+}
+
+/* NOISY needs the ratio over the whole and on a fifth of the lines: a dip alone makes no noisy channel. */
+static int is_noisy(const struct frf *frf, int first, int last, double noise, double usual)
+{
+    if (!(noise > NOISY_RATIO * usual))
+        return 0;
+    int bad = 0;
+    for (int i = first; i < last; i++)
+        bad += sqrt(frf->variance[i]) > NOISY_RATIO * usual * cabs(frf->h[i]);
+    return bad * NOISY_LINES >= last - first;
+}
+
+int channels_check(struct pool *pool, const struct frf_set *set, int first, int last, struct ema_channel *channel, int *usable)
+{
+    double *most = POOL_ARRAY(pool, double, set->nfrf), *sorted = POOL_ARRAY(pool, double, set->nfrf);
+    int *constant = POOL_ARRAY(pool, int, set->nfrf);
+    if (!most || !sorted || !constant)
+        return ROTID_ERROR_MEMORY;
+    size_t known = 0;
+    for (int c = 0; c < set->nfrf; c++) {
+        double power, coherence;
+        channel[c] = (struct ema_channel){.twin = -1, .fit = NAN, .noise = NAN};
+        usable[c] = is_finite(&set->frf[c], first, last);
+        if (!usable[c]) {
+            channel[c].doubts = EMA_NOT_FINITE;
+            continue;
+        }
+        most[c] = largest(&set->frf[c], first, last, &power, &constant[c]);
+        noise_of(&set->frf[c], first, last, power, &channel[c].noise, &coherence);
+        if (coherence < LEAST_COHERENT)
+            channel[c].doubts |= EMA_LOW_COHERENCE;
+        sorted[known++] = most[c];
+    }
+    double usual = median(known, sorted);
+    known = 0;
+    for (int c = 0; c < set->nfrf; c++) {
+        if (usable[c] && (constant[c] || most[c] < DEAD_SHARE * usual || most[c] == 0)) {
+            channel[c].doubts |= EMA_DEAD;
+            usable[c] = 0;
+        }
+        if (usable[c] && !isnan(channel[c].noise))
+            sorted[known++] = channel[c].noise;
+    }
+    usual = median(known, sorted);
+    for (int c = 0; c < set->nfrf; c++) {
+        if (!usable[c])
+            continue;
+        if (is_noisy(&set->frf[c], first, last, channel[c].noise, usual))
+            channel[c].doubts |= EMA_NOISY;
+        for (int d = 0; d < c && channel[c].twin < 0; d++)
+            if (usable[d] &&
+                is_twin(&set->frf[d], &set->frf[c], first, last, channel[d].noise, channel[c].noise, fmax(most[c], most[d]))) {
+                channel[c].twin = d;
+                channel[c].doubts |= EMA_DUPLICATE;
+            }
+    }
+    return ROTID_OK;
+}
+
+int channels_compare(struct pool *pool, const struct frf_set *set, int first, int last, const int *usable, struct ema *out)
+{
+    int n = last - first;
+    double *left = POOL_ARRAY(pool, double, set->nfrf), *sorted = POOL_ARRAY(pool, double, set->nfrf);
+    double complex *model = POOL_ARRAY(pool, double complex, n);
+    if (!left || !sorted || !model)
+        return ROTID_ERROR_MEMORY;
+    size_t known = 0;
+    for (int c = 0; c < set->nfrf; c++) {
+        if (!usable[c])
+            continue;
+        const double complex *h = set->frf[c].h + first;
+        double hh = 0, mm = 0, apart = 0;
+        double complex hm = 0;
+        ema_synthesise(out, set, c, 1, n, set->frequency_hz + first, model);
+        for (int i = 0; i < n; i++) {
+            if (set->frequency_hz[first + i] <= 0)
+                continue;
+            hh += creal(h[i] * conj(h[i]));
+            mm += creal(model[i] * conj(model[i]));
+            hm += conj(h[i]) * model[i];
+            apart += creal((h[i] - model[i]) * conj(h[i] - model[i]));
+        }
+        out->channel[c].fit = hh > 0 && mm > 0 ? cabs(hm) * cabs(hm) / (hh * mm) : 0;
+        left[c] = hh > 0 ? sqrt(apart / hh) : 0;
+        sorted[known++] = left[c];
+    }
+    double usual = median(known, sorted);
+    for (int c = 0; c < set->nfrf; c++)
+        /* below 1e-6 the difference is rounding */
+        if (usable[c] && out->nmode && left[c] > MISFIT_RATIO * usual && left[c] > 1e-6)
+            out->channel[c].doubts |= EMA_MISFIT;
+    return ROTID_OK;
+}

@@ -1,0 +1,209 @@
+#include "ema/refine.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "linalg/cholesky.h"
+#include "linalg/positive.h"
+
+#define STEP_TOLERANCE 1e-10 /* of the half bandwidth */
+#define FURTHEST 3           /* half-power bandwidths */
+
+int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement)
+{
+    size_t p = 2 * (size_t)fit->nmode;
+    *refinement = (struct refinement){0};
+    refinement->covariance = POOL_ARRAY(pool, double, p *p);
+    refinement->widened = POOL_ARRAY(pool, double, p);
+    refinement->moved = POOL_ARRAY(pool, int, fit->nmode);
+    refinement->work = POOL_ARRAY(pool, double, 2 * p * p + 9 * p);
+    return refinement->covariance && refinement->widened && refinement->moved && refinement->work ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+static void sum_channels(const struct modal_fit *fit, double *information, double *score)
+{
+    int p = 2 * fit->nmode;
+    memset(information, 0, (size_t)p * (size_t)p * sizeof(double));
+    memset(score, 0, (size_t)p * sizeof(double));
+    for (int c = 0; c < fit->nchannel; c++) {
+        for (int j = 0; j < p; j++)
+            score[j] += fit->score[j + (ptrdiff_t)c * p];
+        for (int j = 0; j < p * p; j++)
+            information[j] += fit->schur[j + (ptrdiff_t)c * p * p];
+    }
+}
+
+static double sum_chi2(const struct modal_fit *fit)
+{
+    double sum = 0;
+    for (int c = 0; c < fit->nchannel; c++)
+        sum += fit->chi2[c];
+    return sum;
+}
+
+/* (S + mu diag S) delta = g, scaled to a unit diagonal. Returns 0, or 1 where that is not definite. */
+static int damped_step(int p, const double *information, const double *score, double mu, double *factor, double *scale,
+                       double *delta)
+{
+    for (int j = 0; j < p; j++) {
+        double d = information[j + (ptrdiff_t)j * p];
+        scale[j] = d > 0 ? 1 / sqrt(d) : 0;
+        delta[j] = score[j] * scale[j];
+    }
+    for (int k = 0; k < p; k++)
+        for (int j = 0; j < p; j++)
+            factor[j + (ptrdiff_t)k * p] = j == k ? 1 + mu : information[j + (ptrdiff_t)k * p] * scale[j] * scale[k];
+    if (cholesky_factor(p, factor))
+        return 1;
+    cholesky_solve(p, factor, 1, delta);
+    for (int j = 0; j < p; j++)
+        delta[j] *= scale[j];
+    return 0;
+}
+
+/* Largest step over the half bandwidth; poles := old + limited step */
+static double move_poles(int nmode, const double complex *old, const double *delta, double complex *pole)
+{
+    double largest = 0;
+    for (int r = 0; r < nmode; r++) {
+        double complex step = CMPLX(delta[2 * r], delta[2 * r + 1]);
+        double half = fmax(fabs(creal(old[r])), 1e-12), size = cabs(step) / half;
+        largest = fmax(largest, size);
+        if (size > 1)
+            step /= size;
+        /* a pole may lose at most nine tenths of its damping in a step: past zero it would model nothing */
+        double re = creal(old[r]) + creal(step);
+        if (creal(old[r]) < 0 && re > 0.1 * creal(old[r]))
+            re = 0.1 * creal(old[r]);
+        pole[r] = CMPLX(re, cimag(old[r]) + cimag(step));
+    }
+    return largest;
+}
+
+/* One descent with weights as they are. Returns ROTID_OK or ROTID_STOP_CANCELLED. */
+static int descend(struct modal_fit *fit, int most, const rotid_environment *environment, double complex *old,
+                   struct refinement *refinement)
+{
+    int p = 2 * fit->nmode;
+    double *information = refinement->work, *factor = information + (ptrdiff_t)p * p, *score = factor + (ptrdiff_t)p * p;
+    double *scale = score + p, *delta = scale + p, mu = 1e-4;
+    double chi2 = modal_fit_evaluate(fit, 0);
+    int fresh = 1, refused = 0;
+    refinement->converged = 0;
+    for (int i = 0; i < most; i++) {
+        if (environment && environment->cancelled && environment->cancelled(environment->context))
+            return ROTID_STOP_CANCELLED;
+        if (environment && environment->progress)
+            environment->progress(environment->context, "refine poles", refinement->iterations);
+        if (fresh)
+            sum_channels(fit, information, score);
+        if (damped_step(p, information, score, mu, factor, scale, delta)) {
+            mu = fmax(10 * mu, 1e-3);
+            fresh = 0;
+            continue;
+        }
+        memcpy(old, fit->pole, (size_t)fit->nmode * sizeof *old);
+        double size = move_poles(fit->nmode, old, delta, fit->pole), trial = modal_fit_evaluate(fit, 0);
+        refinement->iterations++;
+        /* near the minimum chi2 no longer tells a small step from rounding: such a step is taken as it is */
+        int small = size < 1e-5;
+        if (trial <= chi2 || small) {
+            chi2 = trial;
+            fresh = 1;
+            refused = 0;
+            mu = fmax(mu / 10, 1e-12);
+            if (size < STEP_TOLERANCE || (small && mu <= 1e-8 && size < 1e-7)) {
+                refinement->converged = 1;
+                break;
+            }
+            continue;
+        }
+        memcpy(fit->pole, old, (size_t)fit->nmode * sizeof *old);
+        fresh = 0;
+        mu *= 10;
+        if (++refused > 12)
+            break;
+    }
+    (void)modal_fit_evaluate(fit, 1);
+    return ROTID_OK;
+}
+
+/* Factors by which the scatter of the scores over the channels exceeds what the noise allows. */
+static void widen(const struct modal_fit *fit, const double *inverse, double *step, double *widened)
+{
+    int p = 2 * fit->nmode;
+    for (int j = 0; j < p; j++) {
+        double sum = 0, squares = 0, scatter = 0;
+        for (int c = 0; c < fit->nchannel; c++) {
+            double share = fit->schur[j + (ptrdiff_t)j * p + (ptrdiff_t)c * p * p];
+            sum += share;
+            squares += share * share;
+            *step = 0;
+            for (int k = 0; k < p; k++)
+                *step += inverse[k + (ptrdiff_t)j * p] * fit->score[k + (ptrdiff_t)c * p];
+            scatter += *step * *step;
+        }
+        double n = squares > 0 ? sum * sum / squares : 0, expected = inverse[j + (ptrdiff_t)j * p];
+        widened[j] = 1;
+        if (n < 1.5 || !(expected > 0))
+            continue;
+        double ratio = scatter * n / (n - 1) / expected;
+        if (ratio > 1 + 2 * sqrt(2 / (n - 1)))
+            widened[j] = sqrt(ratio);
+    }
+}
+
+static void pole_covariance(const struct modal_fit *fit, struct refinement *refinement)
+{
+    int p = 2 * fit->nmode;
+    double *score = refinement->work, *scale = score + p, *step = scale + p, *covariance = refinement->covariance, determinant;
+    sum_channels(fit, covariance, score);
+    for (int j = 0; j < p; j++) {
+        double d = covariance[j + (ptrdiff_t)j * p];
+        scale[j] = d > 0 ? 1 / sqrt(d) : 0;
+    }
+    for (int k = 0; k < p; k++)
+        for (int j = 0; j < p; j++)
+            covariance[j + (ptrdiff_t)k * p] *= scale[j] * scale[k];
+    if (positive_invert(p, covariance, &determinant)) {
+        for (int j = 0; j < p * p; j++)
+            covariance[j] = NAN;
+        for (int j = 0; j < p; j++)
+            refinement->widened[j] = 1;
+        return;
+    }
+    for (int k = 0; k < p; k++)
+        for (int j = 0; j < p; j++)
+            covariance[j + (ptrdiff_t)k * p] *= scale[j] * scale[k];
+    widen(fit, covariance, step, refinement->widened);
+    for (int k = 0; k < p; k++)
+        for (int j = 0; j < p; j++)
+            covariance[j + (ptrdiff_t)k * p] *= refinement->widened[j] * refinement->widened[k];
+}
+
+int refine_poles(struct modal_fit *fit, int most, const rotid_environment *environment, struct refinement *refinement)
+{
+    int m = fit->nmode, rounds = fit->weight || most == 0 ? 1 : 3;
+    ptrdiff_t p = 2 * (ptrdiff_t)m;
+    /* two doubles a complex number, behind what descend uses */
+    double complex *old = (double complex *)(void *)(refinement->work + 2 * p * p + 4 * p), *start = old + m;
+    memcpy(start, fit->pole, (size_t)m * sizeof *start);
+    refinement->iterations = 0;
+    if (!fit->weight) {
+        (void)modal_fit_evaluate(fit, 0);
+        modal_fit_noise(fit);
+    }
+    for (int round = 0; round < rounds; round++) {
+        int status = descend(fit, most, environment, old, refinement);
+        if (status != ROTID_OK)
+            return status;
+        modal_fit_noise(fit);
+    }
+    refinement->chi2 = sum_chi2(fit);
+    for (int r = 0; r < m; r++) {
+        double width = 2 * fmax(fabs(creal(start[r])), fabs(creal(fit->pole[r])));
+        refinement->moved[r] = creal(fit->pole[r]) >= 0 || cabs(fit->pole[r] - start[r]) > FURTHEST * width;
+    }
+    pole_covariance(fit, refinement);
+    return ROTID_OK;
+}

@@ -1,0 +1,115 @@
+#include "import/values.h"
+
+#include <math.h>
+#include <string.h>
+
+#define HASH_START   0xcbf29ce484222325u /* FNV-1a */
+#define HASH_FACTOR  0x100000001b3u
+#define CLIPPED_RUN  4    /* three equal values happen at the crest of a slow wave with few bits */
+#define CLIPPED_JUMP 0.01 /* of the span: a crest is reached in smaller steps */
+
+void values_open(struct values *values)
+{
+    *values = (struct values){.hash = HASH_START, .is_constant = 1};
+}
+
+static void add_hash(struct values *values, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    for (int b = 0; b < 64; b += 8)
+        values->hash = (values->hash ^ ((bits >> b) & 0xff)) * HASH_FACTOR;
+}
+
+static void add_square(struct values *values, double size)
+{
+    if (size == 0)
+        return;
+    if (size > values->scale) {
+        double ratio = values->scale / size;
+        values->squares = 1 + values->squares * ratio * ratio;
+        values->scale = size;
+    } else {
+        double ratio = size / values->scale;
+        values->squares += ratio * ratio;
+    }
+}
+
+/* Rows of values at the least (0) and the greatest (1) of all so far. */
+static void follow_plateau(struct values *values, int which, double value, double extreme)
+{
+    int beyond = which ? value > extreme : value < extreme;
+    if (beyond || !values->finite) {
+        values->plateau[which] = values->run[which] = 1;
+        values->plateau_jump[which] = values->finite ? fabs(value - values->before) : 0;
+        return;
+    }
+    values->run[which] = value == extreme ? values->run[which] + 1 : 0;
+    if (values->run[which] <= values->plateau[which])
+        return;
+    values->plateau[which] = values->run[which];
+    if (values->run[which] == 1)
+        values->plateau_jump[which] = fabs(value - values->before);
+}
+
+static void add_abscissa(struct values *values, double x)
+{
+    double step = x - values->x_last;
+    if (!values->count)
+        values->x_first = x;
+    if (values->count == 1 || (values->count && step < values->x_least_step))
+        values->x_least_step = step;
+    if (values->count == 1 || (values->count && step > values->x_most_step))
+        values->x_most_step = step;
+    values->x_last = x;
+}
+
+void values_add(struct values *values, long long count, const double *x, const double *real, const double *imag, int is_complex)
+{
+    for (long long i = 0; i < count; ++i) {
+        double im = is_complex ? imag[i] : 0;
+        add_abscissa(values, x[i]);
+        add_hash(values, real[i]);
+        add_hash(values, im);
+        values->last[0] = real[i];
+        values->last[1] = im;
+        if (!values->count++)
+            memcpy(values->first, values->last, sizeof values->first);
+        if (!isfinite(real[i]) || !isfinite(im))
+            continue;
+        double size = is_complex ? hypot(real[i], im) : real[i];
+        if (!is_complex) {
+            follow_plateau(values, 0, size, values->min);
+            follow_plateau(values, 1, size, values->max);
+        }
+        values->min = values->finite && values->min < size ? values->min : size;
+        values->max = values->finite && values->max > size ? values->max : size;
+        values->is_constant = values->is_constant && real[i] == values->first[0] && im == values->first[1];
+        values->sum[0] += real[i];
+        values->sum[1] += im;
+        values->before = size;
+        add_square(values, fabs(size));
+        ++values->finite;
+    }
+}
+
+void values_close(struct values *values)
+{
+    values->is_constant = values->is_constant && values->count > 1;
+    if (values->finite)
+        values->rms = values->scale * sqrt(values->squares / (double)values->finite);
+}
+
+int values_are_clipped(const struct values *values)
+{
+    double span = values->max - values->min;
+    for (int which = 0; which < 2 && span > 0; ++which)
+        if (values->plateau[which] >= CLIPPED_RUN && values->plateau_jump[which] > CLIPPED_JUMP * span)
+            return 1;
+    return 0;
+}
+
+int values_are_same(const struct values *a, const struct values *b)
+{
+    return a->count == b->count && a->hash == b->hash && a->min == b->min && a->max == b->max && a->rms == b->rms;
+}

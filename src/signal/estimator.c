@@ -1,0 +1,125 @@
+#include "signal/estimator.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "signal/transfer.h"
+
+void estimator_sum(int nline, int count, const struct spectra *column, const double *weight, struct spectra *sum)
+{
+    memset(sum->ff, 0, (size_t)nline * sizeof *sum->ff);
+    memset(sum->xx, 0, (size_t)nline * sizeof *sum->xx);
+    for (int l = 0; l < nline; l++)
+        sum->xf[l] = 0;
+    for (int i = 0; i < count; i++) {
+        double w = weight ? weight[i] : 1;
+        size_t at = (size_t)i * (size_t)nline;
+        for (int l = 0; l < nline && w > 0; l++) {
+            sum->ff[l] += w * column->ff[at + (size_t)l];
+            sum->xx[l] += w * column->xx[at + (size_t)l];
+            sum->xf[l] += w * column->xf[at + (size_t)l];
+        }
+    }
+}
+
+double estimator_balance(int nline, const struct spectra *sum)
+{
+    double ff = 0, xx = 0;
+    for (int l = 0; l < nline; l++) {
+        ff += sum->ff[l];
+        xx += sum->xx[l];
+    }
+    return ff > 0 ? xx / ff : 0;
+}
+
+void estimator_transfer(int estimator, double balance, int nline, const struct spectra *sum, double complex *h)
+{
+    for (int l = 0; l < nline; l++) {
+        double ff = sum->ff[l], xx = sum->xx[l], cross = cabs(sum->xf[l]);
+        double difference = xx - balance * ff, root = hypot(difference, 2 * sqrt(balance) * cross);
+        h[l] = 0;
+        if (!(ff > 0) || (estimator != TRANSFER_H1 && !(cross > 0)))
+            continue;
+        if (estimator == TRANSFER_H1)
+            h[l] = sum->xf[l] / ff;
+        else if (estimator == TRANSFER_H2)
+            h[l] = sum->xf[l] / cross * (xx / cross); /* 1/S_fx = S_xf/|S_xf|^2 */
+        else if (difference > 0)
+            h[l] = sum->xf[l] / cross * ((difference + root) / (2 * cross));
+        else /* the same, without the difference of two large numbers */
+            h[l] = sum->xf[l] * (2 * balance / (root - difference));
+    }
+}
+
+void estimator_coherence(int nline, const struct spectra *sum, double *coherence)
+{
+    for (int l = 0; l < nline; l++) {
+        double ratio = cabs(sum->xf[l]) / sqrt(sum->ff[l]) / sqrt(sum->xx[l]);
+        coherence[l] = sum->ff[l] > 0 && sum->xx[l] > 0 ? fmin(ratio * ratio, 1) : 0;
+    }
+}
+
+void estimator_jackknife(int estimator, int nline, int count, const struct spectra *column, const double complex *h,
+                         double *variance, struct spectra *sum, double complex *part, double *weight)
+{
+    for (int i = 0; i < count; i++)
+        weight[i] = 1;
+    estimator_sum(nline, count, column, weight, sum);
+    double balance = estimator_balance(nline, sum);
+    for (int l = 0; l < nline; l++)
+        variance[l] = sum->ff[l] > 0 ? 0 : INFINITY;
+    for (int i = 0; i < count; i++) {
+        const double *own = column->ff + (size_t)i * (size_t)nline;
+        weight[i] = 0;
+        estimator_sum(nline, count, column, weight, sum);
+        weight[i] = 1;
+        estimator_transfer(estimator, balance, nline, sum, part);
+        for (int l = 0; l < nline; l++) {
+            double distance = cabs(h[l] - part[l]);
+            if (own[l] > 0) /* (1 - w)/w */
+                variance[l] += distance * distance * (sum->ff[l] / own[l]) / count;
+        }
+    }
+}
+
+static double *collect(int from, int to, const double *noise, double *out)
+{
+    for (int l = from; l < to; l++)
+        if (isfinite(noise[l]))
+            *out++ = noise[l];
+    return out;
+}
+
+/* Median of lines from ... to, of which one at least is finite; insertion, since they are few. */
+static double median(int from, int to, const double *noise, double *value)
+{
+    int count = (int)(collect(from, to, noise, value) - value);
+    for (int i = 1; i < count; i++) {
+        double moved = value[i];
+        int j = i;
+        for (; j > 0 && value[j - 1] > moved; j--)
+            value[j] = value[j - 1];
+        value[j] = moved;
+    }
+    return count % 2 ? value[count / 2] : (value[count / 2 - 1] + value[count / 2]) / 2;
+}
+
+void estimator_smooth(int nline, const double *force, double *variance, double *work)
+{
+    double *noise = work, *value = work + nline;
+    for (int l = 0; l < nline; l++)
+        noise[l] = force[l] > 0 ? variance[l] * force[l] : INFINITY;
+    for (int l = 0; l < nline; l++) {
+        if (!isfinite(noise[l]))
+            continue;
+        int from = l < ESTIMATOR_SMOOTH ? 0 : l - ESTIMATOR_SMOOTH;
+        int to = l > nline - 1 - ESTIMATOR_SMOOTH ? nline : l + ESTIMATOR_SMOOTH + 1, count = 0;
+        double limit = ESTIMATOR_OUTLIER * median(from, to, noise, value), sum = 0;
+        for (int k = from; k < to; k++)
+            if (isfinite(noise[k]) && (noise[k] > limit) == (noise[l] > limit)) {
+                sum += noise[k];
+                count++;
+            }
+        variance[l] = sum / count / force[l];
+    }
+}

@@ -1,0 +1,339 @@
+/* From universal files to transfer functions: units, what belongs together, what is left out, and the modes that go back out. The
+ * files are written here from closed forms. */
+#include <complex.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "import/measurement.h"
+#include "support.h"
+#include "uff/uff_write.h"
+
+#define LINES 200
+#define STEP  0.5
+
+static char path[64];
+static FILE *file;
+
+static void begin(void)
+{
+    (void)snprintf(path, sizeof path, "/tmp/rotid_measurement_XXXXXX");
+    int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    file = fdopen(descriptor, "wb");
+    assert_non_null(file);
+}
+
+static int finish(const struct measurement_options *options, struct message_list *messages, struct measurement *out)
+{
+    assert_int_equal(fclose(file), 0);
+    message_open(messages, &test_pool);
+    int status = measurement_read(&test_pool, path, options, messages, out);
+    (void)unlink(path);
+    return status;
+}
+
+static double complex oscillator(int node, double hz)
+{
+    return node * 1.5 / (50.0 * 50 - hz * hz + 2 * I * 0.01 * 50 * hz);
+}
+
+static struct uff_function transfer_of(int node, int reference)
+{
+    struct uff_function f = {.type = UFF_TRANSFER,
+                             .response_node = node,
+                             .response_direction = 1,
+                             .reference_node = reference,
+                             .reference_direction = 1,
+                             .ordinate = UFF_COMPLEX_DOUBLE,
+                             .count = LINES,
+                             .is_even = 1,
+                             .step = STEP};
+    f.abscissa.specific_type = 18;
+    f.numerator.specific_type = 12;
+    f.numerator.length = 1;
+    f.denominator.specific_type = 13;
+    f.denominator.force = 1;
+    return f;
+}
+
+static void write_transfer(const struct uff_function *f, double factor)
+{
+    struct uff_function_writer writer;
+    assert_status(uff_write_function(file, f, &writer), ROTID_OK);
+    for (int n = 0; n < f->count; n++) {
+        double complex h = factor * oscillator(f->response_node, f->start + n * f->step);
+        double re = creal(h), im = cimag(h);
+        assert_status(uff_write_values(&writer, 1, NULL, &re, &im), ROTID_OK);
+    }
+    assert_status(uff_end_function(&writer), ROTID_OK);
+}
+
+static void write_real(const struct uff_function *f, const double *value)
+{
+    struct uff_function_writer writer;
+    assert_status(uff_write_function(file, f, &writer), ROTID_OK);
+    assert_status(uff_write_values(&writer, f->count, NULL, value, NULL), ROTID_OK);
+    assert_status(uff_end_function(&writer), ROTID_OK);
+}
+
+static int warnings(const struct message_list *list, const char *part)
+{
+    int count = 0;
+    for (size_t i = 0; i < list->count; i++)
+        count += list->item[i].severity == SEVERITY_WARNING && strstr(list->item[i].text, part);
+    return count;
+}
+
+/* ------------------------------------------------------------------------------------------------ transfer functions */
+
+static void millimetres_and_g_become_si(void **state)
+{
+    (void)state;
+    struct measurement m;
+    struct message_list messages;
+    const struct measurement_options options = {0};
+    const struct uff_units units = {.code = 5, .description = "mm (newton)", .length = 1000, .force = 1, .temperature = 1};
+    const struct uff_node node[2] = {{.id = 7, .x = {0, 0, 1500}}, {.id = 2, .x = {0, 0, 250}}};
+    begin();
+    assert_status(uff_write_units(file, &units), ROTID_OK);
+    assert_status(uff_write_nodes(file, 2411, 2, node), ROTID_OK);
+    struct uff_function f = transfer_of(2, 7);
+    write_transfer(&f, 1000); /* mm/s2 */
+    f = transfer_of(7, 7);
+    (void)snprintf(f.numerator.unit, sizeof f.numerator.unit, "g");
+    write_transfer(&f, 1 / 9.80665);
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    assert_int_equal(m.node_count, 2);
+    assert_int_equal(m.node[0].id, 2);
+    assert_close(m.node[0].x[2], 0.25, 1e-12, 0);
+    assert_close(m.node[1].x[2], 1.5, 1e-12, 0);
+    assert_int_equal(m.set.nfrf, 2);
+    assert_int_equal(m.set.nline, LINES);
+    assert_int_equal(m.set.quantity, FRF_ACCELERATION);
+    for (int n = 0; n < LINES; n++) {
+        assert_close(m.set.frequency_hz[n], n * STEP, 1e-12, 0);
+        for (int c = 0; c < 2; c++) {
+            double complex h = oscillator(m.set.frf[c].response_node, n * STEP);
+            assert_close(creal(m.set.frf[c].h[n]), creal(h), 1e-10, 1e-12);
+            assert_close(cimag(m.set.frf[c].h[n]), cimag(h), 1e-10, 1e-12);
+        }
+    }
+}
+
+static void what_cannot_stand_beside_the_others_is_left_out(void **state)
+{
+    (void)state;
+    struct measurement m;
+    struct message_list messages;
+    const struct measurement_options options = {0};
+    double zeros[LINES] = {0};
+    begin();
+    for (int node = 1; node <= 3; node++) {
+        struct uff_function f = transfer_of(node, 1);
+        write_transfer(&f, 1);
+    }
+    struct uff_function f = transfer_of(4, 1);
+    f.step = 0.25;
+    write_transfer(&f, 1);
+    f = transfer_of(5, 1);
+    f.numerator.specific_type = 8;
+    write_transfer(&f, 1);
+    f = transfer_of(6, 1);
+    f.ordinate = UFF_REAL_DOUBLE;
+    write_real(&f, zeros);
+    f = transfer_of(2, 1);
+    write_transfer(&f, 3);
+    f = transfer_of(8, 1);
+    f.numerator.specific_type = 15;
+    write_transfer(&f, 1);
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    assert_int_equal(m.set.nfrf, 3);
+    assert_int_equal(warnings(&messages, "left out"), 5);
+    assert_int_equal(warnings(&messages, "lines are not those"), 1);
+    assert_int_equal(warnings(&messages, "another quantity"), 1);
+    assert_int_equal(warnings(&messages, "expected complex ones"), 1);
+    assert_int_equal(warnings(&messages, "same response and reference"), 1);
+    assert_int_equal(warnings(&messages, "no displacement, velocity or acceleration"), 1);
+    assert_close(cabs(m.set.frf[1].h[10]), cabs(oscillator(2, 5)), 1e-10, 0); /* the first of two */
+}
+
+static void band_reference_and_coherence_are_heeded(void **state)
+{
+    (void)state;
+    struct measurement m;
+    struct message_list messages;
+    const struct measurement_options options = {.low_hz = 20, .high_hz = 60.2, .reference = 1, .averages = 3};
+    double coherence[LINES];
+    for (int n = 0; n < LINES; n++)
+        coherence[n] = 0.5 + 0.002 * n;
+    begin();
+    struct uff_function f = transfer_of(3, 1);
+    write_transfer(&f, 1);
+    f = transfer_of(3, 2);
+    write_transfer(&f, 1);
+    f = transfer_of(3, 1);
+    f.type = UFF_COHERENCE;
+    f.ordinate = UFF_REAL_DOUBLE;
+    f.numerator = f.denominator = (struct uff_axis){0};
+    write_real(&f, coherence);
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    assert_int_equal(m.set.nfrf, 1);
+    assert_int_equal(m.set.nline, 81);
+    assert_close(m.set.frequency_hz[0], 20, 1e-12, 0);
+    assert_close(m.set.frequency_hz[80], 60, 1e-12, 0);
+    const struct frf *frf = &m.set.frf[0];
+    for (int n = 0; n < 81; n++) {
+        double g = coherence[n + 40], h = cabs(oscillator(3, 20 + n * STEP));
+        assert_close(frf->coherence[n], g, 1e-10, 0);
+        assert_close(frf->variance[n], (1 - g) / (3 * g) * h * h, 1e-9, 0);
+    }
+}
+
+static void files_without_anything_usable_are_refused(void **state)
+{
+    (void)state;
+    struct measurement m;
+    struct message_list messages;
+    struct measurement_options options = {0};
+    const struct uff_node node = {.id = 7};
+    begin();
+    assert_status(uff_write_nodes(file, 15, 1, &node), ROTID_OK);
+    assert_status(finish(&options, &messages, &m), ROTID_ERROR_ARGUMENT);
+    assert_int_equal(messages.errors, 1);
+    assert_non_null(strstr(messages.item[0].text, "0 functions, none of them a transfer function"));
+    begin();
+    struct uff_function f = transfer_of(3, 1);
+    write_transfer(&f, 1);
+    options.low_hz = 500;
+    options.high_hz = 600;
+    assert_status(finish(&options, &messages, &m), ROTID_ERROR_ARGUMENT);
+    assert_non_null(strstr(messages.item[messages.count - 1].text, "0 of 200 lines"));
+    message_open(&messages, &test_pool);
+    assert_status(measurement_read(&test_pool, "/nonexistent/file.uff", &options, &messages, &m), ROTID_ERROR_IO);
+    assert_int_equal(messages.errors, 1);
+}
+
+/* ------------------------------------------------------------------------------------------------ time records */
+
+#define SAMPLES 1024
+#define RATE    1024.0
+
+/* A half-sine of 8 samples, and y = gain * force two samples later: H = gain exp(-2 i omega/rate). */
+static void write_measurement(int load_case, int node, double gain, double start, int order)
+{
+    double force[SAMPLES] = {0}, response[SAMPLES] = {0};
+    for (int i = 0; i < 9; i++)
+        force[(int)start + i] = 100 * sin(3.141592653589793 * i / 8);
+    for (int i = 2; i < SAMPLES; i++)
+        response[i] = gain * force[i - 2];
+    struct uff_function f = {.type = UFF_TIME,
+                             .response_node = 1,
+                             .response_direction = 3,
+                             .load_case = load_case,
+                             .ordinate = UFF_REAL_DOUBLE,
+                             .count = SAMPLES,
+                             .is_even = 1,
+                             .step = 1 / RATE};
+    f.abscissa.specific_type = 17;
+    struct uff_function g = f;
+    f.numerator.specific_type = 13;
+    g.numerator.specific_type = 12;
+    g.response_node = node;
+    if (order) {
+        write_real(&g, response);
+        write_real(&f, force);
+    } else {
+        write_real(&f, force);
+        write_real(&g, response);
+    }
+}
+
+static void check_records(const struct measurement *m)
+{
+    assert_true(m->from_records);
+    assert_close(m->rate, RATE, 1e-9, 0);
+    assert_int_equal(m->set.nfrf, 2);
+    for (int c = 0; c < 2; c++) {
+        const struct frf *frf = &m->set.frf[c];
+        double gain = frf->response_node == 5 ? 2 : -3;
+        assert_int_equal(frf->reference_node, 1);
+        assert_int_equal(frf->reference_direction, 3);
+        for (int n = 0; n < m->set.nline; n++) {
+            double w = 2 * 3.141592653589793 * m->set.frequency_hz[n];
+            if (m->set.frequency_hz[n] > 50) /* the pulse has no more there */
+                break;
+            assert_true(cabs(frf->h[n] - gain * cexp(-2 * I * w / RATE)) < 1e-4 * fabs(gain));
+        }
+    }
+}
+
+static void responses_find_their_force(void **state)
+{
+    (void)state;
+    struct measurement m;
+    struct message_list messages;
+    const struct measurement_options options = {0};
+    begin(); /* by load case, the response in front of its force */
+    for (int i = 0; i < 3; i++) {
+        write_measurement(10 + i, 5, 2, 30 + i, 1);
+        write_measurement(20 + i, 9, -3, 40 + i, 1);
+    }
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    check_records(&m);
+    assert_int_equal(m.transfer.nimpact, 6);
+    begin(); /* no load cases: the force in front */
+    for (int i = 0; i < 3; i++) {
+        write_measurement(0, 5, 2, 30 + i, 0);
+        write_measurement(0, 9, -3, 40 + i, 0);
+    }
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    check_records(&m);
+}
+
+static void records_that_do_not_fit_are_named(void **state)
+{
+    (void)state;
+    struct measurement m;
+    struct message_list messages;
+    const struct measurement_options options = {0};
+    double zeros[SAMPLES] = {0};
+    struct uff_function f = {
+        .type = UFF_TIME, .response_node = 1, .ordinate = UFF_REAL_SINGLE, .count = SAMPLES, .is_even = 1, .step = 1 / RATE};
+    begin();
+    write_measurement(1, 5, 2, 30, 0);
+    f.numerator.specific_type = 13;
+    f.load_case = 2;
+    write_real(&f, zeros);
+    f.numerator.specific_type = 12;
+    f.response_node = 6;
+    write_real(&f, zeros);
+    assert_status(finish(&options, &messages, &m), ROTID_ERROR_ARGUMENT);
+    assert_int_equal(messages.errors, 1);
+    assert_non_null(strstr(messages.item[messages.count - 1].text, "node 6 over node 1 holds no impact"));
+    begin();
+    write_measurement(1, 5, 2, 30, 0);
+    write_measurement(1, 9, -3, 30, 0);
+    f.count = SAMPLES / 2;
+    f.load_case = 0;
+    write_real(&f, zeros);
+    assert_status(finish(&options, &messages, &m), ROTID_OK);
+    assert_int_equal(m.set.nfrf, 2);
+    assert_int_equal(warnings(&messages, "not sampled like its force"), 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
+        TEST(millimetres_and_g_become_si),
+        TEST(what_cannot_stand_beside_the_others_is_left_out),
+        TEST(band_reference_and_coherence_are_heeded),
+        TEST(files_without_anything_usable_are_refused),
+        TEST(responses_find_their_force),
+        TEST(records_that_do_not_fit_are_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

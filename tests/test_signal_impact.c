@@ -1,0 +1,264 @@
+/* Which impacts are found and used, and that it does not matter how they are spread over records. */
+#include "support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hammer.h"
+#include "signal/impact.h"
+
+static const struct hammer_mode modes[] = {{40, 0.05, 0.5}, {90, 0.04, -0.3}, {170, 0.03, 0.4}};
+static const struct hammer hammer = {3, modes, FRF_ACCELERATION, 0.004, 12800};
+
+static struct transfer compute(int nrecord, const struct record *record, const struct transfer_options *options)
+{
+    struct transfer out;
+    int bad;
+    assert_status(transfer_compute(&test_pool, nrecord, record, hammer.rate, hammer.quantity, options, 1, &out, &bad), ROTID_OK);
+    assert_int_equal(bad, -1);
+    return out;
+}
+
+static struct record hits(double seconds, int count, const double *start, const double *peak)
+{
+    struct record record = hammer_record((long long)(seconds * hammer.rate));
+    for (int k = 0; k < count; k++)
+        hammer_hit(&hammer, start[k], peak ? peak[k] : 100, record.count, hammer_force(&record), hammer_response(&record));
+    return record;
+}
+
+static void assert_truth(const struct transfer *out, double tolerance)
+{
+    double worst = 0, largest = 0;
+    for (int l = 0; l < out->set.nline && out->set.frequency_hz[l] < 200; l++) {
+        double complex exact = hammer_transfer(&hammer, CMPLX(out->set.window_decay, 2 * PI * out->set.frequency_hz[l]));
+        worst = fmax(worst, cabs(out->set.frf[0].h[l] - exact));
+        largest = fmax(largest, cabs(exact));
+    }
+    assert_true(worst < tolerance * largest);
+}
+
+static void an_impact_is_where_its_pulse_is(void **state)
+{
+    static const double start[] = {0.1}, peak[] = {250};
+    (void)state;
+    for (int sign = -1; sign <= 1; sign += 2)
+        for (int offset = -1; offset <= 1; offset++) {
+            struct record record = hits(2, 1, start, peak);
+            for (long long j = 0; j < record.count; j++)
+                hammer_force(&record)[j] = sign * record.force[j] + 30 * offset;
+            struct transfer out = compute(1, &record, &(struct transfer_options){0});
+            assert_int_equal(out.nimpact, 1);
+            const struct impact *impact = &out.impact[0];
+            /* half-sine: the middle at 2 ms, a tenth of the peak from asin(0.1)/pi to its mirror image */
+            assert_int_equal(impact->sample, lround(0.102 * hammer.rate));
+            assert_close((double)impact->onset, (0.1 + 0.004 * asin(0.1) / PI) * hammer.rate, 0, 1);
+            assert_close(impact->width, 0.004 * (1 - 2 * asin(0.1) / PI), 0, 1.5 / hammer.rate);
+            assert_close(impact->peak, 250 * sign, 0.002, 0);
+            assert_true(impact->used && !impact->is_double && !impact->is_cut && !impact->is_clipped);
+            for (int l = 0; l < out.set.nline; l++)
+                out.set.frf[0].h[l] *= sign;
+            assert_truth(&out, 1e-3);
+        }
+}
+
+/* Records of one impact each, and the same impacts in one record, in two, in three. */
+static void spreading_impacts_over_records_changes_nothing(void **state)
+{
+    enum { IMPACTS = 12, LENGTH = 12800 };
+    static const double start[] = {0.1};
+    struct transfer_options options = {.block = 0.8, .force_window = 0.02};
+    struct record each[IMPACTS], joined = hammer_record((long long)IMPACTS * LENGTH);
+    uint64_t seed = 4;
+    (void)state;
+    for (int k = 0; k < IMPACTS; k++) {
+        each[k] = hits(1, 1, start, NULL);
+        hammer_noise(&seed, 0.5, LENGTH, hammer_response(&each[k]));
+        memcpy(hammer_force(&joined) + (ptrdiff_t)k * LENGTH, each[k].force, LENGTH * sizeof(double));
+        memcpy(hammer_response(&joined) + (ptrdiff_t)k * LENGTH, each[k].response, LENGTH * sizeof(double));
+    }
+    struct transfer one = compute(IMPACTS, each, &options);
+    assert_int_equal(one.nimpact, IMPACTS);
+    assert_int_equal(one.set.frf[0].averages, IMPACTS);
+    for (int parts = 1; parts <= 3; parts++) {
+        struct record record[3];
+        for (int p = 0; p < parts; p++) {
+            record[p] = joined;
+            record[p].count = joined.count / parts;
+            record[p].force += p * record[p].count;
+            record[p].response += p * record[p].count;
+        }
+        struct transfer many = compute(parts, record, &options);
+        assert_int_equal(many.nimpact, IMPACTS);
+        assert_int_equal(many.set.nline, one.set.nline);
+        size_t n = (size_t)one.set.nline;
+        assert_memory_equal(many.set.frf[0].h, one.set.frf[0].h, n * sizeof(double complex));
+        assert_memory_equal(many.set.frf[0].variance, one.set.frf[0].variance, n * sizeof(double));
+        assert_memory_equal(many.set.frf[0].coherence, one.set.frf[0].coherence, n * sizeof(double));
+        assert_memory_equal(many.single, one.single, IMPACTS * n * sizeof(double complex));
+    }
+    assert_truth(&one, 0.05);
+}
+
+/* The second impact bounces: left out, or kept and then nothing wrong either, since the response belongs to both pulses. */
+static void double_hits_are_told_from_the_next_impact(void **state)
+{
+    static const double start[] = {0.1, 1.6, 1.65, 3.1}, peak[] = {100, 90, 40, 110};
+    (void)state;
+    for (int keep = 0; keep < 2; keep++)
+        for (int given = 0; given < 2; given++) {
+            struct record record = hits(4.6, 4, start, peak);
+            struct transfer out = compute(1, &record, &(struct transfer_options){.double_hits = keep, .block = given ? 1.4 : 0});
+            assert_int_equal(out.nimpact, 3);
+            for (int k = 0; k < 3; k++) {
+                assert_int_equal(out.impact[k].is_double, k == 1);
+                assert_int_equal(out.impact[k].used, k != 1 || keep);
+                assert_int_equal(out.impact[k].record, 0);
+            }
+            assert_int_equal(out.set.frf[0].averages, keep ? 3 : 2);
+            assert_truth(&out, 1e-3);
+        }
+}
+
+/* The last impact comes just before the record ends, one has no time before it: neither shortens the blocks. */
+static void impacts_without_room_are_left_out(void **state)
+{
+    static const double start[] = {-0.002, 1.5, 3, 4.5, 5.9};
+    struct record record = hits(6, 5, start, NULL);
+    (void)state;
+    struct transfer out = compute(1, &record, &(struct transfer_options){0});
+    assert_int_equal(out.nimpact, 5);
+    for (int k = 0; k < 5; k++) {
+        assert_int_equal(out.impact[k].is_cut, k == 0 || k == 4);
+        assert_int_equal(out.impact[k].used, k > 0 && k < 4);
+    }
+    double length = 1 / out.set.frequency_hz[0]; /* the three have 1.4 ... 1.5 s */
+    assert_true(length > 1.2 && length <= 1.41);
+    assert_truth(&out, 1e-3);
+}
+
+static void all_records_share_the_shortest_block(void **state)
+{
+    static const double start[] = {0.1};
+    struct record record[] = {hits(3, 1, start, NULL), hits(1, 1, start, NULL), hits(2, 1, start, NULL)};
+    (void)state;
+    for (int r = 0; r < 3; r++)
+        record[r].response_node = r;
+    struct transfer out = compute(3, record, &(struct transfer_options){.low_hz = 20, .high_hz = 400});
+    assert_int_equal(out.set.nfrf, 3);
+    double step = out.set.frequency_hz[1] - out.set.frequency_hz[0];
+    assert_true(1 / step <= 0.91 && 1 / step > 0.85);
+    assert_true(out.set.frequency_hz[0] >= 20 && out.set.frequency_hz[0] < 20 + step);
+    assert_true(out.set.frequency_hz[out.set.nline - 1] <= 400 && out.set.frequency_hz[out.set.nline - 1] > 400 - step);
+    for (int f = 0; f < 3; f++)
+        assert_memory_equal(out.set.frf[f].h, out.set.frf[0].h, (size_t)out.set.nline * sizeof(double complex));
+}
+
+static void overload_of_either_channel_is_found(void **state)
+{
+    static const double start[] = {0.1, 1.6}, level[] = {0.5, 0.8, 0.95};
+    (void)state;
+    for (int l = 0; l < 3; l++)
+        for (int channel = 0; channel < 2; channel++) {
+            struct record record = hits(3, 2, start, (const double[]){100, 40});
+            double *x = channel ? hammer_response(&record) : hammer_force(&record), largest = 0;
+            for (long long j = 0; j < record.count; j++)
+                largest = fmax(largest, fabs(x[j]));
+            for (long long j = 0; j < record.count; j++)
+                x[j] = fmax(-level[l] * largest, fmin(level[l] * largest, x[j]));
+            struct transfer out = compute(1, &record, &(struct transfer_options){0});
+            assert_int_equal(out.nimpact, 2);
+            assert_true(out.impact[0].is_clipped && !out.impact[0].used);
+            assert_true(!out.impact[1].is_clipped && out.impact[1].used);
+            assert_truth(&out, 1e-3);
+        }
+}
+
+/* A converter that resolves the swing in no more than 50 steps makes flat tops, which are no overload. */
+static void coarse_steps_are_no_overload(void **state)
+{
+    static const double start[] = {0.1};
+    static const int steps[] = {50, 300, 5000, 100000};
+    (void)state;
+    for (int s = 0; s < 4; s++) {
+        struct record record = hits(2, 1, start, NULL);
+        for (int channel = 0; channel < 2; channel++) {
+            double *x = channel ? hammer_response(&record) : hammer_force(&record), largest = 0;
+            for (long long j = 0; j < record.count; j++)
+                largest = fmax(largest, fabs(x[j]));
+            for (long long j = 0; j < record.count; j++)
+                x[j] = round(x[j] / largest * steps[s]) * largest / steps[s];
+        }
+        struct transfer out = compute(1, &record, &(struct transfer_options){0});
+        assert_true(!out.impact[0].is_clipped && out.impact[0].used);
+    }
+}
+
+/* Noise before, during and after the pulse, of 2 % of the peak, makes no second pulse, and the force window takes its energy. */
+static void noise_makes_no_impacts(void **state)
+{
+    static const double start[] = {0.1, 1.6, 3.1};
+    struct record record = hits(4.6, 3, start, NULL);
+    uint64_t seed = 77;
+    (void)state;
+    hammer_noise(&seed, 2, record.count, hammer_force(&record));
+    struct transfer with = compute(1, &record, &(struct transfer_options){0});
+    struct transfer without = compute(1, &record, &(struct transfer_options){.force_window = -1});
+    assert_int_equal(with.nimpact, 3);
+    double sum[2] = {0, 0};
+    for (int k = 0; k < 3; k++)
+        assert_true(with.impact[k].used && !with.impact[k].is_double);
+    for (int l = 0; l < with.set.nline; l++) { /* far above the pulse's spectrum there is only noise */
+        sum[0] += with.set.frequency_hz[l] > 3000 ? with.single_force[l] : 0;
+        sum[1] += with.set.frequency_hz[l] > 3000 ? without.single_force[l] : 0;
+    }
+    double kept = 0.0457 / 1.4; /* pretrigger, ten widths, 3/8 of the fade, of the block */
+    print_message("noise of the force: %.4f of its energy left, %.4f expected\n", sum[0] / sum[1], kept);
+    assert_close(sum[0] / sum[1], kept, 0.25, 0);
+}
+
+static void the_tail_tells_a_block_that_ends_too_early(void **state)
+{
+    static const double start[] = {0.1};
+    struct record record = hits(2, 1, start, NULL);
+    (void)state;
+    assert_true(compute(1, &record, &(struct transfer_options){0}).impact[0].tail < 1e-6);
+    assert_true(compute(1, &record, &(struct transfer_options){.block = 0.1}).impact[0].tail > 0.2);
+    assert_true(compute(1, &record, &(struct transfer_options){.block = 0.1, .exponential = 1e-3}).impact[0].tail < 0.05);
+}
+
+static void spacing_is_that_of_impacts_not_of_bounces(void **state)
+{
+    struct impact pulse[6];
+    double work[6];
+    (void)state;
+    memset(pulse, 0, sizeof pulse);
+    for (int k = 0; k < 6; k++) { /* each one bounces after 30 samples */
+        pulse[k].onset = 100 + 1000 * (k / 2) + 30 * (k % 2);
+        pulse[k].width = 0.005;
+    }
+    assert_int_equal(impact_spacing(6, pulse, 3100, work), 970);
+    assert_int_equal(impact_merge(6, pulse, 1000, 97), 3);
+    for (int k = 0; k < 3; k++) {
+        assert_true(pulse[k].is_double);
+        assert_int_equal(pulse[k].onset, 100 + 1000 * k);
+        assert_int_equal(impact_room(3, pulse, k, 1000, pulse[k].onset - 10, 3100), k < 2 ? 1005 : 1010);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(an_impact_is_where_its_pulse_is, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(spreading_impacts_over_records_changes_nothing, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(double_hits_are_told_from_the_next_impact, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(impacts_without_room_are_left_out, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(all_records_share_the_shortest_block, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(overload_of_either_channel_is_found, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(coarse_steps_are_no_overload, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(noise_makes_no_impacts, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_tail_tells_a_block_that_ends_too_early, open_test_pool, close_test_pool),
+        cmocka_unit_test(spacing_is_that_of_impacts_not_of_bounces),
+    };
+    return cmocka_run_group_tests_name("signal_impact", tests, NULL, NULL);
+}

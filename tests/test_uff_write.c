@@ -1,0 +1,357 @@
+/* The lines of the writers against lines made by hand from the formats of the sets. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support.h"
+#include "uff/uff_write.h"
+
+static char *text;
+static size_t length;
+
+static FILE *open_text(void)
+{
+    free(text);
+    text = NULL;
+    FILE *stream = open_memstream(&text, &length);
+    assert_non_null(stream);
+    return stream;
+}
+
+static void is_text(FILE *stream, const char *expected)
+{
+    assert_int_equal(fclose(stream), 0);
+    assert_string_equal(text, expected);
+}
+
+static void the_header_has_seven_records(void **state)
+{
+    (void)state;
+    const struct uff_header header = {.model = "rotor.mdl",
+                                      .program = "rotid",
+                                      .created = "21-NOV-26 16:31:39",
+                                      .version = {4, 10},
+                                      .file_type = 1,
+                                      .saved = "22-NOV-26",
+                                      .written_by = "rotid 1",
+                                      .written = "22-NOV-26 10:00:00"};
+    FILE *stream = open_text();
+    assert_status(uff_write_header(stream, &header), ROTID_OK);
+    is_text(stream, "    -1\n   151\n"
+                    "rotor.mdl\nNONE\nrotid\n"
+                    "21-NOV-26 16:31:39           4        10         1\n"
+                    "22-NOV-26\nrotid 1\n22-NOV-26 10:00:00\n    -1\n");
+}
+
+static void units_keep_seventeen_digits(void **state)
+{
+    (void)state;
+    const struct uff_units units = {.code = 2,
+                                    .description = "Foot (pound f)",
+                                    .temperature_mode = 2,
+                                    .length = 3.28083989501312334,
+                                    .force = 0.224808943099710480,
+                                    .temperature = 1.8,
+                                    .temperature_offset = 459.67};
+    FILE *stream = open_text();
+    assert_status(uff_write_units(stream, &units), ROTID_OK);
+    is_text(stream, "    -1\n   164\n"
+                    "         2Foot (pound f)               2\n"
+                    "   3.2808398950131235E+00   2.2480894309971047E-01   1.8000000000000000E+00\n"
+                    "   4.5967000000000002E+02\n"
+                    "    -1\n");
+}
+
+static void nodes_stand_in_columns(void **state)
+{
+    (void)state;
+    const struct uff_node node[] = {
+        {.id = 16, .definition_system = 11, .displacement_system = 12, .color = 8, .x = {0, -1.53, 2e-101}},
+        {.id = 2147483647, .x = {0.1, 1, -1}}};
+    FILE *stream = open_text();
+    assert_status(uff_write_nodes(stream, 15, 2, node), ROTID_OK);
+    is_text(stream, "    -1\n    15\n"
+                    "        16        11        12         8  0.00000E+00 -1.53000E+00 2.00000E-101\n"
+                    "2147483647         0         0         0  1.00000E-01  1.00000E+00 -1.00000E+00\n"
+                    "    -1\n");
+    stream = open_text();
+    assert_status(uff_write_nodes(stream, 2411, 1, node), ROTID_OK);
+    is_text(stream, "    -1\n  2411\n"
+                    "        16        11        12         8\n"
+                    "   0.0000000000000000E+00  -1.5300000000000000E+00  2.0000000000000001E-101\n"
+                    "    -1\n");
+}
+
+static void systems_are_points_or_a_matrix(void **state)
+{
+    (void)state;
+    const struct uff_system system = {
+        .id = 1, .type = 0, .color = 8, .name = "CS1", .origin = {1200, 0, 0.5}, .matrix = {0, 1, 0, -1, 0, 0, 0, 0, 1}};
+    FILE *stream = open_text();
+    assert_status(uff_write_systems(stream, 18, 1, &system), ROTID_OK);
+    /* the origin at 1200, the points 10000 away from it */
+    is_text(stream, "    -1\n    18\n"
+                    "         1         0         0         8         1\nCS1\n"
+                    "  1.20000E+03  0.00000E+00  5.00000E-01  1.20000E+03  1.00000E+04  5.00000E-01\n"
+                    "  1.20000E+03  0.00000E+00  1.00005E+04\n"
+                    "    -1\n");
+    stream = open_text();
+    assert_status(uff_write_systems(stream, 2420, 1, &system), ROTID_OK);
+    is_text(stream, "    -1\n  2420\n         1\nNONE\n"
+                    "         1         0         8\nCS1\n"
+                    "   0.0000000000000000E+00   1.0000000000000000E+00   0.0000000000000000E+00\n"
+                    "  -1.0000000000000000E+00   0.0000000000000000E+00   0.0000000000000000E+00\n"
+                    "   0.0000000000000000E+00   0.0000000000000000E+00   1.0000000000000000E+00\n"
+                    "   1.2000000000000000E+03   0.0000000000000000E+00   5.0000000000000000E-01\n"
+                    "    -1\n");
+}
+
+static void beams_have_a_record_more(void **state)
+{
+    (void)state;
+    int two[] = {7, 8}, nine[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    const struct uff_element element[] = {
+        {.id = 1, .descriptor = 21, .color = 7, .beam = {0, 1, 2}, .node_count = 2, .node = two},
+        {.id = 2, .descriptor = 94, .property = 3, .material = 4, .node_count = 9, .node = nine}};
+    FILE *stream = open_text();
+    assert_status(uff_write_elements(stream, 2, element), ROTID_OK);
+    is_text(stream, "    -1\n  2412\n"
+                    "         1        21         0         0         7         2\n"
+                    "         0         1         2\n"
+                    "         7         8\n"
+                    "         2        94         3         4         0         9\n"
+                    "         1         2         3         4         5         6         7         8\n"
+                    "         9\n"
+                    "    -1\n");
+}
+
+static void a_trace_has_eight_nodes_a_line(void **state)
+{
+    (void)state;
+    int node[] = {1, 2, 0, 3};
+    const struct uff_trace trace = {.number = 5, .color = 30, .name = "shaft", .node_count = 4, .node = node};
+    FILE *stream = open_text();
+    assert_status(uff_write_trace(stream, &trace), ROTID_OK);
+    is_text(stream, "    -1\n    82\n         5         4        30\nshaft\n"
+                    "         1         2         0         3\n    -1\n");
+}
+
+static void shapes_say_their_analysis(void **state)
+{
+    (void)state;
+    int node[] = {3, 1};
+    double real[] = {1, 0, -0.5, 2, 3, 4}, imag[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    struct uff_shape shape = {.id = {"mode 1"},
+                              .model_type = 1,
+                              .analysis_type = 2,
+                              .data_characteristic = 2,
+                              .specific_type = 8,
+                              .load_case = 1,
+                              .number = 4,
+                              .frequency_hz = 72.125,
+                              .damping = 0.01,
+                              .modal_mass = 1,
+                              .component_count = 3,
+                              .node_count = 2,
+                              .node = node,
+                              .real = real};
+    FILE *stream = open_text();
+    assert_status(uff_write_shape(stream, &shape), ROTID_OK);
+    is_text(stream, "    -1\n    55\nmode 1\nNONE\nNONE\nNONE\nNONE\n"
+                    "         1         2         2         8         2         3\n"
+                    "         2         4         1         4\n"
+                    "  7.21250E+01  1.00000E+00  1.00000E-02  0.00000E+00\n"
+                    "         3\n  1.00000E+00  0.00000E+00 -5.00000E-01\n"
+                    "         1\n  2.00000E+00  3.00000E+00  4.00000E+00\n"
+                    "    -1\n");
+    shape.analysis_type = 3;
+    shape.is_complex = 1;
+    shape.imag = imag;
+    stream = open_text();
+    assert_status(uff_write_shape(stream, &shape), ROTID_ERROR_ARGUMENT); /* without its eigenvalue */
+    (void)fclose(stream);
+    shape.eigenvalue[0] = -4.5;
+    shape.eigenvalue[1] = 453.2;
+    stream = open_text();
+    assert_status(uff_write_shape(stream, &shape), ROTID_OK);
+    is_text(stream, "    -1\n    55\nmode 1\nNONE\nNONE\nNONE\nNONE\n"
+                    "         1         3         2         8         5         3\n"
+                    "         2         6         1         4\n"
+                    " -4.50000E+00  4.53200E+02  0.00000E+00  0.00000E+00  0.00000E+00  0.00000E+00\n"
+                    "         3\n  1.00000E+00  1.00000E-01  0.00000E+00  2.00000E-01 -5.00000E-01  3.00000E-01\n"
+                    "         1\n  2.00000E+00  4.00000E-01  3.00000E+00  5.00000E-01  4.00000E+00  6.00000E-01\n"
+                    "    -1\n");
+}
+
+static struct uff_function transfer(int ordinate, int count)
+{
+    return (struct uff_function){.id = {"H"},
+                                 .type = UFF_TRANSFER,
+                                 .number = 1,
+                                 .response_name = "TOP",
+                                 .response_node = 19,
+                                 .response_direction = -1,
+                                 .reference_node = 1,
+                                 .reference_direction = 3,
+                                 .ordinate = ordinate,
+                                 .count = count,
+                                 .is_even = 1,
+                                 .step = 9.765625e-4,
+                                 .abscissa = {.specific_type = 18, .label = "Frequency", .unit = "Hz"},
+                                 .numerator = {.specific_type = 12, .length = 1, .unit = "m/s2"},
+                                 .denominator = {.specific_type = 13, .force = 1, .unit = "N"}};
+}
+
+#define RECORDS(form)                                                                                                            \
+    "H\nNONE\nNONE\nNONE\nNONE\n"                                                                                                \
+    "    4         1    0         0 TOP               19  -1 NONE               1   3\n" form                                    \
+    "        18    0    0    0 Frequency            Hz\n"                                                                        \
+    "        12    1    0    0 NONE                 m/s2\n"                                                                      \
+    "        13    0    1    0 NONE                 N\n"                                                                         \
+    "         0    0    0    0 NONE                 NONE\n"
+
+static void write_all(const struct uff_function *function, const double *x, const double *real, const double *imag, FILE *stream)
+{
+    struct uff_function_writer writer;
+    assert_status(uff_write_function(stream, function, &writer), ROTID_OK);
+    assert_status(uff_write_values(&writer, 1, x, real, imag), ROTID_OK); /* in two pieces */
+    assert_status(uff_write_values(&writer, function->count - 1, x ? x + 1 : NULL, real + 1, imag ? imag + 1 : NULL), ROTID_OK);
+    assert_status(uff_write_values(&writer, 1, x, real, imag), ROTID_ERROR_ARGUMENT); /* one too many */
+    assert_status(uff_end_function(&writer), ROTID_OK);
+}
+
+static const double x[] = {0.5, 1, 2, 4}, real[] = {1, -2, 3.25, 0.1}, imag[] = {0, 5e-10, -1, 7};
+
+static void text_has_the_columns_of_each_case(void **state)
+{
+    (void)state;
+    struct uff_function f = transfer(UFF_COMPLEX_SINGLE, 4);
+    FILE *stream = open_text();
+    write_all(&f, NULL, real, imag, stream);
+    is_text(
+        stream,
+        "    -1\n    58\n" RECORDS(
+            "         5         4         1  0.00000E+00 9.765625E-04  0.00000E+00\n") "  1.00000E+00  0.00000E+00 -2.00000E+00  "
+                                                                                       "5.00000E-10  3.25000E+00 -1.00000E+00\n"
+                                                                                       "  1.00000E-01  7.00000E+00\n    -1\n");
+    f = transfer(UFF_REAL_DOUBLE, 4);
+    f.is_even = 0;
+    stream = open_text();
+    write_all(&f, x, real, NULL, stream);
+    is_text(stream,
+            "    -1\n    58\n" RECORDS(
+                "         4         4         0  0.00000E+00  0.00000E+00  0.00000E+00\n") "  5.00000E-01  1.000000000000E+00  "
+                                                                                           "1.00000E+00 -2.000000000000E+00\n"
+                                                                                           "  2.00000E+00  3.250000000000E+00  "
+                                                                                           "4.00000E+00  1.000000000000E-01\n    "
+                                                                                           "-1\n");
+    f.ordinate = UFF_COMPLEX_DOUBLE;
+    f.count = 2;
+    stream = open_text();
+    write_all(&f, x, real, imag, stream);
+    is_text(stream,
+            "    -1\n    58\n" RECORDS(
+                "         6         2         0  0.00000E+00  0.00000E+00  0.00000E+00\n") "  5.00000E-01  1.000000000000E+00  "
+                                                                                           "0.000000000000E+00\n"
+                                                                                           "  1.00000E+00 -2.000000000000E+00  "
+                                                                                           "5.000000000000E-10\n    -1\n");
+    f = transfer(UFF_REAL_DOUBLE, 4);
+    stream = open_text();
+    write_all(&f, NULL, real, NULL, stream);
+    is_text(
+        stream,
+        "    -1\n    58\n" RECORDS(
+            "         4         4         1  0.00000E+00 9.765625E-04  0.00000E+00\n") "  1.000000000000E+00 -2.000000000000E+00 "
+                                                                                       " 3.250000000000E+00  "
+                                                                                       "1.000000000000E-01\n    -1\n");
+}
+
+static void binary_has_its_bytes_in_order(void **state)
+{
+    (void)state;
+    struct uff_function f = transfer(UFF_REAL_SINGLE, 2);
+    static const char head[] =
+        "    -1\n    58b     2     2          11           8     0     0           0           0\n" RECORDS(
+            "         2         2         1  0.00000E+00 9.765625E-04  0.00000E+00\n");
+    static const unsigned char big[] = {0x3f, 0x80, 0, 0, 0xc0, 0, 0, 0}, little[] = {0, 0, 0x80, 0x3f, 0, 0, 0, 0xc0};
+    f.binary = (struct uff_binary){.is_binary = 1, .order = 2, .format = 2};
+    FILE *stream = open_text();
+    write_all(&f, NULL, real, NULL, stream);
+    assert_int_equal(fclose(stream), 0);
+    assert_int_equal(length, sizeof head - 1 + sizeof big + 7);
+    assert_memory_equal(text, head, sizeof head - 1);
+    assert_memory_equal(text + sizeof head - 1, big, sizeof big);
+    assert_string_equal(text + sizeof head - 1 + sizeof big, "    -1\n");
+    f.binary.order = 1;
+    stream = open_text();
+    write_all(&f, NULL, real, NULL, stream);
+    assert_int_equal(fclose(stream), 0);
+    assert_memory_equal(text + sizeof head - 1, little, sizeof little);
+}
+
+/* Each of them alone is refused. */
+static void what_the_format_cannot_hold_is_refused(void **state)
+{
+    (void)state;
+    struct uff_trace trace = {.number = 1, .name = "    -1"};
+    struct uff_node node = {.id = 1, .x = {0, NAN, 0}};
+    struct uff_function f = transfer(UFF_REAL_SINGLE, 1);
+    struct uff_function_writer writer;
+    const double infinite = INFINITY, large = 10.0 * FLT_MAX;
+    FILE *stream = open_text();
+    assert_status(uff_write_trace(stream, &trace), ROTID_ERROR_ARGUMENT);
+    (void)strcpy(trace.name, "two\nlines");
+    assert_status(uff_write_trace(stream, &trace), ROTID_ERROR_ARGUMENT);
+    assert_status(uff_write_nodes(stream, 15, 1, &node), ROTID_ERROR_ARGUMENT);
+    assert_status(uff_write_nodes(stream, 781, 1, &node), ROTID_ERROR_ARGUMENT);
+    assert_status(uff_write_function(stream, &f, &writer), ROTID_OK);
+    assert_status(uff_write_values(&writer, 1, NULL, &infinite, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(uff_end_function(&writer), ROTID_ERROR_ARGUMENT); /* a value is missing */
+    f.binary = (struct uff_binary){.is_binary = 1, .order = 1, .format = 2};
+    assert_status(uff_write_function(stream, &f, &writer), ROTID_OK);
+    assert_status(uff_write_values(&writer, 1, NULL, &large, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(uff_write_values(&writer, 1, NULL, &infinite, NULL), ROTID_OK);
+    f.binary.order = 3;
+    assert_status(uff_write_function(stream, &f, &writer), ROTID_ERROR_ARGUMENT);
+    f = transfer(7, 1);
+    assert_status(uff_write_function(stream, &f, &writer), ROTID_ERROR_ARGUMENT);
+    f = transfer(UFF_REAL_SINGLE, 1);
+    f.response_direction = -12345;
+    assert_status(uff_write_function(stream, &f, &writer), ROTID_ERROR_ARGUMENT);
+    (void)fclose(stream);
+}
+
+static void a_full_disk_is_told(void **state)
+{
+    (void)state;
+    struct uff_function f = transfer(UFF_REAL_DOUBLE, 1);
+    struct uff_function_writer writer;
+    FILE *stream = fopen("/dev/full", "w");
+    assert_non_null(stream);
+    (void)setvbuf(stream, NULL, _IONBF, 0);
+    assert_status(uff_write_function(stream, &f, &writer), ROTID_ERROR_IO);
+    assert_status(uff_write_values(&writer, 1, NULL, real, NULL), ROTID_ERROR_IO);
+    (void)fclose(stream);
+}
+
+static int forget_text(void **state)
+{
+    (void)state;
+    free(text);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_header_has_seven_records),  cmocka_unit_test(units_keep_seventeen_digits),
+        cmocka_unit_test(nodes_stand_in_columns),        cmocka_unit_test(systems_are_points_or_a_matrix),
+        cmocka_unit_test(beams_have_a_record_more),      cmocka_unit_test(a_trace_has_eight_nodes_a_line),
+        cmocka_unit_test(shapes_say_their_analysis),     cmocka_unit_test(text_has_the_columns_of_each_case),
+        cmocka_unit_test(binary_has_its_bytes_in_order), cmocka_unit_test(what_the_format_cannot_hold_is_refused),
+        cmocka_unit_test(a_full_disk_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, forget_text);
+}

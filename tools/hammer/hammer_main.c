@@ -1,0 +1,83 @@
+/* hammer: writes the time records of a hammer test as a universal file, and the truth beside it. See hammer.h. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hammer.h"
+#include "hammer_command.h"
+#include "hide/hide_text.h"
+
+/* The whole file; NULL, with a message, where it cannot be read. */
+static char *read_file(const char *path)
+{
+    struct hide_text text = {NULL, 0, 0, 0};
+    char block[4096];
+    size_t count;
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        fprintf(stderr, "hammer: %s: %s; expected paper, beam or a deck\n", path, strerror(errno));
+        return NULL;
+    }
+    hide_add(&text, "%s", "");
+    while ((count = fread(block, 1, sizeof block, file)) > 0)
+        hide_add_bytes(&text, block, count);
+    int bad = ferror(file) || text.failed || strlen(text.data) != text.length;
+    fclose(file);
+    if (!bad)
+        return text.data;
+    fprintf(stderr, "hammer: %s: expected a text that can be read\n", path);
+    free(text.data);
+    return NULL;
+}
+
+static int run(const struct hammer_command *c, const char *deck, int truths, const char *const *truth)
+{
+    struct hammer_test test;
+    char message[600];
+    int status = hammer_open(deck, c->rotor, truths, truth, c->seed, &c->options, &test, message, sizeof message);
+    if (!status && c->truth)
+        status = hammer_write_truth(&test, c->seed, c->truth, message, sizeof message);
+    if (!status && c->deck)
+        status = hammer_write_deck(&test, c->modes_file, c->deck, message, sizeof message);
+    if (!status)
+        status = hammer_write(&test, c->seed, c->ascii, c->out, message, sizeof message);
+    if (status)
+        fprintf(stderr, "hammer: %s\n", message);
+    hammer_close(&test);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    struct hammer_command command;
+    struct hammer_options built_in = hammer_options_default();
+    const char *const *preset = NULL, **truth = calloc((size_t)argc + 8, sizeof *truth);
+    int presets = 0, status = truth ? hammer_command_read(argc, argv, truth, &command) : HAMMER_FAILURE;
+    char *deck = NULL;
+    if (!status && command.help) {
+        fputs(hammer_usage, stdout);
+        free(truth);
+        return HAMMER_OK;
+    }
+    if (!status) {
+        deck = hammer_rotor_deck(command.rotor, &built_in, &presets, &preset);
+        if (deck && !command.damping_given) {
+            command.options.dampings = built_in.dampings;
+            memcpy(command.options.damping, built_in.damping, sizeof built_in.damping);
+        }
+        if (!deck)
+            presets = 0;
+        if (!deck && !(deck = read_file(command.rotor)))
+            status = HAMMER_INPUT;
+    }
+    if (!status) { /* what is given comes after what is built in, and so has the last word */
+        memmove(truth + presets, truth, (size_t)command.truths * sizeof *truth);
+        for (int i = 0; i < presets; i++)
+            truth[i] = preset[i];
+        status = run(&command, deck, command.truths + presets, truth);
+    }
+    free(deck);
+    free(truth);
+    return status;
+}
