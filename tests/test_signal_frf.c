@@ -3,11 +3,11 @@
 
 #include <math.h>
 
-#include "hammer.h"
+#include "struck.h"
 
 #define LINES 50
 
-static const struct hammer_mode modes[] = {{40, 0.02, 0.5}, {90, 0.01, -0.3}};
+static const struct struck_mode modes[] = {{40, 0.02, 0.5}, {90, 0.01, -0.3}};
 
 struct bench {
     double frequency_hz[LINES], variance[LINES], coherence[LINES];
@@ -18,8 +18,8 @@ struct bench {
 
 static double complex truth(enum frf_quantity quantity, double decay, double frequency_hz)
 {
-    struct hammer hammer = {2, modes, quantity, 0, 0};
-    return hammer_transfer(&hammer, CMPLX(decay, 2 * PI * frequency_hz));
+    struct struck hammer = {2, modes, quantity, 0, 0};
+    return struck_transfer(&hammer, CMPLX(decay, 2 * PI * frequency_hz));
 }
 
 static void fill(struct bench *bench, enum frf_quantity quantity, double first_hz, double decay)

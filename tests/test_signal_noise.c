@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "hammer.h"
 #include "signal/estimator.h"
+#include "struck.h"
 
 #define RATE   1000.0
 #define BLOCK  1000 /* samples, a product of 2 and 5 */
@@ -44,8 +44,8 @@ static void run(const struct trial *trial, uint64_t *seed, struct transfer *out)
     for (long long j = 0; j < count; j++)
         response[j] = force[j] + (j > 0 ? 2 * RADIUS * cos(0.3 * PI) * response[j - 1] : 0) -
                       (j > 1 ? RADIUS * RADIUS * response[j - 2] : 0);
-    hammer_noise(seed, trial->force_noise, count, force);
-    hammer_noise(seed, trial->response_noise, count, response);
+    struck_noise(seed, trial->force_noise, count, force);
+    struck_noise(seed, trial->response_noise, count, response);
     options.block = 0.96; /* 960 samples fit before the next impact */
     options.force_window = -1;
     options.high_hz = 300;
@@ -242,6 +242,26 @@ static void smoothed_variance_has_many_degrees_of_freedom(void **state)
     assert_true(largest < 2.5);
 }
 
+/* A resonance where the impacts scatter does not spoil the lines beside it, nor do these hide it; what is flat stays flat. */
+static void smoothing_keeps_a_peak_to_itself(void **state)
+{
+    enum { LINES = 200, PEAK = 100 };
+    double force[LINES], variance[LINES], work[LINES + 2 * ESTIMATOR_SMOOTH + 2];
+    (void)state;
+    for (int n = 1; n <= LINES; n += n < 2 ? 1 : 198) {
+        for (int l = 0; l < n; l++) {
+            force[l] = 1 + l; /* flat noise of the response is no flat variance */
+            variance[l] = (l >= PEAK && l < PEAK + 3 ? 900 + 100 * (l - PEAK) : 1 + 0.5 * (l % 2)) / force[l];
+        }
+        estimator_smooth(n, force, variance, work);
+        for (int l = 0; l < n; l++)
+            if (l >= PEAK && l < PEAK + 3)
+                assert_close(variance[l] * force[l], 1000, 1e-12, 0);
+            else
+                assert_close(variance[l] * force[l], n == 1 ? 1 : 1.25, 0.03, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -251,6 +271,7 @@ int main(void)
         cmocka_unit_test(hv_is_the_eigenvector_of_the_larger_eigenvalue),
         cmocka_unit_test_setup_teardown(coherence_tells_the_signal_to_noise_ratio, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(variance_is_the_scatter_of_the_estimate, open_test_pool, close_test_pool),
+        cmocka_unit_test(smoothing_keeps_a_peak_to_itself),
         cmocka_unit_test_setup_teardown(smoothed_variance_has_many_degrees_of_freedom, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests_name("signal_noise", tests, NULL, NULL);

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "hammer.h"
 #include "signal/estimator.h"
+#include "struck.h"
 
 #define LENGTH 2000
 #define RATE   1000.0
@@ -13,8 +13,8 @@
 /* Three impacts a record, of a sampled system with white noise on the response. */
 static struct record usual(int node)
 {
-    struct record record = hammer_record(LENGTH);
-    double *f = hammer_force(&record), *x = hammer_response(&record);
+    struct record record = struck_record(LENGTH);
+    double *f = struck_force(&record), *x = struck_response(&record);
     uint64_t seed = (uint64_t)node;
     for (int k = 0; k < 3; k++) {
         f[100 + 650 * k] = 50;
@@ -23,7 +23,7 @@ static struct record usual(int node)
     }
     for (int j = 2; j < LENGTH; j++)
         x[j] = f[j] + 1.7 * x[j - 1] - 0.95 * x[j - 2];
-    hammer_noise(&seed, 1, LENGTH, x);
+    struck_noise(&seed, 1, LENGTH, x);
     record.response_node = node;
     return record;
 }
@@ -101,7 +101,7 @@ static void records_without_an_impact_are_named(void **state)
     (void)state;
     for (int kind = 0; kind < 12; kind++) {
         struct record record[] = {usual(1), usual(2), usual(2)};
-        double *f = hammer_force(&record[2]), *x = hammer_response(&record[2]);
+        double *f = struck_force(&record[2]), *x = struck_response(&record[2]);
         options = (struct transfer_options){0};
         if (kind < 6)
             memset(f, 0, LENGTH * sizeof *f);
@@ -109,7 +109,7 @@ static void records_without_an_impact_are_named(void **state)
         case 0: /* silence */
             break;
         case 1: /* noise */
-            hammer_noise(&seed, 1, LENGTH, f);
+            struck_noise(&seed, 1, LENGTH, f);
             break;
         case 2: /* a shaker */
             for (int j = 0; j < LENGTH; j++)
@@ -156,7 +156,7 @@ static void transfer_functions_without_a_usable_impact_are_named(void **state)
     (void)state;
     for (int r = 1; r < 3; r++)
         for (int j = 0; j < LENGTH; j++)
-            hammer_response(&record[r])[j] = fmax(-10, fmin(10, record[r].response[j]));
+            struck_response(&record[r])[j] = fmax(-10, fmin(10, record[r].response[j]));
     assert_refused(3, record, RATE, &(struct transfer_options){0}, 1);
     assert_refused(1, record, RATE, &(struct transfer_options){.block = 1.5}, 0); /* all are second hits of the first */
 }
@@ -243,7 +243,7 @@ static void lines_without_force_say_nothing(void **state)
 {
     enum { LINES = 60, GAP = 20 };
     double ff[2 * LINES], xx[2 * LINES], variance[LINES], coherence[LINES], sums[2 * LINES], weight[2];
-    double smooth[LINES + 2 * ESTIMATOR_SMOOTH + 1];
+    double smooth[LINES + 2 * ESTIMATOR_SMOOTH + 2];
     double complex xf[2 * LINES], h[LINES], part[LINES], sum_xf[LINES];
     struct spectra column = {ff, xx, xf}, sum = {sums, sums + LINES, sum_xf};
     (void)state;

@@ -5,18 +5,18 @@
 
 #include <math.h>
 
-#include "hammer.h"
+#include "struck.h"
 
-static const struct hammer_mode single[] = {{50, 0.02, 0.5}};
-static const struct hammer_mode three[] = {{40, 0.02, 0.5}, {90, 0.01, -0.3}, {170, 0.015, 0.4}};
+static const struct struck_mode single[] = {{50, 0.02, 0.5}};
+static const struct struck_mode three[] = {{40, 0.02, 0.5}, {90, 0.01, -0.3}, {170, 0.015, 0.4}};
 
 /* One impact, its transfer function up to high_hz. */
-static struct frf_set measure(const struct hammer *hammer, double seconds, const struct transfer_options *options)
+static struct frf_set measure(const struct struck *hammer, double seconds, const struct transfer_options *options)
 {
     struct transfer out;
     int bad;
-    struct record record = hammer_record((long long)(seconds * hammer->rate));
-    hammer_hit(hammer, 0.02, 100, record.count, hammer_force(&record), hammer_response(&record));
+    struct record record = struck_record((long long)(seconds * hammer->rate));
+    struck_hit(hammer, 0.02, 100, record.count, struck_force(&record), struck_response(&record));
     assert_status(transfer_compute(&test_pool, 1, &record, hammer->rate, hammer->quantity, options, 1, &out, &bad), ROTID_OK);
     assert_int_equal(bad, -1);
     assert_int_equal(out.nimpact, 1);
@@ -29,11 +29,11 @@ static struct frf_set measure(const struct hammer *hammer, double seconds, const
 }
 
 /* Largest error relative to the largest |H|. */
-static double error_of(const struct hammer *hammer, const struct frf_set *set)
+static double error_of(const struct struck *hammer, const struct frf_set *set)
 {
     double worst = 0, largest = 0;
     for (int l = 0; l < set->nline; l++) {
-        double complex exact = hammer_transfer(hammer, CMPLX(set->window_decay, 2 * PI * set->frequency_hz[l]));
+        double complex exact = struck_transfer(hammer, CMPLX(set->window_decay, 2 * PI * set->frequency_hz[l]));
         worst = fmax(worst, cabs(set->frf[0].h[l] - exact));
         largest = fmax(largest, cabs(exact));
     }
@@ -47,7 +47,7 @@ static void transfer_functions_are_those_of_the_continuous_system(void **state)
     for (int q = 0; q < 3; q++)
         for (int system = 0; system < 2; system++)
             for (int estimator = TRANSFER_H1; estimator <= TRANSFER_HV; estimator++) {
-                struct hammer hammer = {system ? 3 : 1, system ? three : single, quantity[q], 0.004, 51200};
+                struct struck hammer = {system ? 3 : 1, system ? three : single, quantity[q], 0.004, 51200};
                 struct transfer_options options = {.estimator = estimator, .high_hz = 200};
                 struct frf_set set = measure(&hammer, 4, &options);
                 double error = error_of(&hammer, &set);
@@ -67,7 +67,7 @@ static void what_is_left_are_the_aliases_of_the_pulse(void **state)
     double error[2];
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct hammer hammer = {3, three, FRF_DISPLACEMENT, 0.005, i ? 12800 : 6400};
+        struct struck hammer = {3, three, FRF_DISPLACEMENT, 0.005, i ? 12800 : 6400};
         struct transfer_options options = {.high_hz = 200};
         struct frf_set set = measure(&hammer, 4, &options);
         error[i] = error_of(&hammer, &set);
@@ -87,12 +87,12 @@ static double complex pole_from(double complex h, double omega, double residue)
 /* The block ends long before the motion does; with the window it is as if it did not, and the pole comes back exactly. */
 static void the_exponential_window_shifts_poles_by_its_decay(void **state)
 {
-    static const struct hammer_mode light[] = {{50, 0.001, 0.5}};
+    static const struct struck_mode light[] = {{50, 0.001, 0.5}};
     static const double end[] = {1e-3, 1e-5, 1e-7};
-    double complex exact = hammer_pole(light);
+    double complex exact = struck_pole(light);
     (void)state;
     for (int i = 0; i < 3; i++) {
-        struct hammer hammer = {1, light, FRF_DISPLACEMENT, 0.004, 51200};
+        struct struck hammer = {1, light, FRF_DISPLACEMENT, 0.004, 51200};
         struct transfer_options options = {.exponential = end[i], .low_hz = 30, .high_hz = 80};
         struct frf_set set = measure(&hammer, 2, &options);
         assert_close(set.window_decay, -log(end[i]) * (set.frequency_hz[1] - set.frequency_hz[0]), 1e-9, 0);
@@ -119,8 +119,8 @@ static void windowed_recursion_is_exact_to_single_precision(void **state)
     struct transfer out;
     int bad;
     (void)state;
-    struct record record = hammer_record(4096);
-    double *f = hammer_force(&record), *y = hammer_response(&record), worst = 0, largest = 0;
+    struct record record = struck_record(4096);
+    double *f = struck_force(&record), *y = struck_response(&record), worst = 0, largest = 0;
     f[200] = 3, f[201] = 10, f[202] = 5, f[203] = 2;
     for (int j = 1; j < 4096; j++)
         y[j] = a * y[j - 1] + f[j];

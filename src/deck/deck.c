@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "deck/deck_cards.h"
+#include "deck/deck_frequencies.h"
 #include "rotid.h"
 
 /* Cards in the order in which they are read: what a later one refers to comes first, wherever it stands in the deck. */
@@ -30,8 +31,9 @@ static const struct {
     {"HEADING", deck_heading, 2, {NULL}},
     {"SENSORS", deck_sensors, 2, {NULL}},
     {"MODES", deck_modes, 3, {NULL}},
-    {"NOISE", deck_noise, 3, {"FREQUENCY", "SHAPE", NULL}},
+    {"NOISE", deck_noise, 3, {"FREQUENCY", "SHAPE", "FLOOR_FREQUENCY", "FLOOR_SHAPE", NULL}},
     {"SHAPE", deck_shape, 4, {"MODE", NULL}},
+    {"FREQUENCIES", deck_frequencies, 4, {"MODE", NULL}},
     {"MEASURED", deck_measured, 4, {"FILE", "AXIS", "DIRECTION", "ORIGIN", "FLIP", "SCALE", NULL}},
     {"FRF", deck_frf, 4, {"FILE", "LOW", "HIGH", "STEP", "LINES", "QUANTITY", "DAMPING", "AXIS", "ORIGIN", "FLIP", NULL}},
     {"CAUSE", deck_cause, 5, {"NAME", "TYPE", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", "SUSPECT", NULL}},
@@ -123,18 +125,6 @@ static void settle_moduli(struct deck_reader *reader)
         material->g = material_shear_modulus(material);
         material->isotropic = 0;
     }
-}
-
-static void apply_noise(struct deck_reader *reader)
-{
-    struct job *job = reader->job;
-    ptrdiff_t components = job->shape ? (ptrdiff_t)job->rotor.nsensor * job->nmode : 0;
-    for (int k = 0; k < job->nmode; k++)
-        if (!isfinite(job->frequency_std[k]) && reader->noise_frequency > 0)
-            job->frequency_std[k] = reader->noise_frequency;
-    for (ptrdiff_t i = 0; i < components; i++)
-        if (!isfinite(job->shape_std[i]) && reader->noise_shape > 0)
-            job->shape_std[i] = reader->noise_shape;
 }
 
 /* Without a word from the user: what can be trusted. */
@@ -243,7 +233,7 @@ static void read_cards(struct deck_reader *reader)
     if (reader->messages->errors || reader->out_of_memory)
         return;
     settle_moduli(reader);
-    apply_noise(reader);
+    deck_settle_noise(reader);
     deck_apply_corrections(reader);
     if (reader->messages->errors || reader->out_of_memory)
         return;

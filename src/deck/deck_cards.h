@@ -19,8 +19,8 @@ struct deck_reader {
         bounds_room, effect_room, suspect_room, correction_room, correction_place_room, pair_room;
     struct place *correction_place; /* of the CAUSE cards of the measurement chain */
     double length;                  /* of the rotor, once all groups are read */
-    double noise_frequency, noise_shape;
-    const struct card *measured_card, *modes_card, *fit_card, *identify_card, *noise_card, *frf_card;
+    double noise_frequency, noise_shape, floor_frequency, floor_shape;
+    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
     const char *tie; /* FIT, TIE=E:G */
     int out_of_memory;
 };
@@ -82,6 +82,7 @@ void deck_heading(struct deck_reader *reader, const struct card *card);
 void deck_sensors(struct deck_reader *reader, const struct card *card);
 void deck_modes(struct deck_reader *reader, const struct card *card);
 void deck_shape(struct deck_reader *reader, const struct card *card);
+void deck_frequencies(struct deck_reader *reader, const struct card *card);
 void deck_noise(struct deck_reader *reader, const struct card *card);
 void deck_cause(struct deck_reader *reader, const struct card *card);
 void deck_identify(struct deck_reader *reader, const struct card *card);

@@ -212,18 +212,22 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
 
 void deck_noise(struct deck_reader *reader, const struct card *card)
 {
-    const struct card_option *frequency = card_option(card, "FREQUENCY"), *shape = card_option(card, "SHAPE");
+    static const char *const name[] = {"FREQUENCY", "SHAPE", "FLOOR_FREQUENCY", "FLOOR_SHAPE"};
+    double *const value[] = {&reader->noise_frequency, &reader->noise_shape, &reader->floor_frequency, &reader->floor_shape};
+    int given = 0;
     if (reader->noise_card)
         deck_error(reader, card->place, "*NOISE is given twice, expected once");
     reader->noise_card = card;
-    if (!frequency && !shape)
+    for (int i = 0; i < 4; i++) {
+        const struct card_option *option = card_option(card, name[i]);
+        given |= option != NULL;
+        if (option)
+            (void)deck_option_number(reader, option, i < 2 ? POSITIVE : NOT_NEGATIVE, value[i]);
+    }
+    if (!given)
         deck_error(
             reader, card->place,
             "*NOISE has no value, expected FREQUENCY=relative standard deviation, SHAPE=the same of the largest component");
-    if (frequency)
-        (void)deck_option_number(reader, frequency, POSITIVE, &reader->noise_frequency);
-    if (shape)
-        (void)deck_option_number(reader, shape, POSITIVE, &reader->noise_shape);
     for (int i = 0; i < card->nline; i++)
         deck_error(reader, card->line[i].place, "*NOISE has no data lines, expected options on the card");
 }

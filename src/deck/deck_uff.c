@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "deck/deck_cards.h"
+#include "deck/deck_uff_std.h"
 #include "rotid.h"
 #include "uff/uff.h"
 
@@ -257,6 +258,8 @@ static int import_modes(struct import *import)
         bad |= import_shape(import, chosen[k], job->shape + (ptrdiff_t)k * job->rotor.nsensor);
     }
     job->nmode = count;
+    if (!bad)
+        deck_uff_std(reader, import->path, &import->file, count, chosen, import->component);
     return bad;
 }
 

@@ -18,14 +18,26 @@ static void refuse(struct deck_writer *w)
 struct data {
     int nsensor;
     const struct sensor *sensor;
-    const double *shape, *shape_std, *frequency_std;
+    const double *shape, *shape_std, *frequency_std, *point_hz, *point_std;
 };
 
 static struct data data_of(const struct job *job)
 {
     const struct job_raw *raw = job->raw;
-    return raw ? (struct data){raw->nsensor, raw->sensor, raw->shape, raw->shape_std, raw->frequency_std}
-               : (struct data){job->rotor.nsensor, job->rotor.sensor, job->shape, job->shape_std, job->frequency_std};
+    return raw ? (struct data){.nsensor = raw->nsensor,
+                               .sensor = raw->sensor,
+                               .shape = raw->shape,
+                               .shape_std = raw->shape_std,
+                               .frequency_std = raw->frequency_std,
+                               .point_hz = raw->point_frequency_hz,
+                               .point_std = raw->point_frequency_std}
+               : (struct data){.nsensor = job->rotor.nsensor,
+                               .sensor = job->rotor.sensor,
+                               .shape = job->shape,
+                               .shape_std = job->shape_std,
+                               .frequency_std = job->frequency_std,
+                               .point_hz = job->point_frequency_hz,
+                               .point_std = job->point_frequency_std};
 }
 
 /* The one value of all components that are there (of `there`, or all), NaN where they differ or one has none. */
@@ -110,12 +122,30 @@ static void write_shape(struct deck_writer *w, const struct data *data, int k, i
     }
 }
 
+/* With their deviations as they were settled: *NOISE would count for them, and the scatter is not judged again. */
+static void write_frequencies(struct deck_writer *w, const struct data *data, int k)
+{
+    const double *hz = data->point_hz + (ptrdiff_t)k * data->nsensor, *std = data->point_std + (ptrdiff_t)k * data->nsensor;
+    for (int s = 0, lines = 0; s < data->nsensor; s++) {
+        if (!isfinite(hz[s]))
+            continue;
+        if (lines++ % DECK_MOST_LINES == 0)
+            deck_put(w, "*FREQUENCIES, MODE=%d\n", w->job->number[k]);
+        deck_put(w, "%d", data->sensor[s].id);
+        deck_put_number(w, ", ", hz[s]);
+        if (isfinite(std[s]))
+            deck_put_number(w, ", ", std[s]);
+        deck_put(w, "\n");
+    }
+}
+
 void deck_write_measured(struct deck_writer *w)
 {
     const struct data data = data_of(w->job);
     int nmode = w->job->nmode;
-    double frequency = uniform(nmode, NULL, data.frequency_std),
-           shape = data.shape ? uniform((ptrdiff_t)data.nsensor * nmode, data.shape, data.shape_std) : NAN;
+    double frequency =
+               data.point_hz ? NAN : uniform(nmode, NULL, data.frequency_std), /* *MODES states it: it is not settled anew */
+        shape = data.shape ? uniform((ptrdiff_t)data.nsensor * nmode, data.shape, data.shape_std) : NAN;
     write_sensors(w, &data);
     write_modes(w, &data, !isfinite(frequency));
     if (isfinite(frequency) || isfinite(shape)) {
@@ -128,6 +158,8 @@ void deck_write_measured(struct deck_writer *w)
     }
     for (int k = 0; k < nmode && data.shape; k++)
         write_shape(w, &data, k, !isfinite(shape));
+    for (int k = 0; k < nmode && data.point_hz; k++)
+        write_frequencies(w, &data, k);
 }
 
 /* ------------------------------------------------------------------------------------------------ causes */

@@ -35,6 +35,12 @@ static int copy_data(struct pool *pool, struct job *job)
         if (!job->shape || !job->shape_std)
             return ROTID_ERROR_MEMORY;
     }
+    if (job->point_frequency_hz) {
+        job->point_frequency_hz = copy(pool, job->point_frequency_hz, components, sizeof *job->point_frequency_hz);
+        job->point_frequency_std = copy(pool, job->point_frequency_std, components, sizeof *job->point_frequency_std);
+        if (!job->point_frequency_hz || !job->point_frequency_std)
+            return ROTID_ERROR_MEMORY;
+    }
     return ROTID_OK;
 }
 
@@ -63,19 +69,25 @@ int data_add_pairing(struct engine *engine, int first, int second, const char *t
     return data_add_finding(engine, &finding);
 }
 
+/* Mode k goes out of [nsensor * nmode]. */
+static void remove_column(const struct job *job, double *values, int k)
+{
+    ptrdiff_t nsensor = job->rotor.nsensor;
+    if (values)
+        memmove(values + k * nsensor, values + (k + 1) * nsensor, (size_t)((job->nmode - k - 1) * nsensor) * sizeof *values);
+}
+
 void data_remove_mode(struct job *job, int k)
 {
-    int nsensor = job->rotor.nsensor, behind = job->nmode - k - 1;
+    int behind = job->nmode - k - 1;
     memmove(job->number + k, job->number + k + 1, (size_t)behind * sizeof *job->number);
     memmove(job->frequency_hz + k, job->frequency_hz + k + 1, (size_t)behind * sizeof *job->frequency_hz);
     memmove(job->damping + k, job->damping + k + 1, (size_t)behind * sizeof *job->damping);
     memmove(job->frequency_std + k, job->frequency_std + k + 1, (size_t)behind * sizeof *job->frequency_std);
     memmove(job->holdout + k, job->holdout + k + 1, (size_t)behind * sizeof *job->holdout);
-    if (job->shape) {
-        size_t bytes = (size_t)behind * (size_t)nsensor * sizeof *job->shape;
-        memmove(job->shape + (ptrdiff_t)k * nsensor, job->shape + (ptrdiff_t)(k + 1) * nsensor, bytes);
-        memmove(job->shape_std + (ptrdiff_t)k * nsensor, job->shape_std + (ptrdiff_t)(k + 1) * nsensor, bytes);
-    }
+    double *const table[] = {job->shape, job->shape ? job->shape_std : NULL, job->point_frequency_hz, job->point_frequency_std};
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        remove_column(job, table[i], k);
     job->nmode--;
 }
 

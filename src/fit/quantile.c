@@ -34,19 +34,24 @@ static double incomplete_beta(double a, double b, double x)
     return x < (a + 1) / (a + b + 2) ? front * beta_fraction(a, b, x) / a : 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
-double quantile_student_95(int dof)
+double quantile_student(double outside, int dof)
 {
-    if (dof < 1)
-        return 1.959963984540054;
-    double low = 1.9, high = 13; /* dof = 1 has 12.71 */
-    for (int i = 0; i < 80; i++) {
-        double t = (low + high) / 2, outside = incomplete_beta(0.5 * dof, 0.5, dof / (dof + t * t));
-        if (outside > 0.05)
+    double low = 0, high = 1;
+    while (incomplete_beta(0.5 * dof, 0.5, dof / (dof + high * high)) > outside && high < 1e100)
+        high *= 2;
+    for (int i = 0; i < 100 && high - low > 1e-15 * high; i++) {
+        double t = (low + high) / 2;
+        if (incomplete_beta(0.5 * dof, 0.5, dof / (dof + t * t)) > outside)
             low = t;
         else
             high = t;
     }
     return (low + high) / 2;
+}
+
+double quantile_student_95(int dof)
+{
+    return dof < 1 ? 1.959963984540054 : quantile_student(0.05, dof);
 }
 
 /* Series below the mean, continued fraction above it (Abramowitz and Stegun 6.5.29, 6.5.31). */

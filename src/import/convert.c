@@ -69,6 +69,13 @@ static int convert_function(struct job *job, const struct uff_set *set)
     return status;
 }
 
+/* Whether the struct of a shape has room for what record 8 says under this analysis; not the time of a transient one, or the
+ * eigenvalue of buckling. */
+static int holds_all(int analysis_type)
+{
+    return analysis_type == 0 || analysis_type == 2 || analysis_type == 3 || analysis_type == 5 || analysis_type == 7;
+}
+
 /* Reads a set that is no function and writes it to `out`; UFF_END for those that are copied. */
 static int carry(struct job *job, const struct uff_set *set, FILE *out)
 {
@@ -92,7 +99,7 @@ static int carry(struct job *job, const struct uff_set *set, FILE *out)
         return status ? status : uff_write_nodes(out, set->number, count, node);
     case 55:
         status = uff_read_shape_set(reader, pool, &data.shape);
-        return status ? status : uff_write_shape(out, &data.shape);
+        return status ? status : holds_all(data.shape.analysis_type) ? uff_write_shape(out, &data.shape) : UFF_END;
     case 82:
         status = uff_read_trace(reader, pool, &data.trace);
         return status ? status : uff_write_trace(out, &data.trace);

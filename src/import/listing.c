@@ -206,11 +206,22 @@ static void apply_units(struct listing *listing)
     }
 }
 
+/* Some writers name the place of a record once more as its reference. */
+static int refers_to_itself(const struct uff_function *f)
+{
+    return f->reference_node == f->response_node && f->reference_direction == f->response_direction;
+}
+
+static int same_reference(const struct uff_function *a, const struct uff_function *b)
+{
+    return a->reference_node == b->reference_node || (refers_to_itself(a) && refers_to_itself(b) && a->type != UFF_TRANSFER);
+}
+
 static int same_group(const struct uff_function *a, const struct uff_function *b)
 {
     return a->type == b->type && a->ordinate == b->ordinate && a->count == b->count && a->is_even == b->is_even &&
-           a->start == b->start && a->step == b->step && a->reference_node == b->reference_node &&
-           a->binary.is_binary == b->binary.is_binary && a->numerator.specific_type == b->numerator.specific_type;
+           a->start == b->start && a->step == b->step && same_reference(a, b) && a->binary.is_binary == b->binary.is_binary &&
+           a->numerator.specific_type == b->numerator.specific_type;
 }
 
 static void find_groups(struct listing *listing)

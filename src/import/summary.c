@@ -39,7 +39,7 @@ static const char *range_text(struct pool *pool, int count, int *number)
 static const char *describe_group(struct pool *pool, const struct listing *listing, int group)
 {
     const struct listing_function *first = NULL;
-    int *response = POOL_ARRAY(pool, int, listing->function_count), count = 0, several = 0;
+    int *response = POOL_ARRAY(pool, int, listing->function_count), count = 0, several = 0, references = 0;
     if (!response)
         return NULL;
     for (int i = 0; i < listing->function_count; ++i) {
@@ -48,6 +48,7 @@ static const char *describe_group(struct pool *pool, const struct listing *listi
             continue;
         first = first ? first : f;
         response[count++] = f->function.response_node;
+        references |= f->function.reference_node != first->function.reference_node;
     }
     for (int i = 1; i < count; ++i)
         several |= response[i] != response[0];
@@ -60,12 +61,13 @@ static const char *describe_group(struct pool *pool, const struct listing *listi
     const char *unit = time ? "s" : f->abscissa.specific_type == 18 || !f->abscissa.specific_type ? "Hz" : f->abscissa.unit;
     const char *rate =
         time && f->is_even && f->step > 0 ? pool_format(pool, " at %.6g Hz", 1 / (f->step * first->x_si_factor)) : "";
-    const char *reference = f->reference_node ? pool_format(pool, ", reference %d", f->reference_node) : "";
-    if (!rate || !reference)
+    const char *reference = f->reference_node && !references ? pool_format(pool, ", reference %d", f->reference_node) : "";
+    const char *responses = pool_format(pool, ", response%s %s", several ? "s" : "", places);
+    if (!rate || !reference || !responses)
         return NULL;
-    return pool_format(pool, "%d %s, %lld %s%s%s, %.6g to %.6g %s, response%s %s%s", count, name_of_function(f->type, count > 1),
-                       f->count, time ? "samples" : "lines", count > 1 ? " each" : "", rate, v->x_first * first->x_si_factor,
-                       v->x_last * first->x_si_factor, unit, several ? "s" : "", places, reference);
+    return pool_format(pool, "%d %s, %lld %s%s%s, %.6g to %.6g %s%s%s", count, name_of_function(f->type, count > 1), f->count,
+                       time ? "samples" : "lines", count > 1 ? " each" : "", rate, v->x_first * first->x_si_factor,
+                       v->x_last * first->x_si_factor, unit, several || response[0] ? responses : "", reference);
 }
 
 static const char *describe_shapes(struct pool *pool, const struct listing *listing)

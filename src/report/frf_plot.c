@@ -73,7 +73,7 @@ static void frame(FILE *out, int columns, double from, double to)
         (void)fputc(c % 10 ? '-' : '+', out);
     (void)fprintf(out, "\n%*s", MARGIN, "");
     for (int c = 0; c + 10 <= columns; c += 20)
-        (void)fprintf(out, "%-20.5g", from + (to - from) * c / (columns - 1));
+        (void)fprintf(out, "%-*.5g", c + 30 <= columns ? 20 : 8, from + (to - from) * c / (columns - 1));
     (void)fputs("Hz\n", out);
 }
 

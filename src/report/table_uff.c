@@ -35,17 +35,41 @@ static struct row take_row(const struct listing *listing, int first, int all)
     return row;
 }
 
+/* Texts in Latin-1, with a superscript of two or a micro, would spoil a terminal that expects UTF-8. */
+static void print_clean(FILE *out, const char *text)
+{
+    for (const unsigned char *c = (const unsigned char *)text; *c; ++c) {
+        int pair = *c >= 0xc2 && *c < 0xe0 && (c[1] & 0xc0) == 0x80;
+        if (*c < 0x80 || pair)
+            (void)fputc(*c, out);
+        else
+            (void)fputs(*c == 0xb2 ? "2" : "?", out);
+        if (pair)
+            (void)fputc(*++c, out);
+    }
+}
+
+static void print_unit(FILE *out, const char *numerator, const char *denominator)
+{
+    (void)fputs(", ", out);
+    print_clean(out, numerator);
+    if (*denominator)
+        (void)fputc('/', out);
+    print_clean(out, denominator);
+}
+
 static void print_function(FILE *out, const struct listing *listing, struct row row)
 {
     const struct listing_function *f = function_of(listing, row.first), *g = function_of(listing, row.last);
-    char response[PLACE_TEXT], last[PLACE_TEXT], reference[PLACE_TEXT], places[3 * PLACE_TEXT];
+    char response[PLACE_TEXT], last[PLACE_TEXT], reference[PLACE_TEXT], places[4 * PLACE_TEXT];
     double min = INFINITY, max = -INFINITY, rms = 0;
     const char *unit = f->function.numerator.unit;
     (void)place_text(f->function.response_node, f->function.response_direction, response);
     (void)place_text(g->function.response_node, g->function.response_direction, last);
     (void)place_text(f->function.reference_node, f->function.reference_direction, reference);
-    (void)snprintf(places, sizeof places, row.first == row.last ? "%s%s / %s" : "%s ... %s / %s", response,
-                   row.first == row.last ? "" : last, reference);
+    (void)snprintf(places, sizeof places, "%s%s%s%s%s", response, row.first == row.last ? "" : " ... ",
+                   row.first == row.last ? "" : last, f->function.reference_node ? " / " : "",
+                   f->function.reference_node ? reference : "");
     for (int i = row.first; i <= row.last; ++i) {
         const struct values *v = &function_of(listing, i)->values;
         min = fmin(min, v->min);
@@ -54,7 +78,7 @@ static void print_function(FILE *out, const struct listing *listing, struct row 
     }
     text_cell(out, 24, name_of_function(f->function.type, row.last > row.first));
     (void)fputc(' ', out);
-    text_cell(out, 20, places);
+    text_cell(out, 26, places);
     (void)fprintf(out, " %9lld", f->function.count);
     digits_cell(out, 11, 6, f->values.x_first * f->x_si_factor);
     digits_cell(out, 12, 6, f->function.is_even ? f->function.step * f->x_si_factor : NAN);
@@ -63,7 +87,7 @@ static void print_function(FILE *out, const struct listing *listing, struct row 
     digits_cell(out, 11, 4, rms);
     (void)fprintf(out, "  %s%s", name_of_ordinate(f->function.ordinate), f->function.binary.is_binary ? ", binary" : "");
     if (*unit || *f->function.denominator.unit)
-        (void)fprintf(out, ", %s%s%s", unit, *f->function.denominator.unit ? "/" : "", f->function.denominator.unit);
+        print_unit(out, unit, f->function.denominator.unit);
     if (f->si_factor != 1)
         (void)fprintf(out, ", times %.6g in SI", f->si_factor);
 }
@@ -86,9 +110,11 @@ static void print_rest(FILE *out, const struct listing *listing, struct row row)
         else
             (void)fprintf(out, ", %.6g to %.6g Hz", first->frequency_hz, last->frequency_hz);
     } else if (set->set.number == 164 && listing->units) {
-        (void)fprintf(out, " %s %s", name_of_units(listing->units->code), listing->units->description);
+        (void)fprintf(out, " %s ", name_of_units(listing->units->code));
+        print_clean(out, listing->units->description);
     } else if (set->set.number == 151 && listing->header) {
-        (void)fprintf(out, " %s", listing->header->model);
+        (void)fputc(' ', out);
+        print_clean(out, listing->header->model);
     } else if (set->is_read) {
         (void)fprintf(out, " %lld in all", size);
     }
@@ -109,7 +135,7 @@ static void print_row(FILE *out, const struct listing *listing, struct row row)
 static void print_sets(FILE *out, const struct listing *listing, int all)
 {
     int rows = 0, next = 0;
-    (void)fprintf(out, "\n     line   set  count  %-24s %-20s %9s%11s%12s%11s%11s%11s\n", "what", "response / reference",
+    (void)fprintf(out, "\n     line   set  count  %-24s %-26s %9s%11s%12s%11s%11s%11s\n", "what", "response / reference",
                   "values", "from", "step", "min", "max", "rms");
     for (; next < listing->set_count && (all || rows < ROWS_MOST); ++rows) {
         struct row row = take_row(listing, next, all);
@@ -130,7 +156,7 @@ void table_uff(FILE *out, const char *path, const struct listing *listing, int s
     for (int i = 0; i < summary_count; ++i)
         wrap_text(out, 2, 130, "", summary[i]);
     if (listing->units)
-        (void)fprintf(out, "units %s; SI is a length / %.6g, a force / %.6g\n", name_of_units(listing->units->code),
+        (void)fprintf(out, "units %s: a length in m times %.6g, a force in N times %.6g\n", name_of_units(listing->units->code),
                       listing->units->length, listing->units->force);
     print_sets(out, listing, all);
     if (listing->doubt_count)

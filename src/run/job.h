@@ -37,6 +37,7 @@ struct job_raw {
     int nsensor;
     struct sensor *sensor;
     double *shape, *shape_std, *frequency_std;
+    double *point_frequency_hz, *point_frequency_std;
 };
 
 struct frf_pair { /* a transfer function: ids of sensors, or of nodes of the measured file */
@@ -75,6 +76,9 @@ struct job {
     double *shape;         /* [nsensor * nmode] NaN where not measured, or NULL */
     double *shape_std;     /* [nsensor * nmode] relative to the largest component, NaN where there is none; or NULL */
     int *holdout;          /* [nmode] */
+    /* With the accelerometer at one sensor after the other, [nsensor * nmode] in Hz, NaN where not known; NULL where the deck has
+     * none. frequency_hz of a mode that has any is then their mean over all sensors: see run/point_fit.h. */
+    double *point_frequency_hz, *point_frequency_std;
 
     int ncorrection; /* already applied to the above; raw is NULL where there are none */
     struct correction *correction;

@@ -82,39 +82,60 @@ void estimator_jackknife(int estimator, int nline, int count, const struct spect
     }
 }
 
-static double *collect(int from, int to, const double *noise, double *out)
+/* The finite ones among the lines of a window, in order: a window that moves by one line changes by two values. */
+struct window {
+    double *value; /* [2 ESTIMATOR_SMOOTH + 2] rising */
+    int count;
+};
+
+static void add(struct window *window, double value)
 {
-    for (int l = from; l < to; l++)
-        if (isfinite(noise[l]))
-            *out++ = noise[l];
-    return out;
+    int at = window->count;
+    if (!isfinite(value))
+        return;
+    for (; at > 0 && window->value[at - 1] > value; at--)
+        window->value[at] = window->value[at - 1];
+    window->value[at] = value;
+    window->count++;
 }
 
-/* Median of lines from ... to, of which one at least is finite; insertion, since they are few. */
-static double median(int from, int to, const double *noise, double *value)
+static void take(struct window *window, double value)
 {
-    int count = (int)(collect(from, to, noise, value) - value);
-    for (int i = 1; i < count; i++) {
-        double moved = value[i];
-        int j = i;
-        for (; j > 0 && value[j - 1] > moved; j--)
-            value[j] = value[j - 1];
-        value[j] = moved;
-    }
-    return count % 2 ? value[count / 2] : (value[count / 2 - 1] + value[count / 2]) / 2;
+    int at = 0;
+    if (!isfinite(value))
+        return;
+    while (window->value[at] < value)
+        at++;
+    window->count--;
+    for (; at < window->count; at++)
+        window->value[at] = window->value[at + 1];
+}
+
+static double median(const struct window *window)
+{
+    int half = window->count / 2;
+    return window->count % 2 ? window->value[half] : (window->value[half - 1] + window->value[half]) / 2;
 }
 
 void estimator_smooth(int nline, const double *force, double *variance, double *work)
 {
-    double *noise = work, *value = work + nline;
-    for (int l = 0; l < nline; l++)
-        noise[l] = force[l] > 0 ? variance[l] * force[l] : INFINITY;
+    double *noise = work;
+    struct window window = {.value = work + nline};
     for (int l = 0; l < nline; l++) {
-        if (!isfinite(noise[l]))
-            continue;
+        noise[l] = force[l] > 0 ? variance[l] * force[l] : INFINITY;
+        if (l < ESTIMATOR_SMOOTH)
+            add(&window, noise[l]);
+    }
+    for (int l = 0; l < nline; l++) {
         int from = l < ESTIMATOR_SMOOTH ? 0 : l - ESTIMATOR_SMOOTH;
         int to = l > nline - 1 - ESTIMATOR_SMOOTH ? nline : l + ESTIMATOR_SMOOTH + 1, count = 0;
-        double limit = ESTIMATOR_OUTLIER * median(from, to, noise, value), sum = 0;
+        if (l + ESTIMATOR_SMOOTH < nline)
+            add(&window, noise[l + ESTIMATOR_SMOOTH]);
+        if (from > 0)
+            take(&window, noise[from - 1]);
+        if (!isfinite(noise[l]))
+            continue;
+        double limit = ESTIMATOR_OUTLIER * median(&window), sum = 0;
         for (int k = from; k < to; k++)
             if (isfinite(noise[k]) && (noise[k] > limit) == (noise[l] > limit)) {
                 sum += noise[k];

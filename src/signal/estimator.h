@@ -20,8 +20,8 @@ void estimator_sum(int nline, int count, const struct spectra *column, const dou
 double estimator_balance(int nline, const struct spectra *sum);
 
 /* h [nline]: H1 = S_xf/S_ff, H2 = S_xx/S_fx, or Hv = [D + sqrt(D^2 + 4 b |S_xf|^2)]/(2 S_fx), D = S_xx - b S_ff, with b the
- * balance: the ratio of the components of the eigenvector of the largest eigenvalue of [b S_ff, S_fx; S_xf, S_xx] (scaled), to
- * which that of the smallest, the error, is orthogonal. 0 where the denominator vanishes. */
+ * balance: h/sqrt(b) is the ratio of the components of the eigenvector of the larger eigenvalue of [S_ff, S_fx/sqrt(b);
+ * S_xf/sqrt(b), S_xx/b], to which that of the smaller, the error, is orthogonal. 0 where the denominator vanishes. */
 void estimator_transfer(int estimator, double balance, int nline, const struct spectra *sum, double complex *h);
 
 /* |S_xf|^2/(S_ff S_xx) in [0, 1]; 0 where a channel is silent. */
@@ -30,9 +30,9 @@ void estimator_coherence(int nline, const struct spectra *sum, double *coherence
 /* Variance E|h - E h|^2 of the estimate h from count >= 2 impacts, each line by itself, by leaving out one impact at a time:
  *     variance = 1/count sum_i (1 - w_i)/w_i |h - h_(i)|^2,  w_i = S_ff,i/sum S_ff,
  * the jackknife for parts of unequal weight (Busing, Meijer, van der Leeden 1999); equal impacts make it the usual
- * (count - 1)/count sum |h - h_(i)|^2. For H1 under noise on the response, h_i = X_i/F_i, it is sum w_i |h_i - h|^2/count /(1 -
- * w_i), whose expectation is S_nn/sum S_ff exactly, for any forces. It has count - 1 complex degrees of freedom. INFINITY on
- * lines without force. work: sum of one column, and complex [nline]; weight [count] is overwritten. */
+ * (count - 1)/count sum |h - h_(i)|^2. For H1 under noise on the response, h_i = X_i/F_i, it is 1/count sum w_i/(1 - w_i)
+ * |h_i - h|^2, whose expectation is S_nn/sum S_ff exactly, for any forces. It has count - 1 complex degrees of freedom. INFINITY
+ * on lines without force. work: sum of one column, and complex [nline]; weight [count] is overwritten. */
 void estimator_jackknife(int estimator, int nline, int count, const struct spectra *column, const double complex *h,
                          double *variance, struct spectra *sum, double complex *part, double *weight);
 
@@ -44,7 +44,7 @@ void estimator_jackknife(int estimator, int nline, int count, const struct spect
  * a resonance force noise and scatter of the impacts stand out: lines above ESTIMATOR_OUTLIER times the median of their
  * neighbourhood are averaged among themselves, and no line is averaged with them. The expectation stays; weights 1/variance of
  * few degrees of freedom would be dominated by lines that look good by chance (with one or two their expectation does not exist).
- * force [nline]: sum S_ff. Lines of infinite variance are left alone. work [nline + 2 ESTIMATOR_SMOOTH + 1]. */
+ * force [nline]: sum S_ff. Lines of infinite variance are left alone. work [nline + 2 ESTIMATOR_SMOOTH + 2]. */
 void estimator_smooth(int nline, const double *force, double *variance, double *work);
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "base/order.h"
 
+#define RINGING 1.5 /* of a pulse over the swing below the base line beside it */
+
 static double largest_deviation(long long count, const double *force, double base)
 {
     double largest = 0;
@@ -40,6 +42,17 @@ static int measure_base(long long count, const double *force, double *base, doub
     return inside > count / 2 && fabs(*peak) >= IMPACT_LEAST_FORCE;
 }
 
+/* A hammer only pushes: what swings below the base line about as far as above it is no pulse but the ringing of an anti-alias
+ * filter behind one. The ringing of a steep filter swings back by 0.3 of the pulse. */
+static int is_ringing(const struct impact *pulse, double rate, double sign, double base, long long count, const double *force)
+{
+    long long length = llround(pulse->width * rate), begin = pulse->onset - 2 * length, end = pulse->onset + 3 * length;
+    double below = 0;
+    for (long long j = begin < 0 ? 0 : begin; j < end && j < count; j++)
+        below = fmax(below, sign * (base - force[j]));
+    return fabs(pulse->peak) < RINGING * below;
+}
+
 int impact_find(struct pool *pool, int record, long long count, const double *force, double rate, double threshold,
                 struct impact_list *list)
 {
@@ -49,6 +62,7 @@ int impact_find(struct pool *pool, int record, long long count, const double *fo
     double sign = largest < 0 ? -1 : 1, level = threshold * fabs(largest);
     long long last = 0; /* sample of the open pulse above the level */
     struct impact *open = NULL;
+    size_t kept = list->count, first = list->count;
     for (long long j = 0; j < count; j++) {
         double value = sign * (force[j] - base);
         if (!open && value >= level) {
@@ -70,7 +84,11 @@ int impact_find(struct pool *pool, int record, long long count, const double *fo
         if (value < level / 2)
             open = NULL;
     }
-    return ROTID_OK;
+    for (size_t i = first; i < list->count; i++)
+        if (!is_ringing(&list->item[i], rate, sign, base, count, force))
+            list->item[kept++] = list->item[i];
+    list->count = kept;
+    return kept > first ? ROTID_OK : ROTID_ERROR_ARGUMENT;
 }
 
 long long impact_spacing(int npulse, const struct impact *pulse, long long count, double *work)

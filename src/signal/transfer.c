@@ -130,7 +130,7 @@ static int open_worker(struct pool *pool, int n, int nline, int most, struct wor
                                    POOL_ARRAY(pool, double complex, nline)};
     worker->part = POOL_ARRAY(pool, double complex, nline);
     worker->weight = POOL_ARRAY(pool, double, most);
-    worker->smooth = POOL_ARRAY(pool, double, nline + 2 * ESTIMATOR_SMOOTH + 1);
+    worker->smooth = POOL_ARRAY(pool, double, nline + 2 * ESTIMATOR_SMOOTH + 2);
     if (status)
         return status;
     return worker->force && worker->response && worker->forced && worker->responding && worker->sum.ff && worker->sum.xx &&

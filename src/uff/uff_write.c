@@ -66,8 +66,8 @@ int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *nod
     return uff_put_close(&put);
 }
 
-/* Set 18 tells the axes by points: the origin, one on the x axis, one in the xz plane, all in the reference system. They lie as far
- * from the origin as that from zero, for with six digits a point one unit away would say little about the direction. */
+/* Set 18 tells the axes by points: the origin, one on the x axis, one in the xz plane, all in the reference system. They lie as
+ * far from the origin as that from zero, for with six digits a point one unit away would say little about the direction. */
 static void put_system_18(struct uff_put *put, const struct uff_system *system)
 {
     double point[9], reach = 1;

@@ -60,9 +60,9 @@ struct hammer_options {
     double noise, force_noise; /* white, standard deviation: relative to the response's rms over the record; to the peak of the
                                   force */
     double floor;              /* of the converter, both channels: relative to the largest value of the record */
-    double double_hits,
-        clipped;  /* probabilities of a second, weaker pulse 4 to 20 ms later; of a force cut at 0.6 of its peak or lower */
-    double drift; /* standard deviation of one factor on all frequencies, drawn for every point (temperature) */
+    double double_hits;        /* probability of a second, weaker pulse 4 to 20 ms later */
+    double clipped;            /* probability of a force cut at 0.6 of its peak or lower */
+    double drift;              /* standard deviation of one factor on all frequencies, drawn for every point (temperature) */
     double suspension_damping; /* ratio of the modes on the supports */
     int dampings;              /* ratios of the elastic modes; the last one holds for all above */
     double damping[HAMMER_MOST_DAMPING];

@@ -64,6 +64,11 @@ void shapes_exchange(struct job *job, int a, int b)
         exchange(&job->shape[a + mode], &job->shape[b + mode]);
         exchange(&job->shape_std[a + mode], &job->shape_std[b + mode]);
     }
+    for (int k = 0; k < job->nmode && job->point_frequency_hz; k++) {
+        ptrdiff_t mode = (ptrdiff_t)k * job->rotor.nsensor;
+        exchange(&job->point_frequency_hz[a + mode], &job->point_frequency_hz[b + mode]);
+        exchange(&job->point_frequency_std[a + mode], &job->point_frequency_std[b + mode]);
+    }
 }
 
 /* NULL for NULL; *failed where memory is out */
@@ -90,7 +95,11 @@ int corrections_keep_raw(struct pool *pool, struct job *job)
                             .shape = copy(pool, job->shape, components, sizeof *raw->shape, &failed),
                             .shape_std = copy(pool, job->shape_std, components, sizeof *raw->shape_std, &failed),
                             .frequency_std =
-                                copy(pool, job->frequency_std, (size_t)job->nmode, sizeof *raw->frequency_std, &failed)};
+                                copy(pool, job->frequency_std, (size_t)job->nmode, sizeof *raw->frequency_std, &failed),
+                            .point_frequency_hz =
+                                copy(pool, job->point_frequency_hz, components, sizeof *raw->point_frequency_hz, &failed),
+                            .point_frequency_std =
+                                copy(pool, job->point_frequency_std, components, sizeof *raw->point_frequency_std, &failed)};
     if (failed)
         return ROTID_ERROR_MEMORY;
     job->raw = raw;
