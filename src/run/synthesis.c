@@ -113,6 +113,7 @@ int synthesis_open(struct pool *pool, const rotid_model *model, const double *x,
     int count = 0, status = count_modes(model, pool->allocator, x, up_to_hz, &count);
     if (status)
         return status;
+    least = least > model->nrigid ? least : model->nrigid + 1; /* the shift of the residuals is the first elastic one */
     count = count > least ? count : least;
     count = count < 1 ? 1 : count < model->n ? count : model->n;
     if (count > SYNTHESIS_MOST_MODES)
