@@ -83,7 +83,7 @@ void frf_plot(FILE *out, int columns, int nline, const double *hz, const double 
     const double complex *curve[2] = {synthesised, measured};
     struct canvas magnitude, phase;
     double top = 0, bottom = INFINITY;
-    int line[2][MOST_COLUMNS];
+    int line[2][MOST_COLUMNS] = {{0}};
     char label[32];
     columns = columns > MOST_COLUMNS ? MOST_COLUMNS : columns;
     open_canvas(&magnitude, columns, HEIGHT);

@@ -25,8 +25,22 @@ static double sign_of(const struct frf *frf)
     return (frf->response_direction < 0) == (frf->reference_direction < 0) ? 1 : -1;
 }
 
-static void take(struct frf_result *out, int response, int reference, const struct frf *frf)
+struct chooser {
+    struct pool *pool;
+    struct frf_result *out;
+    size_t room;
+    int out_of_memory;
+};
+
+static void take(struct chooser *chooser, int response, int reference, const struct frf *frf)
 {
+    struct frf_result *out = chooser->out;
+    struct frf_row *rows = pool_grow(chooser->pool, out->row, (size_t)out->nrow, &chooser->room, sizeof *rows);
+    if (!rows) {
+        chooser->out_of_memory = 1;
+        return;
+    }
+    out->row = rows;
     out->row[out->nrow++] = (struct frf_row){.response = response,
                                              .reference = reference,
                                              .measured = frf,
@@ -34,32 +48,30 @@ static void take(struct frf_result *out, int response, int reference, const stru
                                              .is_reciprocal = frf && frf->response_node != response};
 }
 
-/* The functions of a pair, those measured with force and response exchanged only where there is none the right way round. */
-static int take_pair(const struct frf_set *set, struct frf_pair pair, int axis, struct frf_result *out)
+/* The functions of a pair, those measured with force and response exchanged only where there is none the right way round. How
+ * many there are. */
+static int take_pair(struct chooser *chooser, const struct frf_set *set, struct frf_pair pair, int axis)
 {
-    int before = out->nrow;
-    for (int swapped = 0; swapped < 2 && out->nrow == before; swapped++)
+    int found = 0;
+    for (int swapped = 0; swapped < 2 && !found; swapped++)
         for (int c = 0; c < set->nfrf; c++) {
             const struct frf *frf = &set->frf[c];
             int response = swapped ? frf->reference_node : frf->response_node,
                 reference = swapped ? frf->response_node : frf->reference_node;
-            if (response == pair.response && reference == pair.reference && is_lateral(frf, axis))
-                take(out, response, reference, frf);
+            if (response != pair.response || reference != pair.reference || !is_lateral(frf, axis))
+                continue;
+            take(chooser, response, reference, frf);
+            found++;
         }
-    return out->nrow > before;
+    return found;
 }
 
-static int measured_rows(struct pool *pool, const struct job *job, const struct frf_measured *measured,
-                         struct message_list *notes, struct frf_result *out)
+static int requested_rows(struct chooser *chooser, const struct job *job, const struct frf_measured *measured,
+                          struct message_list *notes)
 {
-    const struct frf_set *set = measured->set;
     const struct frf_request *request = &job->frf;
-    size_t most = (size_t)set->nfrf * (size_t)(request->npair ? request->npair : 1);
-    out->row = POOL_ARRAY(pool, struct frf_row, most);
-    if (!out->row)
-        return ROTID_ERROR_MEMORY;
     for (int i = 0; i < request->npair; i++)
-        if (!take_pair(set, request->pair[i], request->axis, out)) {
+        if (!take_pair(chooser, measured->set, request->pair[i], request->axis)) {
             message_add(
                 notes, SEVERITY_ERROR, measured->path, 1, 1,
                 "there is no lateral transfer function between %d and %d, expected what *FRF names, or the axis of the rotor "
@@ -67,21 +79,30 @@ static int measured_rows(struct pool *pool, const struct job *job, const struct 
                 request->pair[i].response, request->pair[i].reference);
             return ROTID_ERROR_ARGUMENT;
         }
-    for (int c = 0; c < set->nfrf && !request->npair; c++)
-        if (is_lateral(&set->frf[c], request->axis))
-            take(out, set->frf[c].response_node, set->frf[c].reference_node, &set->frf[c]);
-    out->nleft_out = set->nfrf - (out->nrow < set->nfrf ? out->nrow : set->nfrf);
-    if (!out->nrow)
+    return ROTID_OK;
+}
+
+static int all_rows(struct chooser *chooser, const struct job *job, const struct frf_set *set, struct message_list *notes)
+{
+    int axis = job->frf.axis;
+    for (int c = 0; c < set->nfrf; c++)
+        if (is_lateral(&set->frf[c], axis))
+            take(chooser, set->frf[c].response_node, set->frf[c].reference_node, &set->frf[c]);
+    if (!chooser->out->nrow)
         return refuse(notes, job,
                       "none of the %d measured transfer functions is lateral, expected response and force along one axis other "
                       "than that of the rotor, AXIS on *FRF",
                       set->nfrf);
-    if (out->nleft_out && !request->npair)
+    chooser->out->nleft_out = set->nfrf - chooser->out->nrow;
+    if (chooser->out->nleft_out)
         message_add(
             notes, SEVERITY_WARNING, NULL, 0, 0,
-            "%d measured transfer functions are left out: not lateral (AXIS=%c is that of the rotor), or response and force "
+            "%d measured transfer functions are left out: not lateral (AXIS=%s is that of the rotor), or response and force "
             "along different axes",
-            out->nleft_out, "XYZ"[request->axis]);
+            chooser->out->nleft_out,
+            axis == 0   ? "X"
+            : axis == 1 ? "Y"
+                        : "Z");
     return ROTID_OK;
 }
 
@@ -90,18 +111,17 @@ int frf_choose_rows(struct pool *pool, const struct job *job, const struct frf_m
 {
     const struct rotor *rotor = &job->rotor;
     const struct frf_request *request = &job->frf;
+    struct chooser chooser = {.pool = pool, .out = out};
+    int status = ROTID_OK;
     if (measured)
-        return measured_rows(pool, job, measured, notes, out);
-    if (!request->npair && !rotor->nsensor)
-        return refuse(notes, job, "the deck has %d sensors, expected *SENSORS, the points of the transfer functions", 0);
-    out->row = POOL_ARRAY(pool, struct frf_row, request->npair ? request->npair : rotor->nsensor);
-    if (!out->row)
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < request->npair; i++)
-        take(out, request->pair[i].response, request->pair[i].reference, NULL);
-    for (int s = 0; s < rotor->nsensor && !request->npair; s++)
-        take(out, rotor->sensor[s].id, rotor->sensor[0].id, NULL);
-    return ROTID_OK;
+        status = request->npair ? requested_rows(&chooser, job, measured, notes) : all_rows(&chooser, job, measured->set, notes);
+    else if (!request->npair && !rotor->nsensor)
+        status = refuse(notes, job, "the deck has %d sensors, expected *SENSORS, the points of the transfer functions", 0);
+    for (int i = 0; i < request->npair && !measured; i++)
+        take(&chooser, request->pair[i].response, request->pair[i].reference, NULL);
+    for (int s = 0; s < rotor->nsensor && !measured && !request->npair; s++)
+        take(&chooser, rotor->sensor[s].id, rotor->sensor[0].id, NULL);
+    return chooser.out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
 /* ------------------------------------------------------------------------------------------------ points */

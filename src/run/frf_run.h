@@ -71,7 +71,7 @@ struct frf_result {
     struct frf_band *band;
     struct frf_at_mode *at;      /* [nband * nrow], the bands of a row beside each other; NULL without measured functions */
     struct frf_sums sums, moved; /* of all */
-    int nleft_out;               /* measured functions that are no lateral ones along one axis, or were not asked for */
+    int nleft_out;               /* measured functions that are no lateral ones along one axis, where all were asked for */
     double up_to_hz;             /* the modes reach at least to there */
     struct synthesis synthesis;
     double *zeta;              /* [synthesis.nmode] */

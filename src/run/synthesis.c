@@ -137,12 +137,13 @@ int synthesis_open(struct pool *pool, const rotid_model *model, const double *x,
 static void mode_factor(const struct synthesis_lines *lines, double lambda, double zeta, double complex *factor)
 {
     double w = lambda > 0 ? sqrt(lambda) : 0, decay = lines->decay, constant = lambda + decay * decay + 2 * zeta * w * decay,
-           loss = 2 * (decay + zeta * w), *out = (double *)factor;
+           loss = 2 * (decay + zeta * w);
+    double *out = (double *)factor;
     for (int l = 0; l < lines->nline; l++) {
         double omega = TWO_PI * lines->frequency_hz[l], re = constant - omega * omega, im = loss * omega,
                inverse = 1 / (re * re + im * im);
-        out[2 * l] = re * inverse;
-        out[2 * l + 1] = -im * inverse;
+        *out++ = re * inverse;
+        *out++ = -im * inverse;
     }
 }
 
