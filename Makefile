@@ -6,6 +6,7 @@
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-peers   against SciPy, pyuff and jsonschema, installed into build/venv
+#   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
 #   make coverage   share of the lines of src that the tests run
 #   make lint, make format                  clang-tidy, clang-format
 #   make install, make uninstall            with PREFIX (/usr/local) and DESTDIR
@@ -20,6 +21,8 @@ WITH_NLOPT ?= 1
 PYTHON     ?= python3
 CLANG_TIDY ?= clang-tidy
 CLANG_FORMAT ?= clang-format
+FUZZ_CC    ?= clang-14
+FUZZ_SECONDS ?= 600
 
 PACKAGES := lapacke openblas kissfft-float
 ifeq ($(WITH_NLOPT),1)
@@ -28,7 +31,7 @@ endif
 
 COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(filter 1,$(WERROR)),-Werror)
-ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L $(WARNINGS) -fvisibility=hidden -fPIC -Iinclude -Isrc \
+ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 $(WARNINGS) -fvisibility=hidden -fPIC -Iinclude -Isrc \
              -DWITH_NLOPT=$(WITH_NLOPT) $(shell pkg-config --cflags $(PACKAGES) libcjson) $(CFLAGS)
 LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread
 PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
@@ -46,7 +49,7 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all demo test power bench bench-quick check-asan check-valgrind check-peers coverage lint format install uninstall clean
+.PHONY: all demo test power bench bench-quick check-asan check-valgrind check-peers fuzz fuzzers coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -110,6 +113,19 @@ check-valgrind: all $(TEST_PROGRAMS)
 
 check-peers: all
 	@sh tests/peers/run $(BUILD) $(PYTHON)
+
+# Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
+FUZZERS := uff deck
+$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(IO_OBJECTS) $(BUILD)/librotid.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+fuzzers: $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
+fuzz:
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) LDFLAGS='-fsanitize=fuzzer,address,undefined' \
+	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' fuzzers
+	@for name in $(FUZZERS); do mkdir -p $(BUILD)/fuzz/corpus/$$name && \
+	    OPENBLAS_NUM_THREADS=1 $(BUILD)/fuzz/tests/fuzz/fuzz_$$name -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1024 \
+	    -max_len=65536 -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus/$$name \
+	    tests/fuzz/corpus/$$name || exit 1; done
 
 coverage:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 -g --coverage' LDFLAGS=--coverage test

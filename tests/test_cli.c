@@ -151,7 +151,7 @@ static int left_over(const char *prefix)
 static void wrong_usage_exits_2_and_says_what_was_expected(void **state)
 {
     (void)state;
-    assert_true(is(run(NULL), 2, NULL, "usage: rotid COMMAND DECK"));
+    assert_true(is(run(NULL), 2, NULL, "usage: rotid COMMAND FILE"));
     assert_true(is(run("identify"), 2, NULL, "no file given, expected rotid COMMAND FILE"));
     assert_true(is(run("identity", PAPER), 2, NULL, "identity is no command, expected"));
     assert_true(is(run("check", PAPER, BRAKE), 2, NULL, "is one argument too many, expected one file"));
@@ -171,8 +171,8 @@ static void wrong_usage_exits_2_and_says_what_was_expected(void **state)
 static void help_and_version_exit_0(void **state)
 {
     (void)state;
-    assert_true(is(run("--help"), 0, "usage: rotid COMMAND DECK", NULL));
-    assert_true(is(run("identify", "--help"), 0, "usage: rotid COMMAND DECK", NULL));
+    assert_true(is(run("--help"), 0, "usage: rotid COMMAND FILE", NULL));
+    assert_true(is(run("identify", "--help"), 0, "usage: rotid COMMAND FILE", NULL));
     assert_true(is(run("--version"), 0, "rotid " ROTID_VERSION, NULL));
 }
 

@@ -282,11 +282,7 @@ static void command_line(void **state)
     assert_int_equal(
         command("beam -o a --truth b --deck c --true bar.E=2e11 --seed 7 --roving hammer --fixed 3 --sensor-mass 0.03 "
                 "--pulse 1e-4:2e-4 --force 500:0.1 --damping 0.01,0.02 --fault gain:4=1.2 --fault duplicate:5=6",
-<<<<<<< HEAD
-                &c, said, sizeof said),
-=======
                 copy, &c, said, sizeof said),
->>>>>>> hammer
         HAMMER_OK);
     assert_string_equal(said, "");
     assert_string_equal(c.rotor, "beam");

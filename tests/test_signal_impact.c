@@ -120,6 +120,41 @@ static void double_hits_are_told_from_the_next_impact(void **state)
         }
 }
 
+/* Behind an anti-alias filter the force swings on by 0.3 of the pulse, above the threshold, on both sides of its base line. */
+static void ringing_of_a_filter_is_no_double_hit(void **state)
+{
+    static const double start[] = {0.1};
+    (void)state;
+    for (int bounce = 0; bounce < 2; bounce++) {
+        struct record record = hits(2, 1, start, NULL);
+        double *force = struck_force(&record);
+        for (long long j = 0; j < record.count; j++) {
+            double t = (double)j / hammer.rate - 0.104;
+            if (t > 0)
+                force[j] -= 30 * exp(-t / 0.001) * sin(2 * PI * 1500 * t);
+            if (bounce && t > 0.03 && t < 0.033)
+                force[j] += 30 * sin(PI * (t - 0.03) / 0.003);
+        }
+        struct transfer out = compute(1, &record, &(struct transfer_options){.double_hits = 1});
+        assert_int_equal(out.nimpact, 1);
+        assert_int_equal(out.impact[0].is_double, bounce);
+        assert_close(out.impact[0].width, 0.004 * (1 - 2 * asin(0.1) / PI), 0, 1.5 / hammer.rate);
+    }
+}
+
+/* Half a second is no bounce, however long the record goes on: there the first impact has too little room. */
+static void a_quick_second_impact_is_no_double_hit(void **state)
+{
+    static const double start[] = {0.1, 0.6};
+    struct record record = hits(8, 2, start, NULL);
+    (void)state;
+    struct transfer out = compute(1, &record, &(struct transfer_options){0});
+    assert_int_equal(out.nimpact, 2);
+    assert_true(!out.impact[0].is_double && out.impact[0].is_cut && !out.impact[0].used);
+    assert_true(!out.impact[1].is_double && out.impact[1].used);
+    assert_int_equal(compute(1, &record, &(struct transfer_options){.block = 0.48}).set.frf[0].averages, 2);
+}
+
 /* The last impact comes just before the record ends, one has no time before it: neither shortens the blocks. */
 static void impacts_without_room_are_left_out(void **state)
 {
@@ -271,6 +306,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(an_impact_is_where_its_pulse_is, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(spreading_impacts_over_records_changes_nothing, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(double_hits_are_told_from_the_next_impact, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(ringing_of_a_filter_is_no_double_hit, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_quick_second_impact_is_no_double_hit, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(impacts_without_room_are_left_out, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(all_records_share_the_shortest_block, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(overload_of_either_channel_is_found, open_test_pool, close_test_pool),

@@ -274,6 +274,31 @@ static void lines_without_force_say_nothing(void **state)
         }
 }
 
+/* Force and response in units as far apart as samples may be: the same digits. */
+static void units_may_be_of_any_size(void **state)
+{
+    struct record plain = usual(1), scaled = usual(1);
+    struct transfer out, far;
+    int bad;
+    (void)state;
+    for (int estimator = TRANSFER_H1; estimator <= TRANSFER_HV; estimator++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            struct transfer_options options = {.estimator = estimator, .exponential = 0.1};
+            double unit = ldexp(1, sign * 140);
+            for (int j = 0; j < LENGTH; j++) {
+                struck_force(&scaled)[j] = plain.force[j] * unit;
+                struck_response(&scaled)[j] = plain.response[j] / unit;
+            }
+            assert_status(transfer_compute(&test_pool, 1, &plain, RATE, FRF_VELOCITY, &options, 1, &out, &bad), ROTID_OK);
+            assert_status(transfer_compute(&test_pool, 1, &scaled, RATE, FRF_VELOCITY, &options, 1, &far, &bad), ROTID_OK);
+            for (int l = 0; l < out.set.nline; l++) {
+                assert_true(cabs(far.set.frf[0].h[l] * unit * unit - out.set.frf[0].h[l]) <= 1e-13 * cabs(out.set.frf[0].h[l]));
+                assert_close(far.set.frf[0].variance[l] * unit * unit * unit * unit, out.set.frf[0].variance[l], 1e-11, 0);
+                assert_close(far.set.frf[0].coherence[l], out.set.frf[0].coherence[l], 1e-12, 0);
+            }
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -282,6 +307,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(transfer_functions_without_a_usable_impact_are_named, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(every_failing_allocation_is_reported, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(results_do_not_depend_on_the_threads, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(units_may_be_of_any_size, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(single_impacts_add_up_to_the_estimate, open_test_pool, close_test_pool),
         cmocka_unit_test(lines_without_force_say_nothing),
     };

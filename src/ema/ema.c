@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "ema/channels.h"
+#include "ema/local.h"
 #include "ema/modes.h"
+#include "ema/per_point.h"
 #include "ema/selection.h"
 #include "ema/shapes.h"
 #include "ema/stabilisation.h"
@@ -14,6 +16,7 @@
 #define LEAST_LINES   16
 #define LARGEST_ORDER 120
 #define ITERATIONS    40
+#define SUSPECT       2
 
 struct job {
     struct pool *pool;
@@ -119,6 +122,8 @@ static int earn(struct job *job)
     int status = selection_earn(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate, pole, from);
     for (int r = 0; status == ROTID_OK && r < job->ncandidate; r++)
         job->candidate[r] = job->options.no_refinement ? job->candidate[from[r]] : pole[r];
+    if (status == ROTID_OK)
+        status = local_merge(job->pool, &job->band, &job->ncandidate, job->candidate);
     return status;
 }
 
@@ -132,7 +137,7 @@ static int fit_modes(struct job *job)
     int status = line ? modes_new(job->pool, n, job->options.per_point, out) : ROTID_ERROR_MEMORY;
     if (status != ROTID_OK || n == 0)
         return status;
-    int nline = modal_fit_lines(band, n, job->candidate, FIT_WIDTHS, FIT_LINES, line);
+    int nline = modal_fit_lines(band, n, job->candidate, FIT_WIDTHS, selection_lines(band, n, FIT_PRODUCTS), line);
     status = modal_fit_new(job->pool, band, nline, line, 0, band->nchannel, n, job->options.threads, &fit);
     if (status == ROTID_OK)
         status = refinement_new(job->pool, &fit, &refinement);
@@ -149,7 +154,13 @@ static int fit_modes(struct job *job)
     for (int r = 0; r < n; r++)
         if (job->unstable && job->unstable[r])
             out->mode[r].doubts |= EMA_UNSTABLE;
-    return ROTID_OK;
+    int *suspect = POOL_ARRAY(job->pool, int, n);
+    if (!suspect)
+        return ROTID_ERROR_MEMORY;
+    /* the scores of the channels tell cheaply whether they agree on the frequency */
+    for (int r = 0; r < n; r++)
+        suspect[r] = refinement.widened[2 * r + 1] > SUSPECT;
+    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, job->environment, out);
 }
 
 static int finish(struct job *job)

@@ -64,34 +64,65 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     return ROTID_OK;
 }
 
-static void put(double *column, int nline, int i, double complex value)
+static void put(double *column, int nline, int i, double re, double im)
 {
-    column[i] = creal(value);
-    column[i + nline] = cimag(value);
+    column[i] = re;
+    column[i + nline] = im;
+}
+
+/* In real arithmetic: complex division and product of C guard against infinities at ten times the cost. */
+static void fill_mode(const struct modal_fit *fit, double complex pole, double *phi, double *psi)
+{
+    int n = fit->nline;
+    ptrdiff_t rows = (ptrdiff_t)2 * n;
+    double a = creal(pole), b = cimag(pole);
+    for (int i = 0; i < n; i++) {
+        double nu = fit->nu[i], square = -nu * nu, below = nu - b, above = nu + b;
+        /* g = 1/(-a + i (nu - b)), mirror = 1/(-a + i (nu + b)) */
+        double d = 1 / (a * a + below * below), e = 1 / (a * a + above * above);
+        double gr = -a * d, gi = -below * d, mr = -a * e, mi = -above * e;
+        double g2r = gr * gr - gi * gi, g2i = 2 * gr * gi, m2r = mr * mr - mi * mi, m2i = 2 * mr * mi;
+        put(phi, n, i, square * (gr + mr), square * (gi + mi));
+        put(phi + rows, n, i, -square * (gi - mi), square * (gr - mr));
+        put(psi, n, i, square * (g2r + m2r), square * (g2i + m2i));
+        put(psi + rows, n, i, -square * (g2i - m2i), square * (g2r - m2r));
+    }
 }
 
 static void fill_basis(struct modal_fit *fit)
 {
     int n = fit->nline, m = fit->nmode;
     ptrdiff_t rows = (ptrdiff_t)2 * n;
-    for (int r = 0; r < m; r++) {
-        double *phi = fit->basis + rows * 2 * r, *psi = fit->basis + rows * (fit->nlinear + 2 * r);
-        for (int i = 0; i < n; i++) {
-            double complex s = I * fit->nu[i], g = 1 / (s - fit->pole[r]), mirror = 1 / (s - conj(fit->pole[r]));
-            double square = -fit->nu[i] * fit->nu[i];
-            put(phi, n, i, square * (g + mirror));
-            put(phi + rows, n, i, I * square * (g - mirror));
-            put(psi, n, i, square * (g * g + mirror * mirror));
-            put(psi + rows, n, i, I * square * (g * g - mirror * mirror));
-        }
-    }
+    for (int r = 0; r < m; r++)
+        fill_mode(fit, fit->pole[r], fit->basis + rows * 2 * r, fit->basis + rows * (fit->nlinear + 2 * r));
     double *rest = fit->basis + rows * 2 * m;
     for (int i = 0; i < n; i++) {
-        put(rest, n, i, 1);
-        put(rest + rows, n, i, I);
-        put(rest + 2 * rows, n, i, -fit->nu[i] * fit->nu[i]);
-        put(rest + 3 * rows, n, i, -I * fit->nu[i] * fit->nu[i]);
+        double square = -fit->nu[i] * fit->nu[i];
+        put(rest, n, i, 1, 0);
+        put(rest + rows, n, i, 0, 1);
+        put(rest + 2 * rows, n, i, square, 0);
+        put(rest + 3 * rows, n, i, 0, square);
     }
+}
+
+double modal_fit_local_noise(const struct modal_fit *fit, int c, int r, double widths)
+{
+    int n = fit->nline, q = fit->nlinear, count = 0;
+    double reach = widths * 2 * fabs(creal(fit->pole[r])), sum = 0;
+    const double *x = fit->linear + (ptrdiff_t)c * q, *y = fit->y + (ptrdiff_t)2 * n * c;
+    for (int i = 0; i < n; i++) {
+        if (fabs(fit->nu[i] - cimag(fit->pole[r])) > reach)
+            continue;
+        double weight = fit->weight ? fit->weight[i + (ptrdiff_t)c * n] : 1 / fit->sigma[c];
+        for (int part = i; part < 2 * n; part += n) {
+            double left = y[part];
+            for (int j = 0; j < q; j++)
+                left -= fit->basis[part + (ptrdiff_t)2 * n * j] * x[j];
+            sum += weight * weight * left * left;
+            count++;
+        }
+    }
+    return count >= 8 ? sum / count : 1;
 }
 
 /* Gram matrix [(ncolumn + 1)^2] of basis and y, weighted. */

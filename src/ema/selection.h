@@ -5,15 +5,21 @@
 #include "ema/band.h"
 #include "rotid.h"
 
-/* Lines that a fit uses: within 50 half-power bandwidths of a mode, 8192 at most. Further away a mode is no more than a residual
- * term, and modes that were not picked bias less what does not try to explain them. */
-#define FIT_WIDTHS 50
-#define FIT_LINES  8192
+/* Lines that a fit uses: within 50 half-power bandwidths of a mode. Further away a mode is no more than a residual term, and modes
+ * that were not picked bias less what does not try to explain them. Those more than three bandwidths away carry little of what is
+ * known of a pole: they are thinned so that an evaluation takes no more than the given number of products, of a tenth of a second. */
+#define FIT_WIDTHS    50
+#define FIT_PRODUCTS  1e9
+#define EARN_PRODUCTS 2e8
+
+/* That number of lines, at least 40 a mode and 1000. */
+int selection_lines(const struct ema_band *band, int nmode, double products);
 
 /* Fits all candidates together and leaves out, worst first and fitting again, those that do not earn their place:
  *   - the pole grows, runs away, is damped above 0.2, leaves the band, or it is not known to a fifth of its half bandwidth;
  *   - sum over channels |A|^2/var(A) <= 2 n + 12 sqrt(n) + 30 for n channels: what the best of very many places in the noise
- *     reaches by chance;
+ *     reaches by chance; var from what is left around the mode where that is more than the noise;
+ *   - of three channels or more, two at least show it, and with a phase in common (MPC 0.4 where it can be told);
  *   - at its frequency it is less than `least share` (0.05) of |H| in every channel: it corrects what others leave;
  *   - its half-power bandwidth is under a fifth of the line spacing: a single line (mains hum).
  * pole [*count] in, the refined ones out; candidate [*count] tells which of those that came in each was. ROTID_OK,

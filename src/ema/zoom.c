@@ -3,9 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define PART_LINES 4000
-#define MOST_PARTS 16
-#define PART_ORDER 60
+#define LEAST_LINES 400
+#define MOST_LINES  5000
+#define MOST_PARTS  20
+#define PART_ORDER  60
 
 struct part {
     struct stabilisation table;
@@ -88,10 +89,28 @@ static int is_known(int count, const double complex *known, double complex pole)
     return 0;
 }
 
+/* First lines of the parts, falling; the last one is 0. edge [MOST_PARTS + 1], edge[0] = nline. Returns their number. */
+static int split(const struct ema_band *band, int *edge)
+{
+    int parts = 0, end = band->nline;
+    edge[0] = end;
+    while (parts < MOST_PARTS && end > 0) {
+        int first = ema_band_line(band, band->omega[end - 1] / 2);
+        first = end - first > MOST_LINES ? end - MOST_LINES : first;
+        /* what is too short for a part of its own goes with its neighbour */
+        if (end - first < LEAST_LINES)
+            first = end - LEAST_LINES;
+        if (first < LEAST_LINES || parts + 1 == MOST_PARTS)
+            first = 0;
+        end = edge[++parts] = first;
+    }
+    return parts;
+}
+
 int zoom_compute(struct pool *pool, const struct ema_band *band, double decay, const struct ema_options *options,
                  struct stabilisation *table, int *count, double complex **candidate)
 {
-    int parts = band->nline / PART_LINES < MOST_PARTS ? band->nline / PART_LINES : MOST_PARTS, nparts = parts > 1 ? parts + 1 : 1;
+    int edge[MOST_PARTS + 1], parts = split(band, edge), nparts = parts > 1 ? parts + 1 : 1;
     struct part *part = POOL_ARRAY(pool, struct part, nparts);
     if (!part)
         return ROTID_ERROR_MEMORY;
@@ -100,7 +119,7 @@ int zoom_compute(struct pool *pool, const struct ema_band *band, double decay, c
     int status = compute_part(pool, band, options->order, decay, options, &part[0]), all = part[0].count;
     for (int i = 1; status == ROTID_OK && i < nparts; i++) {
         struct ema_band zoomed;
-        int length = band->nline / parts, first = (i - 1) * length, last = i == parts ? band->nline - 1 : first + length;
+        int first = edge[parts - i + 1], last = edge[parts - i] - 1, length = last - first + 1;
         double margin = (band->omega[last] - band->omega[first]) / 50;
         part[i].low = band->omega[first] - margin;
         part[i].high = band->omega[last] + margin;

@@ -167,8 +167,6 @@ static void check_function(struct search *search, const struct listing_set *set)
     int line = set->set.line;
     char name[96];
     (void)named(set->item, f, name);
-    if (v->finite < v->count)
-        add(search, "not_finite", line, "%s: %lld of %lld values are not finite", name, v->count - v->finite, v->count);
     if (v->is_constant)
         add(search, "dead", line, v->max == 0 ? "%s: dead, all values are zero" : "%s: dead, all values are the same", name);
     if (f->type == UFF_TIME && values_are_clipped(v))

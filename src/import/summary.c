@@ -40,9 +40,7 @@ static const char *describe_group(struct pool *pool, const struct listing *listi
 {
     const struct listing_function *first = NULL;
     int *response = POOL_ARRAY(pool, int, listing->function_count), count = 0, several = 0, references = 0;
-    if (!response)
-        return NULL;
-    for (int i = 0; i < listing->function_count; ++i) {
+    for (int i = 0; response && i < listing->function_count; ++i) {
         const struct listing_function *f = &listing->function[i];
         if (f->group != group)
             continue;
@@ -50,6 +48,8 @@ static const char *describe_group(struct pool *pool, const struct listing *listi
         response[count++] = f->function.response_node;
         references |= f->function.reference_node != first->function.reference_node;
     }
+    if (!first) /* memory is out: a group has a function */
+        return NULL;
     for (int i = 1; i < count; ++i)
         several |= response[i] != response[0];
     const struct uff_function *f = &first->function;

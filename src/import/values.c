@@ -3,10 +3,13 @@
 #include <math.h>
 #include <string.h>
 
-#define HASH_START   0xcbf29ce484222325u /* FNV-1a */
-#define HASH_FACTOR  0x100000001b3u
-#define CLIPPED_RUN  4    /* three equal values happen at the crest of a slow wave with few bits */
-#define CLIPPED_JUMP 0.01 /* of the span: a crest is reached in smaller steps */
+#define HASH_START  0xcbf29ce484222325u /* FNV-1a */
+#define HASH_FACTOR 0x100000001b3u
+/* Near a crest the values of a wave fall off as the square of the distance: three of them are equal only where a step of the
+ * converter is larger than the first difference, and the next value is then no farther than five such steps. */
+#define CLIPPED_RUN 3
+#define CLIPPED_JUMP                                                                                                             \
+    0.02 /* of the span: a converter of which at least eight bits are in use has smaller steps than a fifth of that */
 
 void values_open(struct values *values)
 {
@@ -36,20 +39,16 @@ static void add_square(struct values *values, double size)
 }
 
 /* Rows of values at the least (0) and the greatest (1) of all so far. */
-static void follow_plateau(struct values *values, int which, double value, double extreme)
+static void follow_plateau(struct values *values, int which, double value)
 {
-    int beyond = which ? value > extreme : value < extreme;
-    if (beyond || !values->finite) {
-        values->plateau[which] = values->run[which] = 1;
-        values->plateau_jump[which] = values->finite ? fabs(value - values->before) : 0;
-        return;
-    }
-    values->run[which] = value == extreme ? values->run[which] + 1 : 0;
-    if (values->run[which] <= values->plateau[which])
+    double extreme = which ? values->max : values->min;
+    int beyond = !values->count || (which ? value > extreme : value < extreme);
+    values->run[which] = beyond ? 1 : value == extreme ? values->run[which] + 1 : 0;
+    if (!beyond && values->run[which] <= values->plateau[which])
         return;
     values->plateau[which] = values->run[which];
     if (values->run[which] == 1)
-        values->plateau_jump[which] = fabs(value - values->before);
+        values->plateau_jump[which] = values->count ? fabs(value - values->before) : 0;
 }
 
 static void add_abscissa(struct values *values, double x)
@@ -67,44 +66,41 @@ static void add_abscissa(struct values *values, double x)
 void values_add(struct values *values, long long count, const double *x, const double *real, const double *imag, int is_complex)
 {
     for (long long i = 0; i < count; ++i) {
-        double im = is_complex ? imag[i] : 0;
+        double im = is_complex ? imag[i] : 0, size = is_complex ? hypot(real[i], im) : real[i];
         add_abscissa(values, x[i]);
         add_hash(values, real[i]);
         add_hash(values, im);
+        add_square(values, fabs(size));
+        for (int which = 0; which < 2 && !is_complex; ++which)
+            follow_plateau(values, which, size);
+        values->min = values->count && values->min < size ? values->min : size;
+        values->max = values->count && values->max > size ? values->max : size;
         values->last[0] = real[i];
         values->last[1] = im;
-        if (!values->count++)
+        if (!values->count)
             memcpy(values->first, values->last, sizeof values->first);
-        if (!isfinite(real[i]) || !isfinite(im))
-            continue;
-        double size = is_complex ? hypot(real[i], im) : real[i];
-        if (!is_complex) {
-            follow_plateau(values, 0, size, values->min);
-            follow_plateau(values, 1, size, values->max);
-        }
-        values->min = values->finite && values->min < size ? values->min : size;
-        values->max = values->finite && values->max > size ? values->max : size;
         values->is_constant = values->is_constant && real[i] == values->first[0] && im == values->first[1];
         values->sum[0] += real[i];
         values->sum[1] += im;
         values->before = size;
-        add_square(values, fabs(size));
-        ++values->finite;
+        ++values->count;
     }
 }
 
 void values_close(struct values *values)
 {
     values->is_constant = values->is_constant && values->count > 1;
-    if (values->finite)
-        values->rms = values->scale * sqrt(values->squares / (double)values->finite);
+    if (values->count)
+        values->rms = values->scale * sqrt(values->squares / (double)values->count);
 }
 
 int values_are_clipped(const struct values *values)
 {
     double span = values->max - values->min;
+    const double extreme[] = {values->min, values->max};
     for (int which = 0; which < 2 && span > 0; ++which)
-        if (values->plateau[which] >= CLIPPED_RUN && values->plateau_jump[which] > CLIPPED_JUMP * span)
+        if (extreme[which] != 0 && /* zeros are a window, or padding */
+            values->plateau[which] >= CLIPPED_RUN && values->plateau_jump[which] > CLIPPED_JUMP * span)
             return 1;
     return 0;
 }

@@ -4,11 +4,11 @@
 
 #include <stdint.h>
 
-/* The finite ones count; of complex values `min` and `max` are those of the modulus. Without any, all are zero. */
+/* Of complex values `min` and `max` are those of the modulus. Without any, all are zero. */
 struct values {
-    long long count, finite;
+    long long count;
     double first[2], last[2], sum[2]; /* real and imaginary part */
-    double min, max, rms;             /* rms = sqrt(sum |y|^2 / finite) */
+    double min, max, rms;             /* rms = sqrt(sum |y|^2 / count) */
     double x_first, x_last, x_least_step, x_most_step;
     int is_constant;        /* all values are equal */
     long long plateau[2];   /* most values in a row that equal the least and the greatest of real data */
@@ -20,12 +20,12 @@ struct values {
 };
 
 void values_open(struct values *values);
-/* count values: abscissa x, real and imaginary part y. */
+/* count values, all finite: abscissa x, real and imaginary part (imag: of complex ones). */
 void values_add(struct values *values, long long count, const double *x, const double *real, const double *imag, int is_complex);
 void values_close(struct values *values);
 
 /* Whether a record of a time signal stopped at the limit of its converter: the greatest or the least value stands there at least
- * four times in a row, and the signal was on its way when it got there. */
+ * three times in a row, and the signal was on its way when it got there. */
 int values_are_clipped(const struct values *values);
 
 /* Whether two functions have the same values, all of them. */

@@ -75,9 +75,9 @@ static void add_axis(struct json_tree *tree, cJSON *parent, const char *key, con
 
 static void add_values(struct json_tree *tree, cJSON *item, const struct values *v)
 {
-    json_number(tree, item, "min", v->finite ? v->min : NAN);
-    json_number(tree, item, "max", v->finite ? v->max : NAN);
-    json_number(tree, item, "rms", v->finite ? v->rms : NAN);
+    json_number(tree, item, "min", v->count ? v->min : NAN);
+    json_number(tree, item, "max", v->count ? v->max : NAN);
+    json_number(tree, item, "rms", v->count ? v->rms : NAN);
     json_list(tree, item, "first", v->count ? 2 : 0, v->first);
     json_list(tree, item, "last", v->count ? 2 : 0, v->last);
     json_list(tree, item, "sum", 2, v->sum);

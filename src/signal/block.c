@@ -6,9 +6,10 @@
 #include "signal/impact.h"
 #include "signal/window.h"
 
-/* A pulse within this part of the usual spacing is a second hit: hammers bounce within some hundredths of a second, hands need
- * more than half a second for the next blow. */
-#define BOUNCE 10
+/* A pulse within this part of the usual spacing, and within this time, is a second hit: hammers bounce within some hundredths of
+ * a second, hands need half a second for the next blow. */
+#define BOUNCE      10
+#define BOUNCE_TIME 0.25
 /* An impact with less room than this part of the usual spacing, such as the last one of a record that ends early, is left out
  * rather than shortening all blocks. */
 #define HURRIED 2
@@ -48,8 +49,8 @@ static int split(struct pool *pool, const struct record *record, double rate, lo
     if (!work)
         return ROTID_ERROR_MEMORY;
     long long spacing = impact_spacing(n, impact, record->count, work);
-    long long reach = spacing / BOUNCE > pre ? spacing / BOUNCE : pre;
-    n = impact_merge(n, impact, rate, given ? given - pre : reach);
+    long long bounce = (long long)fmin((double)spacing / BOUNCE, BOUNCE_TIME * rate); /* and no pulse before the onset */
+    n = impact_merge(n, impact, rate, given ? given - pre : bounce > pre ? bounce : pre);
     list->count = first + (size_t)n;
     *shortest = 0;
     for (int k = 0; k < n; k++) {
@@ -60,6 +61,7 @@ static int split(struct pool *pool, const struct record *record, double rate, lo
     return given || *shortest ? ROTID_OK : ROTID_ERROR_ARGUMENT;
 }
 
+/* Which impacts of record `at` are used, once the length of the blocks is known. */
 static void judge(const struct record *record, double rate, const struct transfer_options *options, long long pre, int at,
                   struct block_plan *plan)
 {

@@ -32,30 +32,40 @@ double estimator_balance(int nline, const struct spectra *sum)
     return ff > 0 ? xx / ff : 0;
 }
 
+static double square(double complex z)
+{
+    return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
+static double complex total_least_squares(double balance, double ff, double xx, double complex xf)
+{
+    double cross = cabs(xf), difference = xx - balance * ff, root = hypot(difference, 2 * sqrt(balance) * cross);
+    if (difference > 0)
+        return xf / cross * ((difference + root) / (2 * cross));
+    return xf * (2 * balance / (root - difference)); /* the same, without the difference of two large numbers */
+}
+
 void estimator_transfer(int estimator, double balance, int nline, const struct spectra *sum, double complex *h)
 {
     for (int l = 0; l < nline; l++) {
-        double ff = sum->ff[l], xx = sum->xx[l], cross = cabs(sum->xf[l]);
-        double difference = xx - balance * ff, root = hypot(difference, 2 * sqrt(balance) * cross);
-        h[l] = 0;
-        if (!(ff > 0) || (estimator != TRANSFER_H1 && !(cross > 0)))
-            continue;
-        if (estimator == TRANSFER_H1)
-            h[l] = sum->xf[l] / ff;
+        double ff = sum->ff[l], xx = sum->xx[l];
+        double complex xf = sum->xf[l];
+        if (!(ff > 0) || (fabs(creal(xf)) <= 0 && fabs(cimag(xf)) <= 0))
+            h[l] = 0;
+        else if (estimator == TRANSFER_H1)
+            h[l] = xf / ff;
         else if (estimator == TRANSFER_H2)
-            h[l] = sum->xf[l] / cross * (xx / cross); /* 1/S_fx = S_xf/|S_xf|^2 */
-        else if (difference > 0)
-            h[l] = sum->xf[l] / cross * ((difference + root) / (2 * cross));
-        else /* the same, without the difference of two large numbers */
-            h[l] = sum->xf[l] * (2 * balance / (root - difference));
+            h[l] = xx / conj(xf);
+        else
+            h[l] = total_least_squares(balance, ff, xx, xf);
     }
 }
 
 void estimator_coherence(int nline, const struct spectra *sum, double *coherence)
 {
     for (int l = 0; l < nline; l++) {
-        double ratio = cabs(sum->xf[l]) / sqrt(sum->ff[l]) / sqrt(sum->xx[l]);
-        coherence[l] = sum->ff[l] > 0 && sum->xx[l] > 0 ? fmin(ratio * ratio, 1) : 0;
+        double ratio = square(sum->xf[l]) / sum->ff[l] / sum->xx[l];
+        coherence[l] = sum->ff[l] > 0 && sum->xx[l] > 0 ? fmin(ratio, 1) : 0;
     }
 }
 
@@ -75,9 +85,8 @@ void estimator_jackknife(int estimator, int nline, int count, const struct spect
         weight[i] = 1;
         estimator_transfer(estimator, balance, nline, sum, part);
         for (int l = 0; l < nline; l++) {
-            double distance = cabs(h[l] - part[l]);
             if (own[l] > 0) /* (1 - w)/w */
-                variance[l] += distance * distance * (sum->ff[l] / own[l]) / count;
+                variance[l] += square(h[l] - part[l]) * (sum->ff[l] / own[l]) / count;
         }
     }
 }

@@ -42,9 +42,11 @@ void fft_real(struct fft *fft, const double *x, double complex *X)
     for (int j = 0; j < fft->n; j++)
         largest = fmax(largest, fabs(x[j]));
     (void)frexp(largest, &exponent);
+    /* in two steps: the scale of the smallest numbers is itself too large for a double */
+    double half = ldexp(1, -exponent / 2), other = ldexp(1, -exponent + exponent / 2);
     for (int j = 0; j < fft->n; j++)
-        fft->time[j] = (float)ldexp(x[j], -exponent);
+        fft->time[j] = (float)(x[j] * half * other);
     kiss_fftr(fft->plan, fft->time, fft->line);
     for (int k = 0; k <= fft->n / 2; k++)
-        X[k] = CMPLX(ldexp((double)line[k].r, exponent), ldexp((double)line[k].i, exponent));
+        X[k] = CMPLX((double)line[k].r / half / other, (double)line[k].i / half / other);
 }

@@ -13,7 +13,8 @@ struct impact_list {
 
 /* Appends the pulses of one record to the list. A pulse begins where the force, counted from its base line and with the sign of
  * its largest deviation P, reaches threshold * P, and the next one can begin after it fell below half of that: noise on a flank
- * is no second pulse. The base line is the mean of what stays within P/10 of it. A force that is further than P/10 from its base
+ * is no second pulse, nor is what swings below the base line, beside it, by more than two thirds of its height: the ringing of a
+ * filter. The base line is the mean of what stays within P/10 of it. A force that is further than P/10 from its base
  * line for half of the time is noise or a shaker: no pulse. force [count] finite, 0 < threshold < 1, rate > 0.
  * ROTID_OK, ROTID_ERROR_ARGUMENT (no pulse), ROTID_ERROR_MEMORY. */
 int impact_find(struct pool *pool, int record, long long count, const double *force, double rate, double threshold,

@@ -18,7 +18,8 @@ struct transfer_options {
                           taken off both channels, without the rise of the pulse */
     double block;      /* s, length of a block, rounded down to 2^a 3^b 5^c samples, even, as is the default: [to the next impact
                           or the end of the record, the shortest of all but those shorter than half of what is usual in their
-                          record, which are cut]. By default a pulse within a tenth of the usual spacing is a second hit */
+                          record, which are cut]. By default a pulse within a tenth of the usual spacing, and within 0.25 s, is a
+                          second hit */
     double force_window; /* s after the impact that the force is kept, then it fades to its mean before the impact within a
                             quarter of that; [ten times the width of the pulse at the threshold]; < 0: none. Double hits that are
                             kept have none */

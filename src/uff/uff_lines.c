@@ -1,4 +1,3 @@
-#define _FILE_OFFSET_BITS 64 /* files above 2 GB, also where off_t would be an int */
 #include "uff/uff_lines.h"
 
 #include <errno.h>
@@ -195,7 +194,7 @@ int uff_seek(struct uff_lines *lines, long long offset, int line)
 
 int uff_look_for_end(struct uff_lines *lines, long long count, int *found)
 {
-    char text[16];
+    char text[16] = {0};
     long long here = lines->base + (long long)lines->at, left = lines->size - here - count;
     *found = 0;
     if (lines->size < 0 || count > lines->size - here || left < 2)

@@ -2,14 +2,15 @@
 
 #include "uff/uff_reader.h"
 
-/* Data of a set may be -1 in a line of its own, so the end must look like the beginning did. */
-static int skip_lines(struct uff_lines *lines)
+/* Data of a set may be -1 in a line of its own, so the end must look like the beginning did. The first `texts` lines may be
+ * anything. */
+static int skip_lines(struct uff_lines *lines, int texts)
 {
-    for (;;) {
+    for (int i = 0;; i += i < texts) {
         int status = uff_take_line(lines);
         if (status == UFF_END)
             return uff_fail(lines, 0, "the file ends after this line; expected the '-1' that ends the set");
-        if (status != ROTID_OK || uff_is_delimiter(lines, lines->strict))
+        if (status != ROTID_OK || (i >= texts && uff_is_delimiter(lines, lines->strict)))
             return status;
     }
 }
@@ -53,9 +54,9 @@ static int skip_binary(struct uff_reader *reader)
 int uff_skip_set(struct uff_reader *reader)
 {
     struct uff_values *values = &reader->values;
-    int status;
+    int status, has_texts = reader->place == UFF_AT_BODY && (reader->set.number == 55 || reader->set.number == 58);
     if (!reader->set.is_binary)
-        status = skip_lines(&reader->lines);
+        status = skip_lines(&reader->lines, has_texts ? UFF_ID_LINES : 0);
     else if (reader->place == UFF_AT_BODY)
         status = skip_binary(reader);
     else

@@ -60,11 +60,14 @@ static int read_rows(struct uff_lines *lines, const char *what, struct uff_syste
 /* One system, of which the first line is at hand. */
 static int read_system(struct uff_lines *lines, int number, struct uff_system *system)
 {
-    static const struct uff_column column[] = {
-        {UFF_REQUIRED_INTEGER, 0, 10}, {UFF_INTEGER, 10, 10}, {UFF_INTEGER, 20, 10}, {UFF_INTEGER, 30, 10}};
+    static const struct uff_column column[] = {{UFF_REQUIRED_INTEGER, 0, 10},
+                                               {UFF_INTEGER, 10, 10},
+                                               {UFF_INTEGER, 20, 10},
+                                               {UFF_INTEGER, 30, 10},
+                                               {UFF_INTEGER, 40, 10}};
     static const char what[] = "a coordinate system (number, type, reference or color)";
-    struct uff_cell cell[4];
-    int columns = number == 18 ? 4 : 3; /* what follows is of no use here */
+    struct uff_cell cell[5];
+    int columns = number == 18 ? 5 : 3; /* the fifth is the method of definition, and there is but one */
     *system = (struct uff_system){0};
     int status = uff_cut_record(lines, columns, column, what, cell);
     if (status != ROTID_OK)
@@ -77,7 +80,7 @@ static int read_system(struct uff_lines *lines, int number, struct uff_system *s
     system->id = (int)cell[0].integer;
     system->type = (int)cell[1].integer;
     system->reference = number == 18 ? (int)cell[2].integer : 0;
-    system->color = (int)cell[columns - 1].integer;
+    system->color = (int)cell[number == 18 ? 3 : 2].integer;
     status = uff_expect_line(lines, "the name of a coordinate system");
     if (status != ROTID_OK)
         return status;

@@ -25,11 +25,11 @@ static double decode(const unsigned char *byte, int size, int order)
 /* Up to `limit` values from binary data, their numbers in turn to number. */
 static int take_binary(struct uff_reader *reader, int limit, double *number)
 {
-    unsigned char bytes[UFF_VALUE_LIMIT * 24];
+    unsigned char bytes[UFF_VALUE_LIMIT * 24] = {0};
     struct uff_values *values = &reader->values;
     int parts = values->per_value - !values->function.is_even, order = reader->binary.order;
     int size = values->x_size + values->y_size;
-    int status = uff_take_bytes(&reader->lines, (size_t)(limit * size), bytes);
+    int status = uff_take_bytes(&reader->lines, (size_t)limit * (size_t)size, bytes);
     for (int i = 0; i < limit && status == ROTID_OK; ++i) {
         const unsigned char *at = bytes + (ptrdiff_t)i * size;
         double *to = number + (ptrdiff_t)i * values->per_value;
@@ -95,7 +95,7 @@ static void hand_out(const struct uff_values *values, const double *number, doub
 int uff_read_values(struct uff_reader *reader, long long most, double *x, double *real, double *imag, long long *got)
 {
     struct uff_values *values = &reader->values;
-    double number[UFF_VALUE_LIMIT * 3];
+    double number[UFF_VALUE_LIMIT * 3] = {0};
     *got = 0;
     if (values->is_finished && reader->place == UFF_BETWEEN)
         return ROTID_OK;

@@ -147,7 +147,7 @@ static int write_bytes(struct uff_function_writer *writer, int count, const doub
         for (int b = 0; b < size; ++b)
             byte[size * i + (writer->function->binary.order == 1 ? b : size - 1 - b)] = (unsigned char)(bits >> (8 * b));
     }
-    size_t bytes = (size_t)(size * count);
+    size_t bytes = (size_t)size * (size_t)count;
     return fwrite(byte, 1, bytes, writer->stream) == bytes ? ROTID_OK : ROTID_ERROR_IO;
 }
 

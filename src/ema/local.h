@@ -1,0 +1,34 @@
+/* Modes that differ from channel to channel: a roving accelerometer, a support that slips, temperature. */
+#ifndef ROTID_EMA_LOCAL_H
+#define ROTID_EMA_LOCAL_H
+
+#include <complex.h>
+
+#include "base/pool.h"
+#include "ema/band.h"
+
+struct local_pole {
+    int known;                        /* 0: the channel sits on a node, or no pole was found; the rest is NaN then */
+    double complex pole, residue;     /* as measured */
+    double covariance[4];             /* of (Re, Im pole) */
+    double residue_std;
+    double chi2;                      /* of the channel, over what its own scatter or variance allows */
+};
+
+/* How far from the common pole a channel's own is looked for: 1.2 % of the frequency, which a 30 g accelerometer makes on a
+ * beam of 6 kg, or three half-power bandwidths where these are wider, 5 % at most. */
+double local_reach(double complex pole);
+
+/* The pole of channel k of the band alone near pole[which], the modes pole [nmode] being all that there are: modes within twice
+ * the window are fitted along with it. Where there is none, every place within local_reach is tried first, in steps of half a
+ * bandwidth. known needs |A| above 4 standard deviations where the place was searched for, 3 where not. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int local_fit(const struct pool *pool, const struct ema_band *band, int k, int nmode, const double complex *pole, int which,
+              struct local_pole *out);
+
+/* Replaces modes that lie within 2 % of each other by one wherever each channel shows one peak only: one pole a channel against
+ * common poles leaves less (log-likelihood of the residuals; both have as many unknowns where two become one). The pole that stays
+ * is the median of the channels' own; none stays where their residues have no phase in common (MPC below 0.4). pole [*count] in and out; ROTID_OK or ROTID_ERROR_MEMORY. */
+int local_merge(const struct pool *pool, const struct ema_band *band, int *count, double complex *pole);
+
+#endif

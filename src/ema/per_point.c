@@ -1,0 +1,156 @@
+#include "ema/per_point.h"
+
+#include <math.h>
+
+#include "base/order.h"
+#include "ema/local.h"
+#include "ema/modes.h"
+
+#define SCATTER        3   /* standard deviations */
+#define SCATTER_WIDTHS 0.1 /* half bandwidths: less changes a residue by less than a percent */
+
+/* Mean over the channels weighted by 1/variance, and their scatter in two measures: over their standard deviations, and its rms. */
+static double complex mean_pole(int n, const struct local_pole *local, double *chi, double *rms, int *known)
+{
+    double sum = 0, re = 0, im = 0, weight = 0;
+    *known = 0;
+    *chi = *rms = 0;
+    for (int k = 0; k < n; k++) {
+        if (!local[k].known)
+            continue;
+        double w = 1 / fmax(local[k].covariance[3], 1e-300);
+        im += w * cimag(local[k].pole);
+        weight += w;
+        re += creal(local[k].pole);
+        (*known)++;
+    }
+    if (*known == 0)
+        return CMPLX(NAN, NAN);
+    im /= weight;
+    for (int k = 0; k < n; k++)
+        if (local[k].known) {
+            double apart = cimag(local[k].pole) - im;
+            sum += apart * apart / fmax(local[k].covariance[3], 1e-300);
+            *rms += apart * apart;
+        }
+    if (*known > 1) {
+        *chi = sqrt(sum / (*known - 1));
+        *rms = sqrt(*rms / (*known - 1));
+    }
+    return CMPLX(re / *known, im);
+}
+
+static void mean_frequency(int n, const struct local_pole *local, double decay, int known, struct ema_mode *mode)
+{
+    struct ema_mode one;
+    double f = 0, z = 0, ff = 0, zz = 0;
+    for (int k = 0; k < n; k++)
+        if (local[k].known) {
+            modes_of_pole(local[k].pole + decay, NULL, &one);
+            f += one.frequency_hz / known;
+            z += one.damping / known;
+        }
+    for (int k = 0; k < n; k++)
+        if (local[k].known) {
+            modes_of_pole(local[k].pole + decay, NULL, &one);
+            ff += (one.frequency_hz - f) * (one.frequency_hz - f);
+            zz += (one.damping - z) * (one.damping - z);
+        }
+    double w = 6.283185307179586 * f;
+    modes_of_pole(CMPLX(-z * w, w * sqrt(1 - z * z)), NULL, mode);
+    mode->frequency_std = sqrt(ff / (known - 1) / known);
+    mode->damping_std = sqrt(zz / (known - 1) / known);
+}
+
+static int take_local(struct pool *pool, const struct ema_band *band, const struct local_pole *local, double decay, int known,
+                      struct ema *out, struct ema_mode *mode)
+{
+    mode->local_pole = POOL_ARRAY(pool, double complex, out->nfrf);
+    if (!mode->local_pole)
+        return ROTID_ERROR_MEMORY;
+    for (int c = 0; c < out->nfrf; c++)
+        mode->local_pole[c] = CMPLX(NAN, NAN);
+    for (int k = 0; k < band->nchannel; k++)
+        if (local[k].known) {
+            int c = band->channel[k];
+            mode->local_pole[c] = local[k].pole + decay;
+            mode->residue[c] = local[k].residue;
+            mode->residue_std[c] = local[k].residue_std;
+        }
+    mean_frequency(band->nchannel, local, decay, known, mode);
+    return ROTID_OK;
+}
+
+static void take_points(const struct ema_band *band, const struct local_pole *local, double decay, const struct ema *out,
+                        struct ema_mode *mode)
+{
+    for (int p = 0; p < out->npoint; p++) {
+        double sum = 0, weight = 0;
+        for (int k = 0; k < band->nchannel; k++) {
+            struct ema_mode one;
+            if (out->channel_point[band->channel[k]] != p || !local[k].known)
+                continue;
+            modes_of_pole(local[k].pole + decay, local[k].covariance, &one);
+            double w = 1 / fmax(one.frequency_std * one.frequency_std, 1e-300);
+            sum += w * one.frequency_hz;
+            weight += w;
+        }
+        mode->point_frequency_hz[p] = weight > 0 ? sum / weight : NAN;
+        mode->point_frequency_std[p] = weight > 0 ? 1 / sqrt(weight) : NAN;
+    }
+}
+
+/* A mass that moves shifts a peak and leaves its width: where the widths disagree by more than half in a fifth of the channels,
+ * something else is wrong with the peak, and one pole a channel would be no better. */
+static int same_width(int n, const struct local_pole *local, int known, double *sorted)
+{
+    int count = 0, alike = 0;
+    for (int k = 0; k < n; k++)
+        if (local[k].known)
+            sorted[count++] = -creal(local[k].pole) / cabs(local[k].pole);
+    sort_doubles((size_t)known, sorted);
+    double median = sorted[known / 2];
+    for (int k = 0; k < known; k++)
+        alike += fabs(sorted[k] / median - 1) < 0.5;
+    return 5 * alike >= 4 * known;
+}
+
+int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect,
+                          const rotid_environment *environment, struct ema *out)
+{
+    struct local_pole *local = POOL_ARRAY(pool, struct local_pole, band->nchannel);
+    double complex *pole = POOL_ARRAY(pool, double complex, out->nmode);
+    double *sorted = POOL_ARRAY(pool, double, band->nchannel);
+    if (!local || !pole || !sorted)
+        return ROTID_ERROR_MEMORY;
+    for (int r = 0; r < out->nmode; r++)
+        pole[r] = out->mode[r].pole - decay;
+    for (int r = 0; r < out->nmode; r++) {
+        struct ema_mode *mode = &out->mode[r];
+        if (!suspect[r] && !mode->point_frequency_hz)
+            continue;
+        if (environment && environment->cancelled && environment->cancelled(environment->context))
+            return ROTID_STOP_CANCELLED;
+        if (environment && environment->progress)
+            environment->progress(environment->context, "frequency of each point", r);
+        for (int k = 0; k < band->nchannel; k++) {
+            int status = local_fit(pool, band, k, out->nmode, pole, r, &local[k]);
+            if (status != ROTID_OK)
+                return status;
+        }
+        if (mode->point_frequency_hz)
+            take_points(band, local, decay, out, mode);
+        double chi, rms;
+        int known;
+        double complex mean = mean_pole(band->nchannel, local, &chi, &rms, &known);
+        if (known > 1 && chi > SCATTER && rms > SCATTER_WIDTHS * fabs(creal(mean))) {
+            mode->doubts |= EMA_DOUBLE_PEAK;
+            if (!same_width(band->nchannel, local, known, sorted))
+                continue;
+            int status = take_local(pool, band, local, decay, known, out, mode);
+            if (status != ROTID_OK)
+                return status;
+        }
+    }
+    return ROTID_OK;
+}

@@ -1,0 +1,146 @@
+#define _GNU_SOURCE /* memfd_create */
+#include "fuzz_one.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "deck/deck.h"
+#include "uff/uff.h"
+#include "uff/uff_read.h"
+
+static void require(int condition)
+{
+    if (!condition)
+        abort();
+}
+
+/* The bytes as a file in memory; the path to open it by to path. Returns its descriptor. */
+static int hold(const uint8_t *bytes, size_t count, char path[32])
+{
+    int descriptor = memfd_create("fuzz", 0);
+    require(descriptor >= 0);
+    while (count) {
+        ssize_t written = write(descriptor, bytes, count);
+        require(written > 0);
+        bytes += written;
+        count -= (size_t)written;
+    }
+    (void)snprintf(path, 32, "/proc/self/fd/%d", descriptor);
+    return descriptor;
+}
+
+static int read_values(struct uff_reader *reader)
+{
+    enum { MOST = 7 };
+    struct uff_function function;
+    double x[MOST], real[MOST], imag[MOST];
+    long long got = 0, total = 0;
+    int status = uff_read_function(reader, &function);
+    do {
+        if (status == ROTID_OK)
+            status = uff_read_values(reader, MOST, x, real, imag, &got);
+        require(got >= 0 && got <= MOST);
+        total += got;
+    } while (status == ROTID_OK && got);
+    require(status != ROTID_OK || total == function.count);
+    return status;
+}
+
+static int read_set(struct uff_reader *reader, struct pool *pool, int number)
+{
+    struct uff_header header;
+    struct uff_units units;
+    struct uff_node *node;
+    struct uff_system *system;
+    struct uff_element *element;
+    struct uff_trace trace;
+    struct uff_shape shape;
+    struct uff_analysis analysis;
+    int count;
+    switch (number) {
+    case 15:
+    case 781:
+    case 2411:
+        return uff_read_nodes(reader, pool, &count, &node);
+    case 18:
+    case 2420:
+        return uff_read_systems(reader, pool, &count, &system);
+    case 55:
+        return uff_read_shape_set(reader, pool, &shape);
+    case 58:
+        return read_values(reader);
+    case 82:
+        return uff_read_trace(reader, pool, &trace);
+    case 151:
+        return uff_read_header(reader, &header);
+    case 164:
+        return uff_read_units(reader, &units);
+    case 2412:
+        return uff_read_elements(reader, pool, &count, &element);
+    case 2414:
+        return uff_read_analysis(reader, pool, &analysis);
+    default:
+        return ROTID_OK;
+    }
+}
+
+/* All sets in turn; every third is only read over. */
+static void read_sets(struct pool *pool, const char *path, size_t most)
+{
+    struct message_list messages;
+    struct uff_reader *reader;
+    struct uff_set set, first = {0};
+    message_open(&messages, pool);
+    require(uff_open(pool, path, &messages, &reader) == ROTID_OK);
+    size_t count = 0;
+    for (int status = ROTID_OK; status != UFF_END; ++count) {
+        int errors = messages.errors;
+        require(count <= most + 2);
+        status = uff_next(reader, &set);
+        if (status == ROTID_OK && !first.number)
+            first = set;
+        if (status == ROTID_OK && count % 3 != 2)
+            status = read_set(reader, pool, set.number);
+        require(status == ROTID_OK || status == UFF_END || status == ROTID_ERROR_SYNTAX);
+        require((status == ROTID_ERROR_SYNTAX) == (messages.errors > errors));
+    }
+    if (first.number) {
+        require(uff_return_to(reader, &first) == ROTID_OK);
+        (void)read_set(reader, pool, first.number);
+    }
+    uff_close(reader);
+}
+
+void fuzz_one_uff(const uint8_t *bytes, size_t count)
+{
+    char path[32];
+    struct pool pool;
+    struct message_list messages;
+    struct uff_file file;
+    int descriptor = hold(bytes, count, path);
+    pool_open(&pool, NULL);
+    read_sets(&pool, path, count);
+    message_open(&messages, &pool);
+    int status = uff_read(&pool, path, &messages, &file);
+    require(status == ROTID_OK || status == ROTID_ERROR_SYNTAX);
+    require((status != ROTID_OK) == (messages.errors > 0));
+    pool_close(&pool);
+    (void)close(descriptor);
+}
+
+void fuzz_one_deck(const uint8_t *bytes, size_t count)
+{
+    char path[32];
+    struct pool pool;
+    struct message_list messages;
+    struct job job;
+    int descriptor = hold(bytes, count, path);
+    pool_open(&pool, NULL);
+    message_open(&messages, &pool);
+    int status = deck_read(&pool, path, 0, NULL, &messages, &job);
+    require((status != ROTID_OK) == (messages.errors > 0));
+    pool_close(&pool);
+    (void)close(descriptor);
+}

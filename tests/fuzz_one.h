@@ -1,0 +1,12 @@
+/* One input of a fuzzer, also run as a test over the corpus in tests/fuzz/corpus: whatever the bytes are, the readers return a
+ * status, and an error message exactly when it is an error; else they abort. */
+#ifndef ROTID_TESTS_FUZZ_ONE_H
+#define ROTID_TESTS_FUZZ_ONE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+void fuzz_one_uff(const uint8_t *bytes, size_t count);  /* a universal file: by the streaming reader and by uff_read */
+void fuzz_one_deck(const uint8_t *bytes, size_t count); /* a deck */
+
+#endif
