@@ -185,6 +185,18 @@ static void a_frequency_error_is_told_from_an_error_of_the_shape(void **state)
     close_bench();
 }
 
+/* Functions of another specimen than the modes: they fit the model where its frequencies are, not where the modes are. */
+static void functions_and_modes_of_different_tests_are_noticed(void **state)
+{
+    (void)state;
+    open_measured(1);
+    for (int k = 0; k < MODES; k++)
+        bench.hz[k] *= 1.05;
+    assert_status(run(&bench, &test_pool), ROTID_OK);
+    assert_true(says(&bench, "do they come from the same test?"));
+    close_bench();
+}
+
 /* Twice the mass: H^ is half of H; FRAC does not see it, scale and level do. */
 static void a_wrong_calibration_shows_in_scale_and_level(void **state)
 {
@@ -417,6 +429,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(the_model_agrees_with_itself),
         TEST(a_frequency_error_is_told_from_an_error_of_the_shape),
+        TEST(functions_and_modes_of_different_tests_are_noticed),
         TEST(a_wrong_calibration_shows_in_scale_and_level),
         TEST(directions_and_reciprocity_are_respected),
         TEST(quantity_and_lines_are_those_of_card_and_file),

@@ -6,8 +6,9 @@
 #include "run/frf_points.h"
 #include "run/frf_settle.h"
 
-#define TWO_PI 6.28318530717958647692
-#define ABOVE  4 /* modes are taken up to this many times the highest line; the rest is static to within 1/16 squared */
+#define TWO_PI  6.28318530717958647692
+#define STRANGE 0.1 /* loss of FRAC with measured frequencies that no scatter of them explains */
+#define ABOVE   4   /* modes are taken up to this many times the highest line; the rest is static to within 1/16 squared */
 
 /* ------------------------------------------------------------------------------------------------ curves */
 
@@ -139,8 +140,15 @@ int frf_run(struct pool *pool, const struct job *job, const struct identificatio
         status = frf_choose_damping(pool, job, compared, notes, out);
     if (!status)
         status = frf_make_bands(pool, job, compared, out);
-    if (!status && measured)
-        return compare_rows(pool, measured, environment, out);
-    out->ndone = out->nrow;
+    if (!measured)
+        out->ndone = out->nrow;
+    else if (!status)
+        status = compare_rows(pool, measured, environment, out);
+    if (!status && frf_sums_frac(&out->moved) < frf_sums_frac(&out->sums) - STRANGE)
+        message_add(
+            notes, SEVERITY_WARNING, NULL, 0, 0,
+            "the measured functions fit the frequencies of the model (FRAC %.3f) better than those of the measured modes (%.3f): "
+            "do they come from the same test?",
+            frf_sums_frac(&out->sums), frf_sums_frac(&out->moved));
     return status;
 }
