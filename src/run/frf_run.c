@@ -42,28 +42,51 @@ void frf_measured_curve(const struct frf_result *result, const struct frf_set *s
 
 /* ------------------------------------------------------------------------------------------------ agreement */
 
-static void compare_band(struct frf_result *out, int row, int b, const double complex *measured, const double complex *h,
-                         const double complex *moved)
+/* At the resonances, and where the curves are furthest apart. */
+static void judge_band(struct frf_result *out, int row, int b, const double complex *measured, const double complex *h)
 {
     struct frf_band *band = &out->band[b];
     struct frf_at_mode *at = &out->at[b + (ptrdiff_t)row * out->nband];
-    int n = band->last - band->first + 1;
-    double largest = 0, apart = 0;
-    for (int l = band->first; l <= band->last; l++)
-        if (isfinite(creal(measured[l])) && isfinite(cimag(measured[l]))) {
-            largest = fmax(largest, cabs(measured[l]));
-            apart = fmax(apart, cabs(measured[l] - h[l]));
-        }
-    frf_sums_add(&band->sums, n, measured + band->first, h + band->first);
-    frf_sums_add(&band->moved, n, measured + band->first, moved + band->first);
+    double largest = 0, apart = 0; /* squares */
+    for (int l = band->first; l <= band->last; l++) {
+        double re = creal(measured[l]), im = cimag(measured[l]), dre = re - creal(h[l]), dim = im - cimag(h[l]);
+        if (!isfinite(re) || !isfinite(im))
+            continue;
+        largest = fmax(largest, re * re + im * im);
+        apart = fmax(apart, dre * dre + dim * dim);
+    }
     frf_sums_add(&band->resonance, 1, measured + band->at_measured, h + band->at_model);
     double complex quotient = measured[band->at_measured] / h[band->at_model];
     at->level_db = 20 * log10(cabs(quotient));
     at->phase_deg = carg(quotient) * 360 / TWO_PI;
-    at->deviation = largest > 0 ? apart / largest : NAN;
+    at->deviation = largest > 0 ? sqrt(apart / largest) : NAN;
     if (isfinite(at->deviation) &&
         (band->worst < 0 || at->deviation > out->at[b + (ptrdiff_t)band->worst * out->nband].deviation))
         band->worst = row;
+}
+
+static void compare_row(struct frf_result *out, int row, const double complex *measured, const double complex *h,
+                        const double complex *moved)
+{
+    struct frf_row *r = &out->row[row];
+    for (int b = 0; b < out->nband; b++) { /* every line belongs to one band */
+        struct frf_band *band = &out->band[b];
+        struct frf_sums sums = {0}, shifted = {0};
+        int n = band->last - band->first + 1;
+        frf_sums_add(&sums, n, measured + band->first, h + band->first);
+        frf_sums_add(&shifted, n, measured + band->first, moved + band->first);
+        frf_sums_join(&band->sums, &sums);
+        frf_sums_join(&band->moved, &shifted);
+        frf_sums_join(&r->sums, &sums);
+        frf_sums_join(&r->moved, &shifted);
+        judge_band(out, row, b, measured, h);
+    }
+    if (!out->nband) {
+        frf_sums_add(&r->sums, out->nline, measured, h);
+        frf_sums_add(&r->moved, out->nline, measured, moved);
+    }
+    frf_sums_join(&out->sums, &r->sums);
+    frf_sums_join(&out->moved, &r->moved);
 }
 
 static int compare_rows(struct pool *pool, const struct frf_measured *measured, const rotid_environment *environment,
@@ -84,15 +107,9 @@ static int compare_rows(struct pool *pool, const struct frf_measured *measured, 
         synthesis_evaluate(&out->synthesis, &lines, out->synthesis.lambda, out->zeta, first, count, h, work);
         synthesis_evaluate(&out->synthesis, &lines, out->moved_lambda, out->zeta, first, count, moved, work);
         for (int c = 0; c < count; c++) {
-            struct frf_row *row = &out->row[first + c];
             ptrdiff_t at = (ptrdiff_t)c * out->nline;
             frf_measured_curve(out, measured->set, first + c, work);
-            frf_sums_add(&row->sums, out->nline, work, h + at);
-            frf_sums_add(&row->moved, out->nline, work, moved + at);
-            frf_sums_join(&out->sums, &row->sums);
-            frf_sums_join(&out->moved, &row->moved);
-            for (int b = 0; b < out->nband; b++)
-                compare_band(out, first + c, b, work, h + at, moved + at);
+            compare_row(out, first + c, work, h + at, moved + at);
         }
         out->ndone += count;
         if (environment && environment->progress)
