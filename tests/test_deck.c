@@ -170,6 +170,15 @@ static void sensors_are_sorted_and_shapes_follow_them(void **state)
     assert_true(std[0] == 0.02 && std[2] == 0.03 && std[9] == 0.02); /* *NOISE where the line states none */
 }
 
+static void transfer_functions_are_as_the_card_says(void **state)
+{
+    (void)state;
+    const struct frf_request *frf = &every.job.frf;
+    assert_true(frf->given && !frf->file && frf->low_hz == 100 && frf->high_hz == 1800 && frf->step_hz == 0.5 && !frf->nline);
+    assert_true(frf->has_quantity && frf->quantity == FRF_VELOCITY && frf->damping == 0.008 && frf->npair == 2);
+    assert_true(frf->pair[1].response == 40 && frf->pair[1].reference == 10);
+}
+
 static void modes_carry_damping_and_noise_where_there_is_any(void **state)
 {
     (void)state;
@@ -382,6 +391,7 @@ int main(void)
         cmocka_unit_test(rods_with_modes_of_their_own_are_warned_about),
         cmocka_unit_test(bars_disks_springs_and_the_sling_are_read),
         cmocka_unit_test(sensors_are_sorted_and_shapes_follow_them),
+        cmocka_unit_test(transfer_functions_are_as_the_card_says),
         cmocka_unit_test(modes_carry_damping_and_noise_where_there_is_any),
         cmocka_unit_test(every_kind_of_parameter_is_identified_by_its_name),
         cmocka_unit_test(the_heading_keeps_its_text_and_gives_references),

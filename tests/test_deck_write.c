@@ -187,6 +187,17 @@ static void assert_data(const struct job *a, const struct job *b)
     }
 }
 
+static void assert_frf(const struct frf_request *a, const struct frf_request *b)
+{
+    assert_text(a->file, b->file);
+    assert_true(a->given == b->given && a->low_hz == b->low_hz && a->high_hz == b->high_hz && a->step_hz == b->step_hz);
+    assert_true(a->nline == b->nline && a->has_quantity == b->has_quantity && a->quantity == b->quantity);
+    assert_true(a->damping == b->damping && a->axis == b->axis && a->flip == b->flip && a->origin == b->origin);
+    assert_int_equal(a->npair, b->npair);
+    for (int i = 0; i < a->npair; i++)
+        assert_true(a->pair[i].response == b->pair[i].response && a->pair[i].reference == b->pair[i].reference);
+}
+
 static void assert_job(const struct job *a, const struct job *b)
 {
     assert_int_equal(a->nheading, b->nheading);
@@ -212,6 +223,7 @@ static void assert_job(const struct job *a, const struct job *b)
         assert_doubles(3, &a->bounds[p].lower, &b->bounds[p].lower);
         assert_memory_equal(&a->parameter[p], &b->parameter[p], sizeof a->parameter[p]);
     }
+    assert_frf(&a->frf, &b->frf);
     assert_true(a->has_fit == b->has_fit && a->fit.functional == b->fit.functional && a->fit.reduction == b->fit.reduction);
     assert_true(a->fit.derivative == b->fit.derivative);
 }
@@ -259,6 +271,23 @@ static void every_shipped_deck_comes_back_to_the_last_bit(void **state)
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         (void)snprintf(text, sizeof text, "MEASURED.FILE=" INPUT "data/solid_rotor_%s.uff", files[i]);
         assert_comes_back(INPUT "solid_rotor.inp", text);
+    }
+}
+
+/* The path of a file becomes absolute, so that the deck holds wherever it is written. */
+static void transfer_functions_come_back_with_their_file(void **state)
+{
+    (void)state;
+    static const char *const cards[] = {"*FRF, LOW=100, HIGH=900, STEP=0.25, QUANTITY=VELOCITY, DAMPING=0.004\n1, 2\n2, 2\n",
+                                        "*FRF, LINES=50\n",
+                                        "*FRF, FILE=deck.inp, AXIS=X, FLIP=YES, ORIGIN=0.125, LOW=20\n7, 1\n"};
+    char text[1024];
+    for (size_t i = 0; i < sizeof cards / sizeof *cards; i++) {
+        (void)snprintf(text, sizeof text,
+                       "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n"
+                       "1, 0.1, 0, 20\n*SENSORS\n1, start\n2, end\n%s",
+                       cards[i]);
+        assert_text_comes_back(text);
     }
 }
 
@@ -485,6 +514,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_shipped_deck_comes_back_to_the_last_bit),
+        cmocka_unit_test(transfer_functions_come_back_with_their_file),
         cmocka_unit_test(every_card_and_every_cause_comes_back),
         cmocka_unit_test(what_was_measured_in_part_comes_back),
         cmocka_unit_test(names_may_be_odd),

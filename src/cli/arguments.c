@@ -24,6 +24,7 @@ static void print_help(FILE *out)
         "  --extended FILE          diagnose: a deck with the cause that was named\n"
         "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
         "  -o, --output FILE        ema: the modes, for *MEASURED; uff: the file anew, its functions in the other format\n"
+        "                           frf: the synthesised functions\n"
         "  --format ascii|binary    uff: or in this one\n"
         "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema (one a processor); seed of random numbers (1)\n"
         "  --version, --help\n\n",

@@ -65,6 +65,7 @@ int command_modes(struct command *command);
 int command_sensitivity(struct command *command);
 int command_identify(struct command *command);
 int command_diagnose(struct command *command);
+int command_frf(struct command *command);
 int command_ema(struct command *command);
 int command_uff(struct command *command);
 

@@ -27,6 +27,8 @@ const struct command_entry command_table[] = {
     {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", command_identify, READS_DECK},
     {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the blind spots", command_diagnose,
      READS_DECK | PARALLEL},
+    {"frf", "synthesised transfer functions with measured damping, beside measured ones; -o: as universal file", command_frf,
+     READS_DECK | TAKES_OUTPUT},
     {"ema", "time records or transfer functions (58, 58b) to modes; -o: as universal file for *MEASURED", command_ema,
      PARALLEL | TAKES_OUTPUT},
     {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
@@ -55,7 +57,8 @@ static int run(struct command *command)
         int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, ema or uff", command->name);
+    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema or uff",
+                           command->name);
 }
 
 int main(int argc, char **argv)

@@ -14,7 +14,7 @@ static const struct {
     const char *name;
     void (*read)(struct deck_reader *reader, const struct card *card);
     int phase;
-    const char *options[10];
+    const char *options[13];
 } table[] = {
     {"MATERIAL", deck_material, 0, {"NAME", NULL}},
     {"ELASTIC", deck_elastic, 0, {"TYPE", NULL}},
@@ -35,6 +35,7 @@ static const struct {
     {"SHAPE", deck_shape, 4, {"MODE", NULL}},
     {"FREQUENCIES", deck_frequencies, 4, {"MODE", NULL}},
     {"MEASURED", deck_measured, 4, {"FILE", "AXIS", "DIRECTION", "ORIGIN", "FLIP", "SCALE", NULL}},
+    {"FRF", deck_frf, 4, {"FILE", "LOW", "HIGH", "STEP", "LINES", "QUANTITY", "DAMPING", "AXIS", "ORIGIN", "FLIP", NULL}},
     {"CAUSE", deck_cause, 5, {"NAME", "TYPE", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", "SUSPECT", NULL}},
     {"IDENTIFY", deck_identify, 6, {NULL}},
     {"FIT", deck_fit, 6, {"FUNCTIONAL", "REDUCTION", "MODES", "HOLDOUT", "DERIVATIVE", "TIE", NULL}},
@@ -245,7 +246,7 @@ int deck_read(struct pool *pool, const char *path, int noverride, const struct o
               struct job *job)
 {
     struct deck_reader reader = {.pool = pool, .messages = messages, .job = job};
-    *job = (struct job){.deck = pool_copy_text(pool, path)};
+    *job = (struct job){.deck = pool_copy_text(pool, path), .frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
     rotid_fit_defaults(&job->fit);
     int status = deck_text_read(pool, path, messages, &reader.text);
     if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !reader.text.ncard) {

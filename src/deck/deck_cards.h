@@ -16,11 +16,11 @@ struct deck_reader {
     int *material_complete; /* bit 1: elastic constants, bit 2: density */
     struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
     size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,
-        bounds_room, effect_room, suspect_room, correction_room, correction_place_room;
+        bounds_room, effect_room, suspect_room, correction_room, correction_place_room, pair_room;
     struct place *correction_place; /* of the CAUSE cards of the measurement chain */
     double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
-    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card;
+    const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
     const char *tie; /* FIT, TIE=E:G */
     int out_of_memory;
 };
@@ -55,6 +55,10 @@ int deck_option_word(struct deck_reader *reader, const struct card_option *optio
  * `most`. */
 int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout);
 
+/* A path that an option names, as seen from where the program runs: relative ones are relative to the deck that names them, those
+ * of --set to where the user stands. NULL where memory is out. */
+const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option);
+
 /* Index of a material, -1 where there is none of that name. */
 int deck_find_material(const struct deck_reader *reader, const char *name);
 
@@ -85,6 +89,7 @@ void deck_identify(struct deck_reader *reader, const struct card *card);
 void deck_fit(struct deck_reader *reader, const struct card *card);
 /* The universal file of MEASURED: sensors, modes and shapes. */
 void deck_measured(struct deck_reader *reader, const struct card *card);
+void deck_frf(struct deck_reader *reader, const struct card *card);
 
 /* Whether an option is no option but the second group of BETWEEN=left,core. */
 int deck_cause_list_item(const struct card *card, const struct card_option *option);

@@ -154,6 +154,13 @@ const char *deck_option(struct deck_reader *reader, const struct card *card, con
     return NULL;
 }
 
+const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option)
+{
+    const char *deck = card->place.file, *slash = option->overridden ? NULL : strrchr(deck, '/');
+    return *option->value == '/' || !slash ? option->value
+                                           : pool_format(reader->pool, "%.*s/%s", (int)(slash - deck), deck, option->value);
+}
+
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value)
 {
     return parse_number(reader, option->value, option->value_place, option->name, range, value);

@@ -349,7 +349,7 @@ int override_parse(struct pool *pool, const char *text, struct override *overrid
 
 int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text)
 {
-    static const char *const single[] = {"FIT", "NOISE", "SLING", "MEASURED"};
+    static const char *const single[] = {"FIT", "NOISE", "SLING", "MEASURED", "FRF"};
     struct place place = {override->text, 1, 1};
     struct card_option option = {override->option, override->value, place, place, 1};
     int found = 0;

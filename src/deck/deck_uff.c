@@ -278,10 +278,7 @@ void deck_measured(struct deck_reader *reader, const struct card *card)
     const char *file = deck_option(reader, card, "FILE", "path of a universal file");
     if (read_options(&import) || !file)
         return;
-    const char *deck = card->place.file, *slash = strrchr(deck, '/');
-    if (card_option(card, "FILE")->overridden) /* --set names it from where the user stands */
-        slash = NULL;
-    import.path = *file == '/' || !slash ? file : pool_format(reader->pool, "%.*s/%s", (int)(slash - deck), deck, file);
+    import.path = deck_path(reader, card, card_option(card, "FILE"));
     struct message_list found;
     message_open(&found, reader->pool);
     int status = import.path ? uff_read(reader->pool, import.path, &found, &import.file) : ROTID_ERROR_MEMORY;

@@ -191,6 +191,7 @@ int deck_write(struct pool *pool, const struct job *job, const struct deck_write
     deck_write_measured(&w);
     deck_write_causes(&w);
     deck_write_identify(&w);
+    deck_write_frf(&w);
     if (w.status)
         return w.status;
     if (!is_readable(w.text, w.length))

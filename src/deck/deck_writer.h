@@ -26,10 +26,11 @@ void deck_put_card(struct deck_writer *w, const char *name);
 void deck_put_option(struct deck_writer *w, const char *name, const char *value);
 void deck_put_option_number(struct deck_writer *w, const char *name, double value);
 
-/* The cards, by file: of the model; of the measured data; of causes and identification. */
+/* The cards, by file: of the model; of the measured data; of causes and identification; of the transfer functions. */
 void deck_write_model(struct deck_writer *w);
 void deck_write_measured(struct deck_writer *w);
 void deck_write_causes(struct deck_writer *w);
 void deck_write_identify(struct deck_writer *w);
+void deck_write_frf(struct deck_writer *w);
 
 #endif

@@ -9,6 +9,7 @@
 #include "beam/effect.h"
 #include "beam/rotor.h"
 #include "rotid.h"
+#include "signal/frf.h"
 
 /* A list of values that the heading gives to compare with: "paper error_percent = -3.83, 8.38, ..." */
 struct reference {
@@ -37,6 +38,25 @@ struct job_raw {
     struct sensor *sensor;
     double *shape, *shape_std, *frequency_std;
     double *point_frequency_hz, *point_frequency_std;
+};
+
+struct frf_pair { /* a transfer function: ids of sensors, or of nodes of the measured file */
+    int response, reference;
+};
+
+/* Which transfer functions are to be synthesised: the FRF card. What it leaves open is settled in frf_run.h. */
+struct frf_request {
+    int given;                       /* nonzero: the deck has the card */
+    const char *file;                /* absolute path of the measured ones, NULL where there are none */
+    double low_hz, high_hz, step_hz; /* 0: not stated */
+    int nline;                       /* 0: not stated */
+    int has_quantity;                /* 0: that of the file, else acceleration */
+    enum frf_quantity quantity;
+    double damping; /* ratio of modes without a measured one, 0: not stated */
+    int axis, flip; /* of the nodes of the file: z = origin + c, with flip origin - c, c coordinate 0, 1 or 2 [m] */
+    double origin;
+    int npair; /* 0: all of the file, or every sensor over the first */
+    struct frf_pair *pair;
 };
 
 struct job {
@@ -70,6 +90,8 @@ struct job {
     int nparameter;
     struct parameter *parameter; /* [nparameter] */
     rotid_parameter *bounds;     /* [nparameter] with name and unit */
+
+    struct frf_request frf;
 
     int has_fit; /* a FIT card states functional or reduction */
     rotid_fit_options fit;

@@ -63,7 +63,7 @@ def validate(checks, name, schema, text):
 def main():
     checks = Checks()
     schemas = {}
-    for command in COMMANDS:
+    for command in (*COMMANDS, "frf"):
         schema = json.loads((ROOT / "docs" / "schema" / f"{command}.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         schemas[command] = jsonschema.Draft202012Validator(schema)
@@ -79,6 +79,7 @@ def main():
             run(checks, f"{command} {deck.name}", schemas[command], command, deck, (), (2,) if needs else (0, 1) if command == "identify" else (0,))
 
     with temporary_folder() as folder:
+        synthesise(checks, schemas["frf"], Path(folder))
         for name, (text, options, codes) in SMALL.items():
             deck = Path(folder) / "deck.inp"
             deck.write_text(text)
@@ -105,6 +106,22 @@ def run(checks, name, schema, command, deck, options, codes):
     else:
         return validate(checks, name, schema, out)
     return None
+
+
+def synthesise(checks, schema, folder):
+    """rotid frf without measured functions, beside its own output as measured ones, and with more values than JSON carries."""
+    functions, deck = folder / "functions.uff", INPUT / "paper_rotor.inp"
+    alone = run(checks, "frf, the paper's Figure 15", schema, "frf", deck, ("-o", functions), (0,))
+    checks.true("frf, Figure 15 has curves", alone and alone["with_curves"] and len(alone["functions"][0]["frequency_hz"]) == alone["lines"], "")
+    beside = folder / "beside.inp"
+    beside.write_text(re.sub(r"\*FRF.*\n19, 1\n", f"*FRF, FILE={functions}\n", deck.read_text()))
+    both = run(checks, "frf, its own output as the measured functions", schema, "frf", beside, (), (0,))
+    checks.true("frf agrees with its own output", both and abs(both["agreement"]["frac"] - 1) < 1e-6, both and both["agreement"])
+    many = run(checks, "frf, more values than JSON carries", schema, "frf", INPUT / "solid_rotor.inp",
+               ("--set", "FRF.DAMPING=0.01", "--set", "FRF.LINES=20000"), (0,))
+    checks.true("frf says that the curves are left out", many and not many["with_curves"] and many["warnings"], "")
+    functions.unlink()
+    beside.unlink()
 
 
 def walk(schema, path=""):

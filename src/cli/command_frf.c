@@ -1,0 +1,135 @@
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "import/measurement.h"
+#include "report/output.h"
+#include "report/report_frf.h"
+#include "report/table.h"
+
+/* The measured functions of *FRF, FILE. */
+static int read_measured(struct command *command, struct measurement *measurement, struct frf_measured *measured)
+{
+    const struct frf_request *request = &command->job.frf;
+    const struct measurement_options options = {
+        .low_hz = request->low_hz, .high_hz = request->high_hz, .threads = command->threads};
+    int status = measurement_read(&command->pool, request->file, &options, &command->messages, measurement);
+    if (status)
+        return status;
+    struct frf_node *node = POOL_ARRAY(&command->pool, struct frf_node, measurement->node_count);
+    if (!node)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < measurement->node_count; i++) {
+        node[i].id = measurement->node[i].id;
+        memcpy(node[i].x, measurement->node[i].x, sizeof node[i].x);
+    }
+    *measured = (struct frf_measured){&measurement->set, request->file, measurement->node_count, node};
+    return ROTID_OK;
+}
+
+/* The condensed model that was fitted has other frequencies than the full one that is synthesised. */
+static void note_reduction(struct command *command, const struct identification *identified)
+{
+    double worst = 0;
+    for (int k = 0; k < identified->compared.nmode; k++) {
+        double error = identified->spectrum.reduction_error_percent[identified->compared.number[k] - 1];
+        if (fabs(error) > fabs(worst))
+            worst = error;
+    }
+    if (command->job.fit.reduction != ROTID_REDUCTION_NONE && fabs(worst) > 0.5)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is "
+                    "synthesised here (rotid identify, column reduction)",
+                    reduction_name(command->job.fit.reduction), worst);
+}
+
+static int write_output(struct command *command, const struct frf_view *view, int code)
+{
+    struct output output;
+    if (!command->output)
+        return code;
+    int status = output_open(&output, command->output);
+    if (!status) {
+        status = frf_write_file(output.stream, command->provenance.version, view);
+        if (status)
+            output_abandon(&output);
+        else
+            status = output_close(&output);
+    }
+    if (!status)
+        return code;
+    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", command->output,
+                  status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+    return EXIT_INTERNAL;
+}
+
+static int report(struct command *command, const struct frf_view *view, int code)
+{
+    int status = ROTID_OK;
+    if (command->json && (double)view->result->nline * view->result->ndone > JSON_FRF_MOST_LINES)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
+                    view->result->ndone, view->result->nline, JSON_FRF_MOST_LINES);
+    if (command_wants_table(command)) {
+        status = table_frf(stdout, view);
+        table_notes(stdout, &command->messages);
+    }
+    if (status)
+        return command_fail(command, status);
+    char *text = command->json ? json_frf(&command->provenance, view, &command->messages) : NULL;
+    int written = command_write_json(command, text, code);
+    code = write_output(command, view, written);
+    return code > written ? code : written;
+}
+
+int command_frf(struct command *command)
+{
+    struct job *job = &command->job;
+    double last = 0;
+    int terminal = command_wants_progress(command), status = ROTID_OK, code = EXIT_DONE;
+    const rotid_environment environment = {
+        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    struct identification identified = {0};
+    struct measurement measurement;
+    struct frf_measured measured;
+    struct frf_result result;
+    if (job->frf.file)
+        status = read_measured(command, &measurement, &measured);
+    if (!status && job->nmode)
+        status = identify_run(&command->pool, job, 0, &environment, &command->messages, &identified);
+    else if (!status && job->nparameter)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "no mode was measured: the model is taken as the deck states it, not at identified parameters");
+    const rotid_fit_result *fit = identified.fit;
+    if (!status)
+        status = frf_run(&command->pool, job, fit ? &identified : NULL, job->frf.file ? &measured : NULL, &environment,
+                         &command->messages, &result);
+    if (terminal)
+        (void)fputs("\r\033[K", stderr);
+    if (status) {
+        rotid_fit_free(identified.fit);
+        return command_fail(command, status);
+    }
+    if (fit && fit->n && (!fit->converged || fit->any_at_bound || fit->any_undetermined)) {
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "the identification did not end well (not converged, at a bound or undetermined): see rotid identify");
+        code = EXIT_DOUBTFUL;
+    }
+    if (fit)
+        note_reduction(command, &identified);
+    if (result.ndone < result.nrow || command_cancelled(NULL)) {
+        (void)fprintf(stderr, "rotid: interrupted; %d of %d transfer functions were finished\n", result.ndone, result.nrow);
+        code = EXIT_DOUBTFUL;
+    }
+    const struct frf_view view = {.pool = &command->pool,
+                                  .job = job,
+                                  .identified = fit ? &identified : NULL,
+                                  .set = job->frf.file ? &measurement.set : NULL,
+                                  .result = &result,
+                                  .verbose = command->verbose};
+    code = report(command, &view, code);
+    rotid_fit_free(identified.fit);
+    return code;
+}
