@@ -91,8 +91,13 @@ static void a_mass_comes_back_and_lies_within_its_interval(void **state)
     assert_true(sqrt(square) > 0.88 && sqrt(square) < 1.08);
     fill_readings(&t, 0.03, 0, 1e-4, &stream); /* exact without noise */
     for (int i = 0; i < POINTS * MODES; i++)
-        t.hz[i] = 100 * (i / POINTS + 1) * moving_mass_ratio(0.03, t.square[i], t.others[i]);
+        t.hz[i] = 100 * (1 + (i - i % POINTS) / (double)POINTS) * moving_mass_ratio(0.03, t.square[i], t.others[i]);
     assert_close(run(&t, MODES).mass, 0.03, 1e-8, 0);
+    for (int i = 0; i < POINTS * MODES; i++)
+        t.others[i] = 0;
+    struct moving_mass first = run(&t, MODES);
+    print_message("without the other modes it is off by %.1f std\n", (first.mass - 0.03) / first.std);
+    assert_true(fabs(first.mass - 0.03) > 2 * first.std);
 }
 
 /* Of tests without a mass 0.5 % may pass, with the noise as stated, half and a third of what it is, with a drift, in one mode. */
@@ -216,6 +221,31 @@ static void too_little_says_nothing(void **state)
     fill_readings(&t, 0.03, 0, 1e-4, &stream);
     m = run(&t, 1); /* one mode */
     assert_true(m.found && fabs(m.mass - 0.03) < 4 * m.std);
+}
+
+static void without_memory_there_is_an_error_and_no_leak(void **state)
+{
+    (void)state;
+    struct random_stream stream = {19};
+    struct table t;
+    int status;
+    fill_table(&t);
+    fill_readings(&t, 0.03, 0, 1e-4, &stream);
+    const struct moving_mass_data data = {
+        .nmode = MODES, .npoint = POINTS, .hz = t.hz, .std = t.std, .square = t.square, .others = t.others, .order = t.order};
+    long fail_at = 0;
+    do {
+        struct failing_allocator failing;
+        struct pool pool;
+        struct moving_mass out;
+        failing_allocator_open(&failing, ++fail_at);
+        pool_open(&pool, &failing.allocator);
+        status = moving_mass(&pool, &data, &out);
+        pool_close(&pool);
+        assert_int_equal(failing.in_use, 0);
+        assert_true(status == ROTID_OK || status == ROTID_ERROR_MEMORY);
+    } while (status);
+    assert_true(fail_at > 1);
 }
 
 /* ------------------------------------------------------------------------------------------------ a beam */
@@ -373,13 +403,14 @@ static double away(const rotid_fit_result *fit, int p, double truth)
 
 static int names_no_cause(const struct diagnosis *d)
 {
-    return d->ncause == 0 && (d->kind == VERDICT_ADEQUATE);
+    return d->ncause == 0 && d->kind == VERDICT_ADEQUATE;
 }
 
 static void thirty_grams_on_six_kilograms_are_found(void **state)
 {
     (void)state;
     double worst[2] = {0, 0};
+    int named = 0; /* something in the rotor: 1 of 20 seeds */
     for (unsigned long seed = 1; seed <= 6; seed++) {
         const struct simulation s = {.mass = 0.03, .noise = 1e-4, .seed = seed};
         struct message_list notes, quiet;
@@ -404,8 +435,8 @@ static void thirty_grams_on_six_kilograms_are_found(void **state)
         worst[0] = fmax(worst[0], fabs(away(d.base.fit, 0, YOUNG)));
         worst[1] = fmax(worst[1], fabs(away(d.base.fit, 1, SHEAR)));
         assert_true(fabs(away(loaded.fit, 0, YOUNG)) > 3);
-        print_message("  %s\n", d.sentence);
-        assert_true(names_no_cause(&d) && !detectable_of(&d)); /* in the model: not looked for a second time */
+        named += !names_no_cause(&d);
+        assert_null(detectable_of(&d)); /* in the model: not looked for a second time */
         /* the deck that is written gives the fit again, and nothing more is found in it */
         const struct deck_write_options options = {.x = d.base.fit->x};
         char *written;
@@ -428,6 +459,7 @@ static void thirty_grams_on_six_kilograms_are_found(void **state)
         diagnose_free(&d);
     }
     assert_true(worst[0] < 1.5 && worst[1] < 1.5); /* the worst of six */
+    assert_true(named <= 1);
 }
 
 static void without_a_mass_none_is_found_and_the_smallest_is_listed(void **state)
@@ -528,7 +560,7 @@ static void a_suspect_and_a_fault_of_a_channel_stand_beside_it(void **state)
 static void on_a_ton_it_is_below_the_noise_and_listed(void **state)
 {
     (void)state;
-    static const double noise[] = {1e-4, 5e-4, 1e-3, 3e-3};
+    static const double noise[] = {1e-4, 3e-4, 1e-3, 3e-3};
     struct random_stream stream = {61};
     struct message_list messages;
     struct job job;
@@ -601,6 +633,7 @@ int main(void)
         cmocka_unit_test(a_negative_mass_is_none),
         cmocka_unit_test(one_bad_point_makes_no_mass_and_hides_none),
         cmocka_unit_test(too_little_says_nothing),
+        cmocka_unit_test(without_memory_there_is_an_error_and_no_leak),
         cmocka_unit_test(thirty_grams_on_six_kilograms_are_found),
         cmocka_unit_test(without_a_mass_none_is_found_and_the_smallest_is_listed),
         cmocka_unit_test(a_drift_is_a_drift),

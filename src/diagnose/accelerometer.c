@@ -164,7 +164,8 @@ static int add_mass(struct engine *engine, const struct weighing *w)
         .text =
             pool_format(engine->pool,
                         "the accelerometer weighs %.3g g (%.3g to %.3g g) by %d frequencies at single sensors%s; it is part of "
-                        "the model from here on, going from sensor to sensor, and what it does to the shapes is added to "
+                        "the model from here on, going from sensor to sensor, with the frequencies of this regression, and what "
+                        "it does to the shapes is added to "
                         "their noise, in proportion to its mass",
                         1e3 * moving->mass, 1e3 * (moving->mass - half), 1e3 * (moving->mass + half), moving->readings, drift)};
     int status = data_add_finding(engine, &finding);

@@ -63,7 +63,7 @@ static double residual(const struct point_readings *r, const struct point_fit *f
 /* Inverts the normal matrix s [2 * 2], of which ncolumn rows are in use; 0, or 1 where it is singular. */
 static int invert(int ncolumn, const double *square, const double *s, struct point_fit *fit)
 {
-    for (int i = 0; i < ncolumn; i++)
+    for (ptrdiff_t i = 0; i < ncolumn; i++)
         if (!(s[3 * i] > CONSTANT * square[i]))
             return 1;
     double determinant = ncolumn == 2 ? s[0] * s[3] - s[1] * s[1] : 0;
