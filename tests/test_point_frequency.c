@@ -207,7 +207,10 @@ static void the_card_sets_the_frequency_of_its_mode(void **state)
     assert_close(r.job.frequency_hz[0], mean.hz, 1e-15, 0);
     assert_close(r.job.frequency_std[0], mean.std / mean.hz, 1e-15, 0);
     assert_true(r.job.frequency_hz[1] == 1228 && has_note(&r, "mode 2 has 1 frequencies at single sensors"));
-    assert_close(r.job.frequency_std[1], 0.7 / 1230, 1e-14, 0); /* *MODES states it */
+    assert_close(r.job.frequency_std[1], 0.001, 1e-15, 0);
+    read_text(&r, MODEL DATA "*FREQUENCIES, MODE=2, MEAN=NO\n1, 1228\n" END);
+    assert_true(r.job.frequency_hz[1] == 1230 && r.job.point_frequency_hz[6] == 1228);
+    assert_close(r.job.frequency_std[1], 0.7 / 1230, 1e-14, 0);
 }
 
 static void floors_are_added_to_what_the_data_state_and_to_nothing_else(void **state)

@@ -22,6 +22,7 @@ struct deck_reader {
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
     const char *tie; /* FIT, TIE=E:G */
+    int *mean_kept;  /* [nmode] FREQUENCIES, MEAN=NO */
     int out_of_memory;
 };
 

@@ -14,7 +14,8 @@ int deck_new_points(struct deck_reader *reader)
     if (job->point_frequency_hz)
         return 0;
     double *hz = POOL_ARRAY(reader->pool, double, count), *std = POOL_ARRAY(reader->pool, double, count);
-    if (!hz || !std) {
+    reader->mean_kept = POOL_ARRAY(reader->pool, int, job->nmode);
+    if (!hz || !std || !reader->mean_kept) {
         reader->out_of_memory = 1;
         return 1;
     }
@@ -32,11 +33,12 @@ int deck_point_is_far(const struct job *job, int mode, double hz)
 
 void deck_frequencies(struct deck_reader *reader, const struct card *card)
 {
+    static const char *const answers[] = {"NO", "YES", NULL};
     static const char layout[] = "sensor id, frequency [Hz] [, standard deviation of it [Hz]]";
     struct job *job = reader->job;
-    const struct card_option *option = card_option(card, "MODE");
+    const struct card_option *option = card_option(card, "MODE"), *mean = card_option(card, "MEAN");
     double number;
-    int mode = -1;
+    int mode = -1, take = 1;
     if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") || deck_option_number(reader, option, POSITIVE, &number))
         return;
     for (int k = 0; k < job->nmode; k++)
@@ -48,8 +50,11 @@ void deck_frequencies(struct deck_reader *reader, const struct card *card)
     }
     reader->frequencies_card = card;
     int count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    if (mean)
+        take = deck_option_word(reader, mean, answers);
     if (deck_new_points(reader))
         return;
+    reader->mean_kept[mode] |= !take;
     for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];
         int id;
@@ -75,7 +80,7 @@ void deck_frequencies(struct deck_reader *reader, const struct card *card)
     }
 }
 
-/* The mode's frequency from its readings; a deviation that the mode has of its own stays. */
+/* The mode's frequency and deviation from its readings, where they say one. */
 static void settle_mode(struct deck_reader *reader, int k)
 {
     struct job *job = reader->job;
@@ -93,8 +98,10 @@ static void settle_mode(struct deck_reader *reader, int k)
     for (int s = 0; s < nsensor; s++)
         if (isfinite(hz[s]) && !isfinite(std[s]))
             std[s] = mean.std_of_others;
+    if (reader->mean_kept[k])
+        return;
     job->frequency_hz[k] = mean.hz;
-    if (!isfinite(job->frequency_std[k]))
+    if (isfinite(mean.std))
         job->frequency_std[k] = mean.std / mean.hz;
     struct place place = (reader->frequencies_card ? reader->frequencies_card : reader->measured_card)->place;
     if (!mean.regressed)

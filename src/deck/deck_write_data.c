@@ -122,7 +122,7 @@ static void write_shape(struct deck_writer *w, const struct data *data, int k, i
     }
 }
 
-/* With their deviations as they were settled: *NOISE would count for them, and the scatter is not judged again. */
+/* With their deviations as they were settled, and without another mean: that in *MODES may have been found by better means. */
 static void write_frequencies(struct deck_writer *w, const struct data *data, int k)
 {
     const double *hz = data->point_hz + (ptrdiff_t)k * data->nsensor, *std = data->point_std + (ptrdiff_t)k * data->nsensor;
@@ -130,7 +130,7 @@ static void write_frequencies(struct deck_writer *w, const struct data *data, in
         if (!isfinite(hz[s]))
             continue;
         if (lines++ % DECK_MOST_LINES == 0)
-            deck_put(w, "*FREQUENCIES, MODE=%d\n", w->job->number[k]);
+            deck_put(w, "*FREQUENCIES, MODE=%d, MEAN=NO\n", w->job->number[k]);
         deck_put(w, "%d", data->sensor[s].id);
         deck_put_number(w, ", ", hz[s]);
         if (isfinite(std[s]))

@@ -139,9 +139,14 @@ static int note_pairing(struct engine *engine)
 int base_prepare(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    int status = fit_base(engine, 1), changed = 1, at;
+    int status = fit_base(engine, 1), changed = 0, at;
     if (!status)
         status = note_pairing(engine);
+    if (!status) /* before the channels are judged: its mass is seen in the shapes too */
+        status = data_weigh_accelerometer(engine, &changed);
+    if (!status && changed)
+        status = fit_base(engine, 0);
+    changed = 1;
     for (int pass = 0; pass < MOST_CLEANED && !status && changed; pass++) {
         struct scan *scan = POOL_NEW(engine->pool, struct scan);
         status = scan ? scan_run(engine->pool, &engine->job, engine->number, engine->holdout, engine->fit->x, scan)

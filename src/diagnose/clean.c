@@ -114,12 +114,14 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
     return correct(engine, &finding, &correction);
 }
 
-/* A cause that is an approximation stands in the model already, and the stated noise holds what it leaves. */
+/* A cause that is an approximation, or an accelerometer that went from sensor to sensor, stands in the model already, and the
+ * stated noise holds what it leaves. */
 static int allows_for_more(const struct rotor *rotor)
 {
     for (int e = 0; e < rotor->neffect; e++) {
         const struct cause_kind *cause = catalogue_of(&rotor->effect[e]);
-        if (cause && (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0))
+        if (cause &&
+            (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0 || is_moving_accelerometer(&rotor->effect[e])))
             return 1;
     }
     return 0;
@@ -136,11 +138,11 @@ static int is_misstated(const struct engine *engine, const struct noise_estimate
     return noise->factor > least && noise->factor < NOISIER;
 }
 
-static int correct_noise(struct engine *engine, double factor, double std, const char *text)
+int data_correct_noise(struct engine *engine, const char *block, double factor, double std, const char *text)
 {
     const struct data_finding finding = {
-        .cause = catalogue_find("noise_level"), .block = "SHAPE", .value = factor, .std = std, .chi2_drop = NAN, .text = text};
-    const struct correction correction = {.block = "SHAPE", .value = factor};
+        .cause = catalogue_find("noise_level"), .block = block, .value = factor, .std = std, .chi2_drop = NAN, .text = text};
+    const struct correction correction = {.block = block, .value = factor};
     return correct(engine, &finding, &correction);
 }
 
@@ -231,7 +233,7 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
     double *base = engine->out->job.shape_std; /* another array where a cause has added its discrepancy to the judged one */
     for (ptrdiff_t i = 0; i < (ptrdiff_t)job->rotor.nsensor * job->nmode && base != job->shape_std; i++)
         base[i] *= factor;
-    status = correct_noise(engine, factor, coloured ? NAN : noise.std, text);
+    status = data_correct_noise(engine, "SHAPE", factor, coloured ? NAN : noise.std, text);
     engine->out->job.correction = job->correction;
     engine->out->job.ncorrection = job->ncorrection;
     return status;
@@ -275,8 +277,8 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
         *changed = 1;
     }
     if (!status && is_misstated(engine, &noise, MUCH_MORE)) {
-        status = correct_noise(
-            engine, noise.factor, noise.std,
+        status = data_correct_noise(
+            engine, "SHAPE", noise.factor, noise.std,
             pool_format(engine->pool, "the noise of the shapes is %.2f times the stated one, which is used", noise.factor));
         *changed = 1;
     }

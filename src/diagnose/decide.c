@@ -13,6 +13,7 @@
 #define LEAST_LEFT                                                                                                               \
     3               /* residuals more than parameters, that could still contradict a name: six frequencies carry one parameter   \
                      */
+#define SURE   3.0  /* standard deviations that exclude a mass */
 #define WORSE  1.1  /* held-out modes predicted worse than this factor speak against a cause */
 #define BETTER 0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
@@ -83,6 +84,9 @@ static const char *reason(const struct engine *engine, const struct before *befo
         return "no fit of it converged";
     if (c->at_bound)
         return pool_format(pool, "its size ends at the physical bound");
+    double most = fmax(0, engine->moving.mass) + SURE * engine->moving.std;
+    if (engine->moving.usable && is_moving_accelerometer(&c->effect) && c->effect.value[0] > most)
+        return pool_format(pool, "the frequencies at single sensors allow no more than %.2g kg", most);
     if (isfinite(c->holdout_rms) && c->holdout_rms > WORSE * before->holdout_rms)
         return pool_format(pool, "modes held out get worse: %.2g %% after %.2g %%", c->holdout_rms, before->holdout_rms);
     int worse = isfinite(c->mode_out_rms) && c->mode_out_rms > WORSE * before->mode_out_rms,

@@ -49,6 +49,8 @@ int detectable_sizes(struct engine *engine, const struct round_result *last)
         struct detectable *d = &out->detectable[out->ndetectable++];
         *d = (struct detectable){.cause = cause, .target = c->target, .z = NAN, .worst = NAN};
         over_places(scan, c, last->bootstrap.threshold, d);
+        if (engine->moving.usable && is_moving_accelerometer(&c->effect)) /* by the frequencies at single sensors */
+            d->smallest = fmin(d->smallest, engine->moving.smallest);
         if (!cause->effect->nparameter) { /* there or not: a part of it would show */
             d->parameter = "presence";
             d->unit = "1";

@@ -4,6 +4,7 @@
 
 #include "diagnose/bootstrap.h"
 #include "diagnose/diagnose.h"
+#include "diagnose/moving_mass.h"
 #include "diagnose/refit.h"
 #include "diagnose/scan.h"
 
@@ -21,6 +22,7 @@ struct engine {
     int confident;                       /* the data are enough for a name */
     int user_reduction;                  /* of the deck's own FIT */
     int coloured;                        /* the noise of the shapes was raised for its smooth part */
+    struct moving_mass moving;           /* the accelerometer by the frequencies at single sensors; usable 0 where it has none */
     const struct scan *base_scan;        /* of the base as it stands, for the first round; NULL: to be made */
     double clock;
 };
@@ -56,6 +58,18 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed);
  * where its smooth part, or all of it, is still too large, the noise of the shapes is raised to that, and the round has to be
  * repeated. */
 int data_colour(struct engine *engine, const struct scan *scan, const double *r, int *changed);
+
+/* Raises the noise of a block, "SHAPE" or "FREQUENCY", with a finding that says so. */
+int data_correct_noise(struct engine *engine, const char *block, double factor, double std, const char *text);
+
+/* ---- accelerometer.c */
+
+/* After the base fit, where there are frequencies at single sensors: the mass of an accelerometer that went from one to the next,
+ * and a drift of the frequencies. What is found becomes a finding; the mass becomes part of the judged model (MOUNT=MOVING), the
+ * frequencies are those of the regression with it, and what it does to the shapes, 2 m (phi_kj^2 + |q_kj|) of component j of mode
+ * k, is added to their noise; *changed when there was any. Nothing where the model has such an accelerometer already. */
+int data_weigh_accelerometer(struct engine *engine, int *changed);
+int is_moving_accelerometer(const struct effect *effect);
 
 /* ---- base.c: what the rounds start from */
 

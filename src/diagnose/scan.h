@@ -42,6 +42,9 @@ struct scan {
  * and the user's suspects. names: for the effects to come. */
 int scan_list(struct pool *pool, const struct job *job, struct scan *scan);
 
+/* A name for a CAUSE card that nothing in the rotor has: "joint", or "joint_2" where that is taken. NULL where memory is out. */
+const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
+
 /* Columns and drops at the parameters x of the fitted job. Statuses of columns_open. */
 int scan_run(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x, struct scan *scan);
 

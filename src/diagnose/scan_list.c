@@ -72,8 +72,7 @@ static int name_is_taken(const struct rotor *rotor, const char *name)
     return taken;
 }
 
-/* "joint", or "joint_2" where that is taken */
-static const char *free_name(struct pool *pool, const struct rotor *rotor, const char *id)
+const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id)
 {
     const char *name = id;
     for (int i = 2; name && name_is_taken(rotor, name); i++)
@@ -87,7 +86,7 @@ static int add(struct pool *pool, const struct job *job, const struct cause_kind
     struct scan_candidate *c = &scan->candidate[scan->ncandidate];
     *c = (struct scan_candidate){.cause = cause, .best = -1};
     c->effect = (struct effect){.kind = cause->effect, .target = has_target ? target : -1};
-    c->effect.name = free_name(pool, &job->rotor, cause->id);
+    c->effect.name = scan_free_name(pool, &job->rotor, cause->id);
     c->target = target_name(pool, &job->rotor, cause->target, target);
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c->effect.value[p] = cause->parameter[p].neutral;
@@ -102,6 +101,8 @@ static int add_suspect(struct pool *pool, const struct job *job, const struct su
     for (int i = 0; i < job->rotor.neffect; i++)
         if (same_text(job->rotor.effect[i].name, suspect->effect.name))
             return ROTID_OK; /* accepted in an earlier round */
+    if (cause->place < 0 && cause->target == TARGET_SENSOR && is_in_model(&job->rotor, cause, target))
+        return ROTID_OK; /* an accelerometer that was weighed already */
     int status = add(pool, job, cause, target, scan);
     struct scan_candidate *c = &scan->candidate[scan->ncandidate - 1];
     c->effect.name = suspect->effect.name;

@@ -3,14 +3,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/order.h"
 #include "fit/quantile.h"
 #include "rotid.h"
 
-#define CONSTANT   1e-10 /* squared variation against the squared size: a column that rounding alone moves */
-#define ALIKE      1e-8  /* sine squared between two columns */
-#define CHANCE     0.01  /* of losing a good reading among all of them */
-#define LEAST_DOF  3     /* for a scatter worth the name */
-#define LEAST_MEAN 5     /* readings for a regression on the shape: a line and LEAST_DOF */
+#define CONSTANT   1e-10  /* squared variation against the squared size: a column that rounding alone moves */
+#define ALIKE      1e-8   /* sine squared between two columns */
+#define CHANCE     0.01   /* of losing a good reading among all of them */
+#define LEAST_DOF  3      /* for a scatter worth the name */
+#define INEXACT    0.25   /* of the shift by the accelerometer: its second order, and the noise of the shape */
+#define MEDIAN     1.4826 /* standard deviations of noise a median of its size */
+#define LEAST_MEAN 5      /* readings for a regression on the shape: a line and LEAST_DOF */
 
 /* Sum of weights and weighted means of every mode; the sums of squares of the columns as they stand. */
 static int take_means(const struct point_readings *r, double *square)
@@ -60,7 +63,7 @@ static double residual(const struct point_readings *r, const struct point_fit *f
 /* Inverts the normal matrix s [2 * 2], of which ncolumn rows are in use; 0, or 1 where it is singular. */
 static int invert(int ncolumn, const double *square, const double *s, struct point_fit *fit)
 {
-    for (int i = 0; i < ncolumn; i++)
+    for (ptrdiff_t i = 0; i < ncolumn; i++)
         if (!(s[3 * i] > CONSTANT * square[i]))
             return 1;
     double determinant = ncolumn == 2 ? s[0] * s[3] - s[1] * s[1] : 0;
@@ -180,13 +183,36 @@ static double fill_std(int n, const double *hz, const double *std, double *fille
     return largest;
 }
 
+/* Takes outliers out of use by the scatter about the line and a share of what the accelerometer does to each reading: the line in
+ * the squared shape, which was measured with noise of its own, is no better. The scatter is the median's, which one wrong reading
+ * hardly moves. wide, size [npoint] are workspace. */
+static int drop_from_line(struct point_readings line, double *wide, double *size)
+{
+    struct point_fit fit;
+    double column[POINT_COLUMNS], slope = point_fit(&line, &fit) ? 0 : fit.slope[0];
+    const double *std = line.std;
+    int count = 0;
+    for (int j = 0; j < line.npoint; j++)
+        if (line.use[j])
+            size[count++] = fabs(residual(&line, &fit, 0, j, column)) / std[j];
+    if (fit.dof <= LEAST_DOF)
+        return 0;
+    sort_doubles((size_t)count, size);
+    double scale = fmax(1, MEDIAN * size[count / 2] * sqrt((double)count / fit.dof));
+    for (int j = 0; j < line.npoint; j++)
+        wide[j] = line.ncolumn && line.use[j] ? hypot(scale * std[j], INEXACT * slope * line.column[0][j]) : scale * std[j];
+    line.std = wide;
+    return point_drop_outliers(&line);
+}
+
 int point_mean(struct pool *pool, int nsensor, const double *hz, const double *std, const double *shape, struct point_mean *out)
 {
-    double *filled = POOL_ARRAY(pool, double, nsensor), *square = POOL_ARRAY(pool, double, nsensor), mean[3], middle = 0;
+    double *filled = POOL_ARRAY(pool, double, nsensor), *square = POOL_ARRAY(pool, double, nsensor),
+           *wide = POOL_ARRAY(pool, double, 2 * (size_t)nsensor), mean[3], middle = 0;
     char *use = POOL_ARRAY(pool, char, nsensor);
     int components = 0, both = 0;
     *out = (struct point_mean){.hz = NAN, .std = NAN, .std_of_others = NAN};
-    if (!filled || !square || !use)
+    if (!filled || !square || !wide || !use)
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < nsensor; j++) {
         int there = shape && isfinite(shape[j]);
@@ -207,7 +233,7 @@ int point_mean(struct pool *pool, int nsensor, const double *hz, const double *s
         readings.ncolumn = out->regressed;
         for (int j = 0; j < nsensor; j++)
             use[j] = isfinite(hz[j]) && (!out->regressed || isfinite(square[j]));
-        out->dropped = point_drop_outliers(&readings);
+        out->dropped = drop_from_line(readings, wide, wide + nsensor);
         if (!point_fit(&readings, &fit))
             break;
         out->regressed = 0;
