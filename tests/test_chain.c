@@ -124,8 +124,10 @@ static void modes_of_the_records_are_those_of_the_rotor(void **state)
             aa += exact[p] * exact[p] / (mode->shape_std[p] * mode->shape_std[p]);
             ab += exact[p] * mode->shape[p] / (mode->shape_std[p] * mode->shape_std[p]);
         }
+        double before = chi2;
         for (int p = 0; p < test.points; p++, components++)
             chi2 += pow((mode->shape[p] - ab / aa * exact[p]) / mode->shape_std[p], 2);
+        print_message("        shape: chi2 per component %.2f, std %.1e\n", (chi2 - before) / test.points, mode->shape_std[0]);
         /* what the deck read is what was written */
         assert_close(c.job.frequency_hz[k], mode->frequency_hz, 1e-5, 0);
         assert_close(c.job.frequency_std[k], mode->frequency_std / mode->frequency_hz, 1e-3, 0);

@@ -7,9 +7,10 @@
 #include "ema/refine.h"
 #include "ema/selection.h"
 
-#define TRIAL_LINES 2048
+#define TRIAL_LINES 600
 #define ITERATIONS  12
-#define START       1.5 /* half-power bandwidths beyond the end of the band */
+#define START       1.5  /* half-power bandwidths beyond the end of the band */
+#define WORTH       0.02 /* least share of what is left that a guard has to explain */
 
 /* -2 log likelihood but for a constant: flat weights have their sigma from what is left. */
 static double badness(const struct modal_fit *fit)
@@ -50,16 +51,17 @@ static int is_outside(const struct ema_band *band, double complex pole)
     return half > 0 && (cimag(pole) < band->low + half || cimag(pole) > band->high - half) && cimag(pole) > 0;
 }
 
-/* Where the next one is tried: as damped as the mode next to that end. */
-static double complex beyond(const struct ema_band *band, int nmode, const double complex *pole, int above)
+/* Where the next one is tried: beyond the outermost pole at that end, as damped as the mode next to it. */
+static double complex beyond(const struct ema_band *band, int nmode, int nguard, const double complex *pole, int above)
 {
     int nearest = 0;
     for (int r = 1; r < nmode; r++)
         if (above ? cimag(pole[r]) > cimag(pole[nearest]) : cimag(pole[r]) < cimag(pole[nearest]))
             nearest = r;
-    double end = above ? band->high : band->low, zeta = -creal(pole[nearest]) / cabs(pole[nearest]);
-    double half = zeta * end, at = above ? end + 2 * START * half : end - 2 * START * half;
-    return CMPLX(-half, at > 0.5 * end ? at : 0.5 * end);
+    double end = above ? band->high : band->low, zeta = -creal(pole[nearest]) / cabs(pole[nearest]), width = 2 * zeta * end;
+    for (int r = nmode; r < nmode + nguard; r++)
+        end = above ? fmax(end, cimag(pole[r])) : fmin(end, cimag(pole[r]));
+    return CMPLX(-width / 2, above ? end + START * width : fmax(end - START * width, end / 2));
 }
 
 int guard_poles(const struct pool *pool, const struct ema_band *band, int threads, const rotid_environment *environment,
@@ -85,9 +87,9 @@ int guard_poles(const struct pool *pool, const struct ema_band *band, int thread
         double with;
         int count = nmode + *nguard;
         memcpy(trial, pole, (size_t)count * sizeof *trial);
-        trial[count] = beyond(band, nmode, pole, above);
+        trial[count] = beyond(band, nmode, *nguard, pole, above);
         status = fit_all(pool, band, threads, environment, nline, line, count + 1, trial, &with);
-        tries[above] = status || bad - with < least;
+        tries[above] = status || bad - with < fmax(least, WORTH * (band->variance ? bad : 2.0 * nline * n));
         for (int r = nmode; r <= count; r++)
             tries[above] |= !is_outside(band, trial[r]);
         if (tries[above])

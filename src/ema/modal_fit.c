@@ -27,6 +27,7 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     fit->weight = band->variance ? POOL_ARRAY(pool, double, (size_t)nline *channels) : NULL;
     fit->sigma = POOL_ARRAY(pool, double, nchannel);
     fit->pole = POOL_ARRAY(pool, double complex, nmode);
+    fit->held = POOL_ARRAY(pool, int, nmode);
     fit->basis = POOL_ARRAY(pool, double, rows *(size_t)(q + p));
     fit->gram = POOL_ARRAY(pool, double, (size_t)(q + p) * (size_t)(q + p));
     fit->right = POOL_ARRAY(pool, double, (size_t)(q + p) * channels);
@@ -38,7 +39,7 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     fit->spread = POOL_ARRAY(pool, double, (size_t)q *(size_t)q *channels);
     fit->singular = POOL_ARRAY(pool, int, nchannel);
     fit->work = POOL_ARRAY(pool, double *, workers);
-    if (!fit->nu || !fit->y || !fit->yy || (band->variance && !fit->weight) || !fit->sigma || !fit->pole || !fit->basis ||
+    if (!fit->nu || !fit->y || !fit->yy || (band->variance && !fit->weight) || !fit->sigma || !fit->pole || !fit->held || !fit->basis ||
         !fit->gram || !fit->right || !fit->linear || !fit->chi2 || !fit->schur || !fit->score || !fit->mix || !fit->spread ||
         !fit->singular || !fit->work)
         return ROTID_ERROR_MEMORY;

@@ -23,6 +23,7 @@ struct modal_fit {
     double *weight;                               /* [nline * nchannel] 1/sigma of a part; NULL: flat, sigma below */
     double *sigma;                                /* [nchannel] */
     double complex *pole;                         /* [nmode] lambda/scale */
+    int *held;                                    /* [nmode] nonzero: refine_poles leaves the pole where it is */
     double *basis;                                /* [2 nline * ncolumn] */
     double *gram, *right;                         /* flat weights: [ncolumn^2] and [ncolumn * nchannel] */
     int threads;

@@ -7,7 +7,9 @@
 #include "linalg/positive.h"
 
 #define STEP_TOLERANCE 1e-10 /* of the half bandwidth */
-#define FURTHEST 3           /* half-power bandwidths */
+#define FURTHEST       3     /* half-power bandwidths */
+#define NEGLIGIBLE     1e-6  /* of chi2: a step that promises less moves no pole by a thousandth of its standard deviation */
+#define LITTLE_DAMPED  1e-3
 
 int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement)
 {
@@ -30,6 +32,13 @@ static void sum_channels(const struct modal_fit *fit, double *information, doubl
             score[j] += fit->score[j + (ptrdiff_t)c * p];
         for (int j = 0; j < p * p; j++)
             information[j] += fit->schur[j + (ptrdiff_t)c * p * p];
+    }
+    for (int j = 0; j < p; j++) {
+        if (!fit->held[j / 2])
+            continue;
+        for (int k = 0; k < p; k++)
+            information[j + (ptrdiff_t)k * p] = information[k + (ptrdiff_t)j * p] = j == k;
+        score[j] = 0;
     }
 }
 
@@ -102,6 +111,9 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
             fresh = 0;
             continue;
         }
+        double promised = 0;
+        for (int j = 0; j < p; j++)
+            promised += score[j] * delta[j];
         memcpy(old, fit->pole, (size_t)fit->nmode * sizeof *old);
         double size = move_poles(fit->nmode, old, delta, fit->pole), trial = modal_fit_evaluate(fit, 0);
         refinement->iterations++;
@@ -112,7 +124,7 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
             fresh = 1;
             refused = 0;
             mu = fmax(mu / 10, 1e-12);
-            if (size < STEP_TOLERANCE || (small && mu <= 1e-8 && size < 1e-7)) {
+            if (size < STEP_TOLERANCE || (small && mu <= 1e-8 && size < 1e-7) || (mu <= LITTLE_DAMPED && promised < NEGLIGIBLE)) {
                 refinement->converged = 1;
                 break;
             }
@@ -174,7 +186,7 @@ static void pole_covariance(const struct modal_fit *fit, struct refinement *refi
     }
     for (int k = 0; k < p; k++)
         for (int j = 0; j < p; j++)
-            covariance[j + (ptrdiff_t)k * p] *= scale[j] * scale[k];
+            covariance[j + (ptrdiff_t)k * p] *= fit->held[j / 2] || fit->held[k / 2] ? 0 : scale[j] * scale[k];
     widen(fit, covariance, step, refinement->widened);
     for (int k = 0; k < p; k++)
         for (int j = 0; j < p; j++)
