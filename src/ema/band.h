@@ -22,12 +22,15 @@ struct ema_band {
 /* Takes the lines of set with low_hz <= f <= high_hz, f > 0 (an end <= 0: no limit) of the transfer functions with usable [nfrf]
  * nonzero, h multiplied by (i omega)^(2 - q). A variance estimated from n averages scatters by sqrt(2/(2 n - 2)); as weight it
  * would prefer lines that came out too small. So it is averaged over neighbouring lines up to 20 degrees of freedom, and kept
- * above 1e-6 of its mean over the band. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * above 1e-10 of its mean over the band, where the running sum rounds. ROTID_OK or ROTID_ERROR_MEMORY. */
 int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, double high_hz, const int *usable,
                  struct ema_band *band);
 
 /* Its lines first ... first + nline - 1, copied. ROTID_OK or ROTID_ERROR_MEMORY. */
 int ema_band_part(struct pool *pool, const struct ema_band *band, int first, int nline, struct ema_band *part);
+
+/* Mean over `half` neighbours on each side, fewer at the ends, kept above 1e-10 of the mean of all. raw, smooth [n] differ. */
+void ema_band_smooth(int n, int half, const double *raw, double *smooth);
 
 /* First line with omega >= value; nline where there is none. */
 int ema_band_line(const struct ema_band *band, double value);

@@ -7,6 +7,7 @@
 #include "ema/channels.h"
 #include "ema/local.h"
 #include "ema/modes.h"
+#include "ema/noise.h"
 #include "ema/per_point.h"
 #include "ema/picking.h"
 #include "ema/selection.h"
@@ -18,6 +19,7 @@
 #define LEAST_LINES   16
 #define LARGEST_ORDER 120
 #define ITERATIONS    40
+#define NEAR_WIDTHS   3
 #define SUSPECT       2
 #define NOT_PICKED    (-1)
 
@@ -30,6 +32,7 @@ struct job {
     int *usable;
     struct ema_points points;
     struct ema_band band;
+    int stated; /* the lines came with a variance */
     int ncandidate;
     double complex *candidate;
     int *doubts; /* [ncandidate] of picks, or NOT_PICKED; NULL without picks */
@@ -87,6 +90,7 @@ static int prepare(struct job *job)
         status = ROTID_ERROR_ARGUMENT;
     if (status == ROTID_OK)
         status = ema_band_new(job->pool, job->set, job->options.low_hz, job->options.high_hz, job->usable, &job->band);
+    job->stated = job->band.variance != NULL;
     return status;
 }
 
@@ -112,11 +116,18 @@ static int earn(struct job *job)
     if (!from || !pole)
         return ROTID_ERROR_MEMORY;
     memcpy(pole, job->candidate, (size_t)job->ncandidate * sizeof *pole);
-    int status = selection_earn(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate, pole, from);
+    int status = job->stated ? ROTID_OK
+                             : noise_from_residual(job->pool, &job->band, job->options.threads, job->environment,
+                                                   job->ncandidate, pole);
+    if (status == ROTID_OK)
+        status = selection_earn(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate, pole, from);
     for (int r = 0; status == ROTID_OK && r < job->ncandidate; r++)
         job->candidate[r] = job->options.no_refinement ? job->candidate[from[r]] : pole[r];
     if (status == ROTID_OK)
         status = local_merge(job->pool, &job->band, &job->ncandidate, job->candidate);
+    if (status == ROTID_OK && !job->stated)
+        status = noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate,
+                                     job->candidate);
     return status;
 }
 
@@ -175,9 +186,12 @@ static int fit_modes(struct job *job)
     if (status != ROTID_OK)
         return status;
     out->refined = refinement.iterations;
-    out->std_from_impacts = band->variance != NULL;
+    out->std_from_impacts = job->stated;
     modes_from_fit(band, &fit, &refinement, job->set->window_decay, out);
-    int reported = 0;
+    int reported = 0, *suspect = POOL_ARRAY(job->pool, int, n);
+    double *common = POOL_ARRAY(job->pool, double, (size_t)n *(size_t)band->nchannel);
+    if (!suspect || !common)
+        return ROTID_ERROR_MEMORY;
     for (int r = 0; r < n; r++) {
         double complex pole = fit.pole[r] * fit.scale;
         int inside = !refinement.moved[r] && cimag(pole) >= band->low && cimag(pole) <= band->high;
@@ -185,17 +199,15 @@ static int fit_modes(struct job *job)
             continue;
         struct ema_mode mode = out->mode[r];
         mode.doubts |= job->doubts ? job->doubts[r] : 0;
-        refinement.widened[2 * reported + 1] = refinement.widened[2 * r + 1];
+        /* the scores of the channels tell cheaply whether they agree on the frequency */
+        suspect[reported] = refinement.widened[2 * r + 1] > SUSPECT;
+        for (int k = 0; k < band->nchannel; k++)
+            common[k + (ptrdiff_t)reported * band->nchannel] =
+                modal_fit_local_noise(&fit, k, r, NEAR_WIDTHS) * (fit.weight ? 1 : fit.sigma[k] * fit.sigma[k]);
         out->mode[reported++] = mode;
     }
     out->nmode = n = reported;
-    int *suspect = POOL_ARRAY(job->pool, int, n);
-    if (!suspect)
-        return ROTID_ERROR_MEMORY;
-    /* the scores of the channels tell cheaply whether they agree on the frequency */
-    for (int r = 0; r < n; r++)
-        suspect[r] = refinement.widened[2 * r + 1] > SUSPECT;
-    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, job->environment, out);
+    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, common, job->environment, out);
 }
 
 static int finish(struct job *job)
