@@ -5,7 +5,7 @@
 
 #define TWO_PI 6.283185307179586
 
-void ema_band_smooth(int n, int half, const double *raw, double *smooth)
+static void smooth_variance(int n, int half, const double *raw, double *smooth)
 {
     double mean = 0;
     for (int i = 0; i < n; i++)
@@ -71,7 +71,7 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
             half = smoothing_width(set->frf[c].averages);
             for (int i = 0; i < n; i++)
                 raw[i] = set->frf[c].variance[first + i] * pow(band->omega[i], 2.0 * power);
-            ema_band_smooth(n, half, raw, band->variance + (size_t)n * (size_t)k);
+            smooth_variance(n, half, raw, band->variance + (size_t)n * (size_t)k);
         }
         band->channel[k++] = c;
     }

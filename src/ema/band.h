@@ -29,9 +29,6 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
 /* Its lines first ... first + nline - 1, copied. ROTID_OK or ROTID_ERROR_MEMORY. */
 int ema_band_part(struct pool *pool, const struct ema_band *band, int first, int nline, struct ema_band *part);
 
-/* Mean over `half` neighbours on each side, fewer at the ends, kept above 1e-10 of the mean of all. raw, smooth [n] differ. */
-void ema_band_smooth(int n, int half, const double *raw, double *smooth);
-
 /* First line with omega >= value; nline where there is none. */
 int ema_band_line(const struct ema_band *band, double value);
 

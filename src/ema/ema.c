@@ -115,10 +115,15 @@ static int earn(struct job *job)
     double complex *pole = POOL_ARRAY(job->pool, double complex, job->ncandidate);
     if (!from || !pole)
         return ROTID_ERROR_MEMORY;
+    int status = ROTID_OK;
+    if (!job->stated) {
+        status = selection_screen(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate,
+                                  job->candidate, from);
+        if (status == ROTID_OK)
+            status = noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate,
+                                         job->candidate);
+    }
     memcpy(pole, job->candidate, (size_t)job->ncandidate * sizeof *pole);
-    int status = job->stated ? ROTID_OK
-                             : noise_from_residual(job->pool, &job->band, job->options.threads, job->environment,
-                                                   job->ncandidate, pole);
     if (status == ROTID_OK)
         status = selection_earn(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate, pole, from);
     for (int r = 0; status == ROTID_OK && r < job->ncandidate; r++)

@@ -7,9 +7,10 @@
 #include "ema/selection.h"
 
 #define HALF_WIDTH 30 /* lines: the variance is then known to a tenth */
-#define ITERATIONS 8
+#define EULER      0.5772156649015329
+#define ITERATIONS 4
 
-/* |H - model|^2 of channel c on all lines. */
+/* log |H - model|^2 of channel c on all lines. */
 static void residual(const struct ema_band *band, const struct modal_fit *fit, int c, double *square)
 {
     const double *x = fit->linear + (ptrdiff_t)c * fit->nlinear, *rest = x + (ptrdiff_t)2 * fit->nmode;
@@ -24,8 +25,25 @@ static void residual(const struct ema_band *band, const struct modal_fit *fit, i
         }
         double complex h = band->h[i + (ptrdiff_t)c * band->nline];
         double left = creal(h) + nu * nu * (re + rest[2]) - rest[0], quadrature = cimag(h) + nu * nu * (im + rest[3]) - rest[1];
-        square[i] = left * left + quadrature * quadrature;
+        square[i] = log(fmax(left * left + quadrature * quadrature, 1e-300));
     }
+}
+
+/* exp(mean log + Euler's constant): the mean of |noise|^2 where that is exponentially distributed, and hardly moved by a spike or
+ * by what the model misses in the few lines of a peak, which would take the weight from the lines that tell most. */
+static void smooth_logarithm(int n, const double *raw, double *smooth)
+{
+    double sum = 0, largest = -INFINITY;
+    for (int i = 0, first = 0, last = -1; i < n; i++) {
+        for (; last < i + HALF_WIDTH && last + 1 < n; sum += raw[last])
+            last++;
+        for (; first < i - HALF_WIDTH; first++)
+            sum -= raw[first];
+        smooth[i] = exp(sum / (last - first + 1) + EULER);
+        largest = fmax(largest, smooth[i]);
+    }
+    for (int i = 0; i < n; i++)
+        smooth[i] = fmax(smooth[i], fmax(1e-16 * largest, 1e-300));
 }
 
 static int fit_all(struct pool *scratch, const struct ema_band *band, int threads, const rotid_environment *environment, int n,
@@ -60,7 +78,7 @@ int noise_from_residual(struct pool *pool, struct ema_band *band, int threads, c
     int status = square && variance ? fit_all(&scratch, band, threads, environment, n, pole, &fit) : ROTID_ERROR_MEMORY;
     for (int c = 0; status == ROTID_OK && c < band->nchannel; c++) {
         residual(band, &fit, c, square);
-        ema_band_smooth(band->nline, HALF_WIDTH, square, variance + (size_t)c * lines);
+        smooth_logarithm(band->nline, square, variance + (size_t)c * lines);
     }
     if (status == ROTID_OK)
         band->variance = variance;
