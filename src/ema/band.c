@@ -10,12 +10,13 @@ static void smooth_variance(int n, int half, const double *raw, double *smooth)
     double mean = 0;
     for (int i = 0; i < n; i++)
         mean += raw[i] / n;
-    for (int i = 0; i < n; i++) {
-        int first = i < half ? 0 : i - half, last = i + half < n ? i + half : n - 1;
-        double sum = 0;
-        for (int j = first; j <= last; j++)
-            sum += raw[j];
-        smooth[i] = fmax(sum / (last - first + 1), fmax(1e-6 * mean, 1e-300));
+    double sum = 0;
+    for (int i = 0, first = 0, last = -1; i < n; i++) {
+        for (; last < i + half && last + 1 < n; sum += raw[last])
+            last++;
+        for (; first < i - half; first++)
+            sum -= raw[first];
+        smooth[i] = fmax(sum / (last - first + 1), fmax(1e-10 * mean, 1e-300));
     }
 }
 

@@ -22,7 +22,7 @@ struct ema_band {
 /* Takes the lines of set with low_hz <= f <= high_hz, f > 0 (an end <= 0: no limit) of the transfer functions with usable [nfrf]
  * nonzero, h multiplied by (i omega)^(2 - q). A variance estimated from n averages scatters by sqrt(2/(2 n - 2)); as weight it
  * would prefer lines that came out too small. So it is averaged over neighbouring lines up to 20 degrees of freedom, and kept
- * above 1e-6 of its mean over the band. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * above 1e-10 of its mean over the band, where the running sum rounds. ROTID_OK or ROTID_ERROR_MEMORY. */
 int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, double high_hz, const int *usable,
                  struct ema_band *band);
 

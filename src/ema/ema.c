@@ -8,6 +8,7 @@
 #include "ema/guard.h"
 #include "ema/local.h"
 #include "ema/modes.h"
+#include "ema/noise.h"
 #include "ema/per_point.h"
 #include "ema/picking.h"
 #include "ema/selection.h"
@@ -19,6 +20,7 @@
 #define LEAST_LINES   16
 #define LARGEST_ORDER 120
 #define ITERATIONS    40
+#define NEAR_WIDTHS   3
 #define SUSPECT       2
 #define NOT_PICKED    (-1)
 
@@ -31,6 +33,7 @@ struct job {
     int *usable;
     struct ema_points points;
     struct ema_band band;
+    int stated; /* the lines came with a variance */
     int ncandidate;
     double complex *candidate;
     int *doubts; /* [ncandidate] of picks, or NOT_PICKED; NULL without picks */
@@ -88,6 +91,7 @@ static int prepare(struct job *job)
         status = ROTID_ERROR_ARGUMENT;
     if (status == ROTID_OK)
         status = ema_band_new(job->pool, job->set, job->options.low_hz, job->options.high_hz, job->usable, &job->band);
+    job->stated = job->band.variance != NULL;
     return status;
 }
 
@@ -112,12 +116,24 @@ static int earn(struct job *job)
     double complex *pole = POOL_ARRAY(job->pool, double complex, job->ncandidate);
     if (!from || !pole)
         return ROTID_ERROR_MEMORY;
+    int status = ROTID_OK;
+    if (!job->stated) {
+        status = selection_screen(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate,
+                                  job->candidate, from);
+        if (status == ROTID_OK)
+            status = noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate,
+                                         job->candidate);
+    }
     memcpy(pole, job->candidate, (size_t)job->ncandidate * sizeof *pole);
-    int status = selection_earn(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate, pole, from);
+    if (status == ROTID_OK)
+        status = selection_earn(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate, pole, from);
     for (int r = 0; status == ROTID_OK && r < job->ncandidate; r++)
         job->candidate[r] = job->options.no_refinement ? job->candidate[from[r]] : pole[r];
     if (status == ROTID_OK)
         status = local_merge(job->pool, &job->band, &job->ncandidate, job->candidate);
+    if (status == ROTID_OK && !job->stated)
+        status = noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate,
+                                     job->candidate);
     return status;
 }
 
@@ -184,13 +200,14 @@ static int fit_modes(struct job *job)
     if (status != ROTID_OK)
         return status;
     out->refined = refinement.iterations;
-    out->std_from_impacts = band->variance != NULL;
+    out->std_from_impacts = job->stated;
     modes_from_fit(band, &fit, &refinement, job->set->window_decay, out);
     /* what is not reported goes behind, where the synthesis still finds it */
     struct ema_mode *behind = POOL_ARRAY(job->pool, struct ema_mode, n);
-    if (!behind)
+    int reported = 0, others = 0, *suspect = POOL_ARRAY(job->pool, int, n);
+    double *common = POOL_ARRAY(job->pool, double, (size_t)n *(size_t)band->nchannel);
+    if (!behind || !suspect || !common)
         return ROTID_ERROR_MEMORY;
-    int reported = 0, others = 0;
     for (int r = 0; r < n; r++) {
         double complex at = fit.pole[r] * fit.scale;
         int inside = r < n - nguard && !refinement.moved[r] && cimag(at) >= band->low && cimag(at) <= band->high;
@@ -200,20 +217,18 @@ static int fit_modes(struct job *job)
         }
         struct ema_mode mode = out->mode[r];
         mode.doubts |= job->doubts ? job->doubts[r] : 0;
-        refinement.widened[2 * reported + 1] = refinement.widened[2 * r + 1];
+        /* the scores of the channels tell cheaply whether they agree on the frequency */
+        suspect[reported] = refinement.widened[2 * r + 1] > SUSPECT;
+        for (int k = 0; k < band->nchannel; k++)
+            common[k + (ptrdiff_t)reported * band->nchannel] =
+                modal_fit_local_noise(&fit, k, r, NEAR_WIDTHS) * (fit.weight ? 1 : fit.sigma[k] * fit.sigma[k]);
         out->mode[reported++] = mode;
     }
     if (others)
         memcpy(out->mode + reported, behind, (size_t)others * sizeof *behind);
     out->nmode = n = reported;
     out->nguard = others;
-    int *suspect = POOL_ARRAY(job->pool, int, n);
-    if (!suspect)
-        return ROTID_ERROR_MEMORY;
-    /* the scores of the channels tell cheaply whether they agree on the frequency */
-    for (int r = 0; r < n; r++)
-        suspect[r] = refinement.widened[2 * r + 1] > SUSPECT;
-    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, job->environment, out);
+    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, common, job->environment, out);
 }
 
 static int finish(struct job *job)

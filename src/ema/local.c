@@ -79,6 +79,7 @@ static int fit_window(struct pool *scratch, const struct ema_band *band, int k, 
         search(&fit, reach);
     (void)refine_poles(&fit, ITERATIONS, NULL, &refinement);
     out->chi2 = fit.weight ? fit.chi2[0] : fit.sigma[0] * fit.sigma[0] * fit.chi2[0];
+    out->noise = out->chi2 / (2 * nline - fit.nlinear - 2 * n);
     residue_of_mode(&fit, 0, 0, refinement.covariance, &out->residue, &out->residue_std);
     out->pole = fit.pole[0] * fit.scale;
     for (int j = 0; j < 2; j++)

@@ -12,7 +12,8 @@ struct local_pole {
     double complex pole, residue;     /* as measured */
     double covariance[4];             /* of (Re, Im pole) */
     double residue_std;
-    double chi2;                      /* of the channel, over what its own scatter or variance allows */
+    double chi2;                      /* sum of squared residuals over the stated variance; without one as they are */
+    double noise;                     /* that over the degrees of freedom */
 };
 
 /* How far from the common pole a channel's own is looked for: 1.2 % of the frequency, which a 30 g accelerometer makes on a

@@ -7,6 +7,7 @@
 #include "ema/modes.h"
 
 #define SCATTER        3   /* standard deviations */
+#define LESS           (2.0 / 3)
 #define SCATTER_WIDTHS 0.1 /* half bandwidths: less changes a residue by less than a percent */
 
 /* Mean over the channels weighted by 1/variance, and their scatter in two measures: over their standard deviations, and its rms. */
@@ -115,8 +116,20 @@ static int same_width(int n, const struct local_pole *local, int known, double *
     return 5 * alike >= 4 * known;
 }
 
+/* Whether poles of their own explain the channels better; else the scatter is that of a local fit among neighbours. */
+static int leaves_less(int n, const struct local_pole *local, const double *common)
+{
+    double together = 0, alone = 0;
+    for (int k = 0; k < n; k++)
+        if (local[k].known) {
+            together += common[k];
+            alone += local[k].noise;
+        }
+    return alone < LESS * together;
+}
+
 int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect,
-                          const rotid_environment *environment, struct ema *out)
+                          const double *common, const rotid_environment *environment, struct ema *out)
 {
     struct local_pole *local = POOL_ARRAY(pool, struct local_pole, band->nchannel);
     double complex *pole = POOL_ARRAY(pool, double complex, out->nmode);
@@ -143,7 +156,7 @@ int per_point_frequencies(struct pool *pool, const struct ema_band *band, double
         double chi, rms;
         int known;
         double complex mean = mean_pole(band->nchannel, local, &chi, &rms, &known);
-        if (known > 1 && chi > SCATTER && rms > SCATTER_WIDTHS * fabs(creal(mean))) {
+        if (known > 1 && leaves_less(band->nchannel, local, common + (ptrdiff_t)r * band->nchannel) && chi > SCATTER && rms > SCATTER_WIDTHS * fabs(creal(mean))) {
             mode->doubts |= EMA_DOUBLE_PEAK;
             if (!same_width(band->nchannel, local, known, sorted))
                 continue;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/order.h"
 #include "ema/modal_fit.h"
 #include "ema/real_mode.h"
 #include "ema/refine.h"
@@ -11,15 +12,29 @@
 #define OVERDAMPED  0.2
 #define MOST_UNCERTAIN 0.2
 #define LEAST_MPC 0.4
+#define REAL_MPC    0.9
+#define ATTACHED    0.05 /* of the median mode's highest peak */
+#define TWIN_WIDTHS 0.5
+#define TWIN_MAC    0.9
 #define VISIBLE 12 /* |A|^2/var: chance reaches that once in four hundred */
 #define NOISE_WIDTHS 3
-#define ITERATIONS  8
+#define ITERATIONS  6
 #define CLOSE       4 /* half-power bandwidths: neighbours that may spoil each other */
+#define CLOSE_WEAK  1 /* of one that is weak: only twins take all strength from each other */
+#define SCREEN      0.2
 
 int selection_lines(const struct ema_band *band, int nmode, double products)
 {
     double columns = 4 * nmode + 5, lines = products / (2 * columns * columns * band->nchannel);
-    return (int)fmin(fmax(lines, fmax(30 * nmode, 400)), band->nline);
+    return (int)fmin(fmax(lines, fmax(16 * nmode, 400)), band->nline);
+}
+
+enum round { SCREENING, AS_THEY_COME, REFINED };
+
+/* What the best of very many places in the noise reaches by chance. */
+static double limit(int n)
+{
+    return 2 * n + 12 * sqrt(n) + 30;
 }
 
 /* sum |A|^2/var over the channels; *share: largest |A g|/|H| at the mode; *seen_in: channels that show it */
@@ -55,6 +70,19 @@ static double significance(const struct ema_band *band, const struct modal_fit *
     return sum;
 }
 
+static double collinearity(const struct modal_fit *fit, int r)
+{
+    double xx = 0, yy = 0, xy = 0;
+    for (int c = 0; c < fit->nchannel; c++) {
+        double x = fit->linear[2 * r + (ptrdiff_t)c * fit->nlinear], y = fit->linear[2 * r + 1 + (ptrdiff_t)c * fit->nlinear];
+        xx += x * x;
+        yy += y * y;
+        xy += x * y;
+    }
+    double all = (xx + yy) * (xx + yy);
+    return all > 0 ? ((xx - yy) * (xx - yy) + 4 * xy * xy) / all : 0;
+}
+
 /* How badly mode r fails, 0 where it does not. */
 static double failure(const struct ema_band *band, const struct modal_fit *fit, const struct refinement *refinement, int r,
                       double *strength, double complex *residue)
@@ -62,7 +90,7 @@ static double failure(const struct ema_band *band, const struct modal_fit *fit, 
     int p = 2 * fit->nmode, n = fit->nchannel;
     double complex pole = fit->pole[r] * fit->scale;
     int seen_in;
-    double half = fabs(creal(fit->pole[r])), share, limit = 2 * n + 12 * sqrt(n) + 30;
+    double half = fabs(creal(fit->pole[r])), share;
     double variance = 0;
     for (int j = 2 * r; j < 2 * r + 2; j++) {
         /* what the channels disagree about makes a mode no less real: it may move from point to point */
@@ -80,22 +108,68 @@ static double failure(const struct ema_band *band, const struct modal_fit *fit, 
         return 3;
     if (sqrt(variance) > MOST_UNCERTAIN * half)
         return 2.5;
-    if (*strength <= limit)
-        return 2 - *strength / limit;
+    if (*strength <= limit(n))
+        return 2 - *strength / limit(n);
     return share < LEAST_SHARE || (n >= 3 && seen_in < 2) ||
                    (seen_in > 2 && mode_phase_collinearity(seen_in, residue) < LEAST_MPC)
                ? 0.5
                : 0;
 }
 
-static int is_close(const struct modal_fit *fit, int a, int b)
+static int is_close(const struct modal_fit *fit, int a, int b, double widths)
 {
     double width = 2 * fmax(fabs(creal(fit->pole[a])), fabs(creal(fit->pole[b])));
-    return fabs(cimag(fit->pole[a]) - cimag(fit->pole[b])) < CLOSE * width;
+    return fabs(cimag(fit->pole[a]) - cimag(fit->pole[b])) < widths * width;
+}
+
+static double alike(const struct modal_fit *fit, int r, int s)
+{
+    double complex ab = 0;
+    double aa = 0, bb = 0;
+    for (int c = 0; c < fit->nchannel; c++) {
+        const double *x = fit->linear + (ptrdiff_t)c * fit->nlinear;
+        double complex a = CMPLX(x[2 * r], x[2 * r + 1]), b = CMPLX(x[2 * s], x[2 * s + 1]);
+        aa += creal(a * conj(a));
+        bb += creal(b * conj(b));
+        ab += conj(a) * b;
+    }
+    return aa > 0 && bb > 0 ? creal(ab * conj(ab)) / (aa * bb) : 1;
+}
+
+/* Two poles within half a half-power bandwidth of each other with one shape are one mode and its misfit. */
+static void drop_twins(const struct modal_fit *fit, int count, const double *strength, double *bad)
+{
+    for (int r = 0; r < count; r++)
+        for (int s = r + 1; s < count; s++) {
+            double width = 2 * fmin(fabs(creal(fit->pole[r])), fabs(creal(fit->pole[s])));
+            if (bad[r] == 0 && bad[s] == 0 && fabs(cimag(fit->pole[r]) - cimag(fit->pole[s])) < TWIN_WIDTHS * width &&
+                alike(fit, r, s) > TWIN_MAC)
+                bad[strength[r] < strength[s] ? r : s] = 1;
+        }
+}
+
+/* A weak peak whose phases are not those of a normal mode belongs to something attached, not to the rotor. */
+static void drop_attachments(const struct modal_fit *fit, int count, double *peak, double *sorted, double *bad)
+{
+    size_t good = 0;
+    for (int r = 0; r < count; r++) {
+        double nu = cimag(fit->pole[r]), half = fmax(fabs(creal(fit->pole[r])), 1e-300);
+        peak[r] = 0;
+        for (int c = 0; c < fit->nchannel; c++)
+            peak[r] = fmax(peak[r], hypot(fit->linear[2 * r + (ptrdiff_t)c * fit->nlinear],
+                                          fit->linear[2 * r + 1 + (ptrdiff_t)c * fit->nlinear]) *
+                                        nu * nu / half);
+        if (bad[r] == 0)
+            sorted[good++] = peak[r];
+    }
+    sort_doubles(good, sorted);
+    for (int r = 0; r < count; r++)
+        if (bad[r] == 0 && fit->nchannel > 2 && peak[r] < ATTACHED * sorted[good / 2] && collinearity(fit, r) < REAL_MPC)
+            bad[r] = 0.4;
 }
 
 /* One fit of all; keep [count] := 0 for what goes: of neighbours the weakest only, since it may be what spoils the other. */
-static int judge(struct pool *scratch, const struct ema_band *band, int threads, const rotid_environment *environment, int first,
+static int judge(struct pool *scratch, const struct ema_band *band, int threads, const rotid_environment *environment, enum round round,
                  int count, double complex *pole, int *keep, int *dropped)
 {
     struct modal_fit fit;
@@ -103,7 +177,8 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
     int *line = POOL_ARRAY(scratch, int, band->nline);
     double *bad = POOL_ARRAY(scratch, double, count), *strength = POOL_ARRAY(scratch, double, count);
     double complex *residue = POOL_ARRAY(scratch, double complex, band->nchannel);
-    if (!line || !bad || !strength || !residue)
+    double *peak = POOL_ARRAY(scratch, double, count), *sorted = POOL_ARRAY(scratch, double, count);
+    if (!line || !bad || !strength || !residue || !peak || !sorted)
         return ROTID_ERROR_MEMORY;
     int nline = modal_fit_lines(band, count, pole, FIT_WIDTHS, selection_lines(band, count, EARN_PRODUCTS), line);
     int status = modal_fit_new(scratch, band, nline, line, 0, band->nchannel, count, threads, &fit);
@@ -113,51 +188,79 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
         return status;
     for (int r = 0; r < count; r++)
         fit.pole[r] = pole[r] / fit.scale;
-    status = refine_poles(&fit, first ? 0 : ITERATIONS, environment, &refinement);
+    status = refine_poles(&fit, round == REFINED ? ITERATIONS : 0, environment, &refinement);
     if (status != ROTID_OK)
         return status;
     for (int r = 0; r < count; r++)
         bad[r] = failure(band, &fit, &refinement, r, &strength[r], residue);
+    for (int r = 0; r < count && round == SCREENING; r++)
+        bad[r] = strength[r] < SCREEN * limit(band->nchannel);
+    if (round != SCREENING)
+        drop_twins(&fit, count, strength, bad);
+    if (round == REFINED)
+        drop_attachments(&fit, count, peak, sorted, bad);
     *dropped = 0;
     for (int r = 0; r < count; r++) {
         keep[r] = bad[r] == 0;
+        double widths = strength[r] < limit(band->nchannel) ? CLOSE_WEAK : CLOSE;
         for (int s = 0; s < count && !keep[r]; s++)
-            if (s != r && is_close(&fit, r, s) && bad[s] > 0 && (strength[s] < strength[r] || (strength[s] == strength[r] && s < r)))
+            if (s != r && bad[s] > 0 && (strength[s] < strength[r] || (strength[s] == strength[r] && s < r)) &&
+                is_close(&fit, r, s, widths))
                 keep[r] = 1;
         *dropped += !keep[r];
     }
-    for (int r = 0; r < count; r++)
+    for (int r = 0; r < count && round == REFINED; r++)
         if (bad[r] == 0)
             pole[r] = fit.pole[r] * fit.scale;
     return ROTID_OK;
 }
 
+/* One round on a pool of its own; *count becomes smaller by *dropped. */
+static int weed(const struct pool *pool, const struct ema_band *band, int threads, const rotid_environment *environment,
+                enum round round, int *count, double complex *pole, int *candidate, int *dropped)
+{
+    struct pool scratch;
+    /* no more unknowns than two thirds of the lines can carry: the last candidates are the ones at the upper end */
+    int most = (2 * band->nline * 2 / 3 - 4) / 4, kept = 0;
+    *count = *count < most ? *count : most > 0 ? most : 0;
+    *dropped = 0;
+    if (*count == 0)
+        return ROTID_OK;
+    pool_open(&scratch, pool->allocator);
+    int *keep = POOL_ARRAY(&scratch, int, *count);
+    int status =
+        !keep ? ROTID_ERROR_MEMORY : judge(&scratch, band, threads, environment, round, *count, pole, keep, dropped);
+    for (int r = 0; status == ROTID_OK && r < *count; r++)
+        if (keep[r]) {
+            candidate[kept] = candidate[r];
+            pole[kept++] = pole[r];
+        }
+    pool_close(&scratch);
+    if (status == ROTID_OK)
+        *count = kept;
+    return status;
+}
+
+int selection_screen(const struct pool *pool, const struct ema_band *band, int threads, const rotid_environment *environment,
+                     int *count, double complex *pole, int *candidate)
+{
+    int dropped;
+    for (int r = 0; r < *count; r++)
+        candidate[r] = r;
+    return weed(pool, band, threads, environment, SCREENING, count, pole, candidate, &dropped);
+}
+
 int selection_earn(const struct pool *pool, const struct ema_band *band, int threads, const rotid_environment *environment,
                    int *count, double complex *pole, int *candidate)
 {
+    int dropped;
     for (int r = 0; r < *count; r++)
         candidate[r] = r;
     /* the first round takes the poles as they come, which is quick; every later one leaves one out at least, or is the last */
-    for (int dropped = 1, first = 1; dropped && *count;) {
-        struct pool scratch;
-        pool_open(&scratch, pool->allocator);
-        int *keep = POOL_ARRAY(&scratch, int, *count);
-        /* no more unknowns than two thirds of the lines can carry: the last candidates are the ones at the upper end */
-        int most = (2 * band->nline * 2 / 3 - 4) / 4;
-        *count = *count < most ? *count : most > 0 ? most : 0;
-        int status = !keep ? ROTID_ERROR_MEMORY : judge(&scratch, band, threads, environment, first, *count, pole, keep, &dropped);
-        dropped += first;
-        first = 0;
-        int kept = 0;
-        for (int r = 0; status == ROTID_OK && r < *count; r++)
-            if (keep[r]) {
-                candidate[kept] = candidate[r];
-                pole[kept++] = pole[r];
-            }
-        pool_close(&scratch);
-        if (status != ROTID_OK)
-            return status;
-        *count = kept;
-    }
-    return ROTID_OK;
+    int status = weed(pool, band, threads, environment, AS_THEY_COME, count, pole, candidate, &dropped);
+    do {
+        if (status == ROTID_OK)
+            status = weed(pool, band, threads, environment, REFINED, count, pole, candidate, &dropped);
+    } while (status == ROTID_OK && dropped && *count);
+    return status;
 }
