@@ -158,10 +158,10 @@ static void from_a_pipe(void **state)
     (void)state;
     static const char before[] =
         SET(15) "1 0 0 8 1. 2. 3.\n" UFF_EDGE
-                "    -1\n    58b     1     2          11          24     0     0           0           0\n" TEXTS
+                "    -1\n    58b     1     2          11       40000     0     0           0           0\n" TEXTS
                 "    1         0    0         0 NONE               1   3 NONE               0   0\n"
-                "         4         3         1  0.00000E+00  1.00000E+00  0.00000E+00\n17\n12\n0\n0\n";
-    static const char data[24] = "\n    -1\n    -1\n    15\n";
+                "         4      5000         1  0.00000E+00  1.00000E+00  0.00000E+00\n17\n12\n0\n0\n";
+    static const char data[40000] = "\n    -1\n    -1\n    15\n"; /* more than the reader has at once */
     static const char after[] = UFF_EDGE SET(15) "2 0 0 8 1. 2. 3.\n" UFF_EDGE;
     int end[2];
     char path[64];
@@ -184,6 +184,9 @@ static void from_a_pipe(void **state)
     }
     assert_int_equal(uff_next(reader, &last), UFF_END);
     assert_int_equal(messages.count, 0);
+    assert_int_equal(uff_return_to(reader, &set[0]), ROTID_ERROR_IO);
+    assert_int_equal(uff_next(reader, &last), ROTID_ERROR_IO);
+    assert_int_equal(messages.errors, 1);
     uff_close(reader);
     pool_close(&pool);
     (void)close(end[0]);

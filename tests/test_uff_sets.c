@@ -196,13 +196,93 @@ static void elements_and_traces(void **state)
     uff_fixture_close(&fixture);
 }
 
+#define TEXTS    "one\ntwo\nthree\nfour\nNONE\n"
+#define LOCATION "    1         0    0         0 NONE               1   3 NONE               0   0\n"
+#define FORM     "         4         3         1  0.00000E+00  1.00000E+00  0.00000E+00\n"
+#define KIND     "9\nname\n3\n" TEXTS
+
+/* Reads the set at hand, whatever it is. */
+static int read_any(struct uff_fixture *fixture, int number)
+{
+    struct uff_units unit;
+    struct uff_system *system;
+    struct uff_element *element;
+    struct uff_trace trace;
+    struct uff_function function;
+    struct uff_analysis a;
+    int count;
+    switch (number) {
+    case 18:
+    case 2420:
+        return uff_read_systems(fixture->reader, &fixture->pool, &count, &system);
+    case 58:
+        return uff_read_function(fixture->reader, &function);
+    case 82:
+        return uff_read_trace(fixture->reader, &fixture->pool, &trace);
+    case 164:
+        return uff_read_units(fixture->reader, &unit);
+    case 2412:
+        return uff_read_elements(fixture->reader, &fixture->pool, &count, &element);
+    default:
+        return uff_read_analysis(fixture->reader, &fixture->pool, &a);
+    }
+}
+
+static void wrong_records(void **state)
+{
+    (void)state;
+    static const struct {
+        int number;
+        const char *text;
+        int line, column;
+        const char *part;
+    } item[] = {
+        {18, SET(18) "9999999999         0         0         8         1\n", 3, 1, "too large for 32 bits"},
+        {18, SET(18) "                   0\n", 3, 1, "'' is not an integer; expected it in columns 1 to 10"},
+        {58, SET(58) TEXTS "    x         0    0         0 NONE\n", 8, 5,
+         "record 6 (function type, number, version, load case, response, reference): 'x' is not an integer; expected it in "
+         "columns 1 to 5"},
+        {58, SET(58) TEXTS "    19999999999    0         0 NONE\n", 8, 6, "9999999999 is too large for a 32-bit integer"},
+        {58, SET(58) TEXTS LOCATION FORM "        17    0   1.\n", 10, 19,
+         "record 8 (abscissa): '1.' is not an integer; expected it in columns 16 to 20"},
+        {58,
+         "    -1\n    58b     1     2          11          16\n" TEXTS LOCATION FORM "17\n12\n0\n0\n................" UFF_EDGE,
+         13, 0, "16 bytes of binary data; expected 24 for 3 values"},
+        {58, "    -1\n    58b     1     2          13          24\n" TEXTS LOCATION FORM "17\n12\n0\n0\nmore\n", 14, 0,
+         "expected as many lines of text as announced"},
+        {82, SET(82) "1 -5 0\nname\n", 3, 11, "-5 nodes; expected none or more"},
+        {82, SET(82) "1 2 0\nname\n1 2\n3\n" UFF_EDGE, 6, 0, "expected the '-1' that ends the set behind 2 nodes"},
+        {82, SET(82) "1 9 0\nname\n1 2 3 4 5 6 7 8 9\n" UFF_EDGE "    -1\n    82", 8, 0, "expected a trace line"},
+        {164, SET(164) "1 m 2\n1 1 1\n0\n1\n" UFF_EDGE, 6, 0, "behind four factors"},
+        {164, SET(164) "1 m 2\n1 1 1\n", 4, 0, "expected record 2"},
+        {2412, SET(2412) "1 94 3\n", 3, 0, "expected 6 integers, found 3 fields"},
+        {2414, SET(2414) KIND "1 2 2 8 2 0\n", 11, 51, "0 values; expected at least 1"},
+        {2414, SET(2414) KIND "1 2 2 8 2 1\n0\n0\n0\n0\n1 7 1 1\n", 16, 0, "expected expansion code 1 or 2"},
+        {2414, SET(2414) KIND "1 2 2 8 2 1\n0\n0\n0\n0\n1 1 1\n", 16, 0,
+         "record 14 (label of a node or an element): expected 4 integers"},
+        {2414, SET(2414) KIND "1 2 2 8 2 1\n0\n0\n0\n0\n1 1 1 1\nx\n", 17, 1, "values: 'x' is not a real; expected 1 real"},
+        {2420, SET(2420) "1\npart\n         1         0         8\nname\n1 0 0\n0 1\n", 8, 0, "records 5 to 8: expected 3 reals"},
+    };
+    for (size_t k = 0; k < sizeof item / sizeof *item; ++k) {
+        struct uff_fixture fixture;
+        uff_fixture_text(&fixture, item[k].text);
+        (void)uff_fixture_next(&fixture, item[k].number);
+        int status = read_any(&fixture, item[k].number);
+        if (status == ROTID_OK) { /* then it is the next one */
+            (void)uff_fixture_next(&fixture, item[k].number);
+            status = read_any(&fixture, item[k].number);
+        }
+        uff_fixture_refuses(&fixture, status, item[k].line, item[k].column, item[k].part);
+        uff_fixture_close(&fixture);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(header),
-        cmocka_unit_test(units),
-        cmocka_unit_test(systems),
-        cmocka_unit_test(elements_and_traces),
+        cmocka_unit_test(header),        cmocka_unit_test(units),
+        cmocka_unit_test(systems),       cmocka_unit_test(elements_and_traces),
+        cmocka_unit_test(wrong_records),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

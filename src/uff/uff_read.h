@@ -44,9 +44,8 @@ int uff_read_analysis(struct uff_reader *reader, struct pool *pool, struct uff_a
 
 /* The records 1 to 11 of a set 58 or 58b, then, in pieces of any length, its values in turn: `*got` <= most of them, x (of an
  * uneven abscissa as in the file, else start + i step; or NULL), real, imag (0 for real data; or NULL). ROTID_OK with *got = 0 at
- * the end of the values, after which the set has been checked to be complete. A 58b whose number of bytes is wrong is taken, with
- * a warning, where its end stands behind the bytes its values need. Numbers in DEC or IBM format are refused by uff_read_values.
- */
+ * the end of the values, after which the set has been checked to be complete. A wrong number of bytes of a 58b is a warning where
+ * its end stands behind the bytes that its values need. DEC and IBM numbers are refused by uff_read_values. */
 int uff_read_function(struct uff_reader *reader, struct uff_function *function);
 int uff_read_values(struct uff_reader *reader, long long most, double *x, double *real, double *imag, long long *got);
 
