@@ -9,6 +9,8 @@
 #include "signal/window.h"
 
 #define HIGHEST 0.45 /* of the sampling rate: up to there the filters of a converter are flat */
+#define RINGING_SAMPLES                                                                                                          \
+    128 /* in which the steepest anti-alias filter of an analyser rings down; less cut off bends the lines below it */
 #define FASTEST 1e12 /* Hz, and its inverse the slowest sampling: spectra stay within the range of double */
 
 struct worker { /* workspace of one thread */
@@ -193,7 +195,8 @@ static void transform(const struct work *work, struct worker *worker, int column
         worker->force[j] = force[j] - force_mean;
         worker->response[j] = response[j] - response_mean;
     }
-    double keep = work->options->force_window > 0 ? work->options->force_window : 10 * impact->width;
+    double keep =
+        work->options->force_window > 0 ? work->options->force_window : fmax(10 * impact->width, RINGING_SAMPLES / work->rate);
     if (work->options->force_window >= 0 && !impact->is_double) /* a second hit that is kept belongs to the force */
         window_force(n, (int)fmin(n, begin + ceil(keep * work->rate)), (int)fmin(n, keep * work->rate / 4), worker->force);
     for (int j = 0; j < n; j++) {

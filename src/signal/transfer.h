@@ -21,8 +21,8 @@ struct transfer_options {
                           record, which are cut]. By default a pulse within a tenth of the usual spacing, and within 0.25 s, is a
                           second hit */
     double force_window; /* s after the impact that the force is kept, then it fades to its mean before the impact within a
-                            quarter of that; [ten times the width of the pulse at the threshold]; < 0: none. Double hits that are
-                            kept have none */
+                            quarter of that; [ten times the width of the pulse at the threshold, at least the 128 samples in which
+                            an anti-alias filter rings down]; < 0: none. Double hits that are kept have none */
     double exponential;  /* end value of the exponential window of the response and of the force, relative: 0.01 damps to 1 % at
                             the end of the block; [0: none]. It belongs on both, so that H keeps its form with every pole shifted
                             by the decay (signal/window.h) */
