@@ -59,8 +59,8 @@ static int find_lines(struct job *job)
     const struct frf_set *set = job->set;
     const struct ema_options *o = &job->options;
     job->last = set->nline;
-    while (job->first < job->last && (set->frequency_hz[job->first] <= 0 ||
-                                      (o->low_hz > 0 && set->frequency_hz[job->first] < o->low_hz)))
+    while (job->first < job->last &&
+           (set->frequency_hz[job->first] <= 0 || (o->low_hz > 0 && set->frequency_hz[job->first] < o->low_hz)))
         job->first++;
     while (job->last > job->first && o->high_hz > 0 && set->frequency_hz[job->last - 1] > o->high_hz)
         job->last--;
@@ -117,8 +117,8 @@ static int earn(struct job *job)
         return ROTID_ERROR_MEMORY;
     int status = ROTID_OK;
     if (!job->stated) {
-        status = selection_screen(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate,
-                                  job->candidate, from);
+        status = selection_screen(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate, job->candidate,
+                                  from);
         if (status == ROTID_OK)
             status = noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate,
                                          job->candidate);
@@ -131,8 +131,8 @@ static int earn(struct job *job)
     if (status == ROTID_OK)
         status = local_merge(job->pool, &job->band, &job->ncandidate, job->candidate);
     if (status == ROTID_OK && !job->stated)
-        status = noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate,
-                                     job->candidate);
+        status =
+            noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate, job->candidate);
     return status;
 }
 

@@ -54,11 +54,11 @@ struct ema_mode {
     double *residue_std;               /* [nfrf] of |A_cr| along its phase */
     double *shape, *shape_std;         /* [npoint] real, largest component 1; NaN where not measured */
     double complex *complex_shape;     /* [npoint] same scale */
-    double complex *local_pole;        /* [nfrf] each channel's own pole (decay taken off) where the frequency differs from channel to
-                                          channel, and the residues are those of these poles; NULL where one pole serves all */
-    double mpc;                        /* modal phase collinearity in [0, 1] */
-    double mpd;                        /* mean phase deviation [degrees] */
-    double modal_mass;                 /* kg, of the shape whose largest component is 1; NaN without a drive point */
+    double complex *local_pole; /* [nfrf] each channel's own pole (decay taken off) where the frequency differs from channel to
+                                   channel, and the residues are those of these poles; NULL where one pole serves all */
+    double mpc;                 /* modal phase collinearity in [0, 1] */
+    double mpd;                 /* mean phase deviation [degrees] */
+    double modal_mass;          /* kg, of the shape whose largest component is 1; NaN without a drive point */
     double *point_frequency_hz, *point_frequency_std; /* [npoint] where per_point, else NULL; NaN where it cannot be told */
     double peak_signal_to_noise;                      /* |H|/std at the peak, median of the channels; NaN without a variance */
     int doubts;                                       /* of enum ema_doubt */

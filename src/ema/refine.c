@@ -7,7 +7,7 @@
 #include "linalg/positive.h"
 
 #define STEP_TOLERANCE 1e-10 /* of the half bandwidth */
-#define FURTHEST 3           /* half-power bandwidths */
+#define FURTHEST       3     /* half-power bandwidths */
 
 int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement)
 {
