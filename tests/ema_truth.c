@@ -44,8 +44,8 @@ static double complex truth_value(const struct truth *t, int j, double omega, en
     return sum;
 }
 
-void truth_measure(struct pool *pool, const struct truth *truth, enum frf_quantity quantity, double low_hz, double step_hz, int nline,
-                   double noise, int with_variance, struct random_stream *random, struct frf_set *set)
+void truth_measure(struct pool *pool, const struct truth *truth, enum frf_quantity quantity, double low_hz, double step_hz,
+                   int nline, double noise, int with_variance, struct random_stream *random, struct frf_set *set)
 {
     *set = (struct frf_set){.nline = nline, .quantity = quantity, .nfrf = truth->npoint};
     set->frequency_hz = POOL_ARRAY(pool, double, nline);
@@ -55,8 +55,11 @@ void truth_measure(struct pool *pool, const struct truth *truth, enum frf_quanti
         set->frequency_hz[i] = low_hz + i * step_hz;
     for (int j = 0; j < truth->npoint; j++) {
         struct frf *f = &set->frf[j];
-        *f = (struct frf){.response_node = j + 1, .response_direction = 2, .reference_node = truth->drive + 1,
-                          .reference_direction = 2, .averages = 100};
+        *f = (struct frf){.response_node = j + 1,
+                          .response_direction = 2,
+                          .reference_node = truth->drive + 1,
+                          .reference_direction = 2,
+                          .averages = 100};
         f->h = POOL_ARRAY(pool, double complex, nline);
         f->variance = with_variance ? POOL_ARRAY(pool, double, nline) : NULL;
         double power = 0;

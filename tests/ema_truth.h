@@ -18,10 +18,10 @@ struct truth {
 /* A free beam: f_r = f_1 ((2 r + 1)/3)^2, shapes of the free-free bar at npoint even places, mass 1 of each mode. */
 void truth_beam(int nmode, int npoint, int drive, double f1, double damping, struct truth *truth);
 
-/* Lines low, low + step, ...; every point over the drive; noise: standard deviation of complex noise over the rms |H| of its channel,
- * 0 none; stated as variance where with_variance. */
-void truth_measure(struct pool *pool, const struct truth *truth, enum frf_quantity quantity, double low_hz, double step_hz, int nline,
-                   double noise, int with_variance, struct random_stream *random, struct frf_set *set);
+/* Lines low, low + step, ...; every point over the drive; noise: standard deviation of complex noise over the rms |H| of its
+ * channel, 0 none; stated as variance where with_variance. */
+void truth_measure(struct pool *pool, const struct truth *truth, enum frf_quantity quantity, double low_hz, double step_hz,
+                   int nline, double noise, int with_variance, struct random_stream *random, struct frf_set *set);
 
 /* A cos + b cosh ... of mode r of a free-free bar at x in [0, 1], largest 1 at the ends. */
 double truth_free_free(int r, double x);

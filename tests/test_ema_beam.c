@@ -26,8 +26,11 @@ static void read_excerpt(struct frf_set *set)
             assert_non_null(fgets(text, sizeof text, file));
         set->nline = n;
         set->frequency_hz = POOL_ARRAY(&test_pool, double, n);
-        set->frf[c] = (struct frf){.h = POOL_ARRAY(&test_pool, double complex, n), .response_node = c + 1,
-                                   .response_direction = 1, .reference_node = 21, .reference_direction = 1};
+        set->frf[c] = (struct frf){.h = POOL_ARRAY(&test_pool, double complex, n),
+                                   .response_node = c + 1,
+                                   .response_direction = 1,
+                                   .reference_node = 21,
+                                   .reference_direction = 1};
         for (int i = 0; i < n; i++) {
             double re, im;
             assert_int_equal(fscanf(file, "%lf %lf %lf", &set->frequency_hz[i], &re, &im), 3);

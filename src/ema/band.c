@@ -81,8 +81,12 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
 int ema_band_part(struct pool *pool, const struct ema_band *band, int first, int nline, struct ema_band *part)
 {
     size_t lines = (size_t)nline, size = lines * (size_t)band->nchannel;
-    *part = (struct ema_band){.nline = nline, .omega = band->omega + first, .low = band->omega[first],
-                              .high = band->omega[first + nline - 1], .nchannel = band->nchannel, .channel = band->channel};
+    *part = (struct ema_band){.nline = nline,
+                              .omega = band->omega + first,
+                              .low = band->omega[first],
+                              .high = band->omega[first + nline - 1],
+                              .nchannel = band->nchannel,
+                              .channel = band->channel};
     part->h = POOL_ARRAY(pool, double complex, size);
     part->variance = band->variance ? POOL_ARRAY(pool, double, size) : NULL;
     if (!part->h || (band->variance && !part->variance))

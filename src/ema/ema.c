@@ -118,8 +118,8 @@ static int earn(struct job *job)
         return ROTID_ERROR_MEMORY;
     int status = ROTID_OK;
     if (!job->stated) {
-        status = selection_screen(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate,
-                                  job->candidate, from);
+        status = selection_screen(job->pool, &job->band, job->options.threads, job->environment, &job->ncandidate, job->candidate,
+                                  from);
         if (status == ROTID_OK)
             status = noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate,
                                          job->candidate);
@@ -132,8 +132,8 @@ static int earn(struct job *job)
     if (status == ROTID_OK)
         status = local_merge(job->pool, &job->band, &job->ncandidate, job->candidate);
     if (status == ROTID_OK && !job->stated)
-        status = noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate,
-                                     job->candidate);
+        status =
+            noise_from_residual(job->pool, &job->band, job->options.threads, job->environment, job->ncandidate, job->candidate);
     return status;
 }
 

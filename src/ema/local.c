@@ -112,6 +112,50 @@ int local_fit(const struct pool *pool, const struct ema_band *band, int k, int n
     return status;
 }
 
+static int fit_common(struct pool *scratch, const struct ema_band *flat, int n, const double complex *together, double window,
+                      double complex *common)
+{
+    struct modal_fit fit;
+    struct refinement refinement;
+    int *line = POOL_ARRAY(scratch, int, flat->nline);
+    if (!line)
+        return ROTID_ERROR_MEMORY;
+    int nline = window_lines(flat, cimag(together[0]) - window, cimag(together[0]) + window, line);
+    if (2 * nline < 2 * (4 * n + 4))
+        return ROTID_OK;
+    int status = modal_fit_new(scratch, flat, nline, line, 0, flat->nchannel, n, 1, &fit);
+    if (status == ROTID_OK)
+        status = refinement_new(scratch, &fit, &refinement);
+    if (status != ROTID_OK)
+        return status;
+    fit.equal = 1;
+    for (int r = 0; r < n; r++)
+        fit.pole[r] = together[r] / fit.scale;
+    (void)refine_poles(&fit, ITERATIONS, NULL, &refinement);
+    if (!refinement.moved[0])
+        *common = fit.pole[0] * fit.scale;
+    return ROTID_OK;
+}
+
+int local_common(const struct pool *pool, const struct ema_band *band, int nmode, const double complex *pole, int which,
+                 double complex *common)
+{
+    struct pool scratch;
+    struct ema_band flat = *band;
+    double complex together[MOST_TOGETHER] = {pole[which]};
+    double window = local_reach(pole[which]) + FRINGE * fabs(creal(pole[which]));
+    int n = 1;
+    flat.variance = NULL;
+    *common = CMPLX(NAN, NAN);
+    for (int r = 0; r < nmode; r++)
+        if (r != which && fabs(cimag(pole[r]) - cimag(pole[which])) < 2 * window && n < MOST_TOGETHER)
+            together[n++] = pole[r];
+    pool_open(&scratch, pool->allocator);
+    int status = fit_common(&scratch, &flat, n, together, n > 1 ? 2 * window : window, common);
+    pool_close(&scratch);
+    return status;
+}
+
 static double median(int count, double *value)
 {
     sort_doubles((size_t)count, value);
@@ -120,7 +164,8 @@ static double median(int count, double *value)
 
 /* Common poles [n] against one a channel over the same window. *one := the median of the channels' poles where that is better,
  * else NaN; *none: nor are they modes. */
-static int compare(struct pool *scratch, const struct ema_band *band, int n, const double complex *cluster, double complex *one, int *none)
+static int compare(struct pool *scratch, const struct ema_band *band, int n, const double complex *cluster, double complex *one,
+                   int *none)
 {
     struct modal_fit fit;
     struct refinement refinement;

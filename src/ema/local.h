@@ -8,12 +8,12 @@
 #include "ema/band.h"
 
 struct local_pole {
-    int known;                        /* 0: the channel sits on a node, or no pole was found; the rest is NaN then */
-    double complex pole, residue;     /* as measured */
-    double covariance[4];             /* of (Re, Im pole) */
+    int known;                    /* 0: the channel sits on a node, or no pole was found; the rest is NaN then */
+    double complex pole, residue; /* as measured */
+    double covariance[4];         /* of (Re, Im pole) */
     double residue_std;
-    double chi2;                      /* sum of squared residuals over the stated variance; without one as they are */
-    double noise;                     /* that over the degrees of freedom */
+    double chi2;  /* sum of squared residuals over the stated variance; without one as they are */
+    double noise; /* that over the degrees of freedom */
 };
 
 /* How far from the common pole a channel's own is looked for: 1.2 % of the frequency, which a 30 g accelerometer makes on a
@@ -27,9 +27,15 @@ double local_reach(double complex pole);
 int local_fit(const struct pool *pool, const struct ema_band *band, int k, int nmode, const double complex *pole, int which,
               struct local_pole *out);
 
+/* The common pole of all channels near pole[which], all weighted alike, so that those that respond most decide: where the model
+ * is wrong, noise does not tell what to trust. *common := NaN where that fails. ROTID_OK or ROTID_ERROR_MEMORY. */
+int local_common(const struct pool *pool, const struct ema_band *band, int nmode, const double complex *pole, int which,
+                 double complex *common);
+
 /* Replaces modes that lie within 2 % of each other by one wherever each channel shows one peak only: one pole a channel against
- * common poles leaves less (log-likelihood of the residuals; both have as many unknowns where two become one). The pole that stays
- * is the median of the channels' own; none stays where their residues have no phase in common (MPC below 0.4). pole [*count] in and out; ROTID_OK or ROTID_ERROR_MEMORY. */
+ * common poles leaves less (log-likelihood of the residuals; both have as many unknowns where two become one). The pole that
+ * stays is the median of the channels' own; none stays where their residues have no phase in common (MPC below 0.4). pole
+ * [*count] in and out; ROTID_OK or ROTID_ERROR_MEMORY. */
 int local_merge(const struct pool *pool, const struct ema_band *band, int *count, double complex *pole);
 
 #endif

@@ -13,7 +13,7 @@
 #define PI 3.141592653589793
 
 /* lines whose powers stand in memory at a time: 512 lines of 100 powers stay in the cache */
-#define BLOCK 512
+#define BLOCK        512
 #define MOST_AT_ONCE 8 /* channels that share the powers of a block */
 
 struct sums { /* a group of channels */
@@ -152,8 +152,8 @@ int lscf_normal_matrix(struct pool *pool, const struct ema_band *band, int order
         if (!(work[i] = POOL_ARRAY(pool, double, sums_workspace(order))))
             return ROTID_ERROR_MEMORY;
     weights(band, spacing, median, scratch);
-    struct sums sums = {.band = band, .order = order, .spacing = spacing, .median = median, .result = result, .work = work,
-                        .group = group};
+    struct sums sums = {
+        .band = band, .order = order, .spacing = spacing, .median = median, .result = result, .work = work, .group = group};
     (void)parallel_for(workers, tasks, sum_group, &sums);
     memset(normal, 0, (size_t)n * (size_t)n * sizeof(double));
     for (int c = 0; c < band->nchannel; c++)
@@ -195,8 +195,7 @@ int lscf_poles(struct pool *pool, const struct ema_band *band, int order, int st
     for (double ridge = 1e-14;; ridge *= 10) {
         for (int k = 0; k < order; k++)
             for (int j = 0; j < order; j++)
-                block[j + (ptrdiff_t)k * order] =
-                    normal[j + 1 + (ptrdiff_t)(k + 1) * n] * (j == k ? 1 + ridge : 1);
+                block[j + (ptrdiff_t)k * order] = normal[j + 1 + (ptrdiff_t)(k + 1) * n] * (j == k ? 1 + ridge : 1);
         if (!cholesky_factor(order, block))
             break;
         if (ridge > 1e-3)

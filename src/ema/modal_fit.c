@@ -19,8 +19,13 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
 {
     int q = 2 * nmode + 4, p = 2 * nmode, workers = threads < 1 || nchannel < 2 ? 1 : threads;
     size_t channels = (size_t)nchannel, rows = 2 * (size_t)nline;
-    *fit = (struct modal_fit){.nline = nline, .nchannel = nchannel, .nmode = nmode, .nlinear = q, .ncolumn = q + p,
-                              .threads = workers, .scale = nline ? band->omega[line[nline / 2]] : 1};
+    *fit = (struct modal_fit){.nline = nline,
+                              .nchannel = nchannel,
+                              .nmode = nmode,
+                              .nlinear = q,
+                              .ncolumn = q + p,
+                              .threads = workers,
+                              .scale = nline ? band->omega[line[nline / 2]] : 1};
     fit->nu = POOL_ARRAY(pool, double, nline);
     fit->y = POOL_ARRAY(pool, double, rows *channels);
     fit->yy = POOL_ARRAY(pool, double, nchannel);
@@ -56,8 +61,7 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
             y[i + nline] = cimag(h[line[i]]);
             /* the variance of a complex value is shared by its two parts */
             if (band->variance)
-                fit->weight[i + (ptrdiff_t)c * nline] =
-                    sqrt(2 / band->variance[line[i] + (ptrdiff_t)(from + c) * band->nline]);
+                fit->weight[i + (ptrdiff_t)c * nline] = sqrt(2 / band->variance[line[i] + (ptrdiff_t)(from + c) * band->nline]);
         }
         fit->yy[c] = product_dot(2 * nline, y, y);
         fit->sigma[c] = 1;
@@ -266,7 +270,7 @@ double modal_fit_evaluate(struct modal_fit *fit, int with_spread)
 
 void modal_fit_noise(struct modal_fit *fit)
 {
-    if (fit->weight)
+    if (fit->weight || fit->equal)
         return;
     int p = 2 * fit->nmode, q = fit->nlinear;
     /* the poles are shared by the channels, so each pays its part of them */

@@ -22,6 +22,7 @@ struct modal_fit {
     double *yy;                                   /* [nchannel] sum y^2, flat weights */
     double *weight;                               /* [nline * nchannel] 1/sigma of a part; NULL: flat, sigma below */
     double *sigma;                                /* [nchannel] */
+    int equal;                                    /* set by the caller: sigma stays 1, all channels count alike */
     double complex *pole;                         /* [nmode] lambda/scale */
     int *held;                                    /* [nmode] nonzero: refine_poles leaves the pole where it is */
     double *basis;                                /* [2 nline * ncolumn] */
@@ -50,8 +51,8 @@ double modal_fit_evaluate(struct modal_fit *fit, int with_spread);
 /* Flat weights: sigma of each channel from its chi2; score, schur, chi2 and spread are brought to it. */
 void modal_fit_noise(struct modal_fit *fit);
 
-/* Mean square of the residual over its standard deviation in channel c within `widths` half-power bandwidths of mode r: 1 where the
- * noise is what it was taken for; 1 too where fewer than four lines tell. */
+/* Mean square of the residual over its standard deviation in channel c within `widths` half-power bandwidths of mode r: 1 where
+ * the noise is what it was taken for; 1 too where fewer than four lines tell. */
 double modal_fit_local_noise(const struct modal_fit *fit, int c, int r, double widths);
 
 /* The lines of the band within `widths` half-power bandwidths 2 |Re lambda| of a pole, at least ten on each side; every second,

@@ -42,7 +42,8 @@ int modes_new(struct pool *pool, int nmode, int per_point, struct ema *out)
         if (!set_complex_nan(pool, nfrf, &mode->residue) || !set_nan(pool, nfrf, &mode->residue_std) ||
             !set_nan(pool, npoint, &mode->shape) || !set_nan(pool, npoint, &mode->shape_std) ||
             !set_complex_nan(pool, npoint, &mode->complex_shape) ||
-            (per_point && (!set_nan(pool, npoint, &mode->point_frequency_hz) || !set_nan(pool, npoint, &mode->point_frequency_std))))
+            (per_point &&
+             (!set_nan(pool, npoint, &mode->point_frequency_hz) || !set_nan(pool, npoint, &mode->point_frequency_std))))
             return ROTID_ERROR_MEMORY;
     }
     return ROTID_OK;

@@ -6,11 +6,12 @@
 #include "ema/local.h"
 #include "ema/modes.h"
 
-#define SCATTER        3   /* standard deviations */
+#define SCATTER        3 /* standard deviations */
 #define LESS           (2.0 / 3)
 #define SCATTER_WIDTHS 0.1 /* half bandwidths: less changes a residue by less than a percent */
 
-/* Mean over the channels weighted by 1/variance, and their scatter in two measures: over their standard deviations, and its rms. */
+/* Mean over the channels weighted by 1/variance, and their scatter in two measures: over their standard deviations, and its rms.
+ */
 static double complex mean_pole(int n, const struct local_pole *local, double *chi, double *rms, int *known)
 {
     double sum = 0, re = 0, im = 0, weight = 0;
@@ -82,6 +83,21 @@ static int take_local(struct pool *pool, const struct ema_band *band, const stru
     return ROTID_OK;
 }
 
+/* Neither one pole for all nor one for each describes such a peak: a pole as other programs take it, deviations as they are. */
+static int take_common(struct pool *pool, const struct ema_band *band, int nmode, const double complex *pole, int r, double decay,
+                       struct ema_mode *mode)
+{
+    double complex common;
+    double frequency_std = mode->frequency_std, damping_std = mode->damping_std;
+    int status = local_common(pool, band, nmode, pole, r, &common);
+    if (status != ROTID_OK || isnan(creal(common)))
+        return status;
+    modes_of_pole(common + decay, NULL, mode);
+    mode->frequency_std = frequency_std;
+    mode->damping_std = damping_std;
+    return ROTID_OK;
+}
+
 static void take_points(const struct ema_band *band, const struct local_pole *local, double decay, const struct ema *out,
                         struct ema_mode *mode)
 {
@@ -128,8 +144,8 @@ static int leaves_less(int n, const struct local_pole *local, const double *comm
     return alone < LESS * together;
 }
 
-int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect,
-                          const double *common, const rotid_environment *environment, struct ema *out)
+int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect, const double *common,
+                          const rotid_environment *environment, struct ema *out)
 {
     struct local_pole *local = POOL_ARRAY(pool, struct local_pole, band->nchannel);
     double complex *pole = POOL_ARRAY(pool, double complex, out->nmode);
@@ -156,11 +172,12 @@ int per_point_frequencies(struct pool *pool, const struct ema_band *band, double
         double chi, rms;
         int known;
         double complex mean = mean_pole(band->nchannel, local, &chi, &rms, &known);
-        if (known > 1 && leaves_less(band->nchannel, local, common + (ptrdiff_t)r * band->nchannel) && chi > SCATTER && rms > SCATTER_WIDTHS * fabs(creal(mean))) {
+        if (known > 1 && leaves_less(band->nchannel, local, common + (ptrdiff_t)r * band->nchannel) && chi > SCATTER &&
+            rms > SCATTER_WIDTHS * fabs(creal(mean))) {
             mode->doubts |= EMA_DOUBLE_PEAK;
-            if (!same_width(band->nchannel, local, known, sorted))
-                continue;
-            int status = take_local(pool, band, local, decay, known, out, mode);
+            int status = same_width(band->nchannel, local, known, sorted)
+                             ? take_local(pool, band, local, decay, known, out, mode)
+                             : take_common(pool, band, out->nmode, pole, r, decay, mode);
             if (status != ROTID_OK)
                 return status;
         }

@@ -17,7 +17,8 @@ void residue_of_mode(const struct modal_fit *fit, int c, int r, const double *co
     for (int k = 0; covariance && k < p; k++) {
         double left = u[0] * mix[(ptrdiff_t)k * q] + u[1] * mix[(ptrdiff_t)k * q + 1];
         for (int j = 0; j < p; j++)
-            variance += left * covariance[j + (ptrdiff_t)k * p] * (u[0] * mix[(ptrdiff_t)j * q] + u[1] * mix[(ptrdiff_t)j * q + 1]);
+            variance +=
+                left * covariance[j + (ptrdiff_t)k * p] * (u[0] * mix[(ptrdiff_t)j * q] + u[1] * mix[(ptrdiff_t)j * q + 1]);
     }
     *residue_std = fit->singular[c] ? NAN : sqrt(fmax(variance, 0)) / fit->scale;
 }

@@ -8,20 +8,20 @@
 #include "ema/refine.h"
 #include "ema/residues.h"
 
-#define LEAST_SHARE 0.05
-#define OVERDAMPED  0.2
+#define LEAST_SHARE    0.05
+#define OVERDAMPED     0.2
 #define MOST_UNCERTAIN 0.2
-#define LEAST_MPC 0.4
-#define REAL_MPC    0.9
-#define ATTACHED    0.05 /* of the median mode's highest peak */
-#define TWIN_WIDTHS 0.5
-#define TWIN_MAC    0.9
-#define VISIBLE 12 /* |A|^2/var: chance reaches that once in four hundred */
-#define NOISE_WIDTHS 3
-#define ITERATIONS  6
-#define CLOSE       4 /* half-power bandwidths: neighbours that may spoil each other */
-#define CLOSE_WEAK  1 /* of one that is weak: only twins take all strength from each other */
-#define SCREEN      0.2
+#define LEAST_MPC      0.4
+#define REAL_MPC       0.9
+#define ATTACHED       0.05 /* of the median mode's highest peak */
+#define TWIN_WIDTHS    0.5
+#define TWIN_MAC       0.9
+#define VISIBLE        12 /* |A|^2/var: chance reaches that once in four hundred */
+#define NOISE_WIDTHS   3
+#define ITERATIONS     6
+#define CLOSE          4 /* half-power bandwidths: neighbours that may spoil each other */
+#define CLOSE_WEAK     1 /* of one that is weak: only twins take all strength from each other */
+#define SCREEN         0.2
 
 int selection_lines(const struct ema_band *band, int nmode, double products)
 {
@@ -59,7 +59,8 @@ static double significance(const struct ema_band *band, const struct modal_fit *
         /* what is left around the mode may exceed the noise of the channel: the noise of a line spectrum, or of a weak hammer */
         one /= fmax(modal_fit_local_noise(fit, c, r, NOISE_WIDTHS), 1);
         sum += one;
-        double size = cabs(CMPLX(a, b) / (I * nu - fit->pole[r])) * nu * nu, seen = cabs(band->h[at + (ptrdiff_t)c * band->nline]);
+        double size = cabs(CMPLX(a, b) / (I * nu - fit->pole[r])) * nu * nu,
+               seen = cabs(band->h[at + (ptrdiff_t)c * band->nline]);
         /* a channel where the mode cannot be told from noise says nothing */
         if (one > VISIBLE && seen > 0) {
             *share = fmax(*share, size / seen);
@@ -169,8 +170,8 @@ static void drop_attachments(const struct modal_fit *fit, int count, double *pea
 }
 
 /* One fit of all; keep [count] := 0 for what goes: of neighbours the weakest only, since it may be what spoils the other. */
-static int judge(struct pool *scratch, const struct ema_band *band, int threads, const rotid_environment *environment, enum round round,
-                 int count, double complex *pole, int *keep, int *dropped)
+static int judge(struct pool *scratch, const struct ema_band *band, int threads, const rotid_environment *environment,
+                 enum round round, int count, double complex *pole, int *keep, int *dropped)
 {
     struct modal_fit fit;
     struct refinement refinement;
@@ -228,8 +229,7 @@ static int weed(const struct pool *pool, const struct ema_band *band, int thread
         return ROTID_OK;
     pool_open(&scratch, pool->allocator);
     int *keep = POOL_ARRAY(&scratch, int, *count);
-    int status =
-        !keep ? ROTID_ERROR_MEMORY : judge(&scratch, band, threads, environment, round, *count, pole, keep, dropped);
+    int status = !keep ? ROTID_ERROR_MEMORY : judge(&scratch, band, threads, environment, round, *count, pole, keep, dropped);
     for (int r = 0; status == ROTID_OK && r < *count; r++)
         if (keep[r]) {
             candidate[kept] = candidate[r];

@@ -5,9 +5,10 @@
 #include "ema/band.h"
 #include "rotid.h"
 
-/* Lines that a fit uses: within 50 half-power bandwidths of a mode. Further away a mode is no more than a residual term, and modes
- * that were not picked bias less what does not try to explain them. Those more than three bandwidths away carry little of what is
- * known of a pole: they are thinned so that an evaluation takes no more than the given number of products, of a tenth of a second. */
+/* Lines that a fit uses: within 50 half-power bandwidths of a mode. Further away a mode is no more than a residual term, and
+ * modes that were not picked bias less what does not try to explain them. Those more than three bandwidths away carry little of
+ * what is known of a pole: they are thinned so that an evaluation takes no more than the given number of products, of a tenth of
+ * a second. */
 #define FIT_WIDTHS    50
 #define FIT_PRODUCTS  3e8
 #define EARN_PRODUCTS 5e7

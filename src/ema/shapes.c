@@ -34,8 +34,7 @@ int shapes_points(struct pool *pool, const struct frf_set *set, struct ema_point
         of_response[c] = place_index(response, &nresponse, f->response_node, f->response_direction);
         of_reference[c] = place_index(reference, &nreference, f->reference_node, f->reference_direction);
         points->sign[c] = (f->response_direction < 0 ? -1 : 1) * (f->reference_direction < 0 ? -1 : 1);
-        points->is_drive[c] =
-            f->response_node == f->reference_node && abs(f->response_direction) == abs(f->reference_direction);
+        points->is_drive[c] = f->response_node == f->reference_node && abs(f->response_direction) == abs(f->reference_direction);
     }
     out->roving_force = nresponse == 1 && nreference > 1;
     const struct place *place = out->roving_force ? reference : response;
@@ -122,8 +121,7 @@ void shapes_of_mode(const struct frf_set *set, const struct ema_points *points, 
     for (int k = 0; k < points->nreference; k++)
         v[k] = k == strongest ? 1 : CMPLX(NAN, NAN);
     for (int sweep = 0; sweep < (points->nreference > 1 ? SWEEPS : 1); sweep++) {
-        project(set->nfrf, usable, points->sign, mode, out->npoint, out->channel_point, points->reference, v, u,
-                mode->shape_std);
+        project(set->nfrf, usable, points->sign, mode, out->npoint, out->channel_point, points->reference, v, u, mode->shape_std);
         if (points->nreference == 1)
             break;
         project(set->nfrf, usable, points->sign, mode, points->nreference, points->reference, out->channel_point, u, v, NULL);

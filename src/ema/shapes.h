@@ -6,9 +6,9 @@
 
 struct ema_points {
     int nreference;
-    int *reference;     /* [nfrf] index of the reference of each channel (of the response, where the force roves) */
-    double *sign;       /* [nfrf] of response times reference direction */
-    int *is_drive;      /* [nfrf] response and reference are the same point */
+    int *reference; /* [nfrf] index of the reference of each channel (of the response, where the force roves) */
+    double *sign;   /* [nfrf] of response times reference direction */
+    int *is_drive;  /* [nfrf] response and reference are the same point */
 };
 
 /* Points where the shapes live, channel_point and roving_force of out: the responses, or the references where these are many and

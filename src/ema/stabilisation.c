@@ -71,8 +71,8 @@ int stabilisation_compute(struct pool *pool, const struct ema_band *band, int or
         for (int k = 0; k < count[i]; k++) {
             double complex pole = raw[k + (ptrdiff_t)i * order], free = pole + decay;
             out->pole[out->first[i] + k] = pole;
-            out->table[out->first[i] + k] = (struct ema_pole){.order = (i + 1) * step, .frequency_hz = cabs(free) / TWO_PI,
-                                                              .damping = damping_of(free), .mode = -1};
+            out->table[out->first[i] + k] = (struct ema_pole){
+                .order = (i + 1) * step, .frequency_hz = cabs(free) / TWO_PI, .damping = damping_of(free), .mode = -1};
         }
         mark_stable(out, i, frequency_tolerance, damping_tolerance);
     }
@@ -95,7 +95,8 @@ static double distance(const struct stabilisation *s, const struct track *track,
     return df <= 1 && dz <= 1 ? df + dz : INFINITY;
 }
 
-/* Extends the tracks by the poles of order i, nearest pairs first; what is left over begins a track. Returns the number of tracks. */
+/* Extends the tracks by the poles of order i, nearest pairs first; what is left over begins a track. Returns the number of
+ * tracks. */
 static int follow(const struct stabilisation *s, int i, double frequency_tolerance, double damping_tolerance, int ntrack,
                   struct track *track, int *owner)
 {

@@ -28,7 +28,8 @@ int stabilisation_candidates(struct pool *pool, const struct stabilisation *tabl
 
 /* For each frequency that a user picked the stable pole nearest to it within 2 %, of the highest order that has one; else any
  * decaying pole, else the frequency itself with damping 0.01; unstable [npick] tells where there was no stable one. */
-void stabilisation_picks(const struct stabilisation *table, int npick, const double *pick_hz, double complex *pole, int *unstable);
+void stabilisation_picks(const struct stabilisation *table, int npick, const double *pick_hz, double complex *pole,
+                         int *unstable);
 
 /* Marks each pole of the table that stands for one of the modes: nearest, within both tolerances (damping fourfold). */
 void stabilisation_assign(const struct stabilisation *table, int nmode, const double complex *pole, double frequency_tolerance,

@@ -127,8 +127,8 @@ int zoom_compute(struct pool *pool, const struct ema_band *band, double decay, c
         last = last + length / 10 < band->nline ? last + length / 10 : band->nline - 1;
         status = ema_band_part(pool, band, first, last - first + 1, &zoomed);
         if (status == ROTID_OK)
-            status = compute_part(pool, &zoomed, options->order < PART_ORDER ? options->order : PART_ORDER, decay, options,
-                                  &part[i]);
+            status =
+                compute_part(pool, &zoomed, options->order < PART_ORDER ? options->order : PART_ORDER, decay, options, &part[i]);
         all += part[i].count;
     }
     if (status != ROTID_OK)
