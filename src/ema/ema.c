@@ -6,6 +6,7 @@
 
 #include "ema/channels.h"
 #include "ema/guard.h"
+#include "ema/impacts.h"
 #include "ema/local.h"
 #include "ema/modes.h"
 #include "ema/noise.h"
@@ -201,6 +202,10 @@ static int fit_modes(struct job *job)
         return status;
     out->refined = refinement.iterations;
     out->std_from_impacts = job->stated;
+    double *factor = POOL_ARRAY(job->pool, double, n);
+    status = factor ? impacts_spread(job->pool, job->set, job->first, band, line, &fit, factor) : ROTID_ERROR_MEMORY;
+    if (status != ROTID_OK)
+        return status;
     modes_from_fit(band, &fit, &refinement, job->set->window_decay, out);
     /* what is not reported goes behind, where the synthesis still finds it */
     struct ema_mode *behind = POOL_ARRAY(job->pool, struct ema_mode, n);

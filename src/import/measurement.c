@@ -180,8 +180,11 @@ static int load_transfer(struct loader *l, const struct content *item, long long
     struct frf *frf = &set->frf[set->nfrf];
     double factor = uff_si_factor(l->contents->has_units ? &l->contents->units : NULL, &f->numerator) /
                     uff_si_factor(l->contents->has_units ? &l->contents->units : NULL, &f->denominator);
-    *frf = (struct frf){
-        f->line, f->response_node, f->response_direction, f->reference_node, f->reference_direction, NULL, NULL, NULL, 0};
+    *frf = (struct frf){.line = f->line,
+                        .response_node = f->response_node,
+                        .response_direction = f->response_direction,
+                        .reference_node = f->reference_node,
+                        .reference_direction = f->reference_direction};
     frf->h = POOL_ARRAY(l->pool, double complex, set->nline);
     int status = frf->h ? load(l, item, first, set->nline, factor, real, imag) : ROTID_ERROR_MEMORY;
     for (int n = 0; n < set->nline && !status; n++)

@@ -1,6 +1,7 @@
 #include "signal/frf.h"
 
 #include <math.h>
+#include <stddef.h>
 
 /* Without its first `lines` lines. */
 static void drop_first(struct frf_set *set, int lines)
@@ -16,6 +17,15 @@ static void drop_first(struct frf_set *set, int lines)
     }
 }
 
+/* Their columns have the lines and the quantity of the records. */
+static void drop_singles(struct frf_set *set)
+{
+    for (int f = 0; f < set->nfrf; f++) {
+        set->frf[f].single = NULL;
+        set->frf[f].single_force = NULL;
+    }
+}
+
 void frf_convert(struct frf_set *set, enum frf_quantity quantity)
 {
     static const double pi = 3.14159265358979323846;
@@ -23,6 +33,7 @@ void frf_convert(struct frf_set *set, enum frf_quantity quantity)
     if (power && set->nline && !(set->frequency_hz[0] > 0) && !(fabs(set->window_decay) > 0))
         drop_first(set, 1);
     set->quantity = quantity;
+    drop_singles(set);
     for (int l = 0; l < set->nline; l++) {
         double complex s = CMPLX(set->window_decay, 2 * pi * set->frequency_hz[l]), factor = 1;
         for (int q = 0; q < power; q++)
@@ -41,6 +52,7 @@ void frf_convert(struct frf_set *set, enum frf_quantity quantity)
 void frf_cut(struct frf_set *set, double low_hz, double high_hz)
 {
     int below = 0;
+    drop_singles(set);
     while (below < set->nline && set->frequency_hz[below] < low_hz)
         below++;
     drop_first(set, below);

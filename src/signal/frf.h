@@ -14,7 +14,9 @@ struct frf {
     double complex *h;                       /* [nline] response over force [m/N, m/(s N), m/(s2 N)] */
     double *variance;                        /* [nline] E|h - E h|^2 of the mean, or NULL; INFINITY where the line says nothing */
     double *coherence;                       /* [nline] in [0, 1], or NULL */
-    int averages;                            /* impacts that were averaged, 0 where not known */
+    const double complex *single; /* [nline * averages] cross spectrum with the force of each impact, NULL where not known */
+    const double *single_force;   /* [nline * averages] its spectrum of the force */
+    int averages;                 /* impacts that were averaged, 0 where not known */
 };
 
 struct frf_set {

@@ -228,6 +228,8 @@ static int estimate(void *context, int f, int thread)
     struct spectra column = {out->single_force + at, out->single_response + at, out->single + at};
     for (int k = out->first[f]; k < out->first[f + 1]; k++)
         transform(work, worker, k);
+    frf->single = out->single + at;
+    frf->single_force = out->single_force + at;
     estimator_sum(nline, count, &column, NULL, &worker->sum);
     estimator_transfer(estimator, estimator_balance(nline, &worker->sum), nline, &worker->sum, frf->h);
     if (count < 2)
