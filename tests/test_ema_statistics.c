@@ -6,7 +6,7 @@
 #include "ema_truth.h"
 #include "support.h"
 
-#define TRIALS 150
+#define TRIALS 100
 #define POINTS 10
 
 struct tally {
@@ -86,7 +86,7 @@ static void the_table_proposes_the_true_modes(void **state)
     int systems = 0, failures = 0;
     struct random_stream random = {.state = 2024};
     (void)state;
-    while (systems < 12) {
+    while (systems < 8) {
         struct truth truth;
         int n = 6 + (int)(9 * random_uniform(&random)), npoint = 8 + (int)(8 * random_uniform(&random));
         double zeta = pow(10, -3.3 + 1.8 * random_uniform(&random)), noise = pow(10, -4 + 2.5 * random_uniform(&random));

@@ -223,7 +223,7 @@ static int fit_modes(struct job *job)
         struct ema_mode mode = out->mode[r];
         mode.doubts |= job->doubts ? job->doubts[r] : 0;
         /* the scores of the channels tell cheaply whether they agree on the frequency */
-        suspect[reported] = refinement.widened[2 * r + 1] > SUSPECT;
+        suspect[reported] = refinement.widened[(ptrdiff_t)2 * r + 1] > SUSPECT;
         for (int k = 0; k < band->nchannel; k++)
             common[k + (ptrdiff_t)reported * band->nchannel] =
                 modal_fit_local_noise(&fit, k, r, NEAR_WIDTHS) * (fit.weight ? 1 : fit.sigma[k] * fit.sigma[k]);

@@ -17,7 +17,8 @@ enum ema_method { EMA_LSCF, EMA_QUADRATURE };
 struct ema_options {
     int method;
     double low_hz, high_hz; /* band; [the lines of the set] */
-    int order; /* largest order of the denominator; [chosen from the band: at least four poles a mode seen, 40 to 120] */
+    int order; /* largest order of the denominator, of which half are poles of positive frequency; [120], and two thirds of the
+                  number of lines at most. Parts of a long band take 60 of it at most (zoom.h) */
     int npick; /* frequencies that the user wants, instead of those that the stabilisation table proposes */
     const double *pick_hz;
     double frequency_tolerance, damping_tolerance; /* of a stable pole from order to order; [0.002], [0.05] */
@@ -35,12 +36,13 @@ struct ema_pole { /* of the stabilisation table */
 
 /* What is doubtful about a mode: a set of flags, each with the number that it rests on below. */
 enum ema_doubt {
-    EMA_CLOSE = 1,    /* another mode within three half-power bandwidths */
-    EMA_COMPLEX = 2,  /* MPC below 0.8 or MPD above 20 degrees */
-    EMA_UNSTABLE = 4, /* picked by the user where the table has no stable pole */
-    EMA_DOUBLE_PEAK =
-        8,         /* two peaks in place of one, in few channels (loose sensor, support) or from point to point (moving mass) */
-    EMA_WEAK = 16, /* its residues are not above their own standard deviation */
+    EMA_CLOSE = 1,       /* another mode within three half-power bandwidths */
+    EMA_COMPLEX = 2,     /* MPC below 0.8 or MPD above 20 degrees */
+    EMA_UNSTABLE = 4,    /* picked by the user where the table has no stable pole */
+    EMA_DOUBLE_PEAK = 8, /* the channels disagree about the pole by more than noise: with one width from point to point (moving
+                            mass: local_pole is set), else two peaks in place of one (loose sensor, support): the pole is then
+                            that of the channels that respond most, its std the scatter */
+    EMA_WEAK = 16,       /* its residues are not above their own standard deviation */
     EMA_NEGATIVE_DAMPING = 32,
     EMA_EDGE = 64,        /* within two half-power bandwidths of an end of the band */
     EMA_NOT_REFINED = 128 /* the refinement did not converge for it: LSCF's pole stands */
@@ -49,18 +51,20 @@ enum ema_doubt {
 struct ema_mode {
     double frequency_hz, damping;      /* the decay of the exponential window taken off */
     double frequency_std, damping_std; /* Hz, ratio; NaN where they cannot be stated */
-    double complex pole;               /* 1/s */
+    double complex pole;               /* 1/s, the decay of the window taken off */
     double complex *residue;           /* [nfrf] A_cr of displacement */
     double *residue_std;               /* [nfrf] of |A_cr| along its phase */
-    double *shape, *shape_std;         /* [npoint] real, largest component 1; NaN where not measured */
-    double complex *complex_shape;     /* [npoint] same scale */
-    double complex *local_pole; /* [nfrf] each channel's own pole (decay taken off) where the frequency differs from channel to
-                                   channel, and the residues are those of these poles; NULL where one pole serves all */
-    double mpc;                 /* modal phase collinearity in [0, 1] */
-    double mpd;                 /* mean phase deviation [degrees] */
-    double modal_mass;          /* kg, of the shape whose largest component is 1; NaN without a drive point */
+    double *shape, *shape_std; /* [npoint] real, largest component 1; NaN where not measured. The std is that of a component by
+                                  itself, the common scale left out: also the largest component has one */
+    double complex *complex_shape; /* [npoint] same scale */
+    double complex *local_pole;    /* [nfrf] each channel's own pole (decay taken off) where the frequency differs from channel to
+                                      channel, and the residues are those of these poles; NULL where one pole serves all */
+    double mpc;                    /* modal phase collinearity in [0, 1] */
+    double mpd;                    /* mean phase deviation [degrees] */
+    double modal_mass;             /* kg, of the shape whose largest component is 1; NaN without a drive point */
     double *point_frequency_hz, *point_frequency_std; /* [npoint] where per_point, else NULL; NaN where it cannot be told */
-    double peak_signal_to_noise;                      /* |H|/std at the peak, median of the channels; NaN without a variance */
+    double peak_signal_to_noise;                      /* |H|/std at the peak, median of the channels; without a variance from
+                                                         what the modes leave over */
     int doubts;                                       /* of enum ema_doubt */
     double nearest_hz;                                /* nearest other mode, NaN where there is one mode */
 };
@@ -95,14 +99,15 @@ struct ema { /* everything on the pool */
     double *mac;                   /* [nmode * nmode] of the complex shapes with themselves */
     double complex *lower, *upper; /* [nfrf] L_c, U_c */
     struct ema_channel *channel;   /* [nfrf] */
-    int refined;                   /* iterations of the refinement */
+    int refined;                   /* iterations of the last refinement */
     int std_from_impacts;          /* 1: from the variance of the lines; 0: from what the modes leave over */
 };
 
 /* Modes of a set of transfer functions: stabilisation table by least-squares complex frequency domain (Guillaume, Verboven,
  * Vanlanduit 1998; Peeters, Van der Auweraer, Guillaume, Leuridan 2004), shapes by least squares with residuals, then all poles
  * refined together by weighted nonlinear least squares (variable projection, weights 1/variance), from whose Jacobian the
- * standard deviations come, with the scatter from channel to channel where that is larger. EMA_QUADRATURE instead picks peaks of
+ * standard deviations come, with the scatter from channel to channel where that is larger than chance. Modes that were not picked
+ * are fitted along and not reported. EMA_QUADRATURE instead picks peaks of
  * the imaginary part (accelerance, receptance) or real part (mobility) as the paper does, damping from the half-power points.
  * ROTID_OK; ROTID_ERROR_ARGUMENT (fewer than 16 lines in the band, no channel, every channel dead), ROTID_ERROR_MEMORY,
  * ROTID_ERROR_EIGEN, ROTID_STOP_CANCELLED. No mode found is ROTID_OK with nmode = 0. */

@@ -28,7 +28,7 @@ struct sums { /* a group of channels */
 static size_t sums_workspace(int order)
 {
     size_t powers = (size_t)order + 1;
-    return 2 * BLOCK * powers + (size_t)BLOCK * 4 * MOST_AT_ONCE + powers * 4 * MOST_AT_ONCE;
+    return (size_t)2 * BLOCK * powers + (size_t)BLOCK * 4 * MOST_AT_ONCE + powers * 4 * MOST_AT_ONCE;
 }
 
 /* cosines and sines [lines * (order + 1)] of j theta, by rotation: its error grows as j eps */

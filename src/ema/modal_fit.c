@@ -191,7 +191,7 @@ static void channel_solve(struct modal_fit *fit, int c, const double *gram, doub
     fit->chi2[c] = fmax(y[fit->ncolumn] - gained, 0);
     /* D = Psi B: by Re lambda a psi1 + b psi2, by Im lambda -b psi1 + a psi2, for a residue a + i b */
     for (int r = 0; r < fit->nmode; r++) {
-        double re = x[2 * r], im = x[2 * r + 1];
+        double re = x[(ptrdiff_t)2 * r], im = x[(ptrdiff_t)2 * r + 1];
         for (int part = 0; part < 2; part++) {
             int k = 2 * r + part;
             double f1 = part ? -im : re, f2 = part ? re : im;
@@ -205,7 +205,8 @@ static void channel_solve(struct modal_fit *fit, int c, const double *gram, doub
             score[k] = value;
             for (int l = 0; l < p; l++) {
                 int other = l / 2;
-                double h1 = l % 2 ? -x[2 * other + 1] : x[2 * other], h2 = l % 2 ? x[2 * other] : x[2 * other + 1];
+                double h1 = l % 2 ? -x[(ptrdiff_t)2 * other + 1] : x[(ptrdiff_t)2 * other],
+                       h2 = l % 2 ? x[(ptrdiff_t)2 * other] : x[(ptrdiff_t)2 * other + 1];
                 schur[l + (ptrdiff_t)k * p] = h1 * (f1 * g1[q + 2 * other] + f2 * g2[q + 2 * other]) +
                                               h2 * (f1 * g1[q + 2 * other + 1] + f2 * g2[q + 2 * other + 1]);
             }

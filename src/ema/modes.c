@@ -79,7 +79,8 @@ void modes_from_fit(const struct ema_band *band, const struct modal_fit *fit, co
         double block[4];
         for (int k = 0; k < 2; k++)
             for (int j = 0; j < 2; j++)
-                block[j + 2 * k] = refinement->covariance[2 * r + j + (ptrdiff_t)(2 * r + k) * p] * fit->scale * fit->scale;
+                block[j + 2 * k] =
+                    refinement->covariance[(ptrdiff_t)2 * r + j + (ptrdiff_t)(2 * r + k) * p] * fit->scale * fit->scale;
         modes_of_pole(fit->pole[r] * fit->scale + decay, block, &out->mode[r]);
         if (refinement->moved[r] || !refinement->converged)
             out->mode[r].doubts |= EMA_NOT_REFINED;

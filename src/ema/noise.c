@@ -18,7 +18,8 @@ static void residual(const struct ema_band *band, const struct modal_fit *fit, i
         double nu = band->omega[i] / fit->scale, re = 0, im = 0;
         for (int r = 0; r < fit->nmode; r++) {
             double a = creal(fit->pole[r]), b = cimag(fit->pole[r]), below = nu - b, above = nu + b;
-            double d = 1 / (a * a + below * below), e = 1 / (a * a + above * above), p = x[2 * r], q = x[2 * r + 1];
+            double d = 1 / (a * a + below * below), e = 1 / (a * a + above * above), p = x[(ptrdiff_t)2 * r],
+                   q = x[(ptrdiff_t)2 * r + 1];
             /* (p + i q) (-a - i below) d + (p - i q) (-a - i above) e */
             re += (-p * a + q * below) * d + (-p * a - q * above) * e;
             im += (-q * a - p * below) * d + (q * a - p * above) * e;

@@ -75,7 +75,7 @@ static double move_poles(int nmode, const double complex *old, const double *del
 {
     double largest = 0;
     for (int r = 0; r < nmode; r++) {
-        double complex step = CMPLX(delta[2 * r], delta[2 * r + 1]);
+        double complex step = CMPLX(delta[(ptrdiff_t)2 * r], delta[(ptrdiff_t)2 * r + 1]);
         double half = fmax(fabs(creal(old[r])), 1e-12), size = cabs(step) / half;
         largest = fmax(largest, size);
         if (size > 1)

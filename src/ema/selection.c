@@ -50,9 +50,10 @@ static double significance(const struct ema_band *band, const struct modal_fit *
     *seen_in = 0;
     for (int c = 0; c < fit->nchannel; c++) {
         const double *x = fit->linear + (ptrdiff_t)c * q, *spread = fit->spread + (ptrdiff_t)c * q * q;
-        double a = x[2 * r], b = x[2 * r + 1];
-        double vaa = spread[2 * r + (ptrdiff_t)(2 * r) * q], vbb = spread[2 * r + 1 + (ptrdiff_t)(2 * r + 1) * q];
-        double vab = spread[2 * r + 1 + (ptrdiff_t)(2 * r) * q], determinant = vaa * vbb - vab * vab;
+        double a = x[(ptrdiff_t)2 * r], b = x[(ptrdiff_t)2 * r + 1];
+        double vaa = spread[(ptrdiff_t)2 * r + (ptrdiff_t)2 * r * q],
+               vbb = spread[(ptrdiff_t)2 * r + 1 + (ptrdiff_t)(2 * r + 1) * q];
+        double vab = spread[(ptrdiff_t)2 * r + 1 + (ptrdiff_t)2 * r * q], determinant = vaa * vbb - vab * vab;
         if (fit->singular[c] || !(determinant > 0))
             continue;
         double one = (a * a * vbb - 2 * a * b * vab + b * b * vaa) / determinant;
@@ -75,7 +76,8 @@ static double collinearity(const struct modal_fit *fit, int r)
 {
     double xx = 0, yy = 0, xy = 0;
     for (int c = 0; c < fit->nchannel; c++) {
-        double x = fit->linear[2 * r + (ptrdiff_t)c * fit->nlinear], y = fit->linear[2 * r + 1 + (ptrdiff_t)c * fit->nlinear];
+        double x = fit->linear[(ptrdiff_t)2 * r + (ptrdiff_t)c * fit->nlinear],
+               y = fit->linear[(ptrdiff_t)2 * r + 1 + (ptrdiff_t)c * fit->nlinear];
         xx += x * x;
         yy += y * y;
         xy += x * y;
@@ -129,7 +131,8 @@ static double alike(const struct modal_fit *fit, int r, int s)
     double aa = 0, bb = 0;
     for (int c = 0; c < fit->nchannel; c++) {
         const double *x = fit->linear + (ptrdiff_t)c * fit->nlinear;
-        double complex a = CMPLX(x[2 * r], x[2 * r + 1]), b = CMPLX(x[2 * s], x[2 * s + 1]);
+        double complex a = CMPLX(x[(ptrdiff_t)2 * r], x[(ptrdiff_t)2 * r + 1]),
+                       b = CMPLX(x[(ptrdiff_t)2 * s], x[(ptrdiff_t)2 * s + 1]);
         aa += creal(a * conj(a));
         bb += creal(b * conj(b));
         ab += conj(a) * b;
@@ -157,8 +160,8 @@ static void drop_attachments(const struct modal_fit *fit, int count, double *pea
         double nu = cimag(fit->pole[r]), half = fmax(fabs(creal(fit->pole[r])), 1e-300);
         peak[r] = 0;
         for (int c = 0; c < fit->nchannel; c++)
-            peak[r] = fmax(peak[r], hypot(fit->linear[2 * r + (ptrdiff_t)c * fit->nlinear],
-                                          fit->linear[2 * r + 1 + (ptrdiff_t)c * fit->nlinear]) *
+            peak[r] = fmax(peak[r], hypot(fit->linear[(ptrdiff_t)2 * r + (ptrdiff_t)c * fit->nlinear],
+                                          fit->linear[(ptrdiff_t)2 * r + 1 + (ptrdiff_t)c * fit->nlinear]) *
                                         nu * nu / half);
         if (bad[r] == 0)
             sorted[good++] = peak[r];
