@@ -6,66 +6,72 @@
 #include "ema/local.h"
 #include "ema/modes.h"
 
-#define SCATTER        3 /* standard deviations */
+#define SCATTER        3      /* standard deviations */
+#define MEDIAN_STD     1.2533 /* of a median over that of a mean */
+#define ALONE_WIDTHS   3
 #define LESS           (2.0 / 3)
 #define SCATTER_WIDTHS 0.1 /* half bandwidths: less changes a residue by less than a percent */
 
-/* Mean over the channels weighted by 1/variance, and their scatter in two measures: over their standard deviations, and its rms.
- */
-static double complex mean_pole(int n, const struct local_pole *local, double *chi, double *rms, int *known)
+static double median(int n, double *value)
 {
-    double sum = 0, re = 0, im = 0, weight = 0;
-    *known = 0;
-    *chi = *rms = 0;
-    for (int k = 0; k < n; k++) {
-        if (!local[k].known)
-            continue;
-        double w = 1 / fmax(local[k].covariance[3], 1e-300);
-        im += w * cimag(local[k].pole);
-        weight += w;
-        re += creal(local[k].pole);
-        (*known)++;
-    }
-    if (*known == 0)
-        return CMPLX(NAN, NAN);
-    im /= weight;
-    for (int k = 0; k < n; k++)
-        if (local[k].known) {
-            double apart = cimag(local[k].pole) - im;
-            sum += apart * apart / fmax(local[k].covariance[3], 1e-300);
-            *rms += apart * apart;
-        }
-    if (*known > 1) {
-        *chi = sqrt(sum / (*known - 1));
-        *rms = sqrt(*rms / (*known - 1));
-    }
-    return CMPLX(re / *known, im);
+    sort_doubles((size_t)n, value);
+    return (value[(n - 1) / 2] + value[n / 2]) / 2;
 }
 
-static void mean_frequency(int n, const struct local_pole *local, double decay, int known, struct ema_mode *mode)
+/* Standard deviation of what scatters normally, from the median distance to the median: a channel whose own fit went astray does
+ * not count. sorted [known] is overwritten. */
+static double robust_scatter(int known, double centre, double *sorted)
+{
+    for (int k = 0; k < known; k++)
+        sorted[k] = fabs(sorted[k] - centre);
+    return 1.4826 * median(known, sorted);
+}
+
+/* Scatter of the imaginary parts of the channels that know their pole, as it is and over their standard deviations. Returns the
+ * number of those channels. */
+static int scatter(int n, const struct local_pole *local, double *sorted, double *rms, double *chi)
+{
+    int known = 0;
+    for (int k = 0; k < n; k++)
+        if (local[k].known)
+            sorted[known++] = cimag(local[k].pole);
+    *rms = *chi = 0;
+    if (known < 2)
+        return known;
+    double centre = median(known, sorted);
+    *rms = robust_scatter(known, centre, sorted);
+    known = 0;
+    for (int k = 0; k < n; k++)
+        if (local[k].known)
+            sorted[known++] = (cimag(local[k].pole) - centre) / sqrt(fmax(local[k].covariance[3], 1e-300));
+    *chi = robust_scatter(known, 0, sorted);
+    return known;
+}
+
+/* Frequency and damping as medians of the channels, with the deviation of a median. */
+static void median_frequency(int n, const struct local_pole *local, double decay, int known, double *sorted,
+                             struct ema_mode *mode)
 {
     struct ema_mode one;
-    double f = 0, z = 0, ff = 0, zz = 0;
-    for (int k = 0; k < n; k++)
-        if (local[k].known) {
-            modes_of_pole(local[k].pole + decay, NULL, &one);
-            f += one.frequency_hz / known;
-            z += one.damping / known;
-        }
-    for (int k = 0; k < n; k++)
-        if (local[k].known) {
-            modes_of_pole(local[k].pole + decay, NULL, &one);
-            ff += (one.frequency_hz - f) * (one.frequency_hz - f);
-            zz += (one.damping - z) * (one.damping - z);
-        }
-    double w = 6.283185307179586 * f;
-    modes_of_pole(CMPLX(-z * w, w * sqrt(1 - z * z)), NULL, mode);
-    mode->frequency_std = sqrt(ff / (known - 1) / known);
-    mode->damping_std = sqrt(zz / (known - 1) / known);
+    double centre[2], std[2];
+    for (int which = 0; which < 2; which++) {
+        int count = 0;
+        for (int k = 0; k < n; k++)
+            if (local[k].known) {
+                modes_of_pole(local[k].pole + decay, NULL, &one);
+                sorted[count++] = which ? one.damping : one.frequency_hz;
+            }
+        centre[which] = median(known, sorted);
+        std[which] = MEDIAN_STD * robust_scatter(known, centre[which], sorted) / sqrt(known);
+    }
+    double w = 6.283185307179586 * centre[0];
+    modes_of_pole(w * CMPLX(-centre[1], sqrt(1 - centre[1] * centre[1])), NULL, mode);
+    mode->frequency_std = std[0];
+    mode->damping_std = std[1];
 }
 
 static int take_local(struct pool *pool, const struct ema_band *band, const struct local_pole *local, double decay, int known,
-                      struct ema *out, struct ema_mode *mode)
+                      double *sorted, struct ema *out, struct ema_mode *mode)
 {
     mode->local_pole = POOL_ARRAY(pool, double complex, out->nfrf);
     if (!mode->local_pole)
@@ -79,7 +85,7 @@ static int take_local(struct pool *pool, const struct ema_band *band, const stru
             mode->residue[c] = local[k].residue;
             mode->residue_std[c] = local[k].residue_std;
         }
-    mean_frequency(band->nchannel, local, decay, known, mode);
+    median_frequency(band->nchannel, local, decay, known, sorted, mode);
     return ROTID_OK;
 }
 
@@ -132,6 +138,15 @@ static int same_width(int n, const struct local_pole *local, int known, double *
     return 5 * alike >= 4 * known;
 }
 
+/* One channel alone does not tell two modes that overlap apart. */
+static int stands_alone(int nmode, const double complex *pole, int r)
+{
+    for (int s = 0; s < nmode; s++)
+        if (s != r && fabs(cimag(pole[s]) - cimag(pole[r])) < ALONE_WIDTHS * 2 * fmax(fabs(creal(pole[s])), fabs(creal(pole[r]))))
+            return 0;
+    return 1;
+}
+
 /* Whether poles of their own explain the channels better; else the scatter is that of a local fit among neighbours. */
 static int leaves_less(int n, const struct local_pole *local, const double *common)
 {
@@ -170,13 +185,13 @@ int per_point_frequencies(struct pool *pool, const struct ema_band *band, double
         if (mode->point_frequency_hz)
             take_points(band, local, decay, out, mode);
         double chi, rms;
-        int known;
-        double complex mean = mean_pole(band->nchannel, local, &chi, &rms, &known);
-        if (known > 1 && leaves_less(band->nchannel, local, common + (ptrdiff_t)r * band->nchannel) && chi > SCATTER &&
-            rms > SCATTER_WIDTHS * fabs(creal(mean))) {
+        int known = scatter(band->nchannel, local, sorted, &rms, &chi);
+        if (known > 1 && stands_alone(out->nmode, pole, r) &&
+            leaves_less(band->nchannel, local, common + (ptrdiff_t)r * band->nchannel) && chi > SCATTER &&
+            rms > SCATTER_WIDTHS * fabs(creal(pole[r]))) {
             mode->doubts |= EMA_DOUBLE_PEAK;
             int status = same_width(band->nchannel, local, known, sorted)
-                             ? take_local(pool, band, local, decay, known, out, mode)
+                             ? take_local(pool, band, local, decay, known, sorted, out, mode)
                              : take_common(pool, band, out->nmode, pole, r, decay, mode);
             if (status != ROTID_OK)
                 return status;

@@ -15,6 +15,7 @@
 #define REAL_MPC       0.9
 #define ATTACHED       0.05 /* of the median mode's highest peak */
 #define TWIN_WIDTHS    0.5
+#define SAME_WIDTHS    0.2
 #define TWIN_MAC       0.9
 #define VISIBLE        12 /* |A|^2/var: chance reaches that once in four hundred */
 #define NOISE_WIDTHS   3
@@ -140,14 +141,15 @@ static double alike(const struct modal_fit *fit, int r, int s)
     return aa > 0 && bb > 0 ? creal(ab * conj(ab)) / (aa * bb) : 1;
 }
 
-/* Two poles within half a half-power bandwidth of each other with one shape are one mode and its misfit. */
+/* Two poles within half a half-power bandwidth of each other with one shape are one mode and its misfit; within a fifth the
+ * shapes cannot be told apart. */
 static void drop_twins(const struct modal_fit *fit, int count, const double *strength, double *bad)
 {
     for (int r = 0; r < count; r++)
         for (int s = r + 1; s < count; s++) {
             double width = 2 * fmin(fabs(creal(fit->pole[r])), fabs(creal(fit->pole[s])));
-            if (bad[r] == 0 && bad[s] == 0 && fabs(cimag(fit->pole[r]) - cimag(fit->pole[s])) < TWIN_WIDTHS * width &&
-                alike(fit, r, s) > TWIN_MAC)
+            double apart = fabs(cimag(fit->pole[r]) - cimag(fit->pole[s])) / width;
+            if (bad[r] == 0 && bad[s] == 0 && (apart < SAME_WIDTHS || (apart < TWIN_WIDTHS && alike(fit, r, s) > TWIN_MAC)))
                 bad[strength[r] < strength[s] ? r : s] = 1;
         }
 }

@@ -27,7 +27,8 @@ int selection_screen(const struct pool *pool, const struct ema_band *band, int t
  *     reaches by chance; var from what is left around the mode where that is more than the noise;
  *   - of three channels or more, two at least show it, and with a phase in common (MPC 0.4 where it can be told);
  *   - not a peak below 5 % of the median mode's together with an MPC below 0.9: something attached to the rotor;
- *   - it is not the weaker of two within half a half-power bandwidth that have one shape (MAC above 0.9);
+ *   - it is not the weaker of two within half a half-power bandwidth that have one shape (MAC above 0.9),
+ *     or within a fifth;
  *   - at its frequency it is less than `least share` (0.05) of |H| in every channel: it corrects what others leave;
  *   - its half-power bandwidth is under a fifth of the line spacing: a single line (mains hum).
  * pole [*count] in, the refined ones out; candidate [*count] tells which of those that came in each was. ROTID_OK,
