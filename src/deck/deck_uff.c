@@ -224,6 +224,29 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
     return 0;
 }
 
+/* The sensor beside the hammer: of the card, else of the line that `rotid ema` writes. */
+static int import_hammer(struct import *import, const struct uff_shape *mode)
+{
+    static const char line[] = "ROTID HAMMER AT NODE ";
+    struct job *job = import->reader->job;
+    const struct card_option *option = card_option(import->card, "HAMMER");
+    char *end;
+    for (int i = 0; mode && i < UFF_ID_LINES && !option; i++)
+        if (!strncmp(mode->id[i], line, sizeof line - 1))
+            job->hammer = (int)strtol(mode->id[i] + sizeof line - 1, NULL, 10);
+    if (!option)
+        return 0;
+    long id = strtol(option->value, &end, 10);
+    for (int s = 0; s < job->rotor.nsensor && end != option->value && !*end; s++)
+        if (job->rotor.sensor[s].id == id) {
+            job->hammer = (int)id;
+            return 0;
+        }
+    deck_error(import->reader, option->value_place, "HAMMER is %s, expected the id of a sensor of %s", option->value,
+               import->path);
+    return 1;
+}
+
 static int import_modes(struct import *import)
 {
     struct deck_reader *reader = import->reader;
@@ -258,6 +281,7 @@ static int import_modes(struct import *import)
         bad |= import_shape(import, chosen[k], job->shape + (ptrdiff_t)k * job->rotor.nsensor);
     }
     job->nmode = count;
+    bad |= import_hammer(import, count ? chosen[0] : NULL);
     if (!bad)
         deck_uff_std(reader, import->path, &import->file, count, chosen, import->component);
     return bad;

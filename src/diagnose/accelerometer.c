@@ -8,16 +8,22 @@
 #include "diagnose/engine.h"
 #include "fit/quantile.h"
 #include "linalg/matrix.h"
+#include "linalg/product.h"
 #include "modal/eigenvector_derivative.h"
 
 #define LEAST_MASS  2e-4 /* kg: the lightest accelerometers with their cable */
 #define ROOM        2.0
-#define MOST_FACTOR 1e3 /* of noise_level */
+#define UNSURE      0.02 /* of the change of a shape: by the moduli that the fit has not found yet, and by the mass */
+#define NODE        0.1  /* of the largest component: closer to a node the hammer hardly moves the mode */
+#define MOST_FACTOR 1e3  /* of noise_level */
 
 struct weighing {
     struct columns columns; /* of the base: its fitted modes */
     int nmode, npoint;
     double *hz, *std, *square, *others, *order, *phi; /* as in struct moving_mass_data; phi [npoint * nmode] */
+    double *bend;                                     /* likewise */
+    double *across, *across_bend; /* [npoint * nmode] like others and bend, but between the point and the hammer */
+    int hammer;                   /* sensor, -1 where not known */
 };
 
 int is_moving_accelerometer(const struct effect *effect)
@@ -34,11 +40,15 @@ static int open_weighing(struct pool *pool, const struct engine *engine, struct 
     w->nmode = w->columns.nmode;
     w->npoint = engine->job.rotor.nsensor;
     size_t count = (size_t)w->nmode * (size_t)w->npoint;
-    double **arrays[] = {&w->hz, &w->std, &w->square, &w->others, &w->phi};
+    double **arrays[] = {&w->hz, &w->std, &w->square, &w->others, &w->phi, &w->bend, &w->across, &w->across_bend};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
             return ROTID_ERROR_MEMORY;
     w->order = POOL_ARRAY(pool, double, w->npoint);
+    w->hammer = -1;
+    for (int s = 0; s < w->npoint; s++)
+        if (engine->job.hammer && engine->job.rotor.sensor[s].id == engine->job.hammer)
+            w->hammer = s;
     return w->order ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
@@ -53,24 +63,48 @@ static void take_order(const struct rotor *rotor, double *order)
     }
 }
 
-/* phi, phi^2 and what the other modes add, lambda times the diagonal of (K - lambda M)^+, at the sensors of one mode. */
-static void take_mode(struct weighing *w, int m, struct nelson_band *nelson, double *m_phi, double *right, double *answer)
+/* out := (K - lambda M)^+ of the force that is `one` at dof `at` (-1: nowhere) plus M times `vector` (NULL: none), of all modes
+ * but this one. work [size]. */
+static void answer_without(struct nelson_band *nelson, const struct prediction *p, const double *phi, const double *m_phi, int at,
+                           const double *vector, double *work, double *out)
+{
+    int n = p->size;
+    double own = at >= 0 ? phi[at] : 0;
+    const double zero = 0;
+    memset(work, 0, (size_t)n * sizeof *work);
+    if (vector) {
+        matrix_multiply(&p->m, 1, vector, work);
+        own += product_dot(n, phi, work);
+    }
+    if (at >= 0)
+        work[at] += 1;
+    for (int i = 0; i < n; i++)
+        work[i] -= own * m_phi[i];
+    nelson_band_solve(nelson, 1, phi, m_phi, work, &zero, out);
+}
+
+/* phi, phi^2, what the other modes add at the sensors of one mode, and how that changes with lambda. vector [4 * size] */
+static void take_mode(struct weighing *w, int m, struct nelson_band *nelson, double *vector)
 {
     const struct prediction *p = &w->columns.functional.prediction;
     const struct columns_mode *mode = &w->columns.mode[m];
+    const int *master = w->columns.client.model.master;
     int n = p->size;
-    const double *phi = p->phi + (ptrdiff_t)mode->pair * n, zero = 0;
+    const double *phi = p->phi + (ptrdiff_t)mode->pair * n;
+    double lambda = p->lambda[mode->pair], *m_phi = vector, *work = vector + n, *answer = work + n, *second = answer + n;
     matrix_multiply(&p->m, 1, phi, m_phi);
     for (int s = 0; s < w->npoint; s++) {
         ptrdiff_t at = s + (ptrdiff_t)m * w->npoint;
-        int dof = w->columns.client.model.master[s];
-        w->phi[at] = phi[dof];
-        w->square[at] = phi[dof] * phi[dof];
-        for (int i = 0; i < n; i++)
-            right[i] = -phi[dof] * m_phi[i];
-        right[dof] += 1;
-        nelson_band_solve(nelson, 1, phi, m_phi, right, &zero, answer);
-        w->others[at] = p->lambda[mode->pair] * answer[dof];
+        w->phi[at] = phi[master[s]];
+        w->square[at] = phi[master[s]] * phi[master[s]];
+        answer_without(nelson, p, phi, m_phi, master[s], NULL, work, answer);
+        answer_without(nelson, p, phi, m_phi, -1, answer, work, second);
+        w->others[at] = lambda * answer[master[s]];
+        w->bend[at] = lambda * lambda * second[master[s]];
+        if (w->hammer >= 0) {
+            w->across[at] = lambda * answer[master[w->hammer]];
+            w->across_bend[at] = lambda * lambda * second[master[w->hammer]];
+        }
     }
 }
 
@@ -79,7 +113,7 @@ static int take_modes(struct pool *pool, const struct engine *engine, struct wei
     const struct prediction *p = &w->columns.functional.prediction;
     const struct job *job = &engine->job;
     struct nelson_band nelson;
-    double *vector = POOL_ARRAY(pool, double, 3 * (size_t)p->size);
+    double *vector = POOL_ARRAY(pool, double, 4 * (size_t)p->size);
     if (!vector)
         return ROTID_ERROR_MEMORY;
     int status = nelson_band_new(pool, &p->k, 1, &nelson);
@@ -90,7 +124,7 @@ static int take_modes(struct pool *pool, const struct engine *engine, struct wei
         memcpy(w->std + to, job->point_frequency_std + from, (size_t)w->npoint * sizeof *w->std);
         status = nelson_band_prepare(&nelson, &p->k, &p->m, p->lambda[mode->pair], p->phi + (ptrdiff_t)mode->pair * p->size);
         if (!status)
-            take_mode(w, m, &nelson, vector, vector + p->size, vector + 2 * (ptrdiff_t)p->size);
+            take_mode(w, m, &nelson, vector);
     }
     take_order(&job->rotor, w->order);
     return status;
@@ -119,26 +153,49 @@ static void widen(double *std, double *raw, double more)
         *raw *= *std / before;
 }
 
-/* Room for what it does to the shapes: the residue of the loaded mode is that of the unloaded one times
- * 1 - m phi^2 + m q + m r phi_j/phi_e, where r is what the other modes have between the sensor and the place e of the hammer,
- * which nobody says; there it is about q. All of it is smooth along the rotor, and the noise is taken as independent: hence twice
- * m (phi^2 + |q|), so that what looks like a cause stays below its threshold. */
-static void widen_noise(struct job *job, const struct weighing *w, double mass)
+static double *raw_value(struct job *job, double *of, int s, int k)
 {
+    return of ? &of[raw_sensor(job, s) + (ptrdiff_t)k * job->raw->nsensor] : NULL;
+}
+
+/* What the mass does to the shapes: with the accelerometer at j the residue is that of the unloaded rotor times 1 + c,
+ * c = -m phi_j^2 + m q_jj + m q_je phi_j/phi_e to first order, where q is what the other modes have between the sensor j and the
+ * place e of the hammer. Where that is known, and no node of the mode, the residue is put right exactly (moving_mass_residue),
+ * with room for a share of the change. Else q_je is
+ * about q_jj; all of it is smooth along the rotor, and the noise is taken as independent: hence twice m (phi^2 + |q|), so that
+ * what looks like a cause stays below its threshold. Returns how many modes were put right. */
+static int correct_shapes(struct job *job, const struct weighing *w, double mass)
+{
+    int corrected = 0;
     for (int m = 0; m < w->nmode && job_fits_shapes(job); m++) {
         int k = w->columns.mode[m].k;
+        const double *phi = w->phi + (ptrdiff_t)m * w->npoint;
         double largest = 0;
         for (int s = 0; s < w->npoint; s++)
             if (isfinite(job->shape[s + (ptrdiff_t)k * w->npoint]))
-                largest = fmax(largest, fabs(w->phi[s + (ptrdiff_t)m * w->npoint]));
+                largest = fmax(largest, fabs(phi[s]));
+        int known = w->hammer >= 0 && fabs(phi[w->hammer]) > NODE * largest;
+        corrected += known;
         for (int s = 0; s < w->npoint && largest > 0; s++) {
             ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
-            if (isfinite(job->shape[at]))
-                widen(&job->shape_std[at],
-                      job->raw ? &job->raw->shape_std[raw_sensor(job, s) + (ptrdiff_t)k * job->raw->nsensor] : NULL,
-                      ROOM * mass * (w->square[model] + fabs(w->others[model])) * fabs(w->phi[model]) / largest);
+            double *raw_std = raw_value(job, job->raw ? job->raw->shape_std : NULL, s, k),
+                   *raw = raw_value(job, job->raw ? job->raw->shape : NULL, s, k),
+                   size = mass * (w->square[model] + fabs(w->others[model])), share = fabs(phi[s]) / largest;
+            if (!isfinite(job->shape[at]))
+                continue;
+            if (!known) {
+                widen(&job->shape_std[at], raw_std, ROOM * size * share);
+                continue;
+            }
+            double change = moving_mass_residue(mass, w->square[model], w->others[model], w->bend[model], w->across[model],
+                                                w->across_bend[model], phi[s] / phi[w->hammer]);
+            job->shape[at] /= change;
+            if (raw)
+                *raw /= change;
+            widen(&job->shape_std[at], raw_std, UNSURE * fabs(change - 1) * share);
         }
     }
+    return corrected;
 }
 
 static int add_mass(struct engine *engine, const struct weighing *w)
@@ -156,6 +213,7 @@ static int add_mass(struct engine *engine, const struct weighing *w)
                                   .value = {moving->mass}};
     if (!effect.name || !drift)
         return ROTID_ERROR_MEMORY;
+    int corrected = correct_shapes(job, w, moving->mass);
     const struct data_finding finding = {
         .cause = cause,
         .value = moving->mass,
@@ -165,16 +223,15 @@ static int add_mass(struct engine *engine, const struct weighing *w)
             pool_format(engine->pool,
                         "the accelerometer weighs %.3g g (%.3g to %.3g g) by %d frequencies at single sensors%s; it is part of "
                         "the model from here on, going from sensor to sensor, with the frequencies of this regression, and what "
-                        "it does to the shapes is added to "
-                        "their noise, in proportion to its mass",
-                        1e3 * moving->mass, 1e3 * (moving->mass - half), 1e3 * (moving->mass + half), moving->readings, drift)};
+                        "it does to the shapes is %s",
+                        1e3 * moving->mass, 1e3 * (moving->mass - half), 1e3 * (moving->mass + half), moving->readings, drift,
+                        corrected ? "taken out of them" : "added to their noise, in proportion to its mass")};
     int status = data_add_finding(engine, &finding);
     if (status)
         return status;
     for (int m = 0; m < w->nmode; m++) /* the mean of the readings has a second order that MOVING does not */
         if (isfinite(moving->spread_hz[m]))
             job->frequency_hz[w->columns.mode[m].k] = moving->spread_hz[m];
-    widen_noise(job, w, moving->mass);
     return job_with_effect(engine->pool, job, NULL, &effect, cause, fixed, job);
 }
 
@@ -234,6 +291,7 @@ int data_weigh_accelerometer(struct engine *engine, int *changed)
                                           .std = w.std,
                                           .square = w.square,
                                           .others = w.others,
+                                          .bend = w.bend,
                                           .order = w.order,
                                           .least_mass = LEAST_MASS};
     if (!status)

@@ -7,8 +7,10 @@
 
 #define MOST_DROPPED 2 /* modes that nobody's shape fits */
 #define LEAST_LEFT   3
-#define MOST_CLEANED 3   /* passes of finding faults of channels */
-#define MOST_REFINED 3   /* times the mesh is halved */
+#define MOST_CLEANED 3 /* passes of finding faults of channels */
+#define MOST_REFINED 3 /* times the mesh is halved */
+#define MOST_WEIGHED 5
+#define SAME_MASS    0.1 /* standard deviations */
 #define NEGLIGIBLE   0.1 /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
 
 static int add_numerical(struct engine *engine, const char *id, int count, const double *error, const char *text)
@@ -135,17 +137,43 @@ static int note_pairing(struct engine *engine)
     return ROTID_OK;
 }
 
+/* The accelerometer is weighed by the shapes of the fitted model, and the fit is spoilt by its weight: in turn, each time from
+ * the data as they came, until the mass stays. */
+static int weigh_accelerometer(struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    const struct job came = engine->job;
+    double mass = 0;
+    int status = ROTID_OK, changed = 1, nfinding = out->ndata_finding;
+    for (int pass = 0; pass < MOST_WEIGHED && changed && !status; pass++) {
+        const double *x = engine->fit->x;
+        struct job job = came;
+        status = job_started_at(engine->pool, &came, x, &job);
+        if (!status)
+            status = data_copy(engine->pool, &job);
+        engine->job = job;
+        out->ndata_finding = nfinding;
+        if (!status)
+            status = data_weigh_accelerometer(engine, &changed);
+        if (status || !changed)
+            break;
+        status = fit_base(engine, 0);
+        if (fabs(engine->moving.mass - mass) < SAME_MASS * engine->moving.std)
+            break;
+        mass = engine->moving.mass;
+    }
+    return status;
+}
+
 /* Base fit, faults of the data taken out, mesh fine enough: what the rounds start from. */
 int base_prepare(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    int status = fit_base(engine, 1), changed = 0, at;
+    int status = fit_base(engine, 1), changed, at;
     if (!status)
         status = note_pairing(engine);
     if (!status) /* before the channels are judged: its mass is seen in the shapes too */
-        status = data_weigh_accelerometer(engine, &changed);
-    if (!status && changed)
-        status = fit_base(engine, 0);
+        status = weigh_accelerometer(engine);
     changed = 1;
     for (int pass = 0; pass < MOST_CLEANED && !status && changed; pass++) {
         struct scan *scan = POOL_NEW(engine->pool, struct scan);

@@ -18,7 +18,23 @@ static void *copy(struct pool *pool, const void *source, size_t count, size_t si
     return to;
 }
 
-static int copy_data(struct pool *pool, struct job *job)
+/* The shapes and their noise: the rest of what was read is never changed. */
+static int copy_raw(struct pool *pool, struct job *job)
+{
+    struct job_raw *raw = POOL_NEW(pool, struct job_raw);
+    size_t components = (size_t)job->raw->nsensor * (size_t)job->nmode;
+    if (!raw)
+        return ROTID_ERROR_MEMORY;
+    *raw = *job->raw;
+    job->raw = raw;
+    if (!raw->shape)
+        return ROTID_OK;
+    raw->shape = copy(pool, raw->shape, components, sizeof *raw->shape);
+    raw->shape_std = copy(pool, raw->shape_std, components, sizeof *raw->shape_std);
+    return raw->shape && raw->shape_std ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+int data_copy(struct pool *pool, struct job *job)
 {
     size_t components = (size_t)job->rotor.nsensor * (size_t)job->nmode;
     job->rotor.sensor = copy(pool, job->rotor.sensor, (size_t)job->rotor.nsensor, sizeof *job->rotor.sensor);
@@ -41,7 +57,7 @@ static int copy_data(struct pool *pool, struct job *job)
         if (!job->point_frequency_hz || !job->point_frequency_std)
             return ROTID_ERROR_MEMORY;
     }
-    return ROTID_OK;
+    return job->raw ? copy_raw(pool, job) : ROTID_OK;
 }
 
 int data_add_finding(struct engine *engine, const struct data_finding *finding)
@@ -196,7 +212,7 @@ int data_prepare(struct engine *engine, const struct job *job)
                     "the deck has no measured modes, expected *MODES or *MEASURED");
         return ROTID_ERROR_ARGUMENT;
     }
-    int status = copy_data(engine->pool, &engine->job);
+    int status = data_copy(engine->pool, &engine->job);
     if (status)
         return status;
     struct job *judged = &engine->job;

@@ -44,6 +44,8 @@ int engine_stage(const struct engine *engine, const char *stage, int step);
 
 /* Copies the data, states the noise, refuses what cannot be judged. ROTID_ERROR_ARGUMENT with a reason in the notes. */
 int data_prepare(struct engine *engine, const struct job *job);
+/* Gives a job its own copies of the data that the steps change. */
+int data_copy(struct pool *pool, struct job *job);
 void data_remove_mode(struct job *job, int k);
 int data_add_finding(struct engine *engine, const struct data_finding *finding);
 /* A finding about measured modes; second 0: about the first alone. */

@@ -4,15 +4,17 @@
 
 #include "base/pool.h"
 
-/* A mass m at point j turns f_k into
- *   f_kj = f_k / sqrt(1 + h),  h = m s_kj/(1 - m q_kj),
- * s_kj = phi_kj^2 of the mass-normalised mode, q_kj = lambda_k sum over i != k of phi_ij^2/(lambda_i - lambda_k): exact but for
- * lambda in q, which is that of the unloaded mode. To first order 1 - m s/2. */
+/* A mass m at point j turns f_k into f_kj = f_k sqrt(1 - x), where
+ *   x (1 - (1 - x) m (q - x c)) = (1 - x) m s,
+ * s_kj = phi_kj^2 of the mass-normalised mode, q_kj = lambda_k sum over i != k of phi_ij^2/(lambda_i - lambda_k), the response of
+ * the other modes there, and c_kj = lambda_k^2 sum of phi_ij^2/(lambda_i - lambda_k)^2, how it changes with the frequency: exact
+ * but for its second derivative. To first order x = m s. */
 struct moving_mass_data {
     int nmode, npoint;
     const double *hz, *std; /* [npoint * nmode] Hz, NaN: no reading */
     const double *square;   /* [npoint * nmode] s [1/kg] */
     const double *others;   /* [npoint * nmode] q [1/kg] */
+    const double *bend;     /* [npoint * nmode] c [1/kg], NULL: 0 */
     const double *order;    /* [npoint] from -0.5, the first point of the test, to 0.5, the last */
     double least_mass;      /* kg: nothing lighter is an accelerometer */
 };
@@ -39,7 +41,16 @@ struct moving_mass {
  * ROTID_OK or ROTID_ERROR_MEMORY. */
 int moving_mass(struct pool *pool, const struct moving_mass_data *data, struct moving_mass *out);
 
+/* x of a mass at a point. */
+double moving_mass_shift(double mass, double square, double others, double bend);
+
+/* What a mass at point j does to the residue of mode k between that point and another one, e: the loaded over the unloaded
+ * phi_kj phi_ke. across: q of the pair (j, e), across_bend its c; share = phi_kj/phi_ke. To first order
+ * 1 - m s + m q + m q_je phi_j/phi_e. */
+double moving_mass_residue(double mass, double square, double others, double bend, double across, double across_bend,
+                           double share);
+
 /* Reading of mode k at point j over that without the accelerometer, f_kj/f_k. */
-double moving_mass_ratio(double mass, double square, double others);
+double moving_mass_ratio(double mass, double square, double others, double bend);
 
 #endif

@@ -14,7 +14,17 @@ struct writing {
     const struct ema *ema;
     int node_count, *node; /* of the shapes, rising */
     double *value;         /* [3 * node_count] */
+    int reference;         /* node of the hammer where the sensor roved, 0 where there are several or the hammer roved */
 };
+
+static int only_reference(const struct measurement *measurement, const struct ema *ema)
+{
+    const struct frf_set *set = &measurement->set;
+    for (int c = 1; c < set->nfrf; c++)
+        if (set->frf[c].reference_node != set->frf[0].reference_node)
+            return 0;
+    return ema->roving_force || !set->nfrf ? 0 : set->frf[0].reference_node;
+}
 
 static const char *base_name(const char *path)
 {
@@ -106,6 +116,8 @@ static int write_mode(struct writing *w, const char *source, int k)
     (void)snprintf(shape.id[0], sizeof shape.id[0], "mode %d, %.6g Hz, real normal mode", k + 1, mode->frequency_hz);
     (void)snprintf(shape.id[1], sizeof shape.id[1], "from %.70s", base_name(source));
     (void)snprintf(shape.id[2], sizeof shape.id[2], "MPC %.4f MPD %.2f deg", mode->mpc, mode->mpd);
+    if (w->reference)
+        (void)snprintf(shape.id[3], sizeof shape.id[3], "ROTID HAMMER AT NODE %d", w->reference);
     int status = write_values(w, &shape, mode->shape);
     if (!status && isfinite(mode->frequency_std))
         status = write_companion(w, k + 1, "STANDARD DEVIATION", mode, mode->shape_std);
@@ -121,7 +133,7 @@ int modes_write(FILE *stream, const char *source, const char *program, const str
 {
     static const struct uff_units si = {1, "SI", 2, 1, 1, 1, 273.15};
     struct uff_header header = {.version = {0, 0}};
-    struct writing w = {.stream = stream, .ema = ema};
+    struct writing w = {.stream = stream, .ema = ema, .reference = only_reference(measurement, ema)};
     pool_open(&w.scratch, NULL);
     (void)snprintf(header.model, sizeof header.model, "modes");
     (void)snprintf(header.description, sizeof header.description, "modal extraction from %.50s", base_name(source));

@@ -79,6 +79,7 @@ struct job {
     /* With the accelerometer at one sensor after the other, [nsensor * nmode] in Hz, NaN where not known; NULL where the deck has
      * none. frequency_hz of a mode that has any is then their mean over all sensors: see run/point_fit.h. */
     double *point_frequency_hz, *point_frequency_std;
+    int hammer; /* id of the sensor beside the hammer while that accelerometer went round, 0 where not known */
 
     int ncorrection; /* already applied to the above; raw is NULL where there are none */
     struct correction *correction;

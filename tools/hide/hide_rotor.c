@@ -270,6 +270,8 @@ static const struct {
              {"MEASURED", 0, NULL},
              {"NOISE", 0, NULL},
              {"FIT", 0, NULL},
+             {"FRF", 0, NULL},
+             {"FREQUENCIES", 0, NULL},
              {"INCLUDE", 0, refuse},
              {"BARS", 0, refuse}, /* the oracle has no branches */
              {"CAUSE", 0, refuse},

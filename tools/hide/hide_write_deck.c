@@ -2,7 +2,7 @@
 
 static int is_measured(const struct hide_card *card, int new_sensors)
 {
-    static const char *const dropped[] = {"MODES", "SHAPE", "MEASURED", "NOISE", "FIT"};
+    static const char *const dropped[] = {"MODES", "SHAPE", "MEASURED", "FREQUENCIES", "NOISE", "FIT", "FRF"};
     for (size_t i = 0; i < sizeof dropped / sizeof *dropped; i++)
         if (hide_same(card->name, dropped[i]))
             return 1;
