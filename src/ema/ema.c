@@ -233,7 +233,7 @@ static int fit_modes(struct job *job)
         memcpy(out->mode + reported, behind, (size_t)others * sizeof *behind);
     out->nmode = n = reported;
     out->nguard = others;
-    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, common, job->environment, out);
+    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, common, factor, job->environment, out);
 }
 
 static int finish(struct job *job)

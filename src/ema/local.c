@@ -7,6 +7,7 @@
 #include "ema/real_mode.h"
 #include "ema/refine.h"
 #include "ema/residues.h"
+#include "linalg/product.h"
 
 #define REACH         0.012
 #define REACH_WIDTHS  3 /* half-power bandwidths */
@@ -59,9 +60,19 @@ static void search(struct modal_fit *fit, double reach)
     fit->pole[0] = best;
 }
 
-/* Poles together [n] on the lines of one channel; `first` of them is asked for. */
-static int fit_window(struct pool *scratch, const struct ema_band *band, int k, int nline, const int *line, int n,
-                      const double complex *together, int searched, double reach, struct local_pole *out)
+static void take_off(struct modal_fit *fit, const double complex *rest)
+{
+    for (int i = 0; i < fit->nline; i++) {
+        fit->y[i] -= creal(rest[i]);
+        fit->y[i + fit->nline] -= cimag(rest[i]);
+    }
+    fit->yy[0] = product_dot(2 * fit->nline, fit->y, fit->y);
+}
+
+/* Poles together [n] on the lines of one channel, less rest [nline] (NULL: nothing); the first of them is asked for. */
+static int fit_window(struct pool *scratch, const struct ema_band *band, int k, int nline, const int *line,
+                      const double complex *rest, int n, const double complex *together, int searched, double reach,
+                      struct local_pole *out)
 {
     struct modal_fit fit;
     struct refinement refinement;
@@ -73,6 +84,8 @@ static int fit_window(struct pool *scratch, const struct ema_band *band, int k, 
         status = refinement_new(scratch, &fit, &refinement);
     if (status != ROTID_OK)
         return status;
+    if (rest)
+        take_off(&fit, rest);
     for (int r = 0; r < n; r++)
         fit.pole[r] = together[r] / fit.scale;
     if (searched)
@@ -91,22 +104,41 @@ static int fit_window(struct pool *scratch, const struct ema_band *band, int k, 
     return ROTID_OK;
 }
 
-int local_fit(const struct pool *pool, const struct ema_band *band, int k, int nmode, const double complex *pole, int which,
-              struct local_pole *out)
+/* The accelerance of modes that are not fitted along. */
+static void synthesise_rest(const struct ema_band *band, int nline, const int *line, int nmode, const double complex *pole,
+                            const double complex *residue, const int *fitted, double complex *rest)
+{
+    for (int i = 0; i < nline; i++) {
+        double complex s = I * band->omega[line[i]], sum = 0;
+        for (int r = 0; r < nmode; r++)
+            if (!fitted[r] && !isnan(creal(residue[r])))
+                sum += residue[r] / (s - pole[r]) + conj(residue[r]) / (s - conj(pole[r]));
+        rest[i] = s * s * sum;
+    }
+}
+
+int local_fit(const struct pool *pool, const struct ema_band *band, int k, int nmode, const double complex *pole,
+              const double complex *residue, int which, struct local_pole *out)
 {
     struct pool scratch;
     double complex together[MOST_TOGETHER] = {pole[which]};
     double reach = local_reach(pole[which]), half = fabs(creal(pole[which])), centre = cimag(pole[which]);
     double window = reach + FRINGE * half;
-    int n = 1;
-    for (int r = 0; r < nmode; r++)
-        if (r != which && fabs(cimag(pole[r]) - centre) < 2 * window && n < MOST_TOGETHER)
-            together[n++] = pole[r];
+    int n = 1, status = ROTID_ERROR_MEMORY;
     pool_open(&scratch, pool->allocator);
-    int *line = POOL_ARRAY(&scratch, int, band->nline), status = ROTID_ERROR_MEMORY;
-    if (line) {
+    int *line = POOL_ARRAY(&scratch, int, band->nline), *fitted = POOL_ARRAY(&scratch, int, nmode);
+    double complex *rest = POOL_ARRAY(&scratch, double complex, band->nline);
+    if (line && fitted && rest) {
+        fitted[which] = 1;
+        for (int r = 0; r < nmode; r++)
+            if (r != which && fabs(cimag(pole[r]) - centre) < 2 * window && n < MOST_TOGETHER) {
+                together[n++] = pole[r];
+                fitted[r] = 1;
+            }
         int nline = window_lines(band, centre - (n > 1 ? 2 : 1) * window, centre + (n > 1 ? 2 : 1) * window, line);
-        status = fit_window(&scratch, band, k, nline, line, n, together, n == 1, reach, out);
+        if (residue)
+            synthesise_rest(band, nline, line, nmode, pole, residue, fitted, rest);
+        status = fit_window(&scratch, band, k, nline, line, residue ? rest : NULL, n, together, n == 1, reach, out);
     }
     pool_close(&scratch);
     return status;
@@ -199,7 +231,7 @@ static int compare(struct pool *scratch, const struct ema_band *band, int n, con
         double common = fit.weight ? fit.chi2[k] : fit.sigma[k] * fit.sigma[k] * fit.chi2[k];
         struct pool inner;
         pool_open(&inner, scratch->allocator);
-        status = fit_window(&inner, band, k, nline, line, 1, &middle, 1, reach, &alone);
+        status = fit_window(&inner, band, k, nline, line, NULL, 1, &middle, 1, reach, &alone);
         pool_close(&inner);
         if (status != ROTID_OK)
             return status;

@@ -21,11 +21,12 @@ struct local_pole {
 double local_reach(double complex pole);
 
 /* The pole of channel k of the band alone near pole[which], the modes pole [nmode] being all that there are: modes within twice
- * the window are fitted along with it. Where there is none, every place within local_reach is tried first, in steps of half a
- * bandwidth. known needs |A| above 4 standard deviations where the place was searched for, 3 where not. ROTID_OK or
- * ROTID_ERROR_MEMORY. */
-int local_fit(const struct pool *pool, const struct ema_band *band, int k, int nmode, const double complex *pole, int which,
-              struct local_pole *out);
+ * the window are fitted along with it. residue [nmode] of that channel: what the modes further away add is taken off first; NULL:
+ * it is left to the residual terms, which bends the residue by parts in a thousand. Where no mode is near, every place within
+ * local_reach is tried first, in steps of half a bandwidth. known needs |A| above 4 standard deviations where the place was
+ * searched for, 3 where not. ROTID_OK or ROTID_ERROR_MEMORY. */
+int local_fit(const struct pool *pool, const struct ema_band *band, int k, int nmode, const double complex *pole,
+              const double complex *residue, int which, struct local_pole *out);
 
 /* The common pole of all channels near pole[which], all weighted alike, so that those that respond most decide: where the model
  * is wrong, noise does not tell what to trust. *common := NaN where that fails. ROTID_OK or ROTID_ERROR_MEMORY. */

@@ -44,9 +44,9 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     fit->spread = POOL_ARRAY(pool, double, (size_t)q *(size_t)q *channels);
     fit->singular = POOL_ARRAY(pool, int, nchannel);
     fit->work = POOL_ARRAY(pool, double *, workers);
-    if (!fit->nu || !fit->y || !fit->yy || (band->variance && !fit->weight) || !fit->sigma || !fit->pole || !fit->held || !fit->basis ||
-        !fit->gram || !fit->right || !fit->linear || !fit->chi2 || !fit->schur || !fit->score || !fit->mix || !fit->spread ||
-        !fit->singular || !fit->work)
+    if (!fit->nu || !fit->y || !fit->yy || (band->variance && !fit->weight) || !fit->sigma || !fit->pole || !fit->held ||
+        !fit->basis || !fit->gram || !fit->right || !fit->linear || !fit->chi2 || !fit->schur || !fit->score || !fit->mix ||
+        !fit->spread || !fit->singular || !fit->work)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < workers; i++)
         if (!(fit->work[i] = POOL_ARRAY(pool, double, workspace(fit))))

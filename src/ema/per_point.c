@@ -159,43 +159,132 @@ static int leaves_less(int n, const struct local_pole *local, const double *comm
     return alone < LESS * together;
 }
 
-int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect, const double *common,
-                          const rotid_environment *environment, struct ema *out)
+struct channel { /* its own view of all modes, those beyond the band behind */
+    int nmode;
+    double complex *pole, *residue;
+};
+
+static void view(const struct ema *out, int c, double decay, struct channel *channel)
 {
-    struct local_pole *local = POOL_ARRAY(pool, struct local_pole, band->nchannel);
-    double complex *pole = POOL_ARRAY(pool, double complex, out->nmode);
-    double *sorted = POOL_ARRAY(pool, double, band->nchannel);
-    if (!local || !pole || !sorted)
-        return ROTID_ERROR_MEMORY;
-    for (int r = 0; r < out->nmode; r++)
-        pole[r] = out->mode[r].pole - decay;
-    for (int r = 0; r < out->nmode; r++) {
-        struct ema_mode *mode = &out->mode[r];
-        if (!suspect[r] && !mode->point_frequency_hz)
-            continue;
-        if (environment && environment->cancelled && environment->cancelled(environment->context))
-            return ROTID_STOP_CANCELLED;
-        if (environment && environment->progress)
-            environment->progress(environment->context, "frequency of each point", r);
-        for (int k = 0; k < band->nchannel; k++) {
-            int status = local_fit(pool, band, k, out->nmode, pole, r, &local[k]);
-            if (status != ROTID_OK)
-                return status;
-        }
-        if (mode->point_frequency_hz)
-            take_points(band, local, decay, out, mode);
-        double chi, rms;
-        int known = scatter(band->nchannel, local, sorted, &rms, &chi);
-        if (known > 1 && stands_alone(out->nmode, pole, r) &&
-            leaves_less(band->nchannel, local, common + (ptrdiff_t)r * band->nchannel) && chi > SCATTER &&
-            rms > SCATTER_WIDTHS * fabs(creal(pole[r]))) {
-            mode->doubts |= EMA_DOUBLE_PEAK;
-            int status = same_width(band->nchannel, local, known, sorted)
-                             ? take_local(pool, band, local, decay, known, sorted, out, mode)
-                             : take_common(pool, band, out->nmode, pole, r, decay, mode);
-            if (status != ROTID_OK)
-                return status;
-        }
+    for (int r = 0; r < channel->nmode; r++) {
+        const struct ema_mode *mode = &out->mode[r];
+        int own = mode->local_pole && !isnan(creal(mode->local_pole[c]));
+        channel->pole[r] = (own ? mode->local_pole[c] : mode->pole) - decay;
+        channel->residue[r] = mode->residue[c];
     }
+}
+
+struct work {
+    struct pool *pool;
+    const struct ema_band *band;
+    double decay;
+    const double *common, *factor;
+    double complex *pole; /* [nmode + nguard] common ones */
+    struct channel channel;
+    struct local_pole *local; /* [nchannel] */
+    double *sorted;           /* [nchannel] */
+    struct ema *out;
+};
+
+/* One mode in every channel, and what follows. informed: the residues of all modes are known. */
+static int one_mode(struct work *w, int informed, int r)
+{
+    const struct ema_band *band = w->band;
+    struct ema *out = w->out;
+    struct ema_mode *mode = &out->mode[r];
+    double chi, rms;
+    for (int k = 0; k < band->nchannel; k++) {
+        view(out, band->channel[k], w->decay, &w->channel);
+        w->channel.pole[r] = w->pole[r];
+        int status =
+            local_fit(w->pool, band, k, w->channel.nmode, w->channel.pole, informed ? w->channel.residue : NULL, r, &w->local[k]);
+        if (status != ROTID_OK)
+            return status;
+        w->local[k].residue_std *= w->factor[r];
+    }
+    if (mode->point_frequency_hz)
+        take_points(band, w->local, w->decay, out, mode);
+    int known = scatter(band->nchannel, w->local, w->sorted, &rms, &chi);
+    if (known < 2 || !stands_alone(out->nmode, w->pole, r) ||
+        !leaves_less(band->nchannel, w->local, w->common + (ptrdiff_t)r * band->nchannel) || !(chi > SCATTER) ||
+        !(rms > SCATTER_WIDTHS * fabs(creal(w->pole[r]))))
+        return ROTID_OK;
+    mode->doubts |= EMA_DOUBLE_PEAK;
+    return same_width(band->nchannel, w->local, known, w->sorted)
+               ? take_local(w->pool, band, w->local, w->decay, known, w->sorted, out, mode)
+               : take_common(w->pool, band, out->nmode, w->pole, r, w->decay, mode);
+}
+
+/* L and U of a channel for poles of its own: least squares of what its modes leave, L - omega^2 U. */
+static void refit_rest(struct work *w, int k)
+{
+    const struct ema_band *band = w->band;
+    int c = band->channel[k];
+    double one = 0, square = 0, fourth = 0, top = band->high * band->high;
+    double complex left = 0, right = 0;
+    view(w->out, c, w->decay, &w->channel);
+    for (int i = 0; i < band->nline; i++) {
+        ptrdiff_t at = i + (ptrdiff_t)k * band->nline;
+        double weight = band->variance ? 1 / band->variance[at] : 1, x = -band->omega[i] * band->omega[i] / top;
+        double complex s = I * band->omega[i], sum = 0;
+        for (int r = 0; r < w->channel.nmode; r++)
+            if (!isnan(creal(w->channel.residue[r])))
+                sum += w->channel.residue[r] / (s - w->channel.pole[r]) +
+                       conj(w->channel.residue[r]) / (s - conj(w->channel.pole[r]));
+        double complex rest = band->h[at] - s * s * sum;
+        one += weight;
+        square += weight * x;
+        fourth += weight * x * x;
+        left += weight * rest;
+        right += weight * x * rest;
+    }
+    double determinant = one * fourth - square * square;
+    if (!(determinant > 1e-12 * one * fourth))
+        return;
+    w->out->lower[c] = (fourth * left - square * right) / determinant;
+    w->out->upper[c] = (one * right - square * left) / determinant / top;
+}
+
+static int has_local(const struct ema *out)
+{
+    for (int r = 0; r < out->nmode; r++)
+        if (out->mode[r].local_pole)
+            return 1;
+    return 0;
+}
+
+int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect, const double *common,
+                          const double *factor, const rotid_environment *environment, struct ema *out)
+{
+    int all = out->nmode + out->nguard;
+    struct work w = {.pool = pool,
+                     .band = band,
+                     .decay = decay,
+                     .common = common,
+                     .factor = factor,
+                     .pole = POOL_ARRAY(pool, double complex, all),
+                     .channel = {all, POOL_ARRAY(pool, double complex, all), POOL_ARRAY(pool, double complex, all)},
+                     .local = POOL_ARRAY(pool, struct local_pole, band->nchannel),
+                     .sorted = POOL_ARRAY(pool, double, band->nchannel),
+                     .out = out};
+    if (!w.local || !w.pole || !w.sorted || !w.channel.pole || !w.channel.residue)
+        return ROTID_ERROR_MEMORY;
+    for (int r = 0; r < all; r++)
+        w.pole[r] = out->mode[r].pole - decay;
+    /* twice: the first time the other modes are known by poles that do not suit the channel */
+    for (int informed = 0; informed < 2; informed++)
+        for (int r = 0; r < out->nmode; r++) {
+            if (!suspect[r] && !out->mode[r].point_frequency_hz)
+                continue;
+            if (environment && environment->cancelled && environment->cancelled(environment->context))
+                return ROTID_STOP_CANCELLED;
+            if (environment && environment->progress)
+                environment->progress(environment->context, "frequency of each point", r);
+            int status = one_mode(&w, informed, r);
+            if (status != ROTID_OK)
+                return status;
+        }
+    for (int k = 0; k < band->nchannel && has_local(out); k++)
+        refit_rest(&w, k);
     return ROTID_OK;
 }

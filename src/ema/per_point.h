@@ -10,9 +10,10 @@
  * variance common [nmode * nchannel] (mode by mode) that the common poles leave near the mode, and no other mode lies within
  * three half-power bandwidths, the mode is EMA_DOUBLE_PEAK; where the widths agree local_pole is set, residues of the channels
  * that know their pole come from their own fits, frequency and damping are the means of the channels with the standard deviation
- * of a mean; where they do not, the pole is local_common's. point_frequency: mean of the channels of the point. out holds the
+ * of a mean, and factor [nmode] on the standard deviations of the residues (impacts_spread); where they do not, the pole is
+ * local_common's. point_frequency: mean of the channels of the point. out holds the
  * modes of the common fit. ROTID_OK, ROTID_ERROR_MEMORY or ROTID_STOP_CANCELLED. */
 int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect, const double *common,
-                          const rotid_environment *environment, struct ema *out);
+                          const double *factor, const rotid_environment *environment, struct ema *out);
 
 #endif

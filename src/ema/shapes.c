@@ -59,6 +59,13 @@ static double weight_of(const struct ema_mode *mode, int c)
     return std > 0 && isfinite(std) ? 1 / (std * std) : 1e-300;
 }
 
+/* A = phi_response phi_force/(2 i omega), where omega may differ from channel to channel: brought to that of the mode. */
+static double complex amplitude(const struct ema_mode *mode, int c)
+{
+    double own = mode->local_pole ? cimag(mode->local_pole[c]) : NAN;
+    return isnan(own) ? mode->residue[c] : mode->residue[c] * own / cimag(mode->pole);
+}
+
 /* One half of the alternation: with v of the other side, u_k = sum w conj(v) B/sum w |v|^2 over the channels of k; variance too
  * where asked for. A side without a channel becomes NaN. */
 static void project(int nfrf, const int *usable, const double *sign, const struct ema_mode *mode, int count, const int *side,
@@ -71,7 +78,7 @@ static void project(int nfrf, const int *usable, const double *sign, const struc
             if (!usable[c] || side[c] != k || isnan(creal(mode->residue[c])) || isnan(creal(v[other[c]])))
                 continue;
             double w = weight_of(mode, c);
-            sum += w * sign[c] * conj(v[other[c]]) * mode->residue[c];
+            sum += w * sign[c] * conj(v[other[c]]) * amplitude(mode, c);
             weight += w * creal(v[other[c]] * conj(v[other[c]]));
         }
         u[k] = weight > 0 ? sum / weight : CMPLX(NAN, NAN);
@@ -107,7 +114,7 @@ static double mass_of(const struct frf_set *set, const struct ema_points *points
         if (!usable[c] || !points->is_drive[c] || isnan(creal(mode->residue[c])))
             continue;
         double phi = mode->shape[out->channel_point[c]];
-        sum += creal(phi * phi / (2 * I * cimag(mode->pole) * points->sign[c] * mode->residue[c]));
+        sum += creal(phi * phi / (2 * I * cimag(mode->pole) * points->sign[c] * amplitude(mode, c)));
         count++;
     }
     return count ? sum / count : NAN;
