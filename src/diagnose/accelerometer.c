@@ -23,7 +23,8 @@ struct weighing {
     double *hz, *std, *square, *others, *order, *phi; /* as in struct moving_mass_data; phi [npoint * nmode] */
     double *bend;                                     /* likewise */
     double *across, *across_bend; /* [npoint * nmode] like others and bend, but between the point and the hammer */
-    int hammer;                   /* sensor, -1 where not known */
+    double *spread; /* [npoint * nmode] d phi/dm with the mass spread over all sensors, but for a share of phi itself */
+    int hammer;     /* sensor, -1 where not known */
 };
 
 int is_moving_accelerometer(const struct effect *effect)
@@ -40,7 +41,7 @@ static int open_weighing(struct pool *pool, const struct engine *engine, struct 
     w->nmode = w->columns.nmode;
     w->npoint = engine->job.rotor.nsensor;
     size_t count = (size_t)w->nmode * (size_t)w->npoint;
-    double **arrays[] = {&w->hz, &w->std, &w->square, &w->others, &w->phi, &w->bend, &w->across, &w->across_bend};
+    double **arrays[] = {&w->hz, &w->std, &w->square, &w->others, &w->phi, &w->bend, &w->across, &w->across_bend, &w->spread};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
             return ROTID_ERROR_MEMORY;
@@ -100,6 +101,8 @@ static void take_mode(struct weighing *w, int m, struct nelson_band *nelson, dou
         answer_without(nelson, p, phi, m_phi, master[s], NULL, work, answer);
         answer_without(nelson, p, phi, m_phi, -1, answer, work, second);
         w->others[at] = lambda * answer[master[s]];
+        for (int t = 0; t < w->npoint; t++)
+            w->spread[t + (ptrdiff_t)m * w->npoint] += phi[master[s]] * lambda * answer[master[t]] / w->npoint;
         w->bend[at] = lambda * lambda * second[master[s]];
         if (w->hammer >= 0) {
             w->across[at] = lambda * answer[master[w->hammer]];
@@ -158,6 +161,27 @@ static double *raw_value(struct job *job, double *of, int s, int k)
     return of ? &of[raw_sensor(job, s) + (ptrdiff_t)k * job->raw->nsensor] : NULL;
 }
 
+/* The model has the mass spread over all sensors, so a shape that is free of the accelerometer gets what that does to it. */
+static void spread_mass(struct job *job, const struct weighing *w, int m, double mass)
+{
+    int k = w->columns.mode[m].k;
+    const double *phi = w->phi + (ptrdiff_t)m * w->npoint, *spread = w->spread + (ptrdiff_t)m * w->npoint;
+    double *shape = job->shape + (ptrdiff_t)k * w->npoint, product = 0, square = 0;
+    for (int s = 0; s < w->npoint; s++)
+        if (isfinite(shape[s])) {
+            product += shape[s] * phi[s];
+            square += phi[s] * phi[s];
+        }
+    for (int s = 0; s < w->npoint; s++) {
+        double *raw = raw_value(job, job->raw ? job->raw->shape : NULL, s, k), more = product / square * mass * spread[s];
+        if (!isfinite(shape[s]))
+            continue;
+        shape[s] += more;
+        if (raw)
+            *raw += more;
+    }
+}
+
 /* What the mass does to the shapes: with the accelerometer at j the residue is that of the unloaded rotor times 1 + c,
  * c = -m phi_j^2 + m q_jj + m q_je phi_j/phi_e to first order, where q is what the other modes have between the sensor j and the
  * place e of the hammer. Where that is known, and no node of the mode, the residue is put right exactly (moving_mass_residue),
@@ -194,6 +218,8 @@ static int correct_shapes(struct job *job, const struct weighing *w, double mass
                 *raw /= change;
             widen(&job->shape_std[at], raw_std, UNSURE * fabs(change - 1) * share);
         }
+        if (known)
+            spread_mass(job, w, m, mass);
     }
     return corrected;
 }
@@ -221,7 +247,7 @@ static int add_mass(struct engine *engine, const struct weighing *w)
         .chi2_drop = moving->chi2_drop,
         .text =
             pool_format(engine->pool,
-                        "the accelerometer weighs %.3g g (%.3g to %.3g g) by %d frequencies at single sensors%s; it is part of "
+                        "the accelerometer weighs %.4g g (%.4g to %.4g g) by %d frequencies at single sensors%s; it is part of "
                         "the model from here on, going from sensor to sensor, with the frequencies of this regression, and what "
                         "it does to the shapes is %s",
                         1e3 * moving->mass, 1e3 * (moving->mass - half), 1e3 * (moving->mass + half), moving->readings, drift,
