@@ -2,7 +2,8 @@
 
 usage: ema_peer.py PROGRAM [BEAM.uff]
 Needs sdypy and pyuff. Frequencies within 0.02 %, damping within 5 %, MAC of the shapes above 0.999 (known modes); on the measured
-beam the same frequencies, and damping within 10 % and two standard deviations: two of its peaks are not those of one pole.
+beam the same frequencies, and damping within 10 % of the first seven. The last two peaks are not those of one
+pole: the peer's own damping there goes from 2.4e-4 to 3.6e-4 and from 0.8e-4 to 1.4e-4 with its order and band, and judges nothing.
 """
 import json
 import subprocess
@@ -100,8 +101,11 @@ def main():
         for r in range(len(other[0])):
             k = int(np.argmin(abs(mine[0] - other[0][r])))
             check(f"beam frequency {r}", abs(mine[0][k] / other[0][r] - 1) < 2e-4, f"{mine[0][k]:.5f} {other[0][r]:.5f} Hz")
-            check(f"beam damping {r}", abs(mine[1][k] - other[1][r]) < 0.1 * mine[1][k] + 2 * mine[3][k],
-                  f"{mine[1][k]:.7f} +- {mine[3][k]:.7f} {other[1][r]:.7f}")
+            text = f"{mine[1][k]:.7f} +- {mine[3][k]:.7f} {other[1][r]:.7f}"
+            if other[0][r] < 1500:
+                check(f"beam damping {r}", abs(mine[1][k] / other[1][r] - 1) < 0.1, text)
+            else:
+                print(f"told    beam damping {r}: {text}")
     return 1 if FAILED else 0
 
 
