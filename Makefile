@@ -5,7 +5,8 @@
 #   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
-#   make check-peers   against SciPy, pyuff and jsonschema, installed into build/venv
+#   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
+#   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
 #   make coverage   share of the lines of src that the tests run
 #   make lint, make format                  clang-tidy, clang-format
@@ -49,7 +50,7 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all demo test power bench bench-quick check-asan check-valgrind check-peers fuzz fuzzers coverage lint format install uninstall clean
+.PHONY: all demo test chain power bench bench-quick check-asan check-valgrind check-peers fuzz fuzzers coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -93,6 +94,9 @@ $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(BUILD)/librotid.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 
+chain: $(BUILD)/tests/test_chain
+	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
+
 demo: all
 	@sh tools/demo $(BUILD)/rotid
 
@@ -111,7 +115,7 @@ check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
 	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases),$(TEST_PROGRAMS))
 
-check-peers: all
+check-peers: all $(BUILD)/hammer
 	@sh tests/peers/run $(BUILD) $(PYTHON)
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.

@@ -113,7 +113,8 @@ static void modes_of_the_records_are_those_of_the_rotor(void **state)
     for (int k = 0; k < 6; k++) {
         const struct ema_mode *mode = &c.ema.mode[k];
         int at = test.rigid + k;
-        double *exact = test.bare_shape + (ptrdiff_t)at * test.points, aa = 0, ab = 0;
+        const double *exact = test.bare_shape + (ptrdiff_t)at * test.points;
+        double aa = 0, ab = 0;
         print_message("mode %d: %.4f Hz, off %+.1f std of %.2g; damping %.4f %%, off %+.1f std of %.2g\n", k + 1,
                       mode->frequency_hz, (mode->frequency_hz - test.bare_hz[at]) / mode->frequency_std, mode->frequency_std,
                       100 * mode->damping, (mode->damping - hammer_damping(&test, at)) / mode->damping_std,
@@ -206,11 +207,143 @@ static void moduli_lie_in_their_intervals(void **state)
     close_test(&bench, &test);
 }
 
+/* ------------------------------------------------------------------------------------------------ to the verdict */
+
+static void judge(struct passage *c, struct diagnosis *out)
+{
+    const struct diagnose_options options = {.threads = 2, .seed = 1, .replicates = 300};
+    assert_int_equal(diagnose_run(&c->pool, &c->job, &options, NULL, &c->messages, out), 0);
+}
+
+static const struct data_finding *finding_of(const struct diagnosis *d, const char *id)
+{
+    for (int i = 0; i < d->ndata_finding; i++)
+        if (!strcmp(d->data_finding[i].cause->id, id))
+            return &d->data_finding[i];
+    return NULL;
+}
+
+static void thirty_grams(struct hammer_options *options)
+{
+    options->sensor_mass = 0.03;
+    options->noise = 0.01;
+}
+
+/* Frequencies fall by up to 1 % from point to point, the shapes are off by up to 16 % at the ends. */
+static void an_accelerometer_of_30_g_on_a_beam_of_6_kg_is_weighed(void **state)
+{
+    (void)state;
+    struct hammer_bench bench;
+    struct hammer_test test;
+    struct passage c;
+    struct diagnosis d;
+    const struct ema_options options = {.low_hz = 30, .high_hz = 3000, .per_point = 1, .threads = 2};
+    open_test("beam", thirty_grams, &bench, &test);
+    assert_int_equal(pass(&c, &test, 1, &options), 0);
+    assert_int_equal(c.ema.nmode, 8);
+    for (int k = 0; k < 8; k++)
+        for (int p = 0; p < test.points; p++) {
+            double truth = test.hz[test.rigid + k + (ptrdiff_t)p * test.modes];
+            if (!isnan(c.ema.mode[k].point_frequency_hz[p]))
+                assert_close(c.ema.mode[k].point_frequency_hz[p], truth, 3e-5, 6 * c.ema.mode[k].point_frequency_std[p]);
+        }
+    judge(&c, &d);
+    const struct data_finding *mass = finding_of(&d, "accelerometer_mass");
+    assert_non_null(mass);
+    print_message("mass %.3f g, std %.4f g; verdict %s; E off %+.2f std, G off %+.2f std\n", 1e3 * mass->value, 1e3 * mass->std,
+                  verdict_name(d.kind), (d.base.fit->x[0] - truth_of(&test, "bar.E")) / d.base.fit->std[0],
+                  (d.base.fit->x[1] - truth_of(&test, "bar.G")) / d.base.fit->std[1]);
+    assert_close(mass->value, 0.03, 0, 5e-5);
+    assert_int_equal(d.kind, VERDICT_ADEQUATE);
+    assert_int_equal(d.ncause, 0);
+    for (int p = 0; p < 2; p++)
+        assert_close(d.base.fit->x[p], truth_of(&test, c.job.bounds[p].name), 1e-3, 0);
+    diagnose_free(&d);
+    pool_close(&c.pool);
+    close_test(&bench, &test);
+}
+
+static void heavy_test(struct hammer_options *options)
+{
+    options->sensor_mass = 0.03;
+    options->drift = 1e-3; /* what a day of hammering leaves */
+}
+
+/* On 998 kg the same accelerometer lies below what moves between two points, and the report says from which mass it would show.
+ */
+static void on_a_rotor_of_998_kg_it_is_below_the_noise_and_listed(void **state)
+{
+    (void)state;
+    struct hammer_bench bench;
+    struct hammer_test test;
+    struct passage c;
+    struct diagnosis d;
+    const struct ema_options options = {.low_hz = 200, .high_hz = 3200, .per_point = 1, .threads = 2};
+    open_test("paper", heavy_test, &bench, &test);
+    assert_int_equal(pass(&c, &test, 1, &options), 0);
+    judge(&c, &d);
+    assert_null(finding_of(&d, "accelerometer_mass"));
+    double smallest = NAN;
+    for (int i = 0; i < d.ndetectable; i++)
+        if (!strcmp(d.detectable[i].cause->id, "accelerometer_mass"))
+            smallest = d.detectable[i].smallest;
+    print_message("smallest mass that would show: %.0f g; verdict %s\n", 1e3 * smallest, verdict_name(d.kind));
+    assert_true(smallest > 0.03 && smallest < 0.2);
+    /* it may be suspected, and nothing else may be named in its place */
+    assert_true(d.kind != VERDICT_NAMED || (d.ncause == 1 && !strcmp(d.cause[0].cause->id, "accelerometer_mass")));
+    diagnose_free(&d);
+    pool_close(&c.pool);
+    close_test(&bench, &test);
+}
+
+static void three_faults(struct hammer_options *options)
+{
+    options->faults = 3;
+    options->fault[0] = (struct hammer_fault){.kind = HAMMER_DEAD, .id = 40};
+    options->fault[1] = (struct hammer_fault){.kind = HAMMER_FLIP, .id = 15};
+    options->fault[2] = (struct hammer_fault){.kind = HAMMER_GAIN, .id = 55, .value = 1.3};
+    options->drift = 1e-4;
+    options->double_hits = 0.1;
+}
+
+static void faults_of_channels_are_seen_on_the_way(void **state)
+{
+    (void)state;
+    struct hammer_bench bench;
+    struct hammer_test test;
+    struct passage c;
+    struct diagnosis d;
+    int seen = 0, twice = 0;
+    open_test("paper", three_faults, &bench, &test);
+    assert_int_equal(pass(&c, &test, 1, &paper_band), 0);
+    assert_int_equal(c.ema.nmode, 6);
+    for (int i = 0; i < c.measurement.transfer.nimpact; i++)
+        twice += c.measurement.transfer.impact[i].is_double;
+    assert_in_range(twice, 5, 45); /* of 204, one in ten */
+    for (int k = 0; k < c.ema.nfrf; k++)
+        if (c.ema.channel[k].doubts & (EMA_DEAD | EMA_NOISY | EMA_MISFIT))
+            seen += c.measurement.set.frf[k].response_node == 40;
+    assert_int_equal(seen, 1);
+    judge(&c, &d);
+    const struct data_finding *sign = finding_of(&d, "sensor_sign"), *gain = finding_of(&d, "sensor_gain");
+    assert_non_null(sign);
+    assert_non_null(gain);
+    assert_int_equal(sign->sensor[0], 15);
+    assert_int_equal(gain->sensor[0], 55);
+    assert_close(gain->value, 1.3, 0.03, 0);
+    diagnose_free(&d);
+    pool_close(&c.pool);
+    close_test(&bench, &test);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(modes_of_the_records_are_those_of_the_rotor),
         cmocka_unit_test(moduli_lie_in_their_intervals),
+        cmocka_unit_test(an_accelerometer_of_30_g_on_a_beam_of_6_kg_is_weighed),
+        cmocka_unit_test(on_a_rotor_of_998_kg_it_is_below_the_noise_and_listed),
+        cmocka_unit_test(faults_of_channels_are_seen_on_the_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

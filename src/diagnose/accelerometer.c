@@ -11,11 +11,13 @@
 #include "linalg/product.h"
 #include "modal/eigenvector_derivative.h"
 
-#define LEAST_MASS  2e-4 /* kg: the lightest accelerometers with their cable */
-#define ROOM        2.0
-#define UNSURE      0.02 /* of the change of a shape: by the moduli that the fit has not found yet, and by the mass */
-#define NODE        0.1  /* of the largest component: closer to a node the hammer hardly moves the mode */
-#define MOST_FACTOR 1e3  /* of noise_level */
+#define LEAST_MASS   2e-4 /* kg: the lightest accelerometers with their cable */
+#define ROOM         2.0
+#define UNSURE       0.02 /* of the change of a shape: by the moduli that the fit has not found yet, and by the mass */
+#define NODE         0.1  /* of the largest component: closer to a node the hammer hardly moves the mode */
+#define NOT_EXCLUDED 2.0  /* standard deviations */
+#define PLAUSIBLE    0.05 /* kg: an accelerometer with cable and magnet on a test of this kind */
+#define MOST_FACTOR  1e3  /* of noise_level */
 
 struct weighing {
     struct columns columns; /* of the base: its fitted modes */
@@ -224,6 +226,25 @@ static int correct_shapes(struct job *job, const struct weighing *w, double mass
     return corrected;
 }
 
+/* A mass that the frequencies cannot tell from none moves the shapes all the same: room for the largest one they do not exclude.
+ */
+static void allow_for(struct job *job, const struct weighing *w, double mass)
+{
+    for (int m = 0; m < w->nmode && job_fits_shapes(job); m++) {
+        int k = w->columns.mode[m].k;
+        const double *phi = w->phi + (ptrdiff_t)m * w->npoint;
+        double largest = 0;
+        for (int s = 0; s < w->npoint; s++)
+            largest = fmax(largest, fabs(phi[s]));
+        for (int s = 0; s < w->npoint && largest > 0; s++) {
+            ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
+            if (isfinite(job->shape[at]))
+                widen(&job->shape_std[at], raw_value(job, job->raw ? job->raw->shape_std : NULL, s, k),
+                      mass * (w->square[model] + fabs(w->others[model])) * fabs(phi[s]) / largest);
+        }
+    }
+}
+
 static int add_mass(struct engine *engine, const struct weighing *w)
 {
     static const int fixed[EFFECT_MOST_PARAMETERS] = {1, 1, 1, 1};
@@ -278,9 +299,18 @@ static int add_drift(struct engine *engine)
             100 * engine->moving.drift, factor));
 }
 
-static void note_readings(struct engine *engine, double most)
+static double most_mass(const struct rotor *rotor)
+{
+    const struct effect blank = {.kind = catalogue_find("accelerometer_mass")->effect, .target = -1};
+    double least, most;
+    catalogue_of(&blank)->bounds(rotor, &blank, 0, &least, &most);
+    return most;
+}
+
+void data_note_readings(struct engine *engine)
 {
     const struct moving_mass *moving = &engine->moving;
+    double most = most_mass(&engine->job.rotor);
     if (moving->dropped)
         message_add(
             engine->notes, SEVERITY_WARNING, NULL, 0, 0,
@@ -298,15 +328,13 @@ int data_weigh_accelerometer(struct engine *engine, int *changed)
     const struct job *job = &engine->job;
     struct pool scratch;
     struct weighing w = {0};
-    double least, most;
+    double most = most_mass(&job->rotor);
     *changed = 0;
     if (!job->point_frequency_hz)
         return ROTID_OK;
     for (int e = 0; e < job->rotor.neffect; e++)
         if (is_moving_accelerometer(&job->rotor.effect[e])) /* the deck knows it */
             return ROTID_OK;
-    const struct effect blank = {.kind = catalogue_find("accelerometer_mass")->effect, .target = -1};
-    catalogue_of(&blank)->bounds(&job->rotor, &blank, 0, &least, &most);
     pool_open(&scratch, engine->pool->allocator);
     int status = open_weighing(&scratch, engine, &w);
     if (!status)
@@ -322,11 +350,13 @@ int data_weigh_accelerometer(struct engine *engine, int *changed)
                                           .least_mass = LEAST_MASS};
     if (!status)
         status = moving_mass(&scratch, &data, &engine->moving);
-    if (!status)
-        note_readings(engine, most);
     if (!status && engine->moving.found && engine->moving.mass <= most) {
         status = add_mass(engine, &w);
         *changed = 1;
+    } else if (!status && engine->moving.usable) {
+        double bound = fmin(fmax(engine->moving.mass, 0) + NOT_EXCLUDED * engine->moving.std, PLAUSIBLE);
+        allow_for(&engine->job, &w, bound);
+        *changed = bound > 0 && job_fits_shapes(&engine->job);
     }
     pool_close(&scratch);
     if (!status && engine->moving.drifts) {

@@ -162,6 +162,7 @@ static int weigh_accelerometer(struct engine *engine)
             break;
         mass = engine->moving.mass;
     }
+    data_note_readings(engine);
     return status;
 }
 

@@ -68,9 +68,12 @@ int data_correct_noise(struct engine *engine, const char *block, double factor, 
 
 /* After the base fit, where there are frequencies at single sensors: the mass of an accelerometer that went from one to the next,
  * and a drift of the frequencies. What is found becomes a finding; the mass becomes part of the judged model (MOUNT=MOVING), the
- * frequencies are those of the regression with it, and what it does to the shapes, 2 m (phi_kj^2 + |q_kj|) of component j of mode
- * k, is added to their noise; *changed when there was any. Nothing where the model has such an accelerometer already. */
+ * frequencies are those of the regression with it, and what it does to the shapes is taken out of them where the place of the
+ * hammer is known, else added to their noise. Where no mass is found the shapes get room for the largest one that is not
+ * excluded. *changed when anything was. Nothing where the model has such an accelerometer already. */
 int data_weigh_accelerometer(struct engine *engine, int *changed);
+/* What was odd about the readings, once. */
+void data_note_readings(struct engine *engine);
 int is_moving_accelerometer(const struct effect *effect);
 
 /* ---- base.c: what the rounds start from */

@@ -10,7 +10,7 @@
 #define MEDIAN_STD     1.2533 /* of a median over that of a mean */
 #define ALONE_WIDTHS   3
 #define LESS           (2.0 / 3)
-#define SCATTER_WIDTHS 0.1 /* half bandwidths: less changes a residue by less than a percent */
+#define SCATTER_WIDTHS 0.02 /* half bandwidths: less changes a residue by less than a thousandth */
 
 static double median(int n, double *value)
 {

@@ -6,7 +6,7 @@
 #include "ema/ema.h"
 
 /* For each mode with suspect [nmode] nonzero (all with point_frequency_hz asked for): the pole of every channel alone. Where they
- * scatter beyond three times their standard deviations and a tenth of the half bandwidth, and leave less than two thirds of the
+ * scatter beyond three times their standard deviations and a fiftieth of the half bandwidth, and leave less than two thirds of the
  * variance common [nmode * nchannel] (mode by mode) that the common poles leave near the mode, and no other mode lies within
  * three half-power bandwidths, the mode is EMA_DOUBLE_PEAK; where the widths agree local_pole is set, residues of the channels
  * that know their pole come from their own fits, frequency and damping are the means of the channels with the standard deviation

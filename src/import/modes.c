@@ -14,6 +14,7 @@ struct writing {
     const struct ema *ema;
     int node_count, *node; /* of the shapes, rising */
     double *value;         /* [3 * node_count] */
+    int *known, *written;  /* [node_count] */
     int reference;         /* node of the hammer where the sensor roved, 0 where there are several or the hammer roved */
 };
 
@@ -42,7 +43,9 @@ static int collect_nodes(struct writing *w)
 {
     w->node = POOL_ARRAY(&w->scratch, int, w->ema->npoint);
     w->value = POOL_ARRAY(&w->scratch, double, 3 * (size_t)w->ema->npoint);
-    if (!w->node || !w->value)
+    w->known = POOL_ARRAY(&w->scratch, int, w->ema->npoint);
+    w->written = POOL_ARRAY(&w->scratch, int, w->ema->npoint);
+    if (!w->node || !w->value || !w->known || !w->written)
         return ROTID_ERROR_MEMORY;
     memcpy(w->node, w->ema->point_node, (size_t)w->ema->npoint * sizeof *w->node);
     qsort(w->node, (size_t)w->ema->npoint, sizeof *w->node, compare_ids);
@@ -71,25 +74,34 @@ static int write_nodes(const struct writing *w, const struct measurement *measur
     return status;
 }
 
-/* One set 55: the component of each node goes to the axis of its direction, directions without one (scalars) to the first.
- * Rotations have no place in a vector of three and are left out. Values that are not known are zero. */
+/* One set 55 of the nodes that have a value: the component of each goes to the axis of its direction, directions without one
+ * (scalars) to the first. Rotations have no place in a vector of three and are left out. */
 static int write_values(struct writing *w, struct uff_shape *shape, const double *value)
 {
     const struct ema *ema = w->ema;
+    int count = 0;
     memset(w->value, 0, 3 * (size_t)w->node_count * sizeof *w->value);
+    memset(w->known, 0, (size_t)w->node_count * sizeof *w->known);
     for (int p = 0; p < ema->npoint; p++) {
         const int *at = bsearch(&ema->point_node[p], w->node, (size_t)w->node_count, sizeof *w->node, compare_ids);
         int direction = abs(ema->point_direction[p]);
-        if (at && direction <= 3 && isfinite(value[p]))
-            w->value[3 * (at - w->node) + (direction ? direction - 1 : 0)] = value[p];
+        if (!at || direction > 3 || !isfinite(value[p]))
+            continue;
+        w->value[3 * (at - w->node) + (direction ? direction - 1 : 0)] = value[p];
+        w->known[at - w->node] = 1;
     }
+    for (int i = 0; i < w->node_count; i++)
+        if (w->known[i]) {
+            w->written[count] = w->node[i];
+            memmove(w->value + 3 * (ptrdiff_t)count++, w->value + 3 * (ptrdiff_t)i, 3 * sizeof *w->value);
+        }
     shape->model_type = 1;
     shape->data_characteristic = VECTOR;
     shape->data_type = REAL_DATA;
     shape->load_case = 1;
     shape->component_count = 3;
-    shape->node_count = w->node_count;
-    shape->node = w->node;
+    shape->node_count = count;
+    shape->node = w->written;
     shape->real = w->value;
     return uff_write_shape(w->stream, shape);
 }

@@ -115,7 +115,9 @@ static void print_doubts(FILE *out, const struct ema_report *r)
                     (void)fprintf(out, " of node %d", r->measurement->set.frf[ema->channel[c].twin].response_node);
                 (void)fprintf(out, ";");
             }
-        (void)fprintf(out, " fit %.3f\n", ema->channel[c].fit);
+        if (isfinite(ema->channel[c].fit))
+            (void)fprintf(out, " fit %.3f", ema->channel[c].fit);
+        (void)fprintf(out, "\n");
     }
     if (!any)
         (void)fprintf(out, "\nNothing about the modes and the channels looks doubtful.\n");
