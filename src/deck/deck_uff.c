@@ -1,6 +1,7 @@
 /* MEASURED: sensors, modes and shapes from a universal file. */
 #include <complex.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -224,6 +225,16 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
     return 0;
 }
 
+/* Record 8 has six digits, which a good test knows better: `rotid ema` writes all of them in a line of text. */
+static double precise_frequency(const struct uff_shape *mode)
+{
+    double hz;
+    for (int i = 0; i < UFF_ID_LINES; i++)
+        if (sscanf(mode->id[i], "ROTID FREQUENCY_HZ %lf", &hz) == 1 && fabs(hz - mode->frequency_hz) < 1e-5 * mode->frequency_hz)
+            return hz;
+    return mode->frequency_hz;
+}
+
 /* The sensor beside the hammer: of the card, else of the line that `rotid ema` writes. */
 static int import_hammer(struct import *import, const struct uff_shape *mode)
 {
@@ -275,7 +286,7 @@ static int import_modes(struct import *import)
         distinct &= chosen[k]->number > 0 && (!k || chosen[k]->number > chosen[k - 1]->number);
     for (int k = 0; k < count; k++) {
         job->number[k] = distinct ? chosen[k]->number : k + 1;
-        job->frequency_hz[k] = chosen[k]->frequency_hz;
+        job->frequency_hz[k] = precise_frequency(chosen[k]);
         job->damping[k] = chosen[k]->damping > 0 ? chosen[k]->damping : NAN;
         job->frequency_std[k] = NAN;
         bad |= import_shape(import, chosen[k], job->shape + (ptrdiff_t)k * job->rotor.nsensor);

@@ -99,6 +99,19 @@ static void read_frequency(const struct extra *extra)
         job->frequency_std[extra->mode] = hz / job->frequency_hz[extra->mode];
 }
 
+/* Six digits of a frequency are too few, so the values may count from one that stands in the second line of text. */
+static double read_offset(const struct extra *extra)
+{
+    const char *text = extra->set->id[1];
+    double hz = 0;
+    int length = 0;
+    if (strncmp(text, "ABOVE", 5) != 0)
+        return 0;
+    if (sscanf(text, "ABOVE_HZ %lf%n", &hz, &length) != 1 || text[length] || !(isfinite(hz) && hz >= 0))
+        deck_error(extra->reader, id_line(extra, 1), "the second line of text is '%s', expected ABOVE_HZ value", text);
+    return hz;
+}
+
 static void read_values(const struct extra *extra)
 {
     static const char *const expected[KINDS] = {"a standard deviation, zero where it is not known",
@@ -114,9 +127,10 @@ static void read_values(const struct extra *extra)
     for (int s = 0; s < job->rotor.nsensor; s++)
         if (isfinite(job->shape[first + s]))
             largest = fmax(largest, fabs(job->shape[first + s]));
+    double offset = extra->kind == AT_POINT ? read_offset(extra) : 0;
     for (int i = 0; i < set->node_count; i++) {
         int sensor = sensor_find(job, set->node[i]);
-        double value = set->real[i * set->component_count + extra->component];
+        double value = offset + set->real[i * set->component_count + extra->component];
         if (sensor < 0) {
             deck_error(extra->reader, id_line(extra, 0), "'%s' has a value at node %d, expected only nodes that are sensors",
                        set->id[0], set->node[i]);

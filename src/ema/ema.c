@@ -202,8 +202,8 @@ static int fit_modes(struct job *job)
         return status;
     out->refined = refinement.iterations;
     out->std_from_impacts = job->stated;
-    double *factor = POOL_ARRAY(job->pool, double, n);
-    status = factor ? impacts_spread(job->pool, job->set, job->first, band, line, &fit, factor) : ROTID_ERROR_MEMORY;
+    double *gain = POOL_ARRAY(job->pool, double, n);
+    status = gain ? impacts_spread(job->pool, job->set, job->first, band, line, &fit, gain) : ROTID_ERROR_MEMORY;
     if (status != ROTID_OK)
         return status;
     modes_from_fit(band, &fit, &refinement, job->set->window_decay, out);
@@ -233,7 +233,7 @@ static int fit_modes(struct job *job)
         memcpy(out->mode + reported, behind, (size_t)others * sizeof *behind);
     out->nmode = n = reported;
     out->nguard = others;
-    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, common, factor, job->environment, out);
+    return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, common, gain, job->environment, out);
 }
 
 static int finish(struct job *job)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TWO_PI 6.283185307179586
+#define ITERATIONS 5
 
 struct jackknife {
     const struct frf_set *set;
@@ -79,43 +79,62 @@ static double variance_by_impacts(const struct jackknife *j, const struct modal_
     return variance;
 }
 
-static double ratio_of_mode(const struct jackknife *j, const struct modal_fit *fit, int r)
+/* Of each channel: variance by the impacts, that stated, and |A|^2, in the units of the fit. Returns how many there are. */
+static int compare_variances(const struct jackknife *j, const struct modal_fit *fit, int r, double *found, double *stated,
+                             double *square)
 {
     int q = fit->nlinear, count = 0;
-    double sum = 0;
     for (int k = 0; k < fit->nchannel; k++) {
         const double *x = fit->linear + (ptrdiff_t)k * q + (ptrdiff_t)2 * r, *spread = fit->spread + (ptrdiff_t)k * q * q;
-        double size = hypot(x[0], x[1]), stated = 0;
+        double size = hypot(x[0], x[1]), sum = 0;
         if (averages(j, k) < 2 || fit->singular[k] || j->fit.singular[k] || !(size > 0))
             continue;
         double u[2] = {x[0] / size, x[1] / size};
         for (int b = 0; b < 2; b++)
             for (int a = 0; a < 2; a++)
-                stated += u[a] * u[b] * spread[2 * r + a + (ptrdiff_t)(2 * r + b) * q];
-        if (!(stated > 0))
+                sum += u[a] * u[b] * spread[2 * r + a + (ptrdiff_t)(2 * r + b) * q];
+        if (!(sum > 0))
             continue;
-        sum += variance_by_impacts(j, fit, k, r, u) / stated;
-        count++;
+        found[count] = variance_by_impacts(j, fit, k, r, u);
+        stated[count] = sum;
+        square[count++] = size * size;
     }
-    return count ? sum / count : 1;
+    return count;
 }
 
-static void scale_spread(struct modal_fit *fit, const double *factor)
+/* g of variance = stated + g |A|^2 by least squares, each weighted by what it has itself. */
+static double gain_variance(int count, const double *found, const double *stated, const double *square)
 {
-    int q = fit->nlinear, p = 2 * fit->nmode;
-    for (int k = 0; k < fit->nchannel; k++)
-        for (int b = 0; b < q; b++)
-            for (int a = 0; a < q; a++)
-                fit->spread[a + (ptrdiff_t)b * q + (ptrdiff_t)k * q * q] *=
-                    (a < p ? factor[a / 2] : 1) * (b < p ? factor[b / 2] : 1);
+    double gain = 0;
+    for (int i = 0; i < ITERATIONS; i++) {
+        double top = 0, bottom = 0;
+        for (int k = 0; k < count; k++) {
+            double own = stated[k] + gain * square[k], weight = 1 / (own * own);
+            top += weight * (found[k] - stated[k]) * square[k];
+            bottom += weight * square[k] * square[k];
+        }
+        gain = bottom > 0 ? fmax(top / bottom, 0) : 0;
+    }
+    return gain;
+}
+
+static void add_to_spread(struct modal_fit *fit, int r, double gain)
+{
+    int q = fit->nlinear;
+    for (int k = 0; k < fit->nchannel; k++) {
+        const double *x = fit->linear + (ptrdiff_t)k * q + (ptrdiff_t)2 * r;
+        for (int b = 0; b < 2; b++)
+            for (int a = 0; a < 2; a++)
+                fit->spread[2 * r + a + (ptrdiff_t)(2 * r + b) * q + (ptrdiff_t)k * q * q] += gain * x[a] * x[b];
+    }
 }
 
 int impacts_spread(const struct pool *pool, const struct frf_set *set, int first, const struct ema_band *band, const int *line,
-                   struct modal_fit *fit, double *factor)
+                   struct modal_fit *fit, double *gain)
 {
     struct jackknife j = {.set = set, .band = band, .line = line, .first = first};
     for (int r = 0; r < fit->nmode; r++)
-        factor[r] = 1;
+        gain[r] = 0;
     for (int k = 0; k < fit->nchannel; k++)
         j.most = averages(&j, k) > j.most ? averages(&j, k) : j.most;
     if (j.most < 2)
@@ -125,7 +144,9 @@ int impacts_spread(const struct pool *pool, const struct frf_set *set, int first
     size_t size = 2 * (size_t)fit->nmode * (size_t)fit->nchannel;
     j.residue = POOL_ARRAY(&scratch, double, size *(size_t)j.most);
     j.energy = POOL_ARRAY(&scratch, double, (size_t)fit->nchannel *(size_t)j.most);
-    int status = j.residue && j.energy
+    double *found = POOL_ARRAY(&scratch, double, fit->nchannel), *stated = POOL_ARRAY(&scratch, double, fit->nchannel),
+           *square = POOL_ARRAY(&scratch, double, fit->nchannel);
+    int status = j.residue && j.energy && found && stated && square
                      ? modal_fit_new(&scratch, band, fit->nline, line, 0, fit->nchannel, fit->nmode, fit->threads, &j.fit)
                      : ROTID_ERROR_MEMORY;
     if (!status) {
@@ -140,9 +161,10 @@ int impacts_spread(const struct pool *pool, const struct frf_set *set, int first
                 memcpy(j.residue + size * (size_t)i + (size_t)2 * (size_t)fit->nmode * (size_t)k,
                        j.fit.linear + (ptrdiff_t)k * fit->nlinear, 2 * (size_t)fit->nmode * sizeof(double));
         }
-        for (int r = 0; r < fit->nmode; r++)
-            factor[r] = sqrt(fmax(ratio_of_mode(&j, fit, r), 1));
-        scale_spread(fit, factor);
+        for (int r = 0; r < fit->nmode; r++) {
+            gain[r] = gain_variance(compare_variances(&j, fit, r, found, stated, square), found, stated, square);
+            add_to_spread(fit, r, gain[r]);
+        }
     }
     pool_close(&scratch);
     return status;

@@ -6,13 +6,12 @@
 #include "signal/frf.h"
 
 /* The covariance `spread` of the residues takes the noise of neighbouring lines for independent. That of the force is not: behind
- * the window of the force its spectrum is smooth, and moves a whole peak up or down. So the residues are fitted again without
- * each impact in turn, the poles known; the jackknife of impacts of unequal weight (Busing, Meijer, van der Leeden 1999) gives
- * the variance of each, and its ratio to the stated one, averaged over the channels of a mode, is a factor on that mode's part of
- * `spread` where it is above one. fit: refined, with spread, on the lines line [fit->nline] of the band, which begins at line
- * `first` of the set. factor [fit->nmode] out: on the standard deviations, 1 where fewer than two impacts are known. ROTID_OK or
- * ROTID_ERROR_MEMORY. */
+ * the window of the force its spectrum is smooth, and moves a whole peak up or down, as a gain would. So the residues are fitted
+ * again without each impact in turn, the poles known; the jackknife of impacts of unequal weight (Busing, Meijer, van der Leeden
+ * 1999) gives the variance of each, and stated + g |A|^2 = variance over the channels of a mode the relative variance g of that
+ * gain, which is added to `spread`. fit: refined, with spread, on the lines line [fit->nline] of the band, which begins at line
+ * `first` of the set. gain [fit->nmode] out: g, 0 where fewer than two impacts are known. ROTID_OK or ROTID_ERROR_MEMORY. */
 int impacts_spread(const struct pool *pool, const struct frf_set *set, int first, const struct ema_band *band, const int *line,
-                   struct modal_fit *fit, double *factor);
+                   struct modal_fit *fit, double *gain);
 
 #endif

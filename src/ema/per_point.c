@@ -178,7 +178,7 @@ struct work {
     struct pool *pool;
     const struct ema_band *band;
     double decay;
-    const double *common, *factor;
+    const double *common, *gain;
     double complex *pole; /* [nmode + nguard] common ones */
     struct channel channel;
     struct local_pole *local; /* [nchannel] */
@@ -200,7 +200,7 @@ static int one_mode(struct work *w, int informed, int r)
             local_fit(w->pool, band, k, w->channel.nmode, w->channel.pole, informed ? w->channel.residue : NULL, r, &w->local[k]);
         if (status != ROTID_OK)
             return status;
-        w->local[k].residue_std *= w->factor[r];
+        w->local[k].residue_std = hypot(w->local[k].residue_std, sqrt(w->gain[r]) * cabs(w->local[k].residue));
     }
     if (mode->point_frequency_hz)
         take_points(band, w->local, w->decay, out, mode);
@@ -254,14 +254,14 @@ static int has_local(const struct ema *out)
 }
 
 int per_point_frequencies(struct pool *pool, const struct ema_band *band, double decay, const int *suspect, const double *common,
-                          const double *factor, const rotid_environment *environment, struct ema *out)
+                          const double *gain, const rotid_environment *environment, struct ema *out)
 {
     int all = out->nmode + out->nguard;
     struct work w = {.pool = pool,
                      .band = band,
                      .decay = decay,
                      .common = common,
-                     .factor = factor,
+                     .gain = gain,
                      .pole = POOL_ARRAY(pool, double complex, all),
                      .channel = {all, POOL_ARRAY(pool, double complex, all), POOL_ARRAY(pool, double complex, all)},
                      .local = POOL_ARRAY(pool, struct local_pole, band->nchannel),

@@ -15,6 +15,7 @@ struct writing {
     int node_count, *node; /* of the shapes, rising */
     double *value;         /* [3 * node_count] */
     int *known, *written;  /* [node_count] */
+    double *difference;    /* [npoint] */
     int reference;         /* node of the hammer where the sensor roved, 0 where there are several or the hammer roved */
 };
 
@@ -45,7 +46,8 @@ static int collect_nodes(struct writing *w)
     w->value = POOL_ARRAY(&w->scratch, double, 3 * (size_t)w->ema->npoint);
     w->known = POOL_ARRAY(&w->scratch, int, w->ema->npoint);
     w->written = POOL_ARRAY(&w->scratch, int, w->ema->npoint);
-    if (!w->node || !w->value || !w->known || !w->written)
+    w->difference = POOL_ARRAY(&w->scratch, double, w->ema->npoint);
+    if (!w->node || !w->value || !w->known || !w->written || !w->difference)
         return ROTID_ERROR_MEMORY;
     memcpy(w->node, w->ema->point_node, (size_t)w->ema->npoint * sizeof *w->node);
     qsort(w->node, (size_t)w->ema->npoint, sizeof *w->node, compare_ids);
@@ -116,6 +118,17 @@ static int write_companion(struct writing *w, int number, const char *what, cons
     return write_values(w, &shape, value);
 }
 
+/* As differences: the format has six digits. */
+static int write_points(struct writing *w, int number, const struct ema_mode *mode)
+{
+    struct uff_shape shape = {.analysis_type = UNKNOWN_ANALYSIS, .specific_type = 0, .number = number};
+    for (int p = 0; p < w->ema->npoint; p++)
+        w->difference[p] = mode->point_frequency_hz[p] - mode->frequency_hz;
+    (void)snprintf(shape.id[0], sizeof shape.id[0], "ROTID FREQUENCY AT POINT OF MODE %d", number);
+    (void)snprintf(shape.id[1], sizeof shape.id[1], "ABOVE_HZ %.12g", mode->frequency_hz);
+    return write_values(w, &shape, w->difference);
+}
+
 static int write_mode(struct writing *w, const char *source, int k)
 {
     const struct ema_mode *mode = &w->ema->mode[k];
@@ -128,13 +141,14 @@ static int write_mode(struct writing *w, const char *source, int k)
     (void)snprintf(shape.id[0], sizeof shape.id[0], "mode %d, %.6g Hz, real normal mode", k + 1, mode->frequency_hz);
     (void)snprintf(shape.id[1], sizeof shape.id[1], "from %.70s", base_name(source));
     (void)snprintf(shape.id[2], sizeof shape.id[2], "MPC %.4f MPD %.2f deg", mode->mpc, mode->mpd);
+    (void)snprintf(shape.id[4], sizeof shape.id[4], "ROTID FREQUENCY_HZ %.12g", mode->frequency_hz);
     if (w->reference)
         (void)snprintf(shape.id[3], sizeof shape.id[3], "ROTID HAMMER AT NODE %d", w->reference);
     int status = write_values(w, &shape, mode->shape);
     if (!status && isfinite(mode->frequency_std))
         status = write_companion(w, k + 1, "STANDARD DEVIATION", mode, mode->shape_std);
     if (!status && mode->point_frequency_hz)
-        status = write_companion(w, k + 1, "FREQUENCY AT POINT", NULL, mode->point_frequency_hz);
+        status = write_points(w, k + 1, mode);
     if (!status && mode->point_frequency_hz)
         status = write_companion(w, k + 1, "STANDARD DEVIATION OF FREQUENCY AT POINT", NULL, mode->point_frequency_std);
     return status;

@@ -1,5 +1,5 @@
 """Every command on every deck of input/, and on decks that bring out nulls and flags: the JSON follows docs/schema, and every number is
-finite. Decks without *IDENTIFY end identify and sensitivity with exit code 2 and no output."""
+finite. Decks without *IDENTIFY end identify and sensitivity with exit code 2 and no output. ema runs on a measured beam."""
 import json
 import math
 import re
@@ -63,7 +63,7 @@ def validate(checks, name, schema, text):
 def main():
     checks = Checks()
     schemas = {}
-    for command in (*COMMANDS, "frf"):
+    for command in (*COMMANDS, "frf", "ema"):
         schema = json.loads((ROOT / "docs" / "schema" / f"{command}.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         schemas[command] = jsonschema.Draft202012Validator(schema)
@@ -80,6 +80,7 @@ def main():
 
     with temporary_folder() as folder:
         synthesise(checks, schemas["frf"], Path(folder))
+        extract(checks, schemas["ema"], Path(folder))
         for name, (text, options, codes) in SMALL.items():
             deck = Path(folder) / "deck.inp"
             deck.write_text(text)
@@ -122,6 +123,26 @@ def synthesise(checks, schema, folder):
     checks.true("frf says that the curves are left out", many and not many["with_curves"] and many["warnings"], "")
     functions.unlink()
     beside.unlink()
+
+
+def extract(checks, schema, folder):
+    """rotid ema on three transfer functions of a measured beam: as it is, with a frequency for each point, by quadrature picking, and in
+    a band that holds no mode. Without stated noise the modes of the last method count as weak, exit code 1."""
+    beam, written = ROOT / "tests" / "data" / "uff" / "beam_excerpt.uff", folder / "modes.uff"
+    plain = run(checks, "ema, measured beam", schema, "ema", beam, ("-o", written), (0,))
+    checks.true("ema names the file that it wrote", plain and plain["output"] == str(written) and written.exists(), plain and plain["output"])
+    checks.true("ema without --per-point has no frequencies at points", plain and not point_frequencies(plain), "")
+    points = run(checks, "ema --per-point", schema, "ema", beam, ("--per-point",), (0,))
+    checks.true("ema --per-point has frequencies at points", points and any(f is not None for f in point_frequencies(points)), "")
+    picked = run(checks, "ema --method quadrature", schema, "ema", beam, ("--method", "quadrature"), (0, 1))
+    checks.true("ema --method quadrature has no stabilisation table", picked and picked["modes"] and not picked["stabilisation"], "")
+    empty = run(checks, "ema, no mode in the band", schema, "ema", beam, ("--band", "740,930"), (1,))
+    checks.true("ema without a mode writes none", empty and not empty["modes"] and empty["output"] is None, empty and empty["modes"])
+    written.unlink()
+
+
+def point_frequencies(result):
+    return [point["frequency_hz"] for mode in result["modes"] for point in mode["shape"] if "frequency_hz" in point]
 
 
 def walk(schema, path=""):

@@ -1,0 +1,298 @@
+/* rotid ema as its users see it: the modes of a real bar as JSON and as a file for a deck, and what is refused. */
+#include <cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include "deck/deck.h"
+#include "support.h"
+#include "uff_program.h"
+
+#define EXCERPT ROTID_SOURCE_DIR "/tests/data/uff/beam_excerpt.uff"
+#define MODES   9
+#define POINTS  3
+#define DECK                                                                                                                     \
+    "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*BEAM, NAME=bar, MATERIAL=steel\n1, 0.0127, 0.0254, 40\n"
+
+static const double hz[MODES] = {52.553, 144.632, 283.127, 468.277, 698.466, 972.977, 1292.957, 1655.35, 2064.51};
+static const double zeta[MODES] = {0.001821, 0.000715, 0.000392, 0.000216, 0.000186, 0.000228, 0.000217, 0.000333, 0.000210};
+
+/* Runs `rotid command` in the folder; its streams in uff_output. */
+static int program(const char *command, const char *arguments)
+{
+    char line[1024];
+    (void)snprintf(line, sizeof line, "cd %s && %s %s %s 2>&1", uff_folder, ROTID_PROGRAM, command, arguments);
+    FILE *pipe = popen(line, "r");
+    assert_non_null(pipe);
+    size_t length = fread(uff_output, 1, sizeof uff_output - 1, pipe);
+    uff_output[length] = '\0';
+    while (fgetc(pipe) != EOF) /* what does not fit; nobody breaks the pipe */
+        continue;
+    int status = pclose(pipe);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+static void ema_says(const char *arguments, int code, const char *text)
+{
+    int seen = program("ema", arguments);
+    if (seen != code || !strstr(uff_output, text))
+        print_error("rotid ema %s: exit code %d for %d, expected \"%s\" in:\n%s\n", arguments, seen, code, text, uff_output);
+    assert_true(seen == code && strstr(uff_output, text));
+}
+
+static void put_text(const char *name, const char *text)
+{
+    FILE *stream = create(name);
+    assert_true(fputs(text, stream) >= 0);
+    assert_int_equal(fclose(stream), 0);
+}
+
+static void make_excerpt(const char *name)
+{
+    char buffer[4096];
+    FILE *from = fopen(EXCERPT, "rb"), *to = create(name);
+    assert_non_null(from);
+    put_nodes(to, POINTS); /* the excerpt has none */
+    for (size_t length; (length = fread(buffer, 1, sizeof buffer, from));)
+        assert_int_equal(fwrite(buffer, 1, length, to), length);
+    (void)fclose(from);
+    assert_int_equal(fclose(to), 0);
+}
+
+static cJSON *json_of(const char *name)
+{
+    size_t length;
+    char *text = read_file(name, &length);
+    assert_non_null(text);
+    cJSON *json = cJSON_ParseWithOpts(text, NULL, 1);
+    free(text);
+    assert_non_null(json);
+    return json;
+}
+
+static const cJSON *get(const cJSON *json, const char *key)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(json, key);
+    if (!item)
+        print_error("no key %s\n", key);
+    assert_non_null(item);
+    return item;
+}
+
+static double number_of(const cJSON *json, const char *key)
+{
+    assert_true(cJSON_IsNumber(get(json, key)));
+    return get(json, key)->valuedouble;
+}
+
+static void nine_modes_of_a_bar_in_the_json(void **state)
+{
+    (void)state;
+    make_excerpt("bar.uff");
+    ema_says("bar.uff --json bar.json -o modes.uff", 0, "9 modes written to modes.uff");
+    assert_non_null(strstr(uff_output, "3 transfer functions (accelerance), 3 points, 1861 lines from 40 to 2106 Hz"));
+    cJSON *json = json_of("bar.json");
+    const cJSON *modes = get(json, "modes");
+    assert_int_equal(cJSON_GetArraySize(modes), MODES);
+    for (int k = 0; k < MODES; k++) {
+        const cJSON *mode = cJSON_GetArrayItem(modes, k);
+        assert_close(number_of(mode, "mode"), k + 1, 0, 0);
+        assert_close(number_of(mode, "frequency_hz"), hz[k], 1e-3, 0);
+        assert_close(number_of(mode, "damping"), zeta[k], 0.15, 0);
+        assert_true(number_of(mode, "frequency_std_hz") > 0 && number_of(mode, "frequency_std_hz") < 1e-3 * hz[k]);
+        assert_true(cJSON_IsNull(get(mode, "modal_mass_kg"))); /* nothing was measured at the hammer */
+        assert_int_equal(cJSON_GetArraySize(get(mode, "shape")), POINTS);
+        double largest = 0;
+        for (int p = 0; p < POINTS; p++)
+            largest = fmax(largest, fabs(number_of(cJSON_GetArrayItem(get(mode, "shape"), p), "value")));
+        assert_close(largest, 1, 1e-12, 0);
+    }
+    assert_int_equal(cJSON_GetArraySize(get(json, "channels")), POINTS);
+    assert_int_equal(cJSON_GetArraySize(get(json, "mac")), MODES);
+    assert_string_equal(get(json, "output")->valuestring, "modes.uff");
+    assert_string_equal(get(json, "std_from")->valuestring, "residual");
+    const cJSON *source = get(json, "source");
+    assert_close(number_of(source, "transfer_functions"), POINTS, 0, 0);
+    assert_close(number_of(source, "lines"), 1861, 0, 0);
+    cJSON_Delete(json);
+}
+
+static void a_deck_reads_the_modes_back(void **state)
+{
+    (void)state;
+    struct message_list messages;
+    struct job job;
+    make_excerpt("bar.uff");
+    ema_says("bar.uff --quiet --json bar.json -o modes.uff", 0, "");
+    put_text("bar.inp", DECK "*MEASURED, FILE=modes.uff\n");
+    cJSON *json = json_of("bar.json");
+    message_open(&messages, &test_pool);
+    assert_status(deck_read(&test_pool, path_of("bar.inp"), 0, NULL, &messages, &job), ROTID_OK);
+    assert_int_equal(job.nmode, MODES);
+    assert_int_equal(job.rotor.nsensor, POINTS);
+    for (int k = 0; k < MODES; k++) {
+        const cJSON *mode = cJSON_GetArrayItem(get(json, "modes"), k);
+        assert_close(job.frequency_hz[k], number_of(mode, "frequency_hz"), 1e-5, 0); /* six digits of a set 55 */
+        assert_close(job.frequency_std[k] * job.frequency_hz[k], number_of(mode, "frequency_std_hz"), 1e-5, 0);
+        for (int p = 0; p < POINTS; p++) {
+            const cJSON *point = cJSON_GetArrayItem(get(mode, "shape"), p);
+            assert_int_equal(job.rotor.sensor[p].id, (int)number_of(point, "node"));
+            assert_close(job.shape[p + POINTS * k], number_of(point, "value"), 1e-5, 1e-6);
+            assert_close(job.shape_std[p + POINTS * k], number_of(point, "std"), 1e-5, 1e-6);
+        }
+    }
+    cJSON_Delete(json);
+    assert_int_equal(program("check", "bar.inp"), 0);
+}
+
+static void picks_and_bands_choose(void **state)
+{
+    (void)state;
+    make_excerpt("bar.uff");
+    ema_says("bar.uff --quiet --pick 283,1293 --json pick.json", 0, "");
+    cJSON *json = json_of("pick.json");
+    const cJSON *modes = get(json, "modes");
+    assert_int_equal(cJSON_GetArraySize(modes), 2);
+    assert_close(number_of(cJSON_GetArrayItem(modes, 0), "frequency_hz"), hz[2], 1e-3, 0);
+    assert_close(number_of(cJSON_GetArrayItem(modes, 1), "frequency_hz"), hz[6], 1e-3, 0);
+    cJSON_Delete(json);
+
+    ema_says("bar.uff --quiet --pick 400 --json pick.json", 1, ""); /* no mode there */
+    json = json_of("pick.json");
+    const cJSON *doubts = get(cJSON_GetArrayItem(get(json, "modes"), 0), "doubts");
+    int unstable = 0;
+    for (const cJSON *doubt = doubts->child; doubt; doubt = doubt->next)
+        unstable |= !strcmp(doubt->valuestring, "no stable pole in the table");
+    assert_true(unstable);
+    cJSON_Delete(json);
+
+    ema_says("bar.uff --quiet --band 100,600 --json band.json", 0, "");
+    json = json_of("band.json");
+    modes = get(json, "modes");
+    assert_int_equal(cJSON_GetArraySize(modes), 3);
+    for (int k = 0; k < 3; k++)
+        assert_close(number_of(cJSON_GetArrayItem(modes, k), "frequency_hz"), hz[k + 1], 1e-3, 0);
+    cJSON_Delete(json);
+}
+
+static void per_point_gives_each_point_its_frequency(void **state)
+{
+    (void)state;
+    size_t length;
+    make_excerpt("bar.uff");
+    ema_says("bar.uff --quiet --per-point --json points.json -o points.uff", 0, "");
+    cJSON *json = json_of("points.json");
+    int known = 0;
+    for (int k = 0; k < MODES; k++)
+        for (int p = 0; p < POINTS; p++) {
+            const cJSON *point = cJSON_GetArrayItem(get(cJSON_GetArrayItem(get(json, "modes"), k), "shape"), p);
+            if (cJSON_IsNull(get(point, "frequency_hz")))
+                continue;
+            assert_close(number_of(point, "frequency_hz"), hz[k], 2e-3, 0);
+            assert_true(number_of(point, "frequency_std_hz") > 0);
+            known++;
+        }
+    cJSON_Delete(json);
+    assert_true(known >= 2 * MODES);
+    char *text = read_file("points.uff", &length);
+    assert_non_null(text);
+    assert_non_null(strstr(text, "ROTID FREQUENCY AT POINT OF MODE 9"));
+    assert_non_null(strstr(text, "ROTID STANDARD DEVIATION OF FREQUENCY AT POINT OF MODE 9"));
+    free(text);
+}
+
+static void quiet_says_nothing(void **state)
+{
+    (void)state;
+    make_excerpt("bar.uff");
+    ema_says("bar.uff --quiet", 0, "");
+    assert_int_equal(strlen(uff_output), 0);
+    ema_says("bar.uff --json -", 0, "");
+    assert_int_equal(uff_output[0], '{'); /* nothing but JSON */
+    ema_says("bar.uff --verbose", 0, "order  frequency [Hz]");
+    assert_null(strstr(uff_output, "nan"));
+}
+
+static void wrong_usage_is_refused(void **state)
+{
+    static const struct {
+        const char *arguments, *text;
+    } wrong[] = {
+        {"bar.uff --band 200,100", "--band 200,100: expected two frequencies, the lower one first"},
+        {"bar.uff --band 200", "--band 200: expected two frequencies"},
+        {"bar.uff --band x,100", "--band x,100: expected frequencies"},
+        {"bar.uff --band nan,100", "--band nan,100: expected frequencies"},
+        {"bar.uff --band 5000,6000", "lines from 40 to 2106 Hz lie in the band asked for"},
+        {"bar.uff --band 41,42.6", "at least 16 lines in the band"},
+        {"bar.uff --method peaks", "--method peaks: expected one of lscf, quadrature"},
+        {"bar.uff --estimator H4", "--estimator H4: expected one of H1, H2, HV"},
+        {"bar.uff --pick 100,", "--pick 100,: expected frequencies"},
+        {"bar.uff --pick -3", "--pick -3: expected frequencies"},
+        {"bar.uff --order 1", "--order 1: expected a whole number from 2 to 400"},
+        {"bar.uff --reference 7", "no transfer function is left to use"},
+        {"bar.uff -o bar.uff", "is the file that is read"},
+        {"bar.uff -o ./bar.uff", "is the file that is read"},
+        {"bar.uff --json bar.uff", "is the file that is read"},
+        {"bar.uff -o same --json same", "is the file of --json as well"},
+        {"bar.uff --extended x.inp", "--extended is an option of diagnose alone"},
+        {"bar.uff more.uff", "more.uff is one argument too many"},
+        {"", "no file given"},
+        {"missing.uff", "missing.uff:1:1: cannot be opened"},
+        {".", "cannot be read"},
+        {"bar.inp", "bar.inp:1:1: no universal file"},
+        {"nodes.uff", "nodes.uff:1:1: 0 functions, none of them a transfer function"},
+        {"cut.uff", "set 58: the file ends after this line"},
+    };
+    size_t length;
+    (void)state;
+    make_excerpt("bar.uff");
+    put_text("bar.inp", DECK);
+    put_text("nodes.uff", "    -1\n  2411\n    -1\n");
+    char *text = read_file("bar.uff", &length);
+    text[length - strlen("    -1\n")] = '\0';
+    put_text("cut.uff", text);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        ema_says(wrong[i].arguments, 2, wrong[i].text);
+    text[length - strlen("    -1\n")] = ' ';
+    char *same = read_file("bar.uff", &length); /* what was refused left the input alone */
+    assert_string_equal(same, text);
+    free(same);
+    free(text);
+    assert_int_equal(program("uff", "bar.uff --pick 100"), 2);
+    assert_non_null(strstr(uff_output, "--pick is an option of ema alone"));
+    assert_int_equal(program("modes", "bar.inp --per-point"), 2);
+    assert_non_null(strstr(uff_output, "--per-point is an option of ema alone"));
+}
+
+static void output_is_whole_or_not_there(void **state)
+{
+    (void)state;
+    make_excerpt("bar.uff");
+    ema_says("bar.uff -o nowhere/modes.uff", 3, "nowhere/modes.uff: cannot be written: No such file or directory");
+    ema_says("bar.uff --json nowhere/bar.json", 3, "nowhere/bar.json: No such file or directory");
+    ema_says("bar.uff -o /dev/full", 3, "/dev/full: cannot be written");
+    put_text("kept.uff", "kept");
+    put_text("cut.uff", "    -1\n    58\n");
+    ema_says("cut.uff -o kept.uff", 2, "cut.uff:");
+    size_t length;
+    char *text = read_file("kept.uff", &length);
+    assert_string_equal(text, "kept");
+    free(text);
+    assert_int_equal(count_files("kept"), 1);
+    assert_int_equal(count_files("nowhere"), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nine_modes_of_a_bar_in_the_json),
+        cmocka_unit_test_setup_teardown(a_deck_reads_the_modes_back, open_test_pool, close_test_pool),
+        cmocka_unit_test(picks_and_bands_choose),
+        cmocka_unit_test(per_point_gives_each_point_its_frequency),
+        cmocka_unit_test(quiet_says_nothing),
+        cmocka_unit_test(wrong_usage_is_refused),
+        cmocka_unit_test(output_is_whole_or_not_there),
+    };
+    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+}
