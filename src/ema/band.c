@@ -9,7 +9,7 @@ static void smooth_variance(int n, int half, const double *raw, double *smooth)
 {
     double mean = 0;
     for (int i = 0; i < n; i++)
-        mean += raw[i] / n;
+        mean += isfinite(raw[i]) ? raw[i] / n : 0;
     double sum = 0;
     for (int i = 0, first = 0, last = -1; i < n; i++) {
         for (; last < i + half && last + 1 < n; sum += raw[last])
@@ -28,6 +28,14 @@ static int smoothing_width(int averages)
         while ((2 * half + 1) * 2 * (averages - 1) < 20)
             half++;
     return half;
+}
+
+double complex ema_band_factor(const struct frf_set *set, double omega)
+{
+    double complex s = I * omega, factor = s * s;
+    for (int p = 0; p < (int)set->quantity; p++)
+        factor /= s + set->window_decay;
+    return factor;
 }
 
 int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, double high_hz, const int *usable,
@@ -57,20 +65,18 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
         band->omega[i] = TWO_PI * set->frequency_hz[first + i];
     band->low = n ? band->omega[0] : 0;
     band->high = n ? band->omega[n - 1] : 0;
-    int power = 2 - (int)set->quantity;
     for (int c = 0, k = 0; c < set->nfrf; c++) {
         if (!usable[c])
             continue;
         double complex *h = band->h + (size_t)n * (size_t)k;
         for (int i = 0; i < n; i++) {
-            h[i] = set->frf[c].h[first + i];
-            for (int p = 0; p < power; p++)
-                h[i] *= I * band->omega[i];
+            h[i] = set->frf[c].h[first + i] * ema_band_factor(set, band->omega[i]);
         }
         if (known) {
-            half = smoothing_width(set->frf[c].averages);
+            /* that of records is smooth already, and INFINITY where a line says nothing */
+            half = set->frf[c].single ? 0 : smoothing_width(set->frf[c].averages);
             for (int i = 0; i < n; i++)
-                raw[i] = set->frf[c].variance[first + i] * pow(band->omega[i], 2.0 * power);
+                raw[i] = set->frf[c].variance[first + i] * pow(cabs(ema_band_factor(set, band->omega[i])), 2);
             smooth_variance(n, half, raw, band->variance + (size_t)n * (size_t)k);
         }
         band->channel[k++] = c;

@@ -44,7 +44,7 @@ static void leave_out(struct jackknife *j, int k, int left_out)
     double *y = j->fit.y + (ptrdiff_t)2 * j->fit.nline * k;
     for (int l = 0; l < j->fit.nline; l++) {
         ptrdiff_t at = j->first + j->line[l];
-        double complex cross = 0, s = I * j->band->omega[j->line[l]];
+        double complex cross = 0;
         double force = 0;
         for (int i = 0; i < frf->averages; i++) {
             if (i == left_out)
@@ -52,9 +52,7 @@ static void leave_out(struct jackknife *j, int k, int left_out)
             cross += frf->single[at + (ptrdiff_t)i * j->set->nline];
             force += frf->single_force[at + (ptrdiff_t)i * j->set->nline];
         }
-        double complex h = cross / force;
-        for (int p = (int)j->set->quantity; p < (int)FRF_ACCELERATION; p++)
-            h *= s;
+        double complex h = cross / force * ema_band_factor(j->set, j->band->omega[j->line[l]]);
         y[l] = creal(h);
         y[l + j->fit.nline] = cimag(h);
     }

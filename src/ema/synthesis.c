@@ -19,7 +19,7 @@ void ema_synthesise(const struct ema *ema, const struct frf_set *set, int c, int
         if (with_residuals && omega > 0)
             sum += -ema->lower[c] / (omega * omega) + ema->upper[c];
         for (int p = 0; p < (int)set->quantity; p++)
-            sum *= s;
+            sum *= s + set->window_decay;
         h[i] = sum;
     }
 }
