@@ -195,8 +195,10 @@ static int fit_modes(struct job *job)
         status = refinement_new(job->pool, &fit, &refinement);
     if (status != ROTID_OK)
         return status;
-    for (int r = 0; r < n; r++)
+    for (int r = 0; r < n; r++) {
         fit.pole[r] = pole[r] / fit.scale;
+        fit.loose[r] = r >= n - nguard;
+    }
     status = refine_poles(&fit, job->options.no_refinement ? 0 : ITERATIONS, job->environment, &refinement);
     if (status != ROTID_OK)
         return status;

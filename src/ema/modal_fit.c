@@ -33,6 +33,7 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     fit->sigma = POOL_ARRAY(pool, double, nchannel);
     fit->pole = POOL_ARRAY(pool, double complex, nmode);
     fit->held = POOL_ARRAY(pool, int, nmode);
+    fit->loose = POOL_ARRAY(pool, int, nmode);
     fit->basis = POOL_ARRAY(pool, double, rows *(size_t)(q + p));
     fit->gram = POOL_ARRAY(pool, double, (size_t)(q + p) * (size_t)(q + p));
     fit->right = POOL_ARRAY(pool, double, (size_t)(q + p) * channels);
@@ -45,8 +46,8 @@ int modal_fit_new(struct pool *pool, const struct ema_band *band, int nline, con
     fit->singular = POOL_ARRAY(pool, int, nchannel);
     fit->work = POOL_ARRAY(pool, double *, workers);
     if (!fit->nu || !fit->y || !fit->yy || (band->variance && !fit->weight) || !fit->sigma || !fit->pole || !fit->held ||
-        !fit->basis || !fit->gram || !fit->right || !fit->linear || !fit->chi2 || !fit->schur || !fit->score || !fit->mix ||
-        !fit->spread || !fit->singular || !fit->work)
+        !fit->loose || !fit->basis || !fit->gram || !fit->right || !fit->linear || !fit->chi2 || !fit->schur || !fit->score ||
+        !fit->mix || !fit->spread || !fit->singular || !fit->work)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < workers; i++)
         if (!(fit->work[i] = POOL_ARRAY(pool, double, workspace(fit))))

@@ -24,6 +24,7 @@ struct modal_fit {
     double *sigma;                                /* [nchannel] */
     int equal;                                    /* set by the caller: sigma stays 1, all channels count alike */
     double complex *pole;                         /* [nmode] lambda/scale */
+    int *loose;                                   /* [nmode] nonzero: a guard, which convergence need not wait for */
     int *held;                                    /* [nmode] nonzero: refine_poles leaves the pole where it is */
     double *basis;                                /* [2 nline * ncolumn] */
     double *gram, *right;                         /* flat weights: [ncolumn^2] and [ncolumn * nchannel] */

@@ -9,6 +9,7 @@
 #define STEP_TOLERANCE 1e-10 /* of the half bandwidth */
 #define FURTHEST       3     /* half-power bandwidths */
 #define NEGLIGIBLE     1e-6  /* of chi2: a step that promises less moves no pole by a thousandth of its standard deviation */
+#define NEAR           0.02
 #define LITTLE_DAMPED  1e-3
 
 int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement)
@@ -70,6 +71,30 @@ static int damped_step(int p, const double *information, const double *score, do
     return 0;
 }
 
+/* Whether the undamped step moves no pole but guards by more than NEAR of its standard deviation. A guard may wander along a
+ * valley for ever, which changes nothing for the modes. inverse [p * p], scale and delta [p] are workspace. */
+static int is_settled(const struct modal_fit *fit, const double *information, const double *score, double *inverse, double *scale,
+                      double *delta)
+{
+    int p = 2 * fit->nmode;
+    double determinant;
+    for (int j = 0; j < p; j++)
+        scale[j] = information[j + (ptrdiff_t)j * p] > 0 ? 1 / sqrt(information[j + (ptrdiff_t)j * p]) : 0;
+    for (int k = 0; k < p; k++)
+        for (int j = 0; j < p; j++)
+            inverse[j + (ptrdiff_t)k * p] = j == k ? 1 : information[j + (ptrdiff_t)k * p] * scale[j] * scale[k];
+    if (positive_invert(p, inverse, &determinant))
+        return 0;
+    for (int j = 0; j < p; j++) {
+        delta[j] = 0;
+        for (int k = 0; k < p; k++)
+            delta[j] += inverse[j + (ptrdiff_t)k * p] * scale[k] * score[k];
+        if (!fit->loose[j / 2] && !fit->held[j / 2] && delta[j] * delta[j] > NEAR * NEAR * inverse[j + (ptrdiff_t)j * p])
+            return 0;
+    }
+    return 1;
+}
+
 /* Largest step over the half bandwidth; poles := old + limited step */
 static double move_poles(int nmode, const double complex *old, const double *delta, double complex *pole)
 {
@@ -97,7 +122,9 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
     double *information = refinement->work, *factor = information + (ptrdiff_t)p * p, *score = factor + (ptrdiff_t)p * p;
     double *scale = score + p, *delta = scale + p, mu = 1e-4;
     double chi2 = modal_fit_evaluate(fit, 0);
-    int fresh = 1, refused = 0;
+    int fresh = 1, refused = 0, guarded = 0;
+    for (int r = 0; r < fit->nmode; r++)
+        guarded |= fit->loose[r];
     refinement->converged = 0;
     for (int i = 0; i < most; i++) {
         if (environment && environment->cancelled && environment->cancelled(environment->context))
@@ -106,6 +133,10 @@ static int descend(struct modal_fit *fit, int most, const rotid_environment *env
             environment->progress(environment->context, "refine poles", refinement->iterations);
         if (fresh)
             sum_channels(fit, information, score);
+        if (guarded && fresh && i && is_settled(fit, information, score, factor, scale, delta)) {
+            refinement->converged = 1;
+            break;
+        }
         if (damped_step(p, information, score, mu, factor, scale, delta)) {
             mu = fmax(10 * mu, 1e-3);
             fresh = 0;
