@@ -32,6 +32,7 @@ struct ema_pole { /* of the stabilisation table */
     double frequency_hz, damping;
     int stable_frequency, stable_damping; /* against the order before */
     int mode;                             /* index of the mode that it was taken for, or -1 */
+    int part; /* 0: of the whole band; of very many lines also parts of it have a table each, counted from 1 */
 };
 
 /* What is doubtful about a mode: a set of flags, each with the number that it rests on below. */

@@ -61,7 +61,8 @@ static int merge_tables(struct pool *pool, int nparts, const struct part *part, 
                     table->table[next] = part[0].table.table[whole];
                 }
                 table->pole[next] = from->pole[k];
-                table->table[next++] = from->table[k];
+                table->table[next] = from->table[k];
+                table->table[next++].part = i;
             }
         }
         for (; whole < end; whole++, next++) {

@@ -82,6 +82,7 @@ static void add_poles(struct json_tree *tree, const struct ema *ema)
         json_number(tree, pole, "damping", p->damping);
         json_flag(tree, pole, "stable_frequency", p->stable_frequency);
         json_flag(tree, pole, "stable_damping", p->stable_damping);
+        json_number(tree, pole, "part", p->part);
         if (p->mode >= 0)
             json_number(tree, pole, "mode", p->mode + 1);
         else

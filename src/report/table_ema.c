@@ -140,7 +140,7 @@ static void print_stabilisation(FILE *out, const struct ema_report *r)
     if (!highest || !(high > low))
         return;
     step = (highest + ROWS - 1) / ROWS;
-    (void)fprintf(out, "\nStabilisation (s stable, f frequency only, . neither; every %d. order)\n", step);
+    (void)fprintf(out, "\nStabilisation (s stable, f frequency only, . neither; every %dth order)\n", step);
     for (int order = highest; order > 0; order -= step) {
         memset(row, ' ', COLUMNS);
         row[COLUMNS] = 0;
@@ -152,6 +152,8 @@ static void print_stabilisation(FILE *out, const struct ema_report *r)
             char mark = '.';
             if (p->stable_frequency)
                 mark = p->stable_damping ? 's' : 'f';
+            if (p->part && (mark != 's' || p->mode < 0)) /* tables of parts are dense: what counts of them are the modes */
+                continue;
             if (row[column] == ' ' || mark == 's' || (mark == 'f' && row[column] == '.'))
                 row[column] = mark;
         }
