@@ -81,6 +81,8 @@ int command_ema(struct command *command)
         if (failed)
             return failed;
     }
+    if (command->output && !report.output)
+        (void)fprintf(stderr, "rotid: %s: not written, there is no mode\n", command->output);
     if (command_wants_table(command))
         table_ema(stdout, &report, command->verbose);
     char *text = command->json ? json_ema(&command->provenance, &report, &command->messages) : NULL;

@@ -34,7 +34,7 @@ static const struct {
     {"NOISE", deck_noise, 3, {"FREQUENCY", "SHAPE", "FLOOR_FREQUENCY", "FLOOR_SHAPE", NULL}},
     {"SHAPE", deck_shape, 4, {"MODE", NULL}},
     {"FREQUENCIES", deck_frequencies, 4, {"MODE", "MEAN", NULL}},
-    {"MEASURED", deck_measured, 4, {"FILE", "AXIS", "DIRECTION", "ORIGIN", "FLIP", "SCALE", NULL}},
+    {"MEASURED", deck_measured, 4, {"FILE", "AXIS", "DIRECTION", "ORIGIN", "FLIP", "SCALE", "HAMMER", NULL}},
     {"FRF", deck_frf, 4, {"FILE", "LOW", "HIGH", "STEP", "LINES", "QUANTITY", "DAMPING", "AXIS", "ORIGIN", "FLIP", NULL}},
     {"CAUSE", deck_cause, 5, {"NAME", "TYPE", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", "SUSPECT", NULL}},
     {"IDENTIFY", deck_identify, 6, {NULL}},

@@ -119,6 +119,7 @@ void deck_settle_noise(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     ptrdiff_t components = job->shape ? (ptrdiff_t)job->rotor.nsensor * job->nmode : 0;
+    job->has_noise_floor = reader->floor_shape > 0;
     for (int k = 0; k < job->nmode && job->point_frequency_hz && !reader->out_of_memory; k++)
         settle_mode(reader, k);
     for (int k = 0; k < job->nmode; k++)

@@ -130,7 +130,8 @@ static void read_values(const struct extra *extra)
     double offset = extra->kind == AT_POINT ? read_offset(extra) : 0;
     for (int i = 0; i < set->node_count; i++) {
         int sensor = sensor_find(job, set->node[i]);
-        double value = offset + set->real[i * set->component_count + extra->component];
+        double value = set->real[i * set->component_count + extra->component];
+        value += value != 0 ? offset : 0; /* the component of a node that was measured in another direction */
         if (sensor < 0) {
             deck_error(extra->reader, id_line(extra, 0), "'%s' has a value at node %d, expected only nodes that are sensors",
                        set->id[0], set->node[i]);

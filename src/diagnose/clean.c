@@ -134,7 +134,7 @@ static int is_misstated(const struct engine *engine, const struct noise_estimate
     if (!noise->usable || !noise->misstated)
         return 0;
     if (noise->factor < 1)
-        return noise->factor < MUCH_LESS && !allows_for_more(&engine->job.rotor);
+        return noise->factor < MUCH_LESS && !engine->job.has_noise_floor && !allows_for_more(&engine->job.rotor);
     return noise->factor > least && noise->factor < NOISIER;
 }
 

@@ -138,6 +138,7 @@ int modes_judge(struct pool *pool, const struct ema_band *band, double decay, st
     for (int r = 0; r < n; r++) {
         struct ema_mode *mode = &out->mode[r];
         double width = half_power_hz(mode) + decay * 2 / TWO_PI, strongest = 0;
+        int known = 0;
         for (int s = 0; s < n; s++) {
             double apart = fabs(out->mode[s].frequency_hz - mode->frequency_hz);
             out->mac[s + (ptrdiff_t)r * n] = mac_of(out->npoint, out->mode[s].complex_shape, mode->complex_shape);
@@ -146,10 +147,12 @@ int modes_judge(struct pool *pool, const struct ema_band *band, double decay, st
             if (s != r && apart < CLOSE_WIDTHS * fmax(width, half_power_hz(&out->mode[s])))
                 mode->doubts |= EMA_CLOSE;
         }
-        for (int c = 0; c < out->nfrf; c++)
+        for (int c = 0; c < out->nfrf; c++) {
+            known |= isfinite(mode->residue_std[c]);
             if (cabs(mode->residue[c]) > strongest * mode->residue_std[c])
                 strongest = cabs(mode->residue[c]) / mode->residue_std[c];
-        if (strongest < WEAK_THRESHOLD)
+        }
+        if (known && strongest < WEAK_THRESHOLD)
             mode->doubts |= EMA_WEAK;
         if (mode->mpc < LEAST_MPC || mode->mpd > MOST_MPD)
             mode->doubts |= EMA_COMPLEX;

@@ -113,5 +113,7 @@ int picking_compute(struct pool *pool, const struct ema_band *band, const struct
     for (int r = 0; status == ROTID_OK && r < count; r++)
         fill_mode(band, sum, peak[r], decay, &out->mode[r]);
     out->std_from_impacts = band->variance != NULL;
+    for (int c = 0; status == ROTID_OK && c < out->nfrf; c++)
+        out->lower[c] = out->upper[c] = 0; /* nothing is left over where nothing is fitted */
     return status;
 }

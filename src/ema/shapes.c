@@ -5,7 +5,8 @@
 
 #include "ema/real_mode.h"
 
-#define SWEEPS 30 /* of alternating least squares: it converges with the square of the ratio of the singular values */
+#define UNKNOWN 1e-200 /* weight of a residue without a standard deviation */
+#define SWEEPS  30     /* of alternating least squares: it converges with the square of the ratio of the singular values */
 
 struct place {
     int node, direction;
@@ -56,7 +57,7 @@ int shapes_points(struct pool *pool, const struct frf_set *set, struct ema_point
 static double weight_of(const struct ema_mode *mode, int c)
 {
     double std = mode->residue_std[c];
-    return std > 0 && isfinite(std) ? 1 / (std * std) : 1e-300;
+    return std > 0 && isfinite(std) ? 1 / (std * std) : UNKNOWN;
 }
 
 /* A = phi_response phi_force/(2 i omega), where omega may differ from channel to channel: brought to that of the mode. */
@@ -83,7 +84,7 @@ static void project(int nfrf, const int *usable, const double *sign, const struc
         }
         u[k] = weight > 0 ? sum / weight : CMPLX(NAN, NAN);
         if (std)
-            std[k] = weight > 0 ? 1 / sqrt(weight) : NAN;
+            std[k] = weight > UNKNOWN * 1e6 ? 1 / sqrt(weight) : NAN;
     }
 }
 

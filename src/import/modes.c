@@ -97,6 +97,10 @@ static int write_values(struct writing *w, struct uff_shape *shape, const double
             w->written[count] = w->node[i];
             memmove(w->value + 3 * (ptrdiff_t)count++, w->value + 3 * (ptrdiff_t)i, 3 * sizeof *w->value);
         }
+    if (!count && w->node_count) { /* a set without nodes would be all zeros to others: one zero says the same */
+        w->written[count++] = w->node[0];
+        memset(w->value, 0, 3 * sizeof *w->value);
+    }
     shape->model_type = 1;
     shape->data_characteristic = VECTOR;
     shape->data_type = REAL_DATA;
@@ -114,7 +118,7 @@ static int write_companion(struct writing *w, int number, const char *what, cons
     (void)snprintf(shape.id[0], sizeof shape.id[0], "ROTID %s OF MODE %d", what, number);
     if (mode)
         (void)snprintf(shape.id[1], sizeof shape.id[1], "FREQUENCY_HZ %.10e DAMPING %.10e", mode->frequency_std,
-                       mode->damping_std);
+                       isfinite(mode->damping_std) ? mode->damping_std : 0);
     return write_values(w, &shape, value);
 }
 

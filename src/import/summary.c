@@ -72,17 +72,25 @@ static const char *describe_group(struct pool *pool, const struct listing *listi
 
 static const char *describe_shapes(struct pool *pool, const struct listing *listing)
 {
-    int complex_count = 0, points = listing->shape[0].shape.node_count;
+    int complex_count = 0, points = listing->shape[0].shape.node_count, count = 0;
     double least = INFINITY, most = -INFINITY;
     for (int i = 0; i < listing->shape_count; ++i) {
         const struct uff_shape *shape = &listing->shape[i].shape;
+        if (!shape->analysis_type) /* no mode: standard deviations, frequencies of points */
+            continue;
+        count++;
         complex_count += shape->is_complex;
         least = fmin(least, shape->frequency_hz);
         most = fmax(most, shape->frequency_hz);
     }
-    const char *kind = !complex_count ? "real" : complex_count == listing->shape_count ? "complex" : "real and complex";
-    return pool_format(pool, "%d shape%s, %s, %.6g to %.6g Hz, %d point%s", listing->shape_count,
-                       listing->shape_count == 1 ? "" : "s", kind, least, most, points, points == 1 ? "" : "s");
+    const char *kind = !complex_count ? "real" : complex_count == count ? "complex" : "real and complex";
+    const char *rest =
+        count < listing->shape_count ? pool_format(pool, ", %d more sets of data at nodes", listing->shape_count - count) : "";
+    if (!count)
+        return pool_format(pool, "%d sets of data at nodes, none of them a mode", listing->shape_count);
+    return rest ? pool_format(pool, "%d shape%s, %s, %.6g to %.6g Hz, %d point%s%s", count, count == 1 ? "" : "s", kind, least,
+                              most, points, points == 1 ? "" : "s", rest)
+                : NULL;
 }
 
 static const char *describe_nodes(struct pool *pool, const struct listing *listing)

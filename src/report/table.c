@@ -221,9 +221,12 @@ static void print_parameters(FILE *out, const struct job *job, const rotid_fit_r
 {
     (void)fprintf(out, "%-14s %14s  %-8s %27s   %s\n", "parameter", "value", "unit", "95 % interval", "start");
     for (int p = 0; p < fit->n; p++) {
-        (void)fprintf(out, "%-14s %14.6g  %-8s ", job->bounds[p].name, fit->x[p], job->bounds[p].unit);
+        double ratio = fabs(fit->x[p]) / (fit->ci_upper[p] - fit->ci_lower[p]); /* an interval shows two digits of its width */
+        int digits = ratio > 1e3 && isfinite(ratio) ? (int)ceil(log10(ratio)) + 2 : 5;
+        digits = digits < 5 ? 5 : digits > 8 ? 8 : digits;
+        (void)fprintf(out, "%-14s %14.*g  %-8s ", job->bounds[p].name, digits > 6 ? digits : 6, fit->x[p], job->bounds[p].unit);
         if (isfinite(fit->ci_lower[p]))
-            (void)fprintf(out, "%12.5g ...%12.5g", fit->ci_lower[p], fit->ci_upper[p]);
+            (void)fprintf(out, "%12.*g ...%12.*g", digits, fit->ci_lower[p], digits, fit->ci_upper[p]);
         else
             (void)fprintf(out, "%27s", "cannot be stated");
         (void)fprintf(out, "   %.4g%s%s\n", job->bounds[p].start, fit->at_bound[p] ? "   AT ITS BOUND" : "",

@@ -14,10 +14,15 @@
 
 const char *ema_mode_doubt(int i)
 {
-    static const char *const text[] = {"close to another mode",        "complex: its points do not move in phase",
-                                       "no stable pole in the table",  "two peaks in place of one",
-                                       "weak: hardly above the noise", "negative damping",
-                                       "at an end of the band",        "not refined"};
+    static const char *const text[] = {
+        "close to another mode",
+        "complex: its points do not move in phase",
+        "no stable pole in the table",
+        "its frequency differs from point to point (a moving mass, drift), or two peaks in place of one",
+        "weak: hardly above the noise",
+        "negative damping",
+        "at an end of the band",
+        "not refined"};
     return i < (int)(sizeof text / sizeof *text) ? text[i] : NULL;
 }
 

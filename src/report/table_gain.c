@@ -5,6 +5,9 @@
 #include "report/layout.h"
 #include "report/table_diagnose.h"
 
+#define LEAST_DIGITS 4
+#define MOST_DIGITS  10
+
 #define LABEL 54
 #define NAME  20
 #define VALUE 35 /* columns of a value with its interval */
@@ -53,6 +56,14 @@ static void print_quality(const struct diagnosis_view *view, int has_after)
     row(view->out, "sensors left out in turn, shape rms [%]", 1, &sensor[0], has_after ? &sensor[1] : NULL);
 }
 
+/* Digits that show two of the half width of an interval. */
+static int digits_for(const rotid_fit_result *fit, int p)
+{
+    double ratio = fabs(fit->x[p]) / (fit->ci_upper[p] - fit->ci_lower[p]);
+    int digits = ratio > 0 && isfinite(ratio) ? (int)ceil(log10(ratio)) + 2 : LEAST_DIGITS;
+    return digits < LEAST_DIGITS ? LEAST_DIGITS : digits > MOST_DIGITS ? MOST_DIGITS : digits;
+}
+
 /* "1.157 (1.150 ... 1.164) e+11 Pa": one power of ten for all three. */
 static void value_cell(FILE *out, int width, const rotid_fit_result *fit, int p, const char *unit)
 {
@@ -66,8 +77,8 @@ static void value_cell(FILE *out, int width, const rotid_fit_result *fit, int p,
     if (!unit || !strcmp(unit, "1"))
         unit = "";
     if (p >= 0 && isfinite(fit->ci_lower[p]) && isfinite(fit->ci_upper[p]))
-        (void)snprintf(text, sizeof text, "%.4g (%.4g ... %.4g)%s %s", fit->x[p] / scale, fit->ci_lower[p] / scale,
-                       fit->ci_upper[p] / scale, power, unit);
+        (void)snprintf(text, sizeof text, "%.*g (%.*g ... %.*g)%s %s", digits_for(fit, p), fit->x[p] / scale, digits_for(fit, p),
+                       fit->ci_lower[p] / scale, digits_for(fit, p), fit->ci_upper[p] / scale, power, unit);
     else if (p >= 0)
         (void)snprintf(text, sizeof text, "%.4g%s %s (%s)", fit->x[p] / scale, power, unit,
                        fit->at_bound[p]        ? "AT ITS BOUND"

@@ -11,8 +11,9 @@ struct point_readings {
     int nmode, npoint, ncolumn; /* ncolumn from 0 to POINT_COLUMNS */
     const double *y, *std;      /* [npoint * nmode] finite and std > 0 where use is set */
     const double *column[POINT_COLUMNS];
-    char *use;    /* [npoint * nmode] nonzero: this reading counts */
-    double *mean; /* [(2 + ncolumn) * nmode] workspace, afterwards for each mode: sum of weights, weighted means of y and columns */
+    char *use; /* [npoint * nmode] nonzero: this reading counts */
+    double
+        *mean; /* [(2 + ncolumn) * nmode] workspace, afterwards for each mode: sum of weights, weighted means of y and columns */
 };
 
 struct point_fit {

@@ -5,6 +5,7 @@
 #include "base/order.h"
 
 #define RINGING 1.5 /* of a pulse over the swing below the base line beside it */
+#define RINGS   128 /* samples that a filter rings behind a pulse */
 
 static double largest_deviation(long long count, const double *force, double base)
 {
@@ -84,9 +85,15 @@ int impact_find(struct pool *pool, int record, long long count, const double *fo
         if (value < level / 2)
             open = NULL;
     }
-    for (size_t i = first; i < list->count; i++)
-        if (!is_ringing(&list->item[i], rate, sign, base, count, force))
-            list->item[kept++] = list->item[i];
+    const struct impact *before = NULL; /* the last pulse that is one */
+    for (size_t i = first; i < list->count; i++) {
+        const struct impact *pulse = &list->item[i];
+        if (before && pulse->onset < before->onset + RINGS && fabs(pulse->peak) < fabs(before->peak) &&
+            is_ringing(pulse, rate, sign, base, count, force))
+            continue;
+        list->item[kept] = *pulse;
+        before = &list->item[kept++];
+    }
     list->count = kept;
     return kept > first ? ROTID_OK : ROTID_ERROR_ARGUMENT;
 }
