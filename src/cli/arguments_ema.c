@@ -129,7 +129,7 @@ int arguments_ema(struct command *command, int option, const char *value)
     case EMA_OPTION_PRETRIGGER:
         return real("--pretrigger", value, 1e-9, 1e6, &transfer->pretrigger);
     case EMA_OPTION_THRESHOLD:
-        return real("--threshold", value, 1e-6, 1, &transfer->threshold);
+        return real("--threshold", value, 1e-6, 0.999, &transfer->threshold);
     default:
         transfer->double_hits = 1;
         return -1;

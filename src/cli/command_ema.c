@@ -52,6 +52,14 @@ int command_ema(struct command *command)
     int status = measurement_read(&command->pool, command->deck, &from, &command->messages, &measurement);
     if (!status && command_cancelled(NULL))
         status = ROTID_STOP_CANCELLED;
+    for (int i = 0; i < options.npick && !status; i++)
+        if (options.pick_hz[i] < measurement.set.frequency_hz[0] ||
+            options.pick_hz[i] > measurement.set.frequency_hz[measurement.set.nline - 1]) {
+            message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
+                        "--pick %.6g Hz, expected a frequency from %.6g to %.6g Hz", options.pick_hz[i],
+                        measurement.set.frequency_hz[0], measurement.set.frequency_hz[measurement.set.nline - 1]);
+            status = ROTID_ERROR_ARGUMENT;
+        }
     if (!status)
         status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
     if (terminal)
@@ -65,7 +73,8 @@ int command_ema(struct command *command)
             &command->messages, SEVERITY_ERROR, command->deck, 1, 1,
             "%d transfer functions of %d lines from %.6g to %.6g Hz, expected at least one that is not dead with at least 16 "
             "lines in the band",
-            measurement.set.nfrf, measurement.set.nline, options.low_hz, options.high_hz);
+            measurement.set.nfrf, measurement.set.nline, measurement.set.nline ? measurement.set.frequency_hz[0] : 0,
+            measurement.set.nline ? measurement.set.frequency_hz[measurement.set.nline - 1] : 0);
     if (status)
         return command_fail(command, status);
     command_print_messages(command);

@@ -246,6 +246,12 @@ static int finish(struct job *job)
         return ROTID_ERROR_MEMORY;
     for (int r = 0; r < out->nmode; r++)
         shapes_of_mode(job->set, &job->points, job->usable, out, &out->mode[r], work);
+    for (int r = 0; r < out->nmode; r++) {
+        if (out->mode[r].modal_mass < 0)
+            out->mode[r].doubts |= EMA_NEGATIVE_MASS;
+        if (job->options.no_refinement) /* nobody asked for it */
+            out->mode[r].doubts &= ~EMA_NOT_REFINED;
+    }
     int status = modes_judge(job->pool, &job->band, job->set->window_decay, out);
     if (status != ROTID_OK)
         return status;
@@ -264,9 +270,17 @@ static int by_frequency(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static int is_cancelled(const struct job *job)
+{
+    const rotid_environment *e = job->environment;
+    return e && e->cancelled && e->cancelled(e->context);
+}
+
 static int extract(struct job *job, struct stabilisation *table)
 {
     int status = find_candidates(job, table);
+    if (status == ROTID_OK && is_cancelled(job))
+        status = ROTID_STOP_CANCELLED;
     if (status == ROTID_OK)
         status = earn(job);
     if (status != ROTID_OK)
@@ -298,6 +312,8 @@ int ema_compute(struct pool *pool, const struct frf_set *set, const struct ema_o
         job.options = *options;
     *out = (struct ema){0};
     int status = prepare(&job);
+    if (status == ROTID_OK && is_cancelled(&job))
+        status = ROTID_STOP_CANCELLED;
     if (status == ROTID_OK && job.options.method == EMA_QUADRATURE)
         status = picking_compute(pool, &job.band, &job.options, set->window_decay, out);
     else if (status == ROTID_OK)

@@ -45,8 +45,9 @@ enum ema_doubt {
                             that of the channels that respond most, its std the scatter */
     EMA_WEAK = 16,       /* its residues are not above their own standard deviation */
     EMA_NEGATIVE_DAMPING = 32,
-    EMA_EDGE = 64,        /* within two half-power bandwidths of an end of the band */
-    EMA_NOT_REFINED = 128 /* the refinement did not converge for it: LSCF's pole stands */
+    EMA_EDGE = 64,           /* within two half-power bandwidths of an end of the band */
+    EMA_NEGATIVE_MASS = 256, /* the drive point turns the wrong way: a sign, or another point than stated */
+    EMA_NOT_REFINED = 128    /* the refinement did not converge for it: LSCF's pole stands */
 };
 
 struct ema_mode {

@@ -102,9 +102,16 @@ int picking_compute(struct pool *pool, const struct ema_band *band, const struct
     sort_doubles((size_t)band->nline, sorted);
     if (options->npick > 0) {
         for (int k = 0; k < options->npick; k++) {
-            int i = highest(sum, band, TWO_PI * options->pick_hz[k], PICK_REACH);
-            if (i >= 0)
-                peak[count++] = i;
+            int i = highest(sum, band, TWO_PI * options->pick_hz[k], PICK_REACH), at = count;
+            for (int r = 0; r < count && i >= 0; r++)
+                if (peak[r] == i)
+                    i = -1;
+            if (i < 0)
+                continue;
+            for (; at > 0 && peak[at - 1] > i; at--)
+                peak[at] = peak[at - 1];
+            peak[at] = i;
+            count++;
         }
     } else {
         count = find_peaks(band, sum, sorted[band->nline / 2], peak);

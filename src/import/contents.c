@@ -7,8 +7,7 @@
 #include "base/text.h"
 #include "signal/frf.h"
 
-#define PIECE    4096
-#define ROUNDING 5.1e-5 /* half a unit of the fifth digit, which is what E11.4 and E13.5 leave of an abscissa at worst */
+#define PIECE 4096
 
 enum { DISPLACEMENT = 8, REACTION_FORCE = 9, VELOCITY = 11, ACCELERATION = 12, EXCITATION_FORCE = 13 };
 
@@ -109,6 +108,22 @@ static int join_nodes(struct growing *g)
     return ROTID_OK;
 }
 
+/* Half a unit of the last digit, relative, of numbers written with so many digits (E11.4 has five, E13.5 six); none where they
+ * have more. */
+static double rounding_of(long long count, const double *x)
+{
+    for (int digits = 5; digits <= 6; digits++) {
+        int all = 1;
+        for (long long i = 0; i < count && all; i++) {
+            double unit = x[i] != 0 ? pow(10, floor(log10(fabs(x[i])) + 1e-12) - digits + 1) : 1, number = x[i] / unit;
+            all = fabs(number - round(number)) < 1e-6;
+        }
+        if (all)
+            return 5.1 * pow(10, -digits);
+    }
+    return 1e-12;
+}
+
 /* Many writers put down every abscissa although the lines are even, with so few digits that it looks uneven: the straight line
  * through all of them is what was meant, where none is off by more than its own rounding. */
 static int settle_abscissa(struct growing *g, struct uff_reader *reader, struct content *item)
@@ -141,8 +156,9 @@ static int settle_abscissa(struct growing *g, struct uff_reader *reader, struct 
     }
     int even = !status && done > 2 && slope > 0;
     slope /= spread;
+    double rounding = rounding_of(done, x);
     for (long long i = 0; i < done && even; i++)
-        even = fabs(x[i] - mean - ((double)i - middle) * slope) <= ROUNDING * fabs(x[i]) + 1e-6 * slope;
+        even = fabs(x[i] - mean - ((double)i - middle) * slope) <= rounding * fabs(x[i]) + 1e-6 * slope;
     if (even) {
         f->is_even = 1;
         f->step = slope;

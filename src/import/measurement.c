@@ -43,29 +43,41 @@ static int lines_rise(const struct content *item)
     return item->x || item->function.step > 0;
 }
 
-/* The lines that most transfer functions have: -1, or the index of one of them. */
-static int common_lines(const struct contents *c)
+static int wanted(const struct measurement_options *options, const struct uff_function *f)
+{
+    return !options->reference || f->reference_node == options->reference;
+}
+
+static int alike(const struct content *a, const struct content *b)
+{
+    return same_lines(a, b) && motion_of(&a->function.numerator) == motion_of(&b->function.numerator);
+}
+
+static int counts(const struct measurement_options *options, const struct content *item)
+{
+    const struct uff_function *f = &item->function;
+    return f->type == UFF_TRANSFER && f->count > 0 && motion_of(&f->numerator) >= 0 && wanted(options, f);
+}
+
+/* The lines and the quantity that most transfer functions have: -1, or the index of one of them. */
+static int common_kind(const struct contents *c, const struct measurement_options *options)
 {
     int best = -1, most = 0;
     for (int i = 0; i < c->count; i++) {
-        if (c->item[i].function.type != UFF_TRANSFER || c->item[i].function.count < 1)
-            continue;
-        if (best >= 0 && same_lines(&c->item[i], &c->item[best]))
+        if (!counts(options, &c->item[i]) || (best >= 0 && alike(&c->item[i], &c->item[best])))
             continue;
         int count = 0;
         for (int j = i; j < c->count; j++)
-            count += c->item[j].function.type == UFF_TRANSFER && same_lines(&c->item[j], &c->item[i]);
+            count += counts(options, &c->item[j]) && alike(&c->item[j], &c->item[i]);
         if (count > most) {
             most = count;
             best = i;
         }
     }
+    for (int i = 0; i < c->count && best < 0; i++) /* none of use: the first one says why */
+        if (c->item[i].function.type == UFF_TRANSFER && c->item[i].function.count > 0)
+            best = i;
     return best;
-}
-
-static int wanted(const struct measurement_options *options, const struct uff_function *f)
-{
-    return !options->reference || f->reference_node == options->reference;
 }
 
 /* Why a transfer function cannot be used beside the others, or NULL. */
@@ -145,7 +157,7 @@ static int find_frf(const struct frf_set *set, const struct uff_function *f)
 /* The complex variance of the mean of K impacts with this coherence (Bendat and Piersol 2010, 9.1, both parts). */
 static double variance_from(double coherence, double magnitude, int averages)
 {
-    double g = fmin(fmax(coherence, 1e-6), 1);
+    double g = fmin(fmax(coherence, 1e-6), 1 - 1e-6); /* a record averaged with itself has none left */
     return (1 - g) / (g * averages) * magnitude * magnitude;
 }
 
@@ -256,7 +268,7 @@ int measurement_read(struct pool *pool, const char *path, const struct measureme
         out->node = contents.node;
         out->units = contents.units;
         out->has_units = contents.has_units;
-        int model = common_lines(&contents);
+        int model = common_kind(&contents, options);
         if (model >= 0)
             status = load_transfers(&l, model);
         else if (contents_have_records(&contents))

@@ -140,7 +140,7 @@ static int write_mode(struct writing *w, const char *source, int k)
                               .specific_type = DISPLACEMENT,
                               .number = k + 1,
                               .frequency_hz = mode->frequency_hz,
-                              .damping = mode->damping,
+                              .damping = isfinite(mode->damping) ? mode->damping : 0,
                               .modal_mass = isfinite(mode->modal_mass) ? mode->modal_mass : 0};
     (void)snprintf(shape.id[0], sizeof shape.id[0], "mode %d, %.6g Hz, real normal mode", k + 1, mode->frequency_hz);
     (void)snprintf(shape.id[1], sizeof shape.id[1], "from %.70s", base_name(source));

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#define MOST_TAIL 0.1 /* of the rms of a block, in its last tenth */
+
 static int is_record(const struct content *item)
 {
     const struct uff_function *f = &item->function;
@@ -98,17 +100,55 @@ static const char *unfit(const struct uff_function *force, const struct uff_func
     return motion_of(&response->numerator) == quantity ? NULL : "its quantity is not that of the others";
 }
 
-static void say_bad(const struct loading *l, const struct record *record, int bad)
+static int same_pair(const struct record *a, const struct record *b)
 {
-    if (bad >= 0)
-        message_add(l->messages, SEVERITY_ERROR, l->path, record[bad].line, 1,
-                    "the record of node %d over node %d holds no impact with a whole block behind it, or values that are not "
-                    "finite, expected an impact",
-                    record[bad].response_node, record[bad].reference_node);
-    else
-        message_add(l->messages, SEVERITY_ERROR, l->path, 1, 1,
-                    "no block of these records suits the windows and the band asked for, expected a block within the records and "
-                    "lines within the band");
+    return a->response_node == b->response_node && a->response_direction == b->response_direction &&
+           a->reference_node == b->reference_node && a->reference_direction == b->reference_direction;
+}
+
+/* The records of a transfer function that has no impact to use go; one bad point is no reason to lose a test. Returns how many
+ * stay. */
+static int leave_out(const struct loading *l, int count, struct record *record, int bad)
+{
+    const struct record gone = record[bad];
+    int kept = 0;
+    message_add(
+        l->messages, SEVERITY_WARNING, l->path, gone.line, 1,
+        "node %d over node %d left out: no impact of its records can be used (each is missing, double, clipped, cut off by the "
+        "end of the record, or not finite)",
+        gone.response_node, gone.reference_node);
+    for (int i = 0; i < count; i++)
+        if (!same_pair(&record[i], &gone))
+            record[kept++] = record[i];
+    return kept;
+}
+
+/* A block that ends while the rotor still rings bends every peak, and nothing in the transfer functions shows it. */
+static void warn_of_leakage(const struct loading *l, const struct record *record, const struct transfer *transfer)
+{
+    int count = 0, used = 0, worst = -1;
+    for (int i = 0; i < transfer->nimpact; i++) {
+        const struct impact *impact = &transfer->impact[i];
+        used += impact->used;
+        if (!impact->used || impact->tail <= MOST_TAIL)
+            continue;
+        count++;
+        if (worst < 0 || impact->tail > transfer->impact[worst].tail)
+            worst = i;
+    }
+    if (worst >= 0)
+        message_add(
+            l->messages, SEVERITY_WARNING, l->path, record[transfer->impact[worst].record].line, 1,
+            "%d of %d blocks end before the response has decayed (here its last tenth has %.0f %% of the rms): frequencies, "
+            "damping and masses are off, expected longer records or --exponential",
+            count, used, 100 * transfer->impact[worst].tail);
+}
+
+static void say_bad(const struct loading *l)
+{
+    message_add(l->messages, SEVERITY_ERROR, l->path, 1, 1,
+                "no block of these records suits the windows and the band asked for, expected a block within the records and "
+                "lines within the band");
 }
 
 int records_load(struct pool *pool, struct uff_reader *reader, const char *path, const struct contents *contents,
@@ -127,10 +167,6 @@ int records_load(struct pool *pool, struct uff_reader *reader, const char *path,
         if (force < 0)
             continue;
         const struct uff_function *g = &contents->item[force].function;
-        if (quantity < 0) {
-            quantity = motion_of(&f->numerator);
-            out->rate = 1 / f->step;
-        }
         struct record *r = &record[count];
         *r = (struct record){.line = f->line,
                              .response_node = f->response_node,
@@ -140,6 +176,10 @@ int records_load(struct pool *pool, struct uff_reader *reader, const char *path,
                              .count = f->count};
         if (options->reference && r->reference_node != options->reference)
             continue;
+        if (quantity < 0) {
+            quantity = motion_of(&f->numerator);
+            out->rate = 1 / f->step;
+        }
         const char *reason = unfit(g, f, out->rate, quantity);
         if (reason) {
             message_add(messages, SEVERITY_WARNING, path, f->line, 1, "time record of node %d left out: %s", f->response_node,
@@ -158,10 +198,20 @@ int records_load(struct pool *pool, struct uff_reader *reader, const char *path,
         struct transfer_options transfer = options->transfer;
         transfer.low_hz = options->low_hz;
         transfer.high_hz = options->high_hz;
-        status = transfer_compute(pool, count, record, out->rate, (enum frf_quantity)quantity, &transfer,
-                                  options->threads > 0 ? options->threads : 1, &out->transfer, &bad);
-        if (status == ROTID_ERROR_ARGUMENT)
-            say_bad(&l, record, bad);
+        do {
+            if (bad >= 0)
+                count = leave_out(&l, count, record, bad);
+            bad = -1;
+            status = count ? transfer_compute(pool, count, record, out->rate, (enum frf_quantity)quantity, &transfer,
+                                              options->threads > 0 ? options->threads : 1, &out->transfer, &bad)
+                           : ROTID_ERROR_ARGUMENT;
+        } while (status == ROTID_ERROR_ARGUMENT && bad >= 0);
+        if (status == ROTID_ERROR_ARGUMENT && count)
+            say_bad(&l);
+        else if (status == ROTID_ERROR_ARGUMENT)
+            message_add(messages, SEVERITY_ERROR, path, 1, 1, "no time record is left to use, expected a force with an impact");
+        else if (!status)
+            warn_of_leakage(&l, record, &out->transfer);
     }
     out->from_records = !status;
     out->record_count = count;

@@ -22,7 +22,8 @@ const char *ema_mode_doubt(int i)
         "weak: hardly above the noise",
         "negative damping",
         "at an end of the band",
-        "not refined"};
+        "not refined",
+        "its modal mass is negative: sign or place of the drive point"};
     return i < (int)(sizeof text / sizeof *text) ? text[i] : NULL;
 }
 
@@ -101,7 +102,7 @@ static void print_doubts(FILE *out, const struct ema_report *r)
                 wrap_words(&wrap, first ? "" : "; ");
                 wrap_words(&wrap, ema_mode_doubt(i));
                 if ((1 << i) == EMA_CLOSE && isfinite(ema->mode[k].nearest_hz))
-                    wrap_item(&wrap, " (%.6g Hz)", ema->mode[k].nearest_hz);
+                    wrap_item(&wrap, "(%.6g Hz)", ema->mode[k].nearest_hz);
                 first = 0;
             }
         wrap_close(&wrap);
@@ -124,7 +125,7 @@ static void print_doubts(FILE *out, const struct ema_report *r)
             (void)fprintf(out, " fit %.3f", ema->channel[c].fit);
         (void)fprintf(out, "\n");
     }
-    if (!any)
+    if (!any && ema->nmode)
         (void)fprintf(out, "\nNothing about the modes and the channels looks doubtful.\n");
 }
 
@@ -194,15 +195,17 @@ static void print_mac(FILE *out, const struct ema *ema)
 static void print_channels(FILE *out, const struct ema_report *r, int all)
 {
     const struct ema *ema = r->ema;
-    int *worst = calloc((size_t)ema->nfrf + 1, sizeof *worst);
-    int shown = all || ema->nfrf < WORST ? ema->nfrf : WORST;
+    int *worst = calloc((size_t)ema->nfrf + 1, sizeof *worst), known = 0;
+    for (int c = 0; c < ema->nfrf; c++)
+        known += !isnan(ema->channel[c].fit);
+    int shown = all || known < WORST ? known : WORST;
     if (!worst || !ema->nmode) {
         free(worst);
         return;
     }
     for (int c = 0; c < ema->nfrf; c++) /* insertion by rising fit; the channels of a test are hundreds */
         for (int i = c;; i--) {
-            if (i && ema->channel[worst[i - 1]].fit > ema->channel[c].fit) {
+            if (i && !(ema->channel[worst[i - 1]].fit <= ema->channel[c].fit) && !isnan(ema->channel[c].fit)) {
                 worst[i] = worst[i - 1];
                 continue;
             }
@@ -210,7 +213,7 @@ static void print_channels(FILE *out, const struct ema_report *r, int all)
             break;
         }
     (void)fprintf(out, "\nFRAC of measured and synthesised transfer functions: median %.4f; %s\n",
-                  ema->channel[worst[ema->nfrf / 2]].fit, shown < ema->nfrf ? "the worst" : "all");
+                  known ? ema->channel[worst[known / 2]].fit : 0, shown < known ? "the worst" : "all");
     for (int i = 0; i < shown; i++) {
         const struct frf *f = &r->measurement->set.frf[worst[i]];
         (void)fprintf(out, "  node %d over node %d: %.4f", f->response_node, f->reference_node, ema->channel[worst[i]].fit);

@@ -91,7 +91,7 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
         c->clash = clash - 1;
         message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
                     "measured mode %d at %.6g Hz has the number of a mode that the shape of another one claims, expected modes "
-                    "that differ",
+                    "that differ; a mode of the rotor on its supports is none of them (leave it out: rotid ema --band)",
                     job->number[clash - 1], job->frequency_hz[clash - 1]);
         return ROTID_ERROR_UNPAIRED;
     }
