@@ -1,10 +1,10 @@
 /* MEASURED: sensors, modes and shapes from a universal file. */
-#include <complex.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/complex.h"
 #include "deck/deck_cards.h"
 #include "deck/deck_uff_std.h"
 #include "rotid.h"

@@ -4,8 +4,7 @@
 #ifndef ROTID_EMA_BAND_H
 #define ROTID_EMA_BAND_H
 
-#include <complex.h>
-
+#include "base/complex.h"
 #include "base/pool.h"
 #include "signal/frf.h"
 

@@ -2,8 +2,7 @@
 #ifndef ROTID_EMA_LOCAL_H
 #define ROTID_EMA_LOCAL_H
 
-#include <complex.h>
-
+#include "base/complex.h"
 #include "base/pool.h"
 #include "ema/band.h"
 

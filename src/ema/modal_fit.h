@@ -9,8 +9,7 @@
 #ifndef ROTID_EMA_MODAL_FIT_H
 #define ROTID_EMA_MODAL_FIT_H
 
-#include <complex.h>
-
+#include "base/complex.h"
 #include "base/pool.h"
 #include "ema/band.h"
 

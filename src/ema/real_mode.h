@@ -2,7 +2,7 @@
 #ifndef ROTID_EMA_REAL_MODE_H
 #define ROTID_EMA_REAL_MODE_H
 
-#include <complex.h>
+#include "base/complex.h"
 
 /* Modal phase collinearity (Pappa, Elliott, Schenk 1993): 1 where all components lie on one line through the origin, 0 without a
  * preferred direction: ((S_xx - S_yy)^2 + 4 S_xy^2)/(S_xx + S_yy)^2. NaN components are left out; 0 where all vanish. */

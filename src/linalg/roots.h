@@ -2,8 +2,9 @@
 #ifndef ROTID_LINALG_ROOTS_H
 #define ROTID_LINALG_ROOTS_H
 
-#include <complex.h>
 #include <stddef.h>
+
+#include "base/complex.h"
 
 size_t polynomial_roots_workspace(int n); /* doubles */
 

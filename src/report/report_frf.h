@@ -2,9 +2,9 @@
 #ifndef ROTID_REPORT_REPORT_FRF_H
 #define ROTID_REPORT_REPORT_FRF_H
 
-#include <complex.h>
 #include <stdio.h>
 
+#include "base/complex.h"
 #include "report/json.h"
 #include "run/frf_run.h"
 

@@ -2,7 +2,7 @@
 #ifndef ROTID_RUN_FRF_AGREEMENT_H
 #define ROTID_RUN_FRF_AGREEMENT_H
 
-#include <complex.h>
+#include "base/complex.h"
 
 /* Sums over lines, and over functions where they are added up: H^ measured, H synthesised. Begin with zeros. */
 struct frf_sums {

@@ -8,8 +8,7 @@
 #ifndef ROTID_RUN_SYNTHESIS_H
 #define ROTID_RUN_SYNTHESIS_H
 
-#include <complex.h>
-
+#include "base/complex.h"
 #include "base/pool.h"
 #include "rotid.h"
 #include "signal/frf.h"

@@ -3,7 +3,7 @@
 #ifndef ROTID_SIGNAL_ESTIMATOR_H
 #define ROTID_SIGNAL_ESTIMATOR_H
 
-#include <complex.h>
+#include "base/complex.h"
 
 struct spectra { /* of nline lines each; what is summed, or `count` columns */
     double *ff, *xx;

@@ -8,8 +8,7 @@
 #ifndef ROTID_SIGNAL_FFT_H
 #define ROTID_SIGNAL_FFT_H
 
-#include <complex.h>
-
+#include "base/complex.h"
 #include "base/pool.h"
 
 #define FFT_LONGEST  (1 << 26) /* samples: an hour at 18 kHz; keeps every size an int with room to spare */

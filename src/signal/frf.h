@@ -3,7 +3,7 @@
 #ifndef ROTID_SIGNAL_FRF_H
 #define ROTID_SIGNAL_FRF_H
 
-#include <complex.h>
+#include "base/complex.h"
 
 enum frf_quantity { FRF_DISPLACEMENT, FRF_VELOCITY, FRF_ACCELERATION }; /* of the response: powers of i omega */
 
