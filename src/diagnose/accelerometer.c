@@ -4,30 +4,17 @@
 #include <string.h>
 
 #include "diagnose/causes/catalogue.h"
-#include "diagnose/causes/sensor.h"
 #include "diagnose/engine.h"
+#include "diagnose/loaded_shapes.h"
 #include "fit/quantile.h"
 #include "linalg/matrix.h"
 #include "linalg/product.h"
 #include "modal/eigenvector_derivative.h"
 
 #define LEAST_MASS   2e-4 /* kg: the lightest accelerometers with their cable */
-#define ROOM         2.0
-#define UNSURE       0.02 /* of the change of a shape: by the moduli that the fit has not found yet, and by the mass */
-#define NODE         0.1  /* of the largest component: closer to a node the hammer hardly moves the mode */
 #define NOT_EXCLUDED 2.0  /* standard deviations */
 #define PLAUSIBLE    0.05 /* kg: an accelerometer with cable and magnet on a test of this kind */
 #define MOST_FACTOR  1e3  /* of noise_level */
-
-struct weighing {
-    struct columns columns; /* of the base: its fitted modes */
-    int nmode, npoint;
-    double *hz, *std, *square, *others, *order, *phi; /* as in struct moving_mass_data; phi [npoint * nmode] */
-    double *bend;                                     /* likewise */
-    double *across, *across_bend; /* [npoint * nmode] like others and bend, but between the point and the hammer */
-    double *spread; /* [npoint * nmode] d phi/dm with the mass spread over all sensors, but for a share of phi itself */
-    int hammer;     /* sensor, -1 where not known */
-};
 
 int is_moving_accelerometer(const struct effect *effect)
 {
@@ -135,116 +122,6 @@ static int take_modes(struct pool *pool, const struct engine *engine, struct wei
     return status;
 }
 
-/* Where the data of sensor s stand in the raw ones, which a correction may have put elsewhere. */
-static int raw_sensor(const struct job *job, int s)
-{
-    int id = job->rotor.sensor[s].id, raw = 0;
-    for (int c = job->ncorrection - 1; c >= 0; c--) {
-        const struct correction *correction = &job->correction[c];
-        if (!strcmp(correction->id, "sensor_swap") && (correction->sensor[0] == id || correction->sensor[1] == id))
-            id = correction->sensor[correction->sensor[0] == id];
-    }
-    while (raw + 1 < job->raw->nsensor && job->raw->sensor[raw].id != id)
-        raw++;
-    return raw;
-}
-
-/* The deviation, and that of the raw data, which a deck is written from, in proportion. */
-static void widen(double *std, double *raw, double more)
-{
-    double before = *std;
-    *std = hypot(before, more);
-    if (raw && before > 0)
-        *raw *= *std / before;
-}
-
-static double *raw_value(struct job *job, double *of, int s, int k)
-{
-    return of ? &of[raw_sensor(job, s) + (ptrdiff_t)k * job->raw->nsensor] : NULL;
-}
-
-/* The model has the mass spread over all sensors, so a shape that is free of the accelerometer gets what that does to it. */
-static void spread_mass(struct job *job, const struct weighing *w, int m, double mass)
-{
-    int k = w->columns.mode[m].k;
-    const double *phi = w->phi + (ptrdiff_t)m * w->npoint, *spread = w->spread + (ptrdiff_t)m * w->npoint;
-    double *shape = job->shape + (ptrdiff_t)k * w->npoint, product = 0, square = 0;
-    for (int s = 0; s < w->npoint; s++)
-        if (isfinite(shape[s])) {
-            product += shape[s] * phi[s];
-            square += phi[s] * phi[s];
-        }
-    for (int s = 0; s < w->npoint; s++) {
-        double *raw = raw_value(job, job->raw ? job->raw->shape : NULL, s, k), more = product / square * mass * spread[s];
-        if (!isfinite(shape[s]))
-            continue;
-        shape[s] += more;
-        if (raw)
-            *raw += more;
-    }
-}
-
-/* What the mass does to the shapes: with the accelerometer at j the residue is that of the unloaded rotor times 1 + c,
- * c = -m phi_j^2 + m q_jj + m q_je phi_j/phi_e to first order, where q is what the other modes have between the sensor j and the
- * place e of the hammer. Where that is known, and no node of the mode, the residue is put right exactly (moving_mass_residue),
- * with room for a share of the change. Else q_je is
- * about q_jj; all of it is smooth along the rotor, and the noise is taken as independent: hence twice m (phi^2 + |q|), so that
- * what looks like a cause stays below its threshold. Returns how many modes were put right. */
-static int correct_shapes(struct job *job, const struct weighing *w, double mass)
-{
-    int corrected = 0;
-    for (int m = 0; m < w->nmode && job_fits_shapes(job); m++) {
-        int k = w->columns.mode[m].k;
-        const double *phi = w->phi + (ptrdiff_t)m * w->npoint;
-        double largest = 0;
-        for (int s = 0; s < w->npoint; s++)
-            if (isfinite(job->shape[s + (ptrdiff_t)k * w->npoint]))
-                largest = fmax(largest, fabs(phi[s]));
-        int known = w->hammer >= 0 && fabs(phi[w->hammer]) > NODE * largest;
-        corrected += known;
-        for (int s = 0; s < w->npoint && largest > 0; s++) {
-            ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
-            double *raw_std = raw_value(job, job->raw ? job->raw->shape_std : NULL, s, k),
-                   *raw = raw_value(job, job->raw ? job->raw->shape : NULL, s, k),
-                   size = mass * (w->square[model] + fabs(w->others[model])), share = fabs(phi[s]) / largest;
-            if (!isfinite(job->shape[at]))
-                continue;
-            if (!known) {
-                widen(&job->shape_std[at], raw_std, ROOM * size * share);
-                continue;
-            }
-            double change = moving_mass_residue(mass, w->square[model], w->others[model], w->bend[model], w->across[model],
-                                                w->across_bend[model], phi[s] / phi[w->hammer]);
-            job->shape[at] /= change;
-            if (raw)
-                *raw /= change;
-            widen(&job->shape_std[at], raw_std, UNSURE * fabs(change - 1) * share);
-        }
-        if (known)
-            spread_mass(job, w, m, mass);
-    }
-    return corrected;
-}
-
-/* A mass that the frequencies cannot tell from none moves the shapes all the same: room for the largest one they do not exclude.
- */
-static void allow_for(struct job *job, const struct weighing *w, double mass)
-{
-    for (int m = 0; m < w->nmode && job_fits_shapes(job); m++) {
-        int k = w->columns.mode[m].k;
-        const double *phi = w->phi + (ptrdiff_t)m * w->npoint;
-        double largest = 0;
-        for (int s = 0; s < w->npoint; s++)
-            largest = fmax(largest, fabs(phi[s]));
-        for (int s = 0; s < w->npoint && largest > 0; s++) {
-            ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
-            if (isfinite(job->shape[at]))
-                widen(&job->shape_std[at], raw_value(job, job->raw ? job->raw->shape_std : NULL, s, k),
-                      mass * (w->square[model] + fabs(w->others[model])) * fabs(phi[s]) / largest);
-        }
-    }
-}
-
 static int add_mass(struct engine *engine, const struct weighing *w)
 {
     static const int fixed[EFFECT_MOST_PARAMETERS] = {1, 1, 1, 1};
@@ -260,7 +137,7 @@ static int add_mass(struct engine *engine, const struct weighing *w)
                                   .value = {moving->mass}};
     if (!effect.name || !drift)
         return ROTID_ERROR_MEMORY;
-    int corrected = correct_shapes(job, w, moving->mass);
+    int corrected = loaded_shapes_correct(job, w, moving->mass);
     const struct data_finding finding = {
         .cause = cause,
         .value = moving->mass,
@@ -355,7 +232,7 @@ int data_weigh_accelerometer(struct engine *engine, int *changed)
         *changed = 1;
     } else if (!status && engine->moving.usable) {
         double bound = fmin(fmax(engine->moving.mass, 0) + NOT_EXCLUDED * engine->moving.std, PLAUSIBLE);
-        allow_for(&engine->job, &w, bound);
+        loaded_shapes_allow(&engine->job, &w, bound);
         *changed = bound > 0 && job_fits_shapes(&engine->job);
     }
     pool_close(&scratch);

@@ -10,7 +10,8 @@
 
 #define MOST_FAULTS 8
 #define FALSE_ALARM 0.005
-#define MUCH_LESS   0.7 /* of the stated noise */
+#define LEAST_SHIFT 5e-4 /* m: nobody glues a sensor more closely than that */
+#define MUCH_LESS   0.7  /* of the stated noise */
 #define MUCH_MORE   1.3
 #define NOISIER     3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
 #define SHARED      0.45 /* correlation of neighbours; 0.08 is the error of its estimate, 0.2 what a smooth misfit adds */
@@ -34,7 +35,7 @@ static const char *describe(struct pool *pool, enum sensor_fault_kind kind, doub
     case FAULT_SWAP:
         return pool_format(pool, "sensors %d and %d are exchanged; they are put back", id[0], id[1]);
     case FAULT_POSITION:
-        return pool_format(pool, "sensor %d sits %.0f mm further %s than stated; it is moved", id[0], 1e3 * fabs(value),
+        return pool_format(pool, "sensor %d sits %.3g mm further %s than stated; it is moved", id[0], 1e3 * fabs(value),
                            value > 0 ? "right" : "left");
     case FAULT_DUPLICATE:
         return pool_format(pool, "sensor %d records what sensor %d records; it is left out", id[0], id[1]);
@@ -268,6 +269,8 @@ int data_clean(struct engine *engine, const struct scan *scan, int *changed)
     for (int i = 0; i < nfault && !status; i++) {
         /* a moved sensor changes the order: later faults are given by their place in the order at the time of the check */
         struct sensor_fault now = fault[i];
+        if (now.kind == FAULT_POSITION && fabs(now.value) < LEAST_SHIFT)
+            continue;
         double z = data.z[fault[i].sensor], other = fault[i].other >= 0 ? data.z[fault[i].other] : NAN;
         for (int s = 0; s < job->rotor.nsensor; s++) {
             now.sensor = job->rotor.sensor[s].position == z ? s : now.sensor;
