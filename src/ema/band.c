@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/order.h"
+
 #define TWO_PI 6.283185307179586
 
 static void smooth_variance(int n, int half, const double *raw, double *smooth)
@@ -30,6 +32,23 @@ static int smoothing_width(int averages)
     return half;
 }
 
+/* A point with one usable impact has no scatter: the noise of a line is that of the median channel, not averaged. work [nchannel]
+ */
+static void borrow_variance(const struct frf_set *set, struct ema_band *band, int k, double *work)
+{
+    const struct frf *own = &set->frf[band->channel[k]];
+    for (int i = 0; i < band->nline; i++) {
+        int count = 0;
+        for (int j = 0; j < band->nchannel; j++) {
+            const struct frf *frf = &set->frf[band->channel[j]];
+            if (frf->variance)
+                work[count++] = band->variance[i + (ptrdiff_t)j * band->nline] * (frf->averages > 0 ? frf->averages : 1);
+        }
+        sort_doubles((size_t)count, work);
+        band->variance[i + (ptrdiff_t)k * band->nline] = work[count / 2] / (own->averages > 0 ? own->averages : 1);
+    }
+}
+
 double complex ema_band_factor(const struct frf_set *set, double omega)
 {
     double complex s = I * omega, factor = s * s;
@@ -42,15 +61,16 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
                  struct ema_band *band)
 {
     *band = (struct ema_band){0};
-    int first = 0, last = set->nline, known = 1;
+    int first = 0, last = set->nline, known, stated = 0;
     while (first < last && (set->frequency_hz[first] <= 0 || (low_hz > 0 && set->frequency_hz[first] < low_hz)))
         first++;
     while (last > first && high_hz > 0 && set->frequency_hz[last - 1] > high_hz)
         last--;
     for (int c = 0; c < set->nfrf; c++) {
         band->nchannel += usable[c] != 0;
-        known = known && (!usable[c] || set->frf[c].variance);
+        stated += usable[c] && set->frf[c].variance;
     }
+    known = 2 * stated > band->nchannel;
     int n = last - first, half = 0;
     size_t size = (size_t)n * (size_t)band->nchannel;
     band->nline = n;
@@ -58,8 +78,8 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
     band->channel = POOL_ARRAY(pool, int, band->nchannel);
     band->h = POOL_ARRAY(pool, double complex, size);
     band->variance = known ? POOL_ARRAY(pool, double, size) : NULL;
-    double *raw = POOL_ARRAY(pool, double, n);
-    if (!band->omega || !band->channel || !band->h || (known && !band->variance) || !raw)
+    double *raw = POOL_ARRAY(pool, double, n), *raw_of_line = POOL_ARRAY(pool, double, band->nchannel);
+    if (!raw_of_line || !band->omega || !band->channel || !band->h || (known && !band->variance) || !raw)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         band->omega[i] = TWO_PI * set->frequency_hz[first + i];
@@ -72,7 +92,7 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
         for (int i = 0; i < n; i++) {
             h[i] = set->frf[c].h[first + i] * ema_band_factor(set, band->omega[i]);
         }
-        if (known) {
+        if (known && set->frf[c].variance) {
             /* that of records is smooth already, and INFINITY where a line says nothing */
             half = set->frf[c].single ? 0 : smoothing_width(set->frf[c].averages);
             for (int i = 0; i < n; i++)
@@ -81,6 +101,9 @@ int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, do
         }
         band->channel[k++] = c;
     }
+    for (int k = 0; k < band->nchannel && known; k++)
+        if (!set->frf[band->channel[k]].variance)
+            borrow_variance(set, band, k, raw_of_line);
     return ROTID_OK;
 }
 

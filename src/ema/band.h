@@ -15,7 +15,7 @@ struct ema_band {
     int nchannel;
     int *channel;      /* [nchannel] index of the transfer function in the set */
     double complex *h; /* [nline * nchannel] accelerance, channel by channel */
-    double *variance;  /* [nline * nchannel] of it, smoothed and > 0; NULL unless every channel has one */
+    double *variance;  /* [nline * nchannel] of it, smoothed and > 0; NULL unless most channels have one */
 };
 
 /* What brings a line of the set to accelerance of i omega: (i omega)^2/(i omega + window_decay)^q, since behind an exponential

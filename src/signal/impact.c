@@ -139,7 +139,7 @@ int impact_is_overload(int count, const double *x, double base)
             longest = run;
             at = j;
         }
-        if (j && fabs(x[j] - base) > deviation / 2 && fabs(x[j - 1] - base) > deviation / 2 && fabs(x[j] - x[j - 1]) > 0)
+        if (j && fabs(x[j] - x[j - 1]) > 0)
             step = fmin(step, fabs(x[j] - x[j - 1]));
     }
     if (longest < 3 || !(deviation > 0))

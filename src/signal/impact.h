@@ -33,7 +33,7 @@ long long impact_room(int n, const struct impact *impact, int k, double rate, lo
 
 /* Whether x [count] stays at its value farthest from `base` where a smooth signal would turn back: three or more neighbours are
  * equal, and a half-sine as long as the swing around them would fall, over their number, by more than the finest step that x
- * makes at this level. So a top that is only quantised is no overload. */
+ * makes. So a top that is only quantised is no overload. */
 int impact_is_overload(int count, const double *x, double base);
 
 #endif
