@@ -233,7 +233,7 @@ static int fit_modes(struct job *job)
     }
     if (others)
         memcpy(out->mode + reported, behind, (size_t)others * sizeof *behind);
-    out->nmode = n = reported;
+    out->nmode = reported;
     out->nguard = others;
     return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, common, gain, job->environment, out);
 }

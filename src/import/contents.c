@@ -94,7 +94,8 @@ static int join_nodes(struct growing *g)
     for (size_t i = 0, first = 0; i < g->node_count; i++) {
         const struct placed *p = &g->node[i];
         if (i && g->node[first].node.id == p->node.id) {
-            if (memcmp(g->node[first].node.x, p->node.x, sizeof p->node.x) != 0)
+            const double *x = g->node[first].node.x;
+            if (x[0] != p->node.x[0] || x[1] != p->node.x[1] || x[2] != p->node.x[2])
                 message_add(g->messages, SEVERITY_WARNING, g->path, p->line, 1,
                             "node %d has other coordinates than before, the first ones are used", p->node.id);
             continue;
@@ -147,6 +148,10 @@ static int settle_abscissa(struct growing *g, struct uff_reader *reader, struct 
               : ROTID_ERROR_MEMORY;
         done += status ? 0 : got;
     }
+    if (status || !x) {
+        pool_close(&scratch);
+        return status;
+    }
     double middle = 0.5 * (double)(done - 1), mean = 0, slope = 0, spread = 0;
     for (long long i = 0; i < done; i++)
         mean += x[i] / (double)done;
@@ -154,7 +159,7 @@ static int settle_abscissa(struct growing *g, struct uff_reader *reader, struct 
         slope += ((double)i - middle) * (x[i] - mean);
         spread += ((double)i - middle) * ((double)i - middle);
     }
-    int even = !status && done > 2 && slope > 0;
+    int even = done > 2 && slope > 0;
     slope /= spread;
     double rounding = rounding_of(done, x);
     for (long long i = 0; i < done && even; i++)
@@ -165,7 +170,7 @@ static int settle_abscissa(struct growing *g, struct uff_reader *reader, struct 
         f->start = mean - middle * slope;
         if (fabs(f->start) < 1e-3 * slope)
             f->start = 0;
-    } else if (!status) {
+    } else {
         item->x = POOL_ARRAY(g->pool, double, done);
         if (item->x && done)
             memcpy(item->x, x, (size_t)done * sizeof *x);
