@@ -333,6 +333,58 @@ static void records_that_do_not_fit_are_named(void **state)
     assert_int_equal(warnings(&messages, "not sampled like its force"), 1);
 }
 
+/* Every allocation in turn: a status, no crash, nothing left behind. */
+static void memory_may_run_out_anywhere(void **state)
+{
+    (void)state;
+    const struct measurement_options options = {.averages = 3};
+    double coherence[LINES];
+    long n = 0;
+    int status = ROTID_ERROR_MEMORY;
+    for (int i = 0; i < LINES; i++)
+        coherence[i] = 0.9;
+    begin();
+    for (int node = 1; node <= 3; node++) {
+        struct uff_function f = transfer_of(node, 1);
+        f.is_even = 0; /* its abscissa has to be read to be found even */
+        struct uff_function_writer writer;
+        assert_status(uff_write_function(file, &f, &writer), ROTID_OK);
+        for (int i = 0; i < LINES; i++) {
+            double x = 10 + i * STEP, re = creal(oscillator(node, x)), im = cimag(oscillator(node, x));
+            assert_status(uff_write_values(&writer, 1, &x, &re, &im), ROTID_OK);
+        }
+        assert_status(uff_end_function(&writer), ROTID_OK);
+    }
+    struct uff_function f = transfer_of(1, 1);
+    f.type = UFF_COHERENCE;
+    f.ordinate = UFF_REAL_DOUBLE;
+    f.start = 10;
+    write_real(&f, coherence);
+    assert_int_equal(fclose(file), 0);
+    while (status) {
+        struct failing_allocator failing;
+        struct pool pool;
+        struct message_list messages;
+        struct measurement m;
+        failing_allocator_open(&failing, ++n);
+        pool_open(&pool, &failing.allocator);
+        message_open(&messages, &pool);
+        status = measurement_read(&pool, path, &options, &messages, &m);
+        if (status)
+            assert_status(status, ROTID_ERROR_MEMORY);
+        else {
+            assert_int_equal(m.set.nfrf, 3);
+            assert_close(m.set.frequency_hz[10], 15, 1e-6, 0);
+            assert_non_null(m.set.frf[0].variance);
+        }
+        pool_close(&pool);
+        assert_int_equal(failing.in_use, 0);
+        assert_true(n < 1000);
+    }
+    (void)unlink(path);
+    print_message("%ld allocations\n", n - 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -343,6 +395,7 @@ int main(void)
         TEST(files_without_anything_usable_are_refused),
         TEST(responses_find_their_force),
         TEST(records_that_do_not_fit_are_named),
+        TEST(memory_may_run_out_anywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
