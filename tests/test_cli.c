@@ -1,5 +1,4 @@
 /* The program as its users and their scripts see it: exit codes, what goes to which stream, JSON, files, --set. */
-#include <cJSON.h>
 #include <dirent.h>
 #include <fcntl.h>
 #include <math.h>
@@ -12,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "json_value.h"
 #include "support.h"
 
 #define PAPER       ROTID_SOURCE_DIR "/input/paper_rotor.inp"
@@ -116,15 +116,6 @@ static cJSON *json_of(const char *command, const char *deck, const char *option,
     assert_true(cJSON_IsObject(json));
     forget(&outcome);
     return json;
-}
-
-static const cJSON *get(const cJSON *json, const char *key)
-{
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(json, key);
-    if (!item)
-        print_error("no key %s\n", key);
-    assert_non_null(item);
-    return item;
 }
 
 static void has_keys(const cJSON *json, const char *keys)

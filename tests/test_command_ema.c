@@ -1,11 +1,11 @@
 /* rotid ema as its users see it: the modes of a real bar as JSON and as a file for a deck, and what is refused. */
-#include <cJSON.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 
 #include "deck/deck.h"
+#include "json_value.h"
 #include "support.h"
 #include "uff_program.h"
 
@@ -69,21 +69,6 @@ static cJSON *json_of(const char *name)
     free(text);
     assert_non_null(json);
     return json;
-}
-
-static const cJSON *get(const cJSON *json, const char *key)
-{
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(json, key);
-    if (!item)
-        print_error("no key %s\n", key);
-    assert_non_null(item);
-    return item;
-}
-
-static double number_of(const cJSON *json, const char *key)
-{
-    assert_true(cJSON_IsNumber(get(json, key)));
-    return get(json, key)->valuedouble;
 }
 
 static void nine_modes_of_a_bar_in_the_json(void **state)

@@ -1,6 +1,5 @@
 /* `rotid frf` end to end: the paper's Figure 15, measured functions out of a universal file that the oracle made, what comes out
  * as JSON and universal file, and what is refused. */
-#include <cJSON.h>
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,6 +10,7 @@
 
 #include "exact_receptance.h"
 #include "import/measurement.h"
+#include "json_value.h"
 #include "support.h"
 #include "uff/uff_write.h"
 
@@ -71,21 +71,6 @@ static cJSON *json_of(const char *path)
     cJSON *json = cJSON_ParseWithOpts(text, NULL, 1);
     assert_true(cJSON_IsObject(json));
     return json;
-}
-
-static const cJSON *get(const cJSON *json, const char *key)
-{
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(json, key);
-    if (!item)
-        print_error("no key %s\n", key);
-    assert_non_null(item);
-    return item;
-}
-
-static double number_of(const cJSON *json, const char *key)
-{
-    assert_true(cJSON_IsNumber(get(json, key)));
-    return get(json, key)->valuedouble;
 }
 
 static int list_of(const cJSON *json, const char *key, double *value, int most)

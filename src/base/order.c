@@ -1,5 +1,6 @@
 #include "base/order.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static int compare(const void *left, const void *right)
@@ -11,4 +12,10 @@ static int compare(const void *left, const void *right)
 void sort_doubles(size_t count, double *value)
 {
     qsort(value, count, sizeof *value, compare);
+}
+
+double median_of(size_t count, double *x)
+{
+    sort_doubles(count, x);
+    return count ? (x[(count - 1) / 2] + x[count / 2]) / 2 : NAN;
 }

@@ -57,15 +57,10 @@ double complex ema_band_factor(const struct frf_set *set, double omega)
     return factor;
 }
 
-int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, double high_hz, const int *usable,
-                 struct ema_band *band)
+int ema_band_new(struct pool *pool, const struct frf_set *set, int first, int last, const int *usable, struct ema_band *band)
 {
     *band = (struct ema_band){0};
-    int first = 0, last = set->nline, known, stated = 0;
-    while (first < last && (set->frequency_hz[first] <= 0 || (low_hz > 0 && set->frequency_hz[first] < low_hz)))
-        first++;
-    while (last > first && high_hz > 0 && set->frequency_hz[last - 1] > high_hz)
-        last--;
+    int known, stated = 0;
     for (int c = 0; c < set->nfrf; c++) {
         band->nchannel += usable[c] != 0;
         stated += usable[c] && set->frf[c].variance;

@@ -22,13 +22,11 @@ struct ema_band {
  * window the set is the transfer function at i omega + window_decay. */
 double complex ema_band_factor(const struct frf_set *set, double omega);
 
-/* Takes the lines of set with low_hz <= f <= high_hz, f > 0 (an end <= 0: no limit) of the transfer functions with usable [nfrf]
- * nonzero, times ema_band_factor. A variance estimated from n averages scatters by sqrt(2/(2 n - 2)); as weight it
- * would prefer lines that came out too small. So one that is not from records, where that has been done, is averaged over
- * neighbouring lines up to 20 degrees of freedom, and kept above 1e-10 of its mean over the band, where the running sum rounds.
- * ROTID_OK or ROTID_ERROR_MEMORY. */
-int ema_band_new(struct pool *pool, const struct frf_set *set, double low_hz, double high_hz, const int *usable,
-                 struct ema_band *band);
+/* Takes the lines first ... last - 1 of the set, all above 0 Hz, of the transfer functions with usable [nfrf] nonzero, times
+ * ema_band_factor. A variance estimated from n averages scatters by sqrt(2/(2 n - 2)); as weight it would prefer lines that came
+ * out too small. So one that is not from records, where that has been done, is averaged over neighbouring lines up to 20 degrees
+ * of freedom, and kept above 1e-10 of its mean over the band, where the running sum rounds. ROTID_OK or ROTID_ERROR_MEMORY. */
+int ema_band_new(struct pool *pool, const struct frf_set *set, int first, int last, const int *usable, struct ema_band *band);
 
 /* Its lines first ... first + nline - 1, copied. ROTID_OK or ROTID_ERROR_MEMORY. */
 int ema_band_part(struct pool *pool, const struct ema_band *band, int first, int nline, struct ema_band *part);

@@ -38,12 +38,6 @@ static double largest(const struct frf *frf, int first, int last, double *power,
     return most;
 }
 
-static double median(size_t count, double *value)
-{
-    sort_doubles(count, value);
-    return count ? (value[(count - 1) / 2] + value[count / 2]) / 2 : NAN;
-}
-
 static int is_twin(const struct frf *a, const struct frf *b, int first, int last, double noise_a, double noise_b, double most)
 {
     double apart = 0, aa = 0, bb = 0;
@@ -107,7 +101,7 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
             channel[c].doubts |= EMA_LOW_COHERENCE;
         sorted[known++] = most[c];
     }
-    double usual = median(known, sorted);
+    double usual = median_of(known, sorted);
     known = 0;
     for (int c = 0; c < set->nfrf; c++) {
         if (usable[c] && (constant[c] || most[c] < DEAD_SHARE * usual || most[c] == 0)) {
@@ -117,7 +111,7 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
         if (usable[c] && !isnan(channel[c].noise))
             sorted[known++] = channel[c].noise;
     }
-    usual = median(known, sorted);
+    usual = median_of(known, sorted);
     for (int c = 0; c < set->nfrf; c++) {
         if (!usable[c])
             continue;
@@ -160,7 +154,7 @@ int channels_compare(struct pool *pool, const struct frf_set *set, int first, in
         left[c] = hh > 0 ? sqrt(apart / hh) : 0;
         sorted[known++] = left[c];
     }
-    double usual = median(known, sorted);
+    double usual = median_of(known, sorted);
     for (int c = 0; c < set->nfrf; c++)
         /* below 1e-6 the difference is rounding */
         if (usable[c] && out->nmode && left[c] > MISFIT_RATIO * usual && left[c] > 1e-6)

@@ -12,6 +12,7 @@
 #include "ema/noise.h"
 #include "ema/per_point.h"
 #include "ema/picking.h"
+#include "ema/poles.h"
 #include "ema/selection.h"
 #include "ema/shapes.h"
 #include "ema/stabilisation.h"
@@ -91,7 +92,7 @@ static int prepare(struct job *job)
     if (status == ROTID_OK && !alive)
         status = ROTID_ERROR_ARGUMENT;
     if (status == ROTID_OK)
-        status = ema_band_new(job->pool, job->set, job->options.low_hz, job->options.high_hz, job->usable, &job->band);
+        status = ema_band_new(job->pool, job->set, job->first, job->last, job->usable, &job->band);
     job->stated = job->band.variance != NULL;
     return status;
 }
@@ -190,13 +191,10 @@ static int fit_modes(struct job *job)
     if (status != ROTID_OK || n == 0)
         return status;
     int nline = modal_fit_lines(band, n, pole, FIT_WIDTHS, selection_lines(band, n, FIT_PRODUCTS), line);
-    status = modal_fit_new(job->pool, band, nline, line, 0, band->nchannel, n, job->options.threads, &fit);
-    if (status == ROTID_OK)
-        status = refinement_new(job->pool, &fit, &refinement);
+    status = refinement_open(job->pool, band, nline, line, 0, band->nchannel, n, pole, job->options.threads, &fit, &refinement);
     if (status != ROTID_OK)
         return status;
     for (int r = 0; r < n; r++) {
-        fit.pole[r] = pole[r] / fit.scale;
         fit.loose[r] = r >= n - nguard;
     }
     status = refine_poles(&fit, job->options.no_refinement ? 0 : ITERATIONS, job->environment, &refinement);
@@ -264,12 +262,6 @@ static int by_frequency_of_mode(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static int by_frequency(const void *a, const void *b)
-{
-    double x = cimag(*(const double complex *)a), y = cimag(*(const double complex *)b);
-    return (x > y) - (x < y);
-}
-
 static int is_cancelled(const struct job *job)
 {
     const rotid_environment *e = job->environment;
@@ -285,7 +277,7 @@ static int extract(struct job *job, struct stabilisation *table)
         status = earn(job);
     if (status != ROTID_OK)
         return status;
-    qsort(job->candidate, (size_t)job->ncandidate, sizeof *job->candidate, by_frequency);
+    sort_poles((size_t)job->ncandidate, job->candidate);
     if (job->options.npick > 0)
         status = add_picks(job, table);
     if (status != ROTID_OK)

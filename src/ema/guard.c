@@ -29,11 +29,7 @@ static int fit_all(const struct pool *pool, const struct ema_band *band, int thr
     struct refinement refinement;
     struct pool scratch;
     pool_open(&scratch, pool->allocator);
-    int status = modal_fit_new(&scratch, band, nline, line, 0, band->nchannel, count, threads, &fit);
-    if (!status)
-        status = refinement_new(&scratch, &fit, &refinement);
-    for (int r = 0; r < count && !status; r++)
-        fit.pole[r] = pole[r] / fit.scale;
+    int status = refinement_open(&scratch, band, nline, line, 0, band->nchannel, count, pole, threads, &fit, &refinement);
     if (!status)
         status = refine_poles(&fit, ITERATIONS, environment, &refinement);
     for (int r = 0; r < count && !status; r++)

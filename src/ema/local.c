@@ -79,15 +79,11 @@ static int fit_window(struct pool *scratch, const struct ema_band *band, int k, 
     *out = (struct local_pole){.chi2 = NAN, .pole = CMPLX(NAN, NAN), .residue = CMPLX(NAN, NAN), .residue_std = NAN};
     if (2 * nline < 2 * (4 * n + 4))
         return ROTID_OK;
-    int status = modal_fit_new(scratch, band, nline, line, k, 1, n, 1, &fit);
-    if (status == ROTID_OK)
-        status = refinement_new(scratch, &fit, &refinement);
+    int status = refinement_open(scratch, band, nline, line, k, 1, n, together, 1, &fit, &refinement);
     if (status != ROTID_OK)
         return status;
     if (rest)
         take_off(&fit, rest);
-    for (int r = 0; r < n; r++)
-        fit.pole[r] = together[r] / fit.scale;
     if (searched)
         search(&fit, reach);
     (void)refine_poles(&fit, ITERATIONS, NULL, &refinement);
@@ -155,14 +151,10 @@ static int fit_common(struct pool *scratch, const struct ema_band *flat, int n, 
     int nline = window_lines(flat, cimag(together[0]) - window, cimag(together[0]) + window, line);
     if (2 * nline < 2 * (4 * n + 4))
         return ROTID_OK;
-    int status = modal_fit_new(scratch, flat, nline, line, 0, flat->nchannel, n, 1, &fit);
-    if (status == ROTID_OK)
-        status = refinement_new(scratch, &fit, &refinement);
+    int status = refinement_open(scratch, flat, nline, line, 0, flat->nchannel, n, together, 1, &fit, &refinement);
     if (status != ROTID_OK)
         return status;
     fit.equal = 1;
-    for (int r = 0; r < n; r++)
-        fit.pole[r] = together[r] / fit.scale;
     (void)refine_poles(&fit, ITERATIONS, NULL, &refinement);
     if (!refinement.moved[0])
         *common = fit.pole[0] * fit.scale;
@@ -188,12 +180,6 @@ int local_common(const struct pool *pool, const struct ema_band *band, int nmode
     return status;
 }
 
-static double median(int count, double *value)
-{
-    sort_doubles((size_t)count, value);
-    return (value[(count - 1) / 2] + value[count / 2]) / 2;
-}
-
 /* Common poles [n] against one a channel over the same window. *one := the median of the channels' poles where that is better,
  * else NaN; *none: nor are they modes. */
 static int compare(struct pool *scratch, const struct ema_band *band, int n, const double complex *cluster, double complex *one,
@@ -216,13 +202,9 @@ static int compare(struct pool *scratch, const struct ema_band *band, int n, con
     int nline = window_lines(band, cimag(middle) - window, cimag(middle) + window, line);
     if (2 * nline < 2 * (4 * n + 4))
         return ROTID_OK;
-    int status = modal_fit_new(scratch, band, nline, line, 0, band->nchannel, n, 1, &fit);
-    if (status == ROTID_OK)
-        status = refinement_new(scratch, &fit, &refinement);
+    int status = refinement_open(scratch, band, nline, line, 0, band->nchannel, n, cluster, 1, &fit, &refinement);
     if (status != ROTID_OK)
         return status;
-    for (int r = 0; r < n; r++)
-        fit.pole[r] = cluster[r] / fit.scale;
     (void)refine_poles(&fit, ITERATIONS, NULL, &refinement);
     double gain = 0, sum = 0;
     int known = 0;
@@ -246,7 +228,7 @@ static int compare(struct pool *scratch, const struct ema_band *band, int n, con
     /* peaks of several channels that have nothing to do with each other have no phase in common */
     *none = gain > LEAST_GAIN * sum && known > 2 && mode_phase_collinearity(known, residue) < LEAST_MPC;
     if (gain > LEAST_GAIN * sum && known > 0 && !*none)
-        *one = CMPLX(median(known, re), median(known, im));
+        *one = CMPLX(median_of((size_t)known, re), median_of((size_t)known, im));
     return ROTID_OK;
 }
 

@@ -1,4 +1,5 @@
 #include "ema/lscf.h"
+#include "ema/poles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -162,12 +163,6 @@ int lscf_normal_matrix(struct pool *pool, const struct ema_band *band, int order
     return ROTID_OK;
 }
 
-static int by_frequency(const void *a, const void *b)
-{
-    double x = cimag(*(const double complex *)a), y = cimag(*(const double complex *)b);
-    return (x > y) - (x < y);
-}
-
 /* The poles above the lower end, from the roots 1/z of the reversed polynomial. */
 static int keep_poles(const struct ema_band *band, int m, const double complex *root, double complex *pole)
 {
@@ -178,7 +173,7 @@ static int keep_poles(const struct ema_band *band, int m, const double complex *
         if (size > 0 && theta > 0 && theta < PI)
             pole[kept++] = CMPLX(-log(size) / t, band->low + theta / t);
     }
-    qsort(pole, (size_t)kept, sizeof *pole, by_frequency);
+    sort_poles((size_t)kept, pole);
     return kept;
 }
 

@@ -124,8 +124,7 @@ static double signal_to_noise(const struct ema_band *band, const struct ema_mode
         ptrdiff_t i = at + (ptrdiff_t)k * band->nline;
         sorted[k] = cabs(band->h[i]) / sqrt(band->variance[i]);
     }
-    sort_doubles((size_t)band->nchannel, sorted);
-    return (sorted[(band->nchannel - 1) / 2] + sorted[band->nchannel / 2]) / 2;
+    return median_of((size_t)band->nchannel, sorted);
 }
 
 int modes_judge(struct pool *pool, const struct ema_band *band, double decay, struct ema *out)

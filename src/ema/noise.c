@@ -55,13 +55,9 @@ static int fit_all(struct pool *scratch, const struct ema_band *band, int thread
     if (!line)
         return ROTID_ERROR_MEMORY;
     int nline = modal_fit_lines(band, n, pole, FIT_WIDTHS, selection_lines(band, n, EARN_PRODUCTS), line);
-    int status = modal_fit_new(scratch, band, nline, line, 0, band->nchannel, n, threads, fit);
-    if (status == ROTID_OK)
-        status = refinement_new(scratch, fit, &refinement);
+    int status = refinement_open(scratch, band, nline, line, 0, band->nchannel, n, pole, threads, fit, &refinement);
     if (status != ROTID_OK)
         return status;
-    for (int r = 0; r < n; r++)
-        fit->pole[r] = pole[r] / fit->scale;
     return refine_poles(fit, ITERATIONS, environment, &refinement);
 }
 

@@ -12,19 +12,13 @@
 #define LESS           (2.0 / 3)
 #define SCATTER_WIDTHS 0.02 /* half bandwidths: less changes a residue by less than a thousandth */
 
-static double median(int n, double *value)
-{
-    sort_doubles((size_t)n, value);
-    return (value[(n - 1) / 2] + value[n / 2]) / 2;
-}
-
 /* Standard deviation of what scatters normally, from the median distance to the median: a channel whose own fit went astray does
  * not count. sorted [known] is overwritten. */
 static double robust_scatter(int known, double centre, double *sorted)
 {
     for (int k = 0; k < known; k++)
         sorted[k] = fabs(sorted[k] - centre);
-    return 1.4826 * median(known, sorted);
+    return 1.4826 * median_of((size_t)known, sorted);
 }
 
 /* Scatter of the imaginary parts of the channels that know their pole, as it is and over their standard deviations. Returns the
@@ -38,7 +32,7 @@ static int scatter(int n, const struct local_pole *local, double *sorted, double
     *rms = *chi = 0;
     if (known < 2)
         return known;
-    double centre = median(known, sorted);
+    double centre = median_of((size_t)known, sorted);
     *rms = robust_scatter(known, centre, sorted);
     known = 0;
     for (int k = 0; k < n; k++)
@@ -61,7 +55,7 @@ static void median_frequency(int n, const struct local_pole *local, double decay
                 modes_of_pole(local[k].pole + decay, NULL, &one);
                 sorted[count++] = which ? one.damping : one.frequency_hz;
             }
-        centre[which] = median(known, sorted);
+        centre[which] = median_of((size_t)known, sorted);
         std[which] = MEDIAN_STD * robust_scatter(known, centre[which], sorted) / sqrt(known);
     }
     double w = 6.283185307179586 * centre[0];

@@ -23,6 +23,17 @@ int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refine
     return refinement->covariance && refinement->widened && refinement->moved && refinement->work ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
+int refinement_open(struct pool *pool, const struct ema_band *band, int nline, const int *line, int from, int nchannel, int nmode,
+                    const double complex *pole, int threads, struct modal_fit *fit, struct refinement *refinement)
+{
+    int status = modal_fit_new(pool, band, nline, line, from, nchannel, nmode, threads, fit);
+    if (status == ROTID_OK)
+        status = refinement_new(pool, fit, refinement);
+    for (int r = 0; r < nmode && status == ROTID_OK; r++)
+        fit->pole[r] = pole[r] / fit->scale;
+    return status;
+}
+
 static void sum_channels(const struct modal_fit *fit, double *information, double *score)
 {
     int p = 2 * fit->nmode;

@@ -17,6 +17,11 @@ struct refinement {
 /* ROTID_OK or ROTID_ERROR_MEMORY. */
 int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement);
 
+/* modal_fit_new and refinement_new for the channels from, ... of the band, which starts at pole [nmode] in rad/s. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int refinement_open(struct pool *pool, const struct ema_band *band, int nline, const int *line, int from, int nchannel, int nmode,
+                    const double complex *pole, int threads, struct modal_fit *fit, struct refinement *refinement);
+
 /* Levenberg-Marquardt from fit->pole, which is overwritten by the best poles; most = 0 evaluates only. Where weights are flat the
  * noise of each channel is taken from its residual three times on the way. A step moves no pole by more than its half bandwidth.
  *

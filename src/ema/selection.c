@@ -73,18 +73,14 @@ static double significance(const struct ema_band *band, const struct modal_fit *
     return sum;
 }
 
-static double collinearity(const struct modal_fit *fit, int r)
+/* Of the residues of a mode as they are, known or not. residue [nchannel] is workspace. */
+static double collinearity(const struct modal_fit *fit, int r, double complex *residue)
 {
-    double xx = 0, yy = 0, xy = 0;
     for (int c = 0; c < fit->nchannel; c++) {
-        double x = fit->linear[(ptrdiff_t)2 * r + (ptrdiff_t)c * fit->nlinear],
-               y = fit->linear[(ptrdiff_t)2 * r + 1 + (ptrdiff_t)c * fit->nlinear];
-        xx += x * x;
-        yy += y * y;
-        xy += x * y;
+        const double *x = fit->linear + (ptrdiff_t)2 * r + (ptrdiff_t)c * fit->nlinear;
+        residue[c] = CMPLX(x[0], x[1]);
     }
-    double all = (xx + yy) * (xx + yy);
-    return all > 0 ? ((xx - yy) * (xx - yy) + 4 * xy * xy) / all : 0;
+    return mode_phase_collinearity(fit->nchannel, residue);
 }
 
 /* How badly mode r fails, 0 where it does not. */
@@ -155,7 +151,8 @@ static void drop_twins(const struct modal_fit *fit, int count, const double *str
 }
 
 /* A weak peak whose phases are not those of a normal mode belongs to something attached, not to the rotor. */
-static void drop_attachments(const struct modal_fit *fit, int count, double *peak, double *sorted, double *bad)
+static void drop_attachments(const struct modal_fit *fit, int count, double *peak, double *sorted, double complex *residue,
+                             double *bad)
 {
     size_t good = 0;
     for (int r = 0; r < count; r++) {
@@ -170,7 +167,7 @@ static void drop_attachments(const struct modal_fit *fit, int count, double *pea
     }
     sort_doubles(good, sorted);
     for (int r = 0; r < count; r++)
-        if (bad[r] == 0 && fit->nchannel > 2 && peak[r] < ATTACHED * sorted[good / 2] && collinearity(fit, r) < REAL_MPC)
+        if (bad[r] == 0 && fit->nchannel > 2 && peak[r] < ATTACHED * sorted[good / 2] && collinearity(fit, r, residue) < REAL_MPC)
             bad[r] = 0.4;
 }
 
@@ -187,13 +184,9 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
     if (!line || !bad || !strength || !residue || !peak || !sorted)
         return ROTID_ERROR_MEMORY;
     int nline = modal_fit_lines(band, count, pole, FIT_WIDTHS, selection_lines(band, count, EARN_PRODUCTS), line);
-    int status = modal_fit_new(scratch, band, nline, line, 0, band->nchannel, count, threads, &fit);
-    if (status == ROTID_OK)
-        status = refinement_new(scratch, &fit, &refinement);
+    int status = refinement_open(scratch, band, nline, line, 0, band->nchannel, count, pole, threads, &fit, &refinement);
     if (status != ROTID_OK)
         return status;
-    for (int r = 0; r < count; r++)
-        fit.pole[r] = pole[r] / fit.scale;
     status = refine_poles(&fit, round == REFINED ? ITERATIONS : 0, environment, &refinement);
     if (status != ROTID_OK)
         return status;
@@ -204,7 +197,7 @@ static int judge(struct pool *scratch, const struct ema_band *band, int threads,
     if (round != SCREENING)
         drop_twins(&fit, count, strength, bad);
     if (round == REFINED)
-        drop_attachments(&fit, count, peak, sorted, bad);
+        drop_attachments(&fit, count, peak, sorted, residue, bad);
     *dropped = 0;
     for (int r = 0; r < count; r++) {
         keep[r] = bad[r] == 0;

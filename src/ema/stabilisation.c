@@ -1,4 +1,5 @@
 #include "ema/stabilisation.h"
+#include "ema/poles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -158,12 +159,6 @@ static void join(const struct stabilisation *s, int ntrack, struct track *track,
         }
 }
 
-static int by_frequency(const void *a, const void *b)
-{
-    double x = cimag(*(const double complex *)a), y = cimag(*(const double complex *)b);
-    return (x > y) - (x < y);
-}
-
 int stabilisation_candidates(struct pool *pool, const struct stabilisation *table, double frequency_tolerance,
                              double damping_tolerance, int *count, double complex **pole)
 {
@@ -191,7 +186,7 @@ int stabilisation_candidates(struct pool *pool, const struct stabilisation *tabl
             }
         (*pole)[(*count)++] = sum / taken;
     }
-    qsort(*pole, (size_t)*count, sizeof **pole, by_frequency);
+    sort_poles((size_t)*count, *pole);
     return ROTID_OK;
 }
 

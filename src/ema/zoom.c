@@ -1,4 +1,5 @@
 #include "ema/zoom.h"
+#include "ema/poles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -75,12 +76,6 @@ static int merge_tables(struct pool *pool, int nparts, const struct part *part, 
     return ROTID_OK;
 }
 
-static int by_frequency(const void *a, const void *b)
-{
-    double x = cimag(*(const double complex *)a), y = cimag(*(const double complex *)b);
-    return (x > y) - (x < y);
-}
-
 /* A candidate that another part has already: within a half-power bandwidth. */
 static int is_known(int count, const double complex *known, double complex pole)
 {
@@ -146,6 +141,6 @@ int zoom_compute(struct pool *pool, const struct ema_band *band, double decay, c
             if (!is_known(before, *candidate, from->candidate[k]))
                 (*candidate)[(*count)++] = from->candidate[k];
     }
-    qsort(*candidate, (size_t)*count, sizeof **candidate, by_frequency);
+    sort_poles((size_t)*count, *candidate);
     return merge_tables(pool, nparts, part, table);
 }

@@ -234,3 +234,26 @@ int contents_read(struct pool *pool, struct uff_reader *reader, const char *path
     pool_close(&scratch);
     return status;
 }
+
+int contents_values(struct uff_reader *reader, const struct content *item, long long first, long long count, double factor,
+                    double *real, double *imag)
+{
+    struct uff_function f;
+    double skip_real[256], skip_imag[256];
+    long long got = 1, done = 0;
+    int status = uff_return_to(reader, &item->set);
+    if (!status)
+        status = uff_read_function(reader, &f);
+    for (long long left = first; left > 0 && got > 0 && !status; left -= got)
+        status = uff_read_values(reader, left < 256 ? left : 256, NULL, skip_real, skip_imag, &got);
+    while (done < count && !status && got > 0) {
+        status = uff_read_values(reader, count - done, NULL, real + done, imag ? imag + done : NULL, &got);
+        done += got;
+    }
+    for (long long i = 0; i < done; i++) {
+        real[i] *= factor;
+        if (imag)
+            imag[i] *= factor;
+    }
+    return status;
+}

@@ -26,6 +26,11 @@ struct contents {
 int contents_read(struct pool *pool, struct uff_reader *reader, const char *path, struct message_list *messages,
                   struct contents *contents);
 
+/* Values first ... first + count - 1 of a function, times a factor: real [count], imag [count] (NULL: of a real one). Statuses of
+ * uff_return_to and of the readers; fewer values than the function has are not asked for. */
+int contents_values(struct uff_reader *reader, const struct content *item, long long first, long long count, double factor,
+                    double *real, double *imag);
+
 /* Quantity of an axis as enum frf_quantity: -1 where it is no motion. A type that is not given is told by the text of the unit.
  */
 int motion_of(const struct uff_axis *axis);

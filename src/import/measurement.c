@@ -121,30 +121,6 @@ struct loader {
     struct measurement *out;
 };
 
-/* Values first ... first + count - 1 of a function, times a factor. imag NULL for real ones. */
-static int load(struct loader *l, const struct content *item, long long first, long long count, double factor, double *real,
-                double *imag)
-{
-    struct uff_function f;
-    double skip_real[256], skip_imag[256];
-    long long got = 1, done = 0;
-    int status = uff_return_to(l->reader, &item->set);
-    if (!status)
-        status = uff_read_function(l->reader, &f);
-    for (long long left = first; left > 0 && got > 0 && !status; left -= got)
-        status = uff_read_values(l->reader, left < 256 ? left : 256, NULL, skip_real, skip_imag, &got);
-    while (done < count && !status && got > 0) {
-        status = uff_read_values(l->reader, count - done, NULL, real + done, imag ? imag + done : NULL, &got);
-        done += got;
-    }
-    for (long long i = 0; i < done; i++) {
-        real[i] *= factor;
-        if (imag)
-            imag[i] *= factor;
-    }
-    return status;
-}
-
 static int find_frf(const struct frf_set *set, const struct uff_function *f)
 {
     for (int c = 0; c < set->nfrf; c++)
@@ -176,7 +152,7 @@ static int load_coherences(struct loader *l, const struct content *model, long l
         frf->averages = averages;
         if (!frf->coherence || (averages > 0 && !frf->variance))
             return ROTID_ERROR_MEMORY;
-        int status = load(l, item, first, set->nline, 1, frf->coherence, NULL);
+        int status = contents_values(l->reader, item, first, set->nline, 1, frf->coherence, NULL);
         if (status)
             return status;
         for (int n = 0; n < set->nline && frf->variance; n++)
@@ -198,7 +174,7 @@ static int load_transfer(struct loader *l, const struct content *item, long long
                         .reference_node = f->reference_node,
                         .reference_direction = f->reference_direction};
     frf->h = POOL_ARRAY(l->pool, double complex, set->nline);
-    int status = frf->h ? load(l, item, first, set->nline, factor, real, imag) : ROTID_ERROR_MEMORY;
+    int status = frf->h ? contents_values(l->reader, item, first, set->nline, factor, real, imag) : ROTID_ERROR_MEMORY;
     for (int n = 0; n < set->nline && !status; n++)
         frf->h[n] = real[n] + I * imag[n];
     if (!status)

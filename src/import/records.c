@@ -68,22 +68,12 @@ struct loading {
 static int values_of(struct loading *l, int index, const double **values)
 {
     const struct content *item = &l->contents->item[index];
-    struct uff_function f;
     if (!l->values[index]) {
         double factor = uff_si_factor(l->contents->has_units ? &l->contents->units : NULL, &item->function.numerator);
         double *out = POOL_ARRAY(l->pool, double, item->function.count);
-        long long done = 0, got = 1;
-        int status = out ? uff_return_to(l->reader, &item->set) : ROTID_ERROR_MEMORY;
-        if (!status)
-            status = uff_read_function(l->reader, &f);
-        while (!status && done < item->function.count && got > 0) {
-            status = uff_read_values(l->reader, item->function.count - done, NULL, out + done, NULL, &got);
-            done += got;
-        }
+        int status = out ? contents_values(l->reader, item, 0, item->function.count, factor, out, NULL) : ROTID_ERROR_MEMORY;
         if (status)
             return status;
-        for (long long i = 0; i < done; i++)
-            out[i] *= factor;
         l->values[index] = out;
     }
     *values = l->values[index];

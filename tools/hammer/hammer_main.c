@@ -8,29 +8,6 @@
 #include "hammer_command.h"
 #include "hide/hide_text.h"
 
-/* The whole file; NULL, with a message, where it cannot be read. */
-static char *read_file(const char *path)
-{
-    struct hide_text text = {NULL, 0, 0, 0};
-    char block[4096];
-    size_t count;
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        fprintf(stderr, "hammer: %s: %s; expected paper, beam or a deck\n", path, strerror(errno));
-        return NULL;
-    }
-    hide_add(&text, "%s", "");
-    while ((count = fread(block, 1, sizeof block, file)) > 0)
-        hide_add_bytes(&text, block, count);
-    int bad = ferror(file) || text.failed || strlen(text.data) != text.length;
-    fclose(file);
-    if (!bad)
-        return text.data;
-    fprintf(stderr, "hammer: %s: expected a text that can be read\n", path);
-    free(text.data);
-    return NULL;
-}
-
 static int run(const struct hammer_command *c, const char *deck, int truths, const char *const *truth)
 {
     struct hammer_test test;
@@ -68,7 +45,7 @@ int main(int argc, char **argv)
         }
         if (!deck)
             presets = 0;
-        if (!deck && !(deck = read_file(command.rotor)))
+        if (!deck && !(deck = hide_read_file("hammer", command.rotor, "; expected paper, beam or a deck")))
             status = HAMMER_INPUT;
     }
     if (!status) { /* what is given comes after what is built in, and so has the last word */

@@ -152,29 +152,6 @@ static int take(int option, struct command *c)
     }
 }
 
-/* The whole file; NULL, with a message, where it cannot be read. */
-static char *read_file(const char *path)
-{
-    struct hide_text text = {NULL, 0, 0, 0};
-    char block[4096];
-    size_t count;
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        fprintf(stderr, "hide: %s: %s\n", path, strerror(errno));
-        return NULL;
-    }
-    hide_add(&text, "%s", "");
-    while ((count = fread(block, 1, sizeof block, file)) > 0)
-        hide_add_bytes(&text, block, count);
-    int bad = ferror(file) || text.failed || strlen(text.data) != text.length;
-    fclose(file);
-    if (!bad)
-        return text.data;
-    fprintf(stderr, "hide: %s: expected a text that can be read\n", path);
-    free(text.data);
-    return NULL;
-}
-
 /* Under a temporary name beside the final one, so that the file is whole or not there. */
 static int write_file(const char *path, const char *content)
 {
@@ -196,7 +173,7 @@ static int write_file(const char *path, const char *content)
 
 static int run(struct command *c)
 {
-    char message[600], *text = read_file(c->request.name), *deck = NULL, *truth = NULL;
+    char message[600], *text = hide_read_file("hide", c->request.name, ""), *deck = NULL, *truth = NULL;
     int status;
     if (!text)
         return HIDE_FAILURE;

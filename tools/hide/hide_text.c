@@ -1,6 +1,7 @@
 #include "hide_text.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -98,4 +99,26 @@ int hide_fields(char *line, int most, char **field)
         rest = comma ? comma + 1 : NULL;
     }
     return count;
+}
+
+char *hide_read_file(const char *program, const char *path, const char *hint)
+{
+    struct hide_text text = {NULL, 0, 0, 0};
+    char block[4096];
+    size_t count;
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        fprintf(stderr, "%s: %s: %s%s\n", program, path, strerror(errno), hint);
+        return NULL;
+    }
+    hide_add(&text, "%s", "");
+    while ((count = fread(block, 1, sizeof block, file)) > 0)
+        hide_add_bytes(&text, block, count);
+    int bad = ferror(file) || text.failed || strlen(text.data) != text.length;
+    fclose(file);
+    if (!bad)
+        return text.data;
+    fprintf(stderr, "%s: %s: expected a text that can be read\n", program, path);
+    free(text.data);
+    return NULL;
 }

@@ -27,6 +27,10 @@ struct hide_text {
 void hide_add(struct hide_text *text, const char *format, ...) HIDE_PRINTF(2, 3);
 void hide_add_bytes(struct hide_text *text, const char *bytes, size_t count);
 
+/* The whole file, to be freed. NULL where it cannot be read: the program says so on standard error, with `hint` behind the
+ * reason. */
+char *hide_read_file(const char *program, const char *path, const char *hint);
+
 int hide_same(const char *a, const char *b); /* without regard to case */
 
 /* Nonzero if the whole text is one finite number. */
