@@ -37,9 +37,9 @@ ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 $(WARNING
 LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread
 PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
 
-LIBRARY_ROOMS := base linalg beam modal fit signal ema run diagnose/causes diagnose
+LIBRARY_ROOMS := base linalg beam modal fit signal ema run diagnose/causes diagnose uff import deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
-IO_SOURCES := $(foreach room,uff import deck report,$(wildcard src/$(room)/*.c))
+IO_SOURCES := $(foreach room,report export study,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))

@@ -1,14 +1,19 @@
 /* rotid: the bending stiffness of a rotor from its measured modes.
  *
- * In the order of use: bring your own model (rotid_fit), building blocks (elements, Levenberg-Marquardt, mode correlation).
+ * Three layers, each usable alone: run a deck (rotid_deck_read, rotid_identify, rotid_diagnose); bring your own model
+ * (rotid_fit); building blocks (elements, condensation, eigenpairs, Levenberg-Marquardt, mode correlation). The twin for Fortran
+ * is rotid.f90.
  *
  * Conventions, once for all routines
  *   Units are SI; frequencies whose name ends in _hz are in hertz, all others in rad/s.
  *   Matrices are column-major, indices count from 0.
  *   A node of a beam has two degrees of freedom, the lateral deflection v and the rotation theta = -dv/dz of its section.
  *   Every routine returns a status: 0 done, negative an error, positive a reason why an iteration ended.
- *   No routine prints, exits, reads files, handles signals or keeps state between calls; calls on different data may run at
- *   the same time. The number of BLAS threads stays what the host has set. */
+ *   No routine prints, exits, handles signals or keeps state between calls, and only rotid_deck_read reads files; calls on
+ *   different data may run at the same time. The number of BLAS threads stays what the host has set.
+ *   NaN stands for what is not known or cannot be stated. While rotid_deck_read, rotid_spectrum_compute, rotid_identify,
+ *   rotid_diagnose, rotid_fit or rotid_lm runs, its thread computes with floating-point exceptions masked, and all but the last
+ *   two with the numeric locale "C"; both are as the host had them when the call returns. Callbacks run in between. */
 #ifndef ROTID_H
 #define ROTID_H
 
@@ -24,7 +29,11 @@ extern "C" {
 #define ROTID_API
 #endif
 
-#define ROTID_VERSION "0.1.0"
+#define ROTID_VERSION       "0.2.0"
+#define ROTID_VERSION_MAJOR 0 /* of the shared library too: librotid.so.MAJOR */
+
+/* The version of the library that is linked, such as "0.2.0". */
+ROTID_API const char *rotid_version(void);
 
 /* ------------------------------------------------------------------------------------------------ status */
 
@@ -80,6 +89,195 @@ typedef struct rotid_environment {
     void *context;
 } rotid_environment;
 
+/* ------------------------------------------------------------------------------------------------ run a deck */
+
+/* What is to be found, by either of the first two layers. */
+typedef struct rotid_parameter {
+    const char *name, *unit;    /* texts for reports; may be NULL */
+    double lower, upper, start; /* lower < start < upper, start != 0 */
+} rotid_parameter;
+
+typedef struct rotid_fit_result rotid_fit_result; /* with rotid_fit below */
+
+enum { ROTID_NOTE, ROTID_WARNING, ROTID_ERROR }; /* severity */
+
+typedef struct rotid_message {
+    int severity;
+    int line, column; /* from 1; 0 where there is none */
+    const char *file; /* NULL where there is none */
+    const char *text; /* what is wrong, what was expected */
+} rotid_message;
+
+/* What a deck says. All arrays belong to it and are not to be changed. A deck is only read by the routines below: several threads
+ * may work on one, and it may be freed before their results. */
+typedef struct rotid_deck {
+    const char *path;
+    int nmessage, nerror; /* of errors beyond the first 200 only the number is kept */
+    const rotid_message *message;
+    double length, mass, centre; /* m, kg, m from the left end; at the start of the parameters */
+    int nsensor;
+    const int *sensor_id;             /* [nsensor] */
+    const double *sensor_z;           /* [nsensor] m, increasing */
+    int nmode;                        /* measured */
+    const int *number;                /* [nmode] elastic mode, from 1 */
+    const double *frequency_hz;       /* [nmode] */
+    const double *frequency_std;      /* [nmode] relative, NaN where there is none */
+    const double *shape;              /* [nsensor * nmode] NaN where not measured; NULL where no shapes were */
+    const double *shape_std;          /* [nsensor * nmode] relative to the largest component; or NULL */
+    const int *holdout;               /* [nmode] */
+    int nparameter;                   /* of *IDENTIFY */
+    const rotid_parameter *parameter; /* [nparameter] */
+    void *memory;                     /* internal */
+} rotid_deck;
+
+/* Reads the deck `path`, what it includes and the measured data it names. override [noverride]: texts "CARD.OPTION=VALUE" that
+ * replace options of the deck; NULL with 0. Exit: *deck, to be freed with rotid_deck_free also when the status is an error: its
+ * messages then say what is wrong and where. *deck is NULL only with ROTID_ERROR_MEMORY or ROTID_ERROR_ARGUMENT (a NULL pointer).
+ * Statuses: ROTID_OK, ROTID_ERROR_SYNTAX, _IO, _MEMORY, _ARGUMENT; _SECTION where a section of it is none. */
+ROTID_API int rotid_deck_read(const char *path, int noverride, const char *const *override, const rotid_environment *environment,
+                              rotid_deck **deck);
+/* NULL is allowed. */
+ROTID_API void rotid_deck_free(rotid_deck *deck);
+
+/* The modes of the model of a deck. */
+typedef struct rotid_spectrum {
+    int nrigid;         /* rigid-body and suspension modes below the elastic ones */
+    int nmode;          /* elastic ones; fewer than asked for where the model has fewer */
+    int nmaster;        /* sensors, or without sensors the nodes of the axis */
+    double rigid_hz[2]; /* NaN where there is none */
+    double *hz;         /* [nmode] full model */
+    double *reduced_hz; /* [nmode] condensed as FIT says, by Guyan where it says nothing; NaN with too few or over 1000 masters */
+    double *reduction_error_percent, *mesh_error_percent; /* [nmode] of the frequencies */
+    double *shape;                                        /* [nmaster * nmode] full model at the masters, largest component 1 */
+    double *master_z;                                     /* [nmaster] m */
+    double *master_mass; /* [nmaster * nmaster] condensed by Guyan, for rotid_nco; NULL where it cannot be had */
+    void *memory;        /* internal */
+} rotid_spectrum;
+
+/* At the values x [nparameter] of the parameters of the deck, at their starts where x is NULL; the lowest nmode >= 1 elastic
+ * modes. Statuses: every ROTID_ERROR_ but UNPAIRED, RANK, SYNTAX and IO. *spectrum is NULL on an error. */
+ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
+                                     rotid_spectrum **spectrum);
+ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
+
+/* A model fitted to measured modes. */
+typedef struct rotid_identification {
+    const rotid_fit_result *fit; /* belongs to this result */
+    int nparameter;
+    const rotid_parameter *parameter; /* [nparameter] */
+    int nmode;                        /* measured */
+    const int *number;                /* [nmode] mode of the model that each was paired with, by shape where shapes tell */
+    const double *measured_hz;        /* [nmode]; fit->predicted_hz stands beside it */
+    const double *nco;                /* [nmode] (45), NaN without a shape */
+    const double *reduction_error_percent, *mesh_error_percent; /* [nmode] of the predicted frequency, NaN where not known */
+    double mass, centre;                                        /* kg, m; of the fitted model */
+    int nmessage;
+    const rotid_message *message;
+    void *memory; /* internal */
+} rotid_identification;
+
+/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again. With nothing to identify the model is
+ * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
+ * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
+ * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL; where
+ * that is no lack of memory, why is in `failure` (NULL allowed), which must hold 512 characters. */
+ROTID_API int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,
+                             rotid_identification **result);
+ROTID_API void rotid_identification_free(rotid_identification *result);
+
+/* ---- diagnosis: what the model gets wrong, and why */
+
+enum { ROTID_ADEQUATE, ROTID_NAMED, ROTID_AMBIGUOUS, ROTID_UNEXPLAINED }; /* verdict */
+
+typedef struct rotid_cause_value {
+    const char *name, *unit;
+    double value, std, ci_lower, ci_upper;
+    int fixed; /* by the user: not searched */
+} rotid_cause_value;
+
+/* A physical cause at one target, by the ids of docs/diagnosis.md. */
+typedef struct rotid_cause {
+    const char *id, *target, *name; /* "step_stiffness"; what it acts on, "" where nothing; of its CAUSE card */
+    const char *variant;            /* of its shape or mount, or NULL */
+    int nvalue;
+    const rotid_cause_value *value; /* [nvalue] */
+    int round;                      /* in which it was a candidate, from 1 */
+    int refitted;                   /* the six below come from a nonlinear fit, else they are NaN */
+    double chi2, chi2_drop, bic, holdout_rms, mode_out_rms, sensor_out_rms;
+    double predicted_drop, p_value; /* of chi2, by the linear scan; that the best of its family is this good by chance */
+    int at_bound;
+    const char *collinear_with; /* id of the candidate that looks most like it, or NULL */
+    double cosine;
+    const char *rejected_because; /* NULL: named, or one of those that cannot be told apart */
+} rotid_cause;
+
+/* A fault of the measurement chain (taken out of the data before the physics is judged) or of the numbers themselves. */
+typedef struct rotid_finding {
+    const char *id;
+    int nsensor, nmode;
+    const int *sensor, *mode;     /* [nsensor] ids, [nmode] numbers */
+    const double *error_percent;  /* [nmode] of the frequencies; NULL for faults of the data */
+    const char *block;            /* of noise_level: "SHAPE" or "FREQUENCY", else NULL */
+    double value, std, chi2_drop; /* NaN where there is none */
+    const char *text;
+} rotid_finding;
+
+/* One state of the model beside the data: frequencies in percent, shapes relative to the largest component. */
+typedef struct rotid_quality {
+    double frequency_rms_percent, frequency_max_percent, shape_rms, chi2_per_dof, nco_min;
+    double holdout_frequency_rms_percent, holdout_shape_rms;   /* modes that the deck holds out */
+    double mode_out_frequency_rms_percent, mode_out_shape_rms; /* modes left out in turn */
+    double sensor_out_shape_rms;                               /* sensors left out in turn */
+} rotid_quality;
+
+/* The smallest deviation of a cause from its neutral value that these data show 9 times in 10. */
+typedef struct rotid_detectable {
+    const char *id, *target, *parameter, *unit;
+    double smallest, z, worst; /* at its best place, that place [m], at the worst place */
+    int beyond;                /* no size within physical bounds would show */
+} rotid_detectable;
+
+typedef struct rotid_diagnosis {
+    int kind;           /* ROTID_ADEQUATE ... of physical causes only */
+    int adequate_after; /* the model with what was named explains the data within their noise */
+    int interrupted;    /* cancelled: what was finished is there; sentence may be NULL */
+    double p_value;
+    const char *sentence, *next_measurement; /* the verdict for a person; what would settle it, NULL where nothing is open */
+    int ncause, nalternative, ncandidate;
+    const rotid_cause *cause;       /* [ncause] named, at their values in the extended model */
+    const rotid_cause *alternative; /* [nalternative] that cannot be told apart, best first */
+    const rotid_cause *candidate;   /* [ncandidate] of all rounds */
+    int ndata_finding, nnumerical_finding;
+    const rotid_finding *data_finding, *numerical_finding;
+    const rotid_identification *base, *extended; /* extended: NULL where nothing was named. Messages are in `message` below */
+    rotid_quality before, after;
+    int nlocal; /* along the axis: where the base model's misfit acts, largest 1 */
+    const double *local_z, *local;
+    int ndetectable;
+    const rotid_detectable *detectable;
+    const char
+        *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
+    int nmessage;
+    const rotid_message *message;
+    void *memory; /* internal */
+} rotid_diagnosis;
+
+/* Zero takes the default in brackets. */
+typedef struct rotid_diagnose_options {
+    int threads;    /* [1] of this call; its BLAS should have one then */
+    int replicates; /* [1000] of the bootstrap */
+    long seed;      /* [1] >= 0, of the random numbers */
+} rotid_diagnose_options;
+
+/* What `rotid diagnose` does; the same numbers whatever the number of threads. options may be NULL. Allocator, statuses, failure
+ * and *result as for rotid_identify. The allocator and the callbacks of the environment are called from several threads where
+ * options ask for more than one. */
+ROTID_API int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options, const rotid_environment *environment,
+                             char *failure, rotid_diagnosis **result);
+ROTID_API void rotid_diagnosis_free(rotid_diagnosis *result);
+/* "adequate", "named", "ambiguous", "unexplained". */
+ROTID_API const char *rotid_verdict_name(int kind);
+
 /* ------------------------------------------------------------------------------------------------ bring your own model */
 
 /* A symmetric matrix A = B + P C P': a band B, and a small dense block C on a few degrees of freedom that couple across it
@@ -119,11 +317,6 @@ typedef struct rotid_measured {
     const int *holdout;          /* [nmode] nonzero: predicted and compared, not fitted; or NULL */
 } rotid_measured;
 
-typedef struct rotid_parameter {
-    const char *name, *unit;    /* texts for reports; may be NULL */
-    double lower, upper, start; /* lower < start < upper, start != 0 */
-} rotid_parameter;
-
 enum { ROTID_HYBRID, ROTID_HYBRID_F, ROTID_LIKELIHOOD }; /* functional */
 enum { ROTID_REDUCTION_NONE, ROTID_GUYAN, ROTID_IRS };   /* reduction */
 enum { ROTID_NELSON, ROTID_MODAL };                      /* eigenvector derivative; ROTID_MODAL needs a reduction */
@@ -159,7 +352,7 @@ typedef struct rotid_baseline {
 } rotid_baseline;
 
 /* Everything is owned by the result and released with it. n = nparam, m = nmode of the measured data. */
-typedef struct rotid_fit_result {
+struct rotid_fit_result {
     int status;    /* why the iteration ended: ROTID_STOP_... */
     int converged; /* a minimum was reached: inside the bounds or pressed against one */
     int any_at_bound, any_undetermined;
@@ -186,7 +379,7 @@ typedef struct rotid_fit_result {
     int nbaseline;
     rotid_baseline *baseline;
     void *memory; /* internal */
-} rotid_fit_result;
+};
 
 /* Minimises f(x) = 1/2 sum r^2 over lower < x < upper by Levenberg-Marquardt on y with the bijection of the paper's (30).
  *   ROTID_HYBRID      r_k = 1 - R*_k / w^_k^2, R*_k = phi^' K~ phi~ / (phi^' M~ phi~)            (15)
@@ -222,8 +415,47 @@ ROTID_API void rotid_element_stiffness(double ei, double kgs, double l, double *
 ROTID_API void rotid_element_geometric(double force, double phi, double l, double *stiffness);
 ROTID_API void rotid_element_mass(double rhos, double rhoi, double phi, double l, double *mass);
 
-/* ------------------------------------------------------------------------------------------------ building blocks: least squares
- */
+/* ------------------------------------------------------------------------------------------------ building blocks: matrices */
+
+/* A(i, j) += value, and A(j, i) with it: into the band where it reaches, else into the block. ROTID_OK, or ROTID_ERROR_ARGUMENT
+ * where the structure of the matrix has no such place; nothing is changed then. */
+ROTID_API int rotid_matrix_add(rotid_matrix *a, int i, int j, double value);
+/* Adds the symmetric element matrix e [nd * nd] on the degrees of freedom dof [nd]; a negative dof is left out (held). Statuses
+ * as above, nothing is changed on an error. */
+ROTID_API int rotid_matrix_add_element(rotid_matrix *a, int nd, const int *dof, const double *e);
+/* A := the symmetric matrix `full` [n, n] with leading dimension ld >= n, of which the lower triangle is read. ROTID_OK, or
+ * ROTID_ERROR_ARGUMENT where it has an entry other than zero outside the structure of A. */
+ROTID_API int rotid_matrix_set_dense(rotid_matrix *a, const double *full, int ld);
+/* full [n, n], leading dimension ld >= n := A, both triangles. ROTID_OK or ROTID_ERROR_ARGUMENT. */
+ROTID_API int rotid_matrix_get_dense(const rotid_matrix *a, double *full, int ld);
+/* Y [n * columns] := A X [n * columns]; they do not overlap. */
+ROTID_API int rotid_matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y);
+
+/* In the following K and M have the same n, kd and far; `environment` may be NULL, of it only the allocator is used. */
+
+/* Condensation onto master degrees of freedom, u = T x: K~ = T'KT, M~ = T'MT. kind: ROTID_GUYAN (11-13), T = [-K_ii^-1 K_ic; I];
+ * ROTID_IRS (O'Callahan 1989). master [nmaster] increasing, 1 <= nmaster <= n. kc, mc [nmaster * nmaster]; t [n * nmaster] or
+ * NULL. Statuses: ROTID_OK, _ARGUMENT, _MEMORY, _SLAVE, _MASS (IRS), _FINITE. */
+ROTID_API int rotid_condense(const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
+                             const rotid_environment *environment, double *kc, double *mc, double *t);
+/* The derivatives of K~ and M~ in the direction dK, dM (40, 41 corrected, docs/errata.md): dkc, dmc [nmaster * nmaster]. */
+ROTID_API int rotid_condense_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk,
+                                        const rotid_matrix *dm, int nmaster, const int *master, int kind,
+                                        const rotid_environment *environment, double *dkc, double *dmc);
+
+/* The lowest `count` pairs of K phi = lambda M phi, ascending, phi'M phi = 1: lambda [count] (rad/s)^2, phi [n * count]. A Sturm
+ * count proves that none was missed. K positive semidefinite, M positive definite. Statuses: ROTID_OK, _ARGUMENT, _MEMORY, _MASS,
+ * _STIFFNESS, _EIGEN, _FINITE. */
+ROTID_API int rotid_eigenpairs(const rotid_matrix *k, const rotid_matrix *m, int count, const rotid_environment *environment,
+                               double *lambda, double *phi);
+/* Derivatives of pair j of those lambda [count], phi [n * count] that rotid_eigenpairs gave, in the direction dK, dM:
+ *   dlambda = phi' (dK - lambda dM) phi,   dphi [n] after Nelson (1976), with phi' M dphi = -1/2 phi' dM phi.
+ * dphi may be NULL. Statuses: ROTID_OK, _ARGUMENT, _MEMORY, _FINITE, _CLOSE (for dphi: pair j has a neighbour within 1e-6). */
+ROTID_API int rotid_eigenpair_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk,
+                                         const rotid_matrix *dm, int count, const double *lambda, const double *phi, int j,
+                                         const rotid_environment *environment, double *dlambda, double *dphi);
+
+/* -------------------------------------------------------------------------------------- building blocks: least squares */
 
 /* At x [n], one of the two: the residual r [m] (jacobian is NULL), or the jacobian [m * n] column-major, dr_i/dx_j (r is NULL),
  * always at the point whose residual was asked for last, so that what both need is computed once. Returns 0, or nonzero where x
@@ -265,6 +497,17 @@ ROTID_API size_t rotid_lm_workspace(int m, int n);
  * _RANK (J = 0 there with r != 0), _LIBRARY. */
 ROTID_API int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
                        double *jacobian, double *work, rotid_lm_result *result);
+
+/* Length of the workspace of rotid_check_jacobian in doubles. */
+ROTID_API size_t rotid_check_jacobian_workspace(int m, int n);
+
+/* Compares the Jacobian that `residual` gives at x [n] with central differences D of its residual, extrapolated over a sequence
+ * of steps (Ridders 1982) scaled by scale [n] > 0, the size of a natural change of each variable; NULL: max(|x_j|, 1e-3).
+ * error [n]: |J_j - D_j| / max(|J_j|, |D_j|), 0 where both vanish; doubt [n]: the same ratio for what D_j itself may be wrong by.
+ * Column j is wrong where error exceeds both a tolerance and doubt. x is not changed. Statuses: ROTID_OK, _ARGUMENT, _CALLBACK,
+ * _FINITE (r or J at x). Where no differences can be had around x in a column, its doubt and error are NaN. */
+ROTID_API int rotid_check_jacobian(int m, int n, rotid_residual residual, void *user, const double *x, const double *scale,
+                                   double *error, double *doubt, double *work);
 
 /* ------------------------------------------------------------------------------------------------ building blocks: modes */
 
