@@ -24,7 +24,7 @@ static void print_help(FILE *out)
         "  --extended FILE          diagnose: a deck with the cause that was named\n"
         "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
         "  -o, --output FILE        ema: the modes, for *MEASURED; uff: the file anew, its functions in the other format\n"
-        "                           frf: the synthesised functions\n"
+        "                           frf: the synthesised functions; report: the folder of the page\n"
         "  --format ascii|binary    uff: or in this one\n"
         "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema (one a processor); seed of random numbers (1)\n"
         "  --version, --help\n\n",
@@ -185,9 +185,13 @@ int arguments_parse(struct command *command, int argc, char **argv)
     command->name = argv[optind++];
     if (optind >= argc)
         return arguments_wrong("%s: no file given, expected rotid COMMAND FILE", command->name);
-    command->deck = argv[optind++];
-    if (optind < argc)
-        return arguments_wrong("%s is one argument too many, expected one file", argv[optind]);
+    command->nfile = argc - optind;
+    command->file = POOL_ARRAY(&command->pool, const char *, command->nfile);
+    if (!command->file)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    for (int i = 0; i < command->nfile; i++)
+        command->file[i] = argv[optind + i];
+    command->deck = command->file[0];
     return -1;
 }
 
@@ -222,8 +226,9 @@ static int refuse_output(const struct command *command, const struct command_ent
         return command->format ? arguments_wrong("--format %s: expected --output as well", command->format) : -1;
     if (!strcmp(command->output, "-"))
         return arguments_wrong("--output %s: expected a file", command->output);
-    if (same_file(command->deck, command->output))
-        return arguments_wrong("--output %s is the file that is read, expected another one", command->output);
+    for (int i = 0; i < command->nfile; i++)
+        if (same_file(command->file[i], command->output))
+            return arguments_wrong("--output %s is the file that is read, expected another one", command->output);
     if (command->json && same_file(command->json, command->output))
         return arguments_wrong("--output %s is the file of --json as well, expected another file", command->output);
     return -1;
@@ -232,6 +237,10 @@ static int refuse_output(const struct command *command, const struct command_ent
 int arguments_refuse(const struct command *command, const struct command_entry *entry)
 {
     int diagnoses = !strcmp(command->name, "diagnose");
+    if (command->nfile > 1 && !(entry->flags & MANY_FILES))
+        return arguments_wrong("%s is one argument too many, expected one file", command->file[1]);
+    if (entry->flags & MANY_FILES && command->json)
+        return arguments_wrong("--json is no option of %s", command->name);
     if (!diagnoses && (command->extended || command->replicates))
         return arguments_wrong("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
     if (command->ema.given && strcmp(command->name, "ema"))

@@ -20,6 +20,8 @@ struct ema_arguments {
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
     const char *name, *deck, *json, *at, *extended, *output, *format;
+    int nfile; /* of report: the results, the deck above being the first */
+    const char **file;
     int quiet, verbose, threads, baseline, points, replicates;
     unsigned long seed;
     double step, range;
@@ -68,6 +70,7 @@ int command_diagnose(struct command *command);
 int command_frf(struct command *command);
 int command_ema(struct command *command);
 int command_uff(struct command *command);
+int command_report(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;

@@ -1,0 +1,38 @@
+#include "page/page.h"
+
+#include "page/human.h"
+#include "page/sections.h"
+
+static const char *subtitle(struct pool *pool, const struct result *result)
+{
+    const char *text = pool_format(pool, "rotid %s %s, version %s (%s)", result->command,
+                                   result->deck ? result->deck : result->file, result->version, result->commit);
+    return text ? text : "";
+}
+
+void page_compose(struct document *document, int count, const struct result *result)
+{
+    document->title = result->nheading ? result->heading[0] : result->deck ? result->deck : result->file;
+    document->subtitle = subtitle(document->pool, result);
+    if (result->identify)
+        answer_identify(document, result, result->identify);
+    else
+        answer_plain(document, result);
+    section_rests_on(document, count, result);
+    for (int i = 0; i < count; i++) { /* one picture of the rotor does */
+        if (!result[i].geometry)
+            continue;
+        section_rotor(document, &result[i], result[i].identify);
+        break;
+    }
+    for (int i = 0; i < count; i++) {
+        if (result[i].identify)
+            section_identify(document, &result[i]);
+        if (result[i].modes)
+            section_modes(document, &result[i]);
+        if (result[i].sensitivity)
+            section_sensitivity(document, &result[i]);
+        if (result[i].transfer)
+            section_transfer(document, &result[i]);
+    }
+}

@@ -1,0 +1,63 @@
+#include <math.h>
+
+#include "base/text.h"
+#include "page/plot.h"
+
+#define TYPE_PX 12.0
+
+void plot_range_join(struct plot_range *range, double value)
+{
+    if (!isfinite(value))
+        return;
+    range->from = fmin(range->from, value);
+    range->to = fmax(range->to, value);
+}
+
+struct plot_range plot_range_of(int count, const double *value, double margin)
+{
+    struct plot_range range = {INFINITY, -INFINITY};
+    for (int i = 0; i < count; i++)
+        plot_range_join(&range, value[i]);
+    if (!(range.from <= range.to))
+        return (struct plot_range){0, 1};
+    double width = range.to - range.from;
+    if (width <= 1e-12 * fmax(fabs(range.from), fabs(range.to))) /* one value: gnuplot has no range of no width */
+        width = range.from != 0 ? 0.1 * fabs(range.from) : 1, margin = fmax(margin, 0.5);
+    return (struct plot_range){range.from - margin * width, range.to + margin * width};
+}
+
+double plot_share(const struct plot_range *range, double value)
+{
+    return (value - range->from) / (range->to - range->from);
+}
+
+struct plot_range plot_decades(int count, const double *value, int most)
+{
+    struct plot_range range = {INFINITY, -INFINITY};
+    for (int i = 0; i < count; i++)
+        if (value[i] > 0 && isfinite(value[i]))
+            plot_range_join(&range, log10(value[i]));
+    if (!(range.from <= range.to))
+        return (struct plot_range){-1, 0};
+    range.from = floor(range.from);
+    range.to = ceil(range.to);
+    range.to += range.to == range.from;
+    range.from = fmax(range.from, range.to - most);
+    return range;
+}
+
+double plot_width(const char *text)
+{
+    double width = 0;
+    while (*text) { /* Arial: a few classes of letters */
+        size_t bytes = text_utf8(text);
+        char c = *text;
+        width += c == ' '                                                                                        ? 0.28
+                 : c == 'i' || c == 'j' || c == 'l' || c == '.' || c == ',' || c == ':' || c == '|' || c == '\'' ? 0.25
+                 : c == 'm' || c == 'w' || c == 'M' || c == 'W' || c == '%'                                      ? 0.86
+                 : c >= 'A' && c <= 'Z'                                                                          ? 0.70
+                                                                                                                 : 0.56;
+        text += bytes ? bytes : 1;
+    }
+    return TYPE_PX * width;
+}
