@@ -131,16 +131,14 @@ $(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(
 power: $(BUILD)/power
 	@OPENBLAS_NUM_THREADS=1 $(BUILD)/power $(POWER)
 
-$(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"'
+# Some link hosts of their own, in the way the library was built.
+$(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
+    -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
-
-# tests of the built library have to know how it was built, and link hosts of their own in the same way
-EXTRA_test_install = -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
-EXTRA_test_symbols = $(EXTRA_test_install)
 
 abi: $(BUILD)/tests/test_abi
 	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
