@@ -23,8 +23,13 @@
 #define NOISE    "*NOISE, FREQUENCY=0.001, SHAPE=0.03\n"
 #define TEXT     (1 << 20)
 
-/* A deck whose shapes are those of its own model with noise; mode 3 has none. */
-static char *noisy_deck(const char *noise)
+static double std_of(int sensor)
+{
+    return 0.02 * (1 + sensor % 3);
+}
+
+/* A deck whose shapes are those of its own model with noise; mode 3 has none. with_std: the components state theirs. */
+static char *noisy_deck(const char *noise, int with_std)
 {
     static char text[TEXT];
     struct json_deck deck;
@@ -40,9 +45,13 @@ static char *noisy_deck(const char *noise)
     for (int k = 0; k < 2; k++) {
         (void)snprintf(text + strlen(text), 64, "*SHAPE, MODE=%d\n", k + 1);
         for (int i = 0; i < SENSORS; i++)
-            if (!(k == 1 && i == UNREAD))
-                (void)snprintf(text + strlen(text), 64, "%d, %.9g\n", 10 + i,
-                               -3 * s.shape[i + k * s.nmaster] + 0.1 * random_normal(&stream));
+            if (!(k == 1 && i == UNREAD)) {
+                char std[32] = "";
+                if (with_std)
+                    (void)snprintf(std, sizeof std, ", %.3f", std_of(i));
+                (void)snprintf(text + strlen(text), 64, "%d, %.9g%s\n", 10 + i,
+                               -3 * s.shape[i + k * s.nmaster] + 0.1 * random_normal(&stream), std);
+            }
     }
     json_deck_close(&deck);
     return text;
@@ -76,6 +85,8 @@ static void judge_shape(const cJSON *json, int k, int with_std)
     assert_true(with_std || cJSON_IsNull(get(mode, "measured_std")));
     if (with_std)
         json_numbers(get(mode, "measured_std"), SENSORS, std);
+    for (int i = 0; i < SENSORS && with_std; i++)
+        assert_true(!isfinite(measured[i]) || fabs(std[i] - std_of(i)) < 1e-9);
     for (int i = 0; i < SENSORS; i++) {
         assert_true(isfinite(measured[i]) != (k == 1 && i == UNREAD));
         for (int node = 0; node < nodes; node++)
@@ -104,14 +115,14 @@ static void shapes_have_one_scale_and_give_the_printed_mac(void **state)
     (void)state;
     for (int with = 0; with < 2; with++) {
         struct json_deck deck;
-        json_deck_open(&deck, noisy_deck(with ? NOISE : ""));
+        json_deck_open(&deck, noisy_deck(with ? NOISE : "", with));
         cJSON *json = json_deck_identify(&deck, 0);
         const cJSON *noise = get(json, "noise");
         for (int k = 0; k < 2; k++)
             judge_shape(json, k, with);
         if (with) {
             assert_close(number_of(noise, "frequency"), 1e-3, 0, 0);
-            assert_close(number_of(noise, "shape"), 0.03, 0, 0);
+            assert_close(number_of(noise, "shape"), 0.04, 1e-9, 0); /* the median */
             assert_close(number_of(json_member(json, "modes", 2), "frequency_std"), 1e-3, 0, 0);
         } else {
             assert_true(cJSON_IsNull(get(noise, "frequency")) && cJSON_IsNull(get(noise, "shape")));
@@ -128,7 +139,7 @@ static void matrices_hold_the_printed_values_where_mode_meets_partner(void **sta
     (void)state;
     struct json_deck deck;
     double row[8];
-    json_deck_open(&deck, noisy_deck(NOISE));
+    json_deck_open(&deck, noisy_deck(NOISE, 0));
     cJSON *json = json_deck_identify(&deck, 0);
     int columns = deck.result.spectrum.count;
     static const char *const keys[2][2] = {{"mac_matrix", "mac"}, {"nco_matrix", "nco"}};
@@ -157,7 +168,7 @@ static void matrices_hold_the_printed_values_where_mode_meets_partner(void **sta
 static void rows_carry_the_numbers_of_the_deck(void **state)
 {
     (void)state;
-    char *text = noisy_deck(NOISE), *first = strstr(text, "MODE=1"), *second = strstr(text, "MODE=2");
+    char *text = noisy_deck(NOISE, 0), *first = strstr(text, "MODE=1"), *second = strstr(text, "MODE=2");
     struct json_deck deck;
     double row[6];
     first[5] = '2';
@@ -317,7 +328,7 @@ static void the_baseline_says_what_it_predicts(void **state)
     (void)state;
     struct json_deck deck;
     double hz[3];
-    json_deck_open(&deck, noisy_deck(NOISE "*FIT, REDUCTION=IRS, FUNCTIONAL=HYBRID\n"));
+    json_deck_open(&deck, noisy_deck(NOISE "*FIT, REDUCTION=IRS, FUNCTIONAL=HYBRID\n", 0));
     cJSON *json = json_deck_identify(&deck, 1);
     int count = cJSON_GetArraySize(get(json, "baseline"));
     assert_true(count > 0 || !WITH_NLOPT);
@@ -346,8 +357,8 @@ static void a_result_is_whole_or_not_there(void **state)
     static const struct provenance provenance = {"test", "0", "none", "a BLAS", 1, 1};
     struct json_deck deck;
     char *text = NULL;
-    json_deck_open(&deck,
-                   noisy_deck(NOISE "*TIEROD, NAME=rods, MATERIAL=steel, FROM=core.start, TO=core.end\n6, 0.008, 0.035, 1e3\n"));
+    json_deck_open(
+        &deck, noisy_deck(NOISE "*TIEROD, NAME=rods, MATERIAL=steel, FROM=core.start, TO=core.end\n6, 0.008, 0.035, 1e3\n", 0));
     cJSON_Delete(json_deck_identify(&deck, 0));
     cJSON_Hooks hooks = {scarce, free};
     cJSON_InitHooks(&hooks);

@@ -134,13 +134,13 @@ void json_identification(struct json_tree *tree, cJSON *object, const struct job
     json_number(tree, object, "seconds", fit->seconds);
 }
 
-/* The middle one of those that are known. */
-static double typical(ptrdiff_t count, const double *value, double *known)
+/* The middle one of the deviations that are known of what was measured. */
+static double typical(ptrdiff_t count, const double *measured, const double *std, double *known)
 {
     size_t found = 0;
     for (ptrdiff_t i = 0; i < count; i++)
-        if (isfinite(value[i]))
-            known[found++] = value[i];
+        if (isfinite(measured[i]) && isfinite(std[i]))
+            known[found++] = std[i];
     return median_of(found, known);
 }
 
@@ -152,8 +152,8 @@ static void add_noise(struct json_tree *tree, const struct job *job, const rotid
     double *work = POOL_ARRAY(&pool, double, components + job->nmode);
     cJSON *noise = json_object(tree, tree->root, "noise");
     tree->failed |= !work;
-    json_number(tree, noise, "frequency", work ? typical(job->nmode, job->frequency_std, work) : NAN);
-    json_number(tree, noise, "shape", work ? typical(components, job->shape_std, work) : NAN);
+    json_number(tree, noise, "frequency", work ? typical(job->nmode, job->frequency_hz, job->frequency_std, work) : NAN);
+    json_number(tree, noise, "shape", work ? typical(components, job->shape, job->shape_std, work) : NAN);
     json_flag(tree, noise, "frequency_assumed", 0);
     json_flag(tree, noise, "shape_assumed", 0);
     json_text(tree, noise, "intervals_from", fit->variance_from_residuals ? "residuals" : "noise");
