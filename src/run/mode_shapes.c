@@ -7,7 +7,7 @@
 #define AXIS_INTERVALS   400 /* at most: 40 a half wave of a tenth mode, and no picture has many more dots across */
 #define MEMBER_INTERVALS 20  /* at least */
 
-/* The measured shapes of a mode whose number of components a comparison accepts, too. */
+/* Measured ones of mode k: a comparison needs two. */
 static int components(const struct mode_shapes *m, int k)
 {
     int count = 0;
