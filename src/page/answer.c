@@ -109,7 +109,7 @@ static void on_misfit(struct reasons *reasons, const struct fitted *fit, const c
         return;
     chance = chi_square_tail(fit->chi2, fit->dof);
     if (chance < CHANCE)
-        say(reasons, TONE_CARE,
+        say(reasons, worst >= 0 && fabs(fit->mode[worst].error_percent) > POOR_PERCENT ? TONE_BAD : TONE_CARE,
             pool_format(
                 pool,
                 "The misfit is %s times what the stated noise explains (\xcf\x87\xc2\xb2 = %s with %d degrees of freedom): the "
@@ -183,17 +183,18 @@ void answer_plain(struct document *document, const struct result *result)
     document->tone = TONE_NONE;
     if (result->modes && result->modes->nmode) {
         const struct modes_entry *mode = result->modes->mode;
-        text = pool_format(pool, "%d bending modes from %s to %s\xc2\xa0Hz", result->modes->nmode,
-                           human_digits(pool, mode[0].full_hz, 5), human_digits(pool, mode[result->modes->nmode - 1].full_hz, 5));
+        text =
+            pool_format(pool, "%d bending modes from %s to %s\xc2\xa0Hz", result->modes->nmode,
+                        human_trimmed(pool, mode[0].full_hz, 5), human_trimmed(pool, mode[result->modes->nmode - 1].full_hz, 5));
     } else if (result->sensitivity) {
         text = pool_format(pool, "How %d modes depend on %d %s", result->sensitivity->nmode, result->sensitivity->nparameter,
                            human_plural(result->sensitivity->nparameter, "parameter", "parameters"));
     } else if (result->transfer) {
         text = pool_format(pool, "%d transfer %s from %s to %s\xc2\xa0Hz", result->transfer->nfunction,
                            human_plural(result->transfer->nfunction, "function", "functions"),
-                           human_digits(pool, result->transfer->low_hz, 4), human_digits(pool, result->transfer->high_hz, 5));
+                           human_trimmed(pool, result->transfer->low_hz, 4), human_trimmed(pool, result->transfer->high_hz, 5));
     } else if (result->geometry) {
-        text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d elements", human_digits(pool, result->geometry->length, 4),
+        text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d elements", human_trimmed(pool, result->geometry->length, 4),
                            geometry_elements(result->geometry));
     }
     document->answer = text ? text : "";

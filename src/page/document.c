@@ -12,16 +12,22 @@ void document_open(struct document *document, struct pool *pool)
     *document = (struct document){.pool = pool, .title = "", .subtitle = "", .answer = ""};
 }
 
-/* How many figures and sections have this id, or this id with a number. */
+/* Whether an identifier is this one, or this one with a number. */
+static int is_like(const char *id, const char *like)
+{
+    size_t length = strlen(like);
+    if (strncmp(id, like, length) != 0)
+        return 0;
+    return !id[length] || (id[length] == '-' && id[length + 1] >= '0' && id[length + 1] <= '9');
+}
+
 static int count_id(const struct document *document, const char *id)
 {
-    size_t length = strlen(id);
     int count = 0;
     for (const struct page_section *section = document->first; section; section = section->next) {
-        count += !strncmp(section->id, id, length) && (!section->id[length] || section->id[length] == '-');
+        count += is_like(section->id, id);
         for (const struct page_block *block = section->first; block; block = block->next)
-            count += block->figure && !strncmp(block->figure->id, id, length) &&
-                     (!block->figure->id[length] || block->figure->id[length] == '-');
+            count += block->figure && is_like(block->figure->id, id);
     }
     return count;
 }

@@ -34,7 +34,7 @@ struct fitted_baseline {
 
 struct fitted_member { /* tie rods or bars in one mode */
     const char *name;
-    int npoint;
+    int is_bars, npoint;
     double *z, *shape;
 };
 

@@ -20,6 +20,7 @@ static void read_members(const struct json_place *at, struct fitted_shape *shape
     for (int b = 0; b < 2; b++)
         for (struct json_place item = place_first(&list[b], PLACE_OBJECT); item.json; item = place_next(&item, PLACE_OBJECT)) {
             struct fitted_member *member = &shape->member[shape->nmember++];
+            member->is_bars = b;
             member->name = place_string_if(&item, "name");
             member->npoint = place_list(&item, "z_m", 1, -1, &member->z);
             (void)place_list(&item, "shape", 1, member->npoint, &member->shape);

@@ -176,6 +176,12 @@ double geometry_radius_at(const struct geometry *geometry, double z)
     return radius;
 }
 
+int geometry_is_of(const struct drawn_group *group, const char *parameter)
+{
+    size_t length = strlen(group->name);
+    return !strncmp(parameter, group->name, length) && parameter[length] == '.';
+}
+
 int geometry_elements(const struct geometry *geometry)
 {
     int elements = 0;

@@ -56,6 +56,8 @@ struct geometry *geometry_read(const struct json_place *above);
 /* Largest radius; and that of the segment around z (the larger one where two meet). */
 double geometry_radius(const struct geometry *geometry);
 double geometry_radius_at(const struct geometry *geometry, double z);
+/* Whether a parameter called "NAME.E" or the like is one of this group. */
+int geometry_is_of(const struct drawn_group *group, const char *parameter);
 /* Elements along the axis. */
 int geometry_elements(const struct geometry *geometry);
 

@@ -51,11 +51,11 @@ static int is_number_column(const struct number_table *table, int column)
 
 void html_table(FILE *out, const char *id, const char *caption, const struct number_table *table)
 {
-    (void)fprintf(out,
-                  "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-labelledby=\"%s\">\n<table>\n<caption id=\"%s\">",
-                  id, id);
+    (void)fprintf(
+        out, "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-labelledby=\"%s\">\n<table>\n<caption id=\"%s\"><span>",
+        id, id);
     html_text(out, caption);
-    (void)fputs("</caption>\n<thead><tr>", out);
+    (void)fputs("</span></caption>\n<thead><tr>", out);
     for (int j = 0; j < table->columns; j++) {
         (void)fprintf(out, "<th scope=\"col\"%s>", is_number_column(table, j) ? " class=\"n\"" : "");
         html_text(out, table->head[j]);

@@ -97,11 +97,24 @@ const char *human_digits(struct pool *pool, double value, int digits)
     return or_nothing(pool_format(pool, "%s%s" TIMES "%s", value < 0 ? MINUS : "", text, superscript(pool, exponent)));
 }
 
+const char *human_trimmed(struct pool *pool, double value, int digits)
+{
+    char *number = pool_copy_text(pool, human_digits(pool, value, digits));
+    if (number && strchr(number, '.') && !strstr(number, TIMES)) {
+        char *end = number + strlen(number);
+        while (end[-1] == '0')
+            *--end = 0;
+        if (end[-1] == '.')
+            end[-1] = 0;
+    }
+    return or_nothing(number);
+}
+
 const char *human_value(struct pool *pool, double value, const char *unit)
 {
     struct human_unit shown = human_unit(value, unit);
     return or_nothing(
-        pool_format(pool, "%s%s%s", human_digits(pool, value * shown.factor, 4), *shown.text ? NARROW_SPACE : "", shown.text));
+        pool_format(pool, "%s%s%s", human_trimmed(pool, value * shown.factor, 4), *shown.text ? NARROW_SPACE : "", shown.text));
 }
 
 const char *human_interval(struct pool *pool, double value, const double ci[2], const char *unit)

@@ -12,7 +12,8 @@ struct human_unit {
 };
 struct human_unit human_unit(double value, const char *unit);
 
-/* Decimals that show three significant digits of `spread` (0 ... 8); four significant digits of value where there is no spread. */
+/* Decimals that show three significant digits of `spread` (0 ... 8); four significant digits of value where there is no spread.
+ */
 int human_decimals(double value, double spread);
 
 /* With a number of decimals; "\u2013" where there is none (not finite). Signed: a plus in front too. */
@@ -21,7 +22,10 @@ const char *human_signed(struct pool *pool, double value, int decimals);
 /* With a number of significant digits; very large and small ones as 1.2 x 10^-7. */
 const char *human_digits(struct pool *pool, double value, int digits);
 
-/* "115.7 GPa": four significant digits. */
+/* The same without zeros at the end: "60" rather than "60.00". */
+const char *human_trimmed(struct pool *pool, double value, int digits);
+
+/* "115.7 GPa", "60 GPa": four significant digits without zeros at the end. */
 const char *human_value(struct pool *pool, double value, const char *unit);
 /* "115.7 GPa (95 %: 55.1 to 176.4)", without the bracket where there is no interval. */
 const char *human_interval(struct pool *pool, double value, const double ci[2], const char *unit);

@@ -19,6 +19,7 @@ const struct role palette[] = {
     {"ROSE", 0xe9cfdf, 0x57394d},
     {"SAND", 0xe6e1c5, 0x4a4630},
     {"BAND", 0xf0f2f5, 0x23272e},  /* a ground that is set off */
+    {"SHADE", 0xe6eaf0, 0x272d36}, /* behind a part of a figure */
     {"RAMP0", 0xf7f9fb, 0x1c1f25}, /* from nothing to much */
     {"RAMP1", 0xe4edf5, 0x1b2a38},
     {"RAMP2", 0xd1e2ee, 0x1c354a},

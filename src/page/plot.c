@@ -9,7 +9,7 @@
 #include "page/palette.h"
 
 #define TYPEFACE "Arial" /* Liberation Sans and Helvetica have the same widths: what fits here fits elsewhere */
-#define LABEL_PX 15      /* between two lines of text */
+#define LABEL_PX 15.0    /* between two lines of text */
 
 /* Dashes and marks by series: no line is told by its colour alone. */
 static void styles(FILE *out)
@@ -42,7 +42,7 @@ int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const
     (void)fputs("set style line 20 lc rgb GRID lw 0.75 dt 1\n"
                 "set border 3 lc rgb INK lw 0.75\nset tics nomirror out scale 0.5 textcolor rgb INK\nset xtics offset 0, 0.25\n"
                 "set ytics offset 0.5, 0\nset format x '%g'\nset format y '%g'\nset grid ls 20\n"
-                "unset mxtics; unset mytics\nset key noautotitle\nset samples 200\n",
+                "unset mxtics; unset mytics\nset key noautotitle\nset samples 200\nset minussign\nset pointintervalbox 0\n",
                 out);
     return ROTID_OK;
 }
@@ -105,28 +105,31 @@ void plot_begin(struct plot *plot, const struct plot_layout *layout)
     plot->layout = *layout;
     for (int l = 0; l < LAYOUTS; l++) {
         int rows = (layout->panels + layout->columns[l] - 1) / layout->columns[l];
-        plot->figure->height[l] = (int)ceil(layout->head[l] + rows * layout->height);
+        double height = l == NARROW && layout->narrow_height > 0 ? layout->narrow_height : layout->height;
+        plot->figure->height[l] = (int)ceil(layout->head[l] + rows * height);
     }
     (void)fprintf(out,
                   "\n# Panels in rows: margins [px] of each around its axes. Sizes [px] are those on a page; 96 px are an inch.\n"
-                  "LEFT = %g; RIGHT = %g; TOP = %g; BOTTOM = %g; HEIGHT = %g\n"
+                  "LEFT = %g; RIGHT = %g; TOP = %g; BOTTOM = %g\n"
                   "x_of(i) = (i %% COLUMNS) * (W / COLUMNS)\ny_of(i) = HEAD + floor(i / COLUMNS) * HEIGHT\n"
                   "panel(i) = sprintf('set lmargin at screen %%.6f; set rmargin at screen %%.6f; set tmargin at screen %%.6f; "
                   "set bmargin at screen %%.6f', (x_of(i) + LEFT) / W, (x_of(i) + W / COLUMNS - RIGHT) / W, \\\n"
                   "    1 - (y_of(i) + TOP) / H, 1 - (y_of(i) + HEIGHT - BOTTOM) / H)\n\n",
-                  layout->left, layout->right, layout->top, layout->bottom, layout->height);
+                  layout->left, layout->right, layout->top, layout->bottom);
     (void)fprintf(
         out,
         "do for [layout in layouts] {\n"
         "narrow = layout eq 'narrow'\n"
-        "W = narrow ? %d.0 : %d.0; H = narrow ? %d.0 : %d.0; COLUMNS = narrow ? %d : %d; HEAD = narrow ? %g : %g\n"
+        "W = narrow ? %d.0 : %d.0; H = narrow ? %d.0 : %d.0; COLUMNS = narrow ? %d : %d; HEAD = narrow ? %g : %g; HEIGHT = "
+        "narrow ? %g : %g\n"
         "if (layout eq 'pdf' && strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) { continue }\n"
         "if (layout eq 'pdf') { set terminal pdfcairo enhanced color font typeface.',9' size W/96, H/96 linewidth 0.75 } \\\n"
         "else { set terminal svg size W, H dynamic enhanced font typeface.',12' background rgb 'white' }\n"
         "set output name.(narrow ? '-narrow.svg' : '.'.layout)\n"
         "set multiplot\n",
         NARROW_PX, WIDE_PX, plot->figure->height[NARROW], plot->figure->height[WIDE], layout->columns[NARROW],
-        layout->columns[WIDE], layout->head[NARROW], layout->head[WIDE]);
+        layout->columns[WIDE], layout->head[NARROW], layout->head[WIDE],
+        layout->narrow_height > 0 ? layout->narrow_height : layout->height, layout->height);
 }
 
 void plot_panel(struct plot *plot, int i)
@@ -134,7 +137,7 @@ void plot_panel(struct plot *plot, int i)
     plot->panel = i;
     plot->labels = 0;
     plot_line(plot,
-              "# panel %d\nunset label; unset object; unset arrow; unset logscale; set autoscale\n"
+              "# panel %d\nunset label; unset object; unset arrow; unset logscale; set autoscale; set border 3\n"
               "set format x '%%g'; set format y '%%g'; set xtics auto; set ytics auto; eval panel(%d)",
               i + 1, i);
 }
@@ -156,41 +159,46 @@ void plot_label(struct plot *plot, const char *text, const char *where, const ch
               more);
 }
 
-struct end_label {
-    double y;
-    int index;
-};
-
-static int lower(const void *a, const void *b)
+/* Apart by a line of text, as near to where they belong as that allows: neighbours in conflict share the way. */
+static void spread(int count, const int *order, double *y, double gap)
 {
-    const struct end_label *first = a, *second = b;
-    return (first->y > second->y) - (first->y < second->y);
+    for (int round = 0; round < 200; round++)
+        for (int i = 0; i + 1 < count; i++) {
+            double *low = &y[order[i]], *high = &y[order[i + 1]], lack = gap - (*high - *low);
+            if (lack <= 0)
+                continue;
+            *low -= lack / 2;
+            *high += lack / 2;
+            if (*low < 0) {
+                *high -= *low;
+                *low = 0;
+            }
+            if (*high > 1) {
+                *low -= *high - 1;
+                *high = 1;
+            }
+        }
 }
 
 void plot_end_labels(struct plot *plot, int count, const char *const *text, const double *height, const char *const *color)
 {
     const struct plot_layout *l = &plot->layout;
-    double px = l->height - l->top - l->bottom, gap = LABEL_PX / px, last = -1;
-    struct end_label *label = POOL_ARRAY(plot->pool, struct end_label, count);
-    if (!label)
+    double *y = POOL_ARRAY(plot->pool, double, count);
+    int *order = POOL_ARRAY(plot->pool, int, count);
+    if (!y || !order)
         return; /* the caller's next allocation fails as well */
-    for (int i = 0; i < count; i++)
-        label[i] = (struct end_label){isfinite(height[i]) ? fmin(fmax(height[i], 0), 1) : 0, i};
-    qsort(label, (size_t)count, sizeof *label, lower);
-    for (int i = 0; i < count; i++) { /* upwards until they are apart, then down from the top again */
-        if (i && label[i].y < last + gap)
-            label[i].y = last + gap;
-        last = label[i].y;
+    for (int i = 0; i < count; i++) {
+        int k = i;
+        y[i] = isfinite(height[i]) ? fmin(fmax(height[i], 0), 1) : 0;
+        for (; k > 0 && y[order[k - 1]] > y[i]; k--)
+            order[k] = order[k - 1];
+        order[k] = i;
     }
-    double most = 1;
-    for (int i = count - 1; i >= 0 && label[i].y > most; i--) {
-        label[i].y = most;
-        most -= gap;
-    }
+    spread(count, order, y, LABEL_PX / (l->height - l->top - l->bottom));
     for (int i = 0; i < count; i++) {
         char where[64];
-        (void)snprintf(where, sizeof where, "graph 1, graph %.4f", label[i].y);
-        plot_label(plot, text[label[i].index], where, color[label[i].index], "left offset char 0.7, 0");
+        (void)snprintf(where, sizeof where, "graph 1, graph %.4f", y[i]);
+        plot_label(plot, text[i], where, color[i], "left offset char 0.7, 0");
     }
 }
 

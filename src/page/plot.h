@@ -24,17 +24,18 @@
 struct plot_layout {
     int panels, columns[LAYOUTS];
     double height;                   /* of a panel with its margins, px */
+    double narrow_height;            /* the same where the page is narrow; 0: no other */
     double left, right, top, bottom; /* margins of a panel, px */
     double head[LAYOUTS];            /* above all panels, px: plot_head for a legend */
 };
 
-/* An entry of a legend: a line in a line style, a mark in it, or both. */
-enum plot_key { KEY_LINE = 1, KEY_MARK = 2, KEY_FACE = 4 };
+/* An entry of a legend: a line in a line style, a mark in it, a face, hatched or not. */
+enum plot_key { KEY_LINE = 1, KEY_MARK = 2, KEY_FACE = 4, KEY_HATCH = 8 };
 struct plot_entry {
     const char *text;
     int style;        /* of the line, as ls in scripts */
     int keys;         /* of enum plot_key */
-    const char *face; /* colour of a KEY_FACE */
+    const char *face; /* its colour; "" of none but hatching */
 };
 
 struct plot {
@@ -82,6 +83,9 @@ void plot_range_join(struct plot_range *range, double value);
 double plot_share(const struct plot_range *range, double value); /* 0 ... 1 */
 /* Whole decades around what is above zero, as exponents; at most `most` decades, the upper ones. */
 struct plot_range plot_decades(int count, const double *value, int most);
+
+/* A round distance of ticks that puts about `count` of them on a length: 1, 2 or 5 times a power of ten. */
+double plot_tic(double length, int count);
 
 /* px of a text in the type of the figures, about. */
 double plot_width(const char *text);

@@ -35,11 +35,17 @@ void plot_head(const struct plot_entry *entry, int count, double head[LAYOUTS])
 static void draw_entry(struct plot *plot, const struct plot_entry *entry, int number, struct spot at)
 {
     double y = at.y, x = at.x;
-    if (entry->keys & KEY_FACE)
+    if (entry->keys & KEY_FACE && *entry->face)
         plot_line(
             plot,
             "set object %d rectangle from screen %g/W, 1-%g/H to screen %g/W, 1-%g/H fs solid border lc rgb MUTED fc rgb %s",
             number, x, y + 5, x + SAMPLE_PX, y - 5, entry->face);
+    if (entry->keys & KEY_HATCH)
+        plot_line(plot,
+                  "set object %d rectangle from screen %g/W, 1-%g/H to screen %g/W, 1-%g/H fs transparent pattern 4 border lc "
+                  "rgb MUTED "
+                  "fc rgb INK",
+                  number + 1, x, y + 5, x + SAMPLE_PX, y - 5);
     if (entry->keys & KEY_LINE)
         plot_line(plot, "set arrow %d from screen %g/W, 1-%g/H to screen %g/W, 1-%g/H nohead ls %d", number, x, y, x + SAMPLE_PX,
                   y, entry->style);

@@ -46,6 +46,12 @@ struct plot_range plot_decades(int count, const double *value, int most)
     return range;
 }
 
+double plot_tic(double length, int count)
+{
+    double rough = length / count, power = pow(10, floor(log10(rough))), step = rough / power;
+    return power * (step < 1.5 ? 1 : step < 3.5 ? 2 : step < 7.5 ? 5 : 10);
+}
+
 double plot_width(const char *text)
 {
     double width = 0;

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <string.h>
 
 #include "page/human.h"
 #include "page/sections.h"
@@ -35,7 +36,7 @@ static const char *data_of(struct pool *pool, const struct result *result)
     }
     const char *text =
         pool_format(pool, "%d measured %s from %s to %s\xc2\xa0Hz", fit->nmode, human_plural(fit->nmode, "mode", "modes"),
-                    human_digits(pool, low, 5), human_digits(pool, high, 5));
+                    human_trimmed(pool, low, 5), human_trimmed(pool, high, 5));
     if (!fit->shapes || !text)
         return text;
     return shapes ? pool_format(pool, "%s, %d with a shape at %d sensors", text, shapes, fit->shapes->nsensor)
@@ -46,32 +47,44 @@ static const char *model_of(struct pool *pool, const struct result *result)
 {
     const struct fitted *fit = result->identify;
     const struct geometry *geometry = result->geometry;
-    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d elements", human_digits(pool, geometry->length, 4),
+    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d elements", human_trimmed(pool, geometry->length, 4),
                                               geometry_elements(geometry))
                                 : "",
                *how = fit ? pool_format(pool, "%s%s\xc2\xa0kg, centre of mass at %s\xc2\xa0m; functional %s, reduction %s",
-                                        *size ? ", " : "", human_digits(pool, fit->mass_kg, 4),
-                                        human_digits(pool, fit->center_m, 4), fit->functional, fit->reduction)
+                                        *size ? ", " : "", human_trimmed(pool, fit->mass_kg, 4),
+                                        human_trimmed(pool, fit->center_m, 4), fit->functional, fit->reduction)
                           : "";
     return geometry || fit ? pool_format(pool, "%s%s", size ? size : "", how ? how : "") : NULL;
 }
 
-static void one(struct document *document, const struct result *result)
+#define FACTS 8
+
+static void facts_of(struct pool *pool, const struct result *result, const char *value[FACTS])
 {
-    struct pool *pool = document->pool;
-    static const char *const name[] = {"Result", "Deck", "Program", "Seed, threads", "Linear algebra", "Data", "Noise", "Model"};
-    const char *const value[] = {
-        pool_format(pool, "%s (rotid %s)", result->file, result->command),
-        result->deck,
-        pool_format(pool, "rotid %s, commit %s", result->version, result->commit),
-        pool_format(pool, "seed %.0f, %d %s", result->seed, result->threads, human_plural(result->threads, "thread", "threads")),
-        result->blas,
-        data_of(pool, result),
-        noise_of(pool, result),
-        model_of(pool, result),
-    };
-    document_facts(document, (int)(sizeof value / sizeof *value), name, value);
-    for (int i = 1; i < result->nheading; i++)
+    value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->command);
+    value[1] = result->deck;
+    value[2] = pool_format(pool, "rotid %s, commit %s", result->version, result->commit);
+    value[3] =
+        pool_format(pool, "seed %.0f, %d %s", result->seed, result->threads, human_plural(result->threads, "thread", "threads"));
+    value[4] = result->blas;
+    value[5] = data_of(pool, result);
+    value[6] = noise_of(pool, result);
+    value[7] = model_of(pool, result);
+}
+
+/* Facts of a result, and of a further one those that are not the same again. */
+static void add_facts(struct document *document, const struct result *result, const struct result *main_result)
+{
+    static const char *const name[FACTS] = {"Result",         "Deck", "Program", "Seed, threads",
+                                            "Linear algebra", "Data", "Noise",   "Model"};
+    const char *value[FACTS], *first[FACTS];
+    facts_of(document->pool, result, value);
+    facts_of(document->pool, main_result, first);
+    for (int i = 1; i < FACTS && result != main_result; i++) /* a model said in fewer words is no other one */
+        if (value[i] && first[i] && (!strcmp(value[i], first[i]) || !strncmp(value[i], first[i], strlen(value[i]))))
+            value[i] = NULL;
+    document_facts(document, FACTS, name, value);
+    for (int i = 1; i < result->nheading && result == main_result; i++)
         document_paragraph(document, "%s", result->heading[i]);
 }
 
@@ -79,7 +92,7 @@ void section_rests_on(struct document *document, int count, const struct result 
 {
     document_section(document, "basis", "What it rests on");
     for (int i = 0; i < count; i++)
-        one(document, &result[i]);
+        add_facts(document, &result[i], result);
     for (int i = 0; i < count; i++) {
         if (result[i].nwarning) {
             document_heading(document, "What rotid notes");

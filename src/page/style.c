@@ -30,17 +30,19 @@ static const char layout[] =
     ".scroll{overflow-x:auto;margin:.75rem 0}\n"
     "table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums;color:var(--ink)}\n"
     "caption{text-align:left;color:var(--muted);padding:.25rem 0}\n"
+    "caption span{display:inline-block;position:sticky;left:0;max-width:min(45rem,calc(100vw - 2rem))}\n"
     "th,td{text-align:left;vertical-align:baseline;padding:.25rem .75rem .25rem 0;border-bottom:1px solid var(--grid);"
     "white-space:nowrap}\n"
     "thead th{border-bottom:1px solid var(--muted);white-space:normal;vertical-align:bottom}\ntbody th{font-weight:normal}\n"
-    ".n{text-align:right}\n"
+    "td:last-child{white-space:normal;min-width:5rem;padding-right:0}\n.n{text-align:right}\n"
     "footer{margin-top:3rem;padding-top:.75rem;border-top:1px solid var(--grid);font-size:.875rem;color:var(--muted);"
     "overflow-wrap:anywhere}\n"
     "@media (max-width:600px){.wide{display:none}.narrow{display:block}body{padding:1rem 1rem 2rem}h1{font-size:1.35rem}"
     "dl div{grid-template-columns:1fr;gap:0}}\n";
 
 static const char paper[] =
-    "body{max-width:none;padding:0}\nhtml{font-size:10pt}\nnav,details,.files{display:none}\n.wide{display:block}\n"
+    "@page{margin:15mm}\nbody{max-width:none;padding:0}\nhtml{font-size:10pt}\nfigure{margin:1rem "
+    "0}\nh2{margin-top:1.5rem}\nnav,details,.files{display:none}\n.wide{display:block}\n"
     ".narrow{display:none}\nfigure,table,.answer,li,dl div{break-inside:avoid}\nh2,h3,caption{break-after:avoid}\n"
     ".scroll{overflow:visible}\nthead{display:table-header-group}\na{color:inherit;text-decoration:none}\n"
     ".answer{background:none;border:1px solid var(--ink);border-left:6px solid var(--ink)}\n.answer .tone{color:var(--ink)}\n";
