@@ -219,9 +219,12 @@ static void write_answer(FILE *out, const struct document *document)
     if (!*document->answer)
         return;
     (void)fprintf(out, "<section class=\"answer %s\" aria-label=\"Answer\">\n", words[document->tone]);
-    if (says[document->tone])
-        html_element(out, "p class=\"tone\"", says[document->tone]);
+    const char *headline = document->headline ? document->headline : says[document->tone];
+    if (headline)
+        html_element(out, "p class=\"tone\"", headline);
     html_element(out, "p class=\"says\"", document->answer);
+    if (document->next)
+        html_element(out, "p class=\"next\"", document->next);
     (void)fputs("</section>\n", out);
 }
 

@@ -16,18 +16,22 @@ void page_compose(struct document *document, int count, const struct result *res
     document->subtitle = subtitle(document->pool, result);
     if (result->identify)
         answer_identify(document, result, result->identify);
+    else if (result->diagnosis)
+        answer_diagnose(document, result);
     else
         answer_plain(document, result);
     section_rests_on(document, count, result);
     for (int i = 0; i < count; i++) { /* one picture of the rotor does */
         if (!result[i].geometry)
             continue;
-        section_rotor(document, &result[i], result[i].identify);
+        section_rotor(document, &result[i], result_fit(&result[i]));
         break;
     }
     for (int i = 0; i < count; i++) {
         if (result[i].identify)
             section_identify(document, &result[i]);
+        if (result[i].diagnosis)
+            section_diagnose(document, &result[i]);
         if (result[i].modes)
             section_modes(document, &result[i]);
         if (result[i].sensitivity)

@@ -5,23 +5,36 @@
 
 #include "page/json_file.h"
 
-static void read_identify(const struct json_place *root, struct result *result)
+static void read_noise(const struct json_place *root, struct result *result)
 {
     struct json_place noise;
+    if (!place_find(root, "noise", PLACE_OBJECT, &noise))
+        return;
+    result->noise_frequency = place_number(&noise, "frequency");
+    result->noise_shape = place_number(&noise, "shape");
+    result->frequency_assumed = place_flag(&noise, "frequency_assumed");
+    result->shape_assumed = place_flag(&noise, "shape_assumed");
+    result->intervals_from = place_string_if(&noise, "intervals_from");
+}
+
+static void read_identify(const struct json_place *root, struct result *result)
+{
     result->identify = fitted_read(root);
-    if (place_find(root, "noise", PLACE_OBJECT, &noise)) {
-        result->noise_frequency = place_number(&noise, "frequency");
-        result->noise_shape = place_number(&noise, "shape");
-        result->frequency_assumed = place_flag(&noise, "frequency_assumed");
-        result->shape_assumed = place_flag(&noise, "shape_assumed");
-        result->intervals_from = place_string_if(&noise, "intervals_from");
-    }
+    read_noise(root, result);
     if (!result->geometry)
         result_lacks(result, "geometry", "the drawing of the rotor");
     if (result->identify && !result->identify->shapes)
         result_lacks(result, "shapes", "the measured and predicted shapes");
     if (result->identify && !cJSON_HasObjectItem(root->json, "mac_matrix"))
         result_lacks(result, "mac_matrix", "the correlation of all measured with all predicted shapes");
+}
+
+static void read_diagnose(const struct json_place *root, struct result *result)
+{
+    result->diagnosis = diagnosis_read(root);
+    read_noise(root, result);
+    if (!result->geometry)
+        result_lacks(result, "geometry", "the drawing of the rotor and the places of the causes on it");
 }
 
 static void read_modes(const struct json_place *root, struct result *result)
@@ -55,11 +68,11 @@ static const struct {
     const char *command;
     void (*read)(const struct json_place *root, struct result *result);
 } readers[] = {
-    {"identify", read_identify}, {"modes", read_modes}, {"sensitivity", read_sensitivity},
-    {"frf", read_transfer},      {"check", read_check},
+    {"identify", read_identify},       {"diagnose", read_diagnose}, {"modes", read_modes},
+    {"sensitivity", read_sensitivity}, {"frf", read_transfer},      {"check", read_check},
 };
 #define READERS       (sizeof readers / sizeof *readers)
-#define READERS_NAMES "identify, modes, sensitivity, frf or check"
+#define READERS_NAMES "identify, diagnose, modes, sensitivity, frf or check"
 
 void result_lacks(struct result *result, const char *key, const char *shows)
 {
@@ -73,6 +86,11 @@ const struct reference_values *result_reference(const struct result *result, con
         if (!strcmp(result->reference[i].quantity, quantity))
             return &result->reference[i];
     return NULL;
+}
+
+const struct fitted *result_fit(const struct result *result)
+{
+    return result->diagnosis ? result->diagnosis->base : result->identify;
 }
 
 static const char **read_texts(const struct json_place *root, const char *key, int *count)

@@ -3,6 +3,7 @@
 #ifndef ROTID_PAGE_RESULT_H
 #define ROTID_PAGE_RESULT_H
 
+#include "page/diagnosis.h"
 #include "page/fitted.h"
 #include "page/geometry.h"
 #include "page/outcomes.h"
@@ -35,6 +36,7 @@ struct result {
     struct geometry *geometry; /* NULL where the result has none */
     /* of the command that made it, the others NULL */
     struct fitted *identify;
+    struct diagnosis_outcome *diagnosis;
     struct modes_outcome *modes;
     struct sensitivity_outcome *sensitivity;
     struct transfer_outcome *transfer;
@@ -46,6 +48,9 @@ int result_read(struct pool *pool, const char *file, struct message_list *messag
 
 /* Notes that a key is lacking which newer versions write. */
 void result_lacks(struct result *result, const char *key, const char *shows);
+
+/* The identification that the result is about: its own, or the model that a diagnosis judged; NULL: there is none. */
+const struct fitted *result_fit(const struct result *result);
 
 /* The values of a reference, or NULL. */
 const struct reference_values *result_reference(const struct result *result, const char *quantity);

@@ -16,14 +16,14 @@ static const char *noise_of(struct pool *pool, const struct result *result)
                                                                     human_digits(pool, 100 * result->noise_shape, 2),
                                                                     result->shape_assumed ? " (assumed)" : "")
                                                       : "shapes: not stated";
-    if (!result->identify || !result->intervals_from)
+    if (!result_fit(result) || !(result->intervals_from || result->diagnosis))
         return NULL;
     return pool_format(pool, "%s; %s", frequency ? frequency : "", shape ? shape : "");
 }
 
 static const char *data_of(struct pool *pool, const struct result *result)
 {
-    const struct fitted *fit = result->identify;
+    const struct fitted *fit = result_fit(result);
     int shapes = 0;
     if (!fit || !fit->nmode)
         return NULL;
@@ -45,7 +45,7 @@ static const char *data_of(struct pool *pool, const struct result *result)
 
 static const char *model_of(struct pool *pool, const struct result *result)
 {
-    const struct fitted *fit = result->identify;
+    const struct fitted *fit = result_fit(result);
     const struct geometry *geometry = result->geometry;
     const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d elements", human_trimmed(pool, geometry->length, 4),
                                               geometry_elements(geometry))
