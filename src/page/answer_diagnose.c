@@ -80,11 +80,15 @@ static const char *verdict(struct pool *pool, const struct diagnosis_outcome *d)
     const char *text = "";
     switch (d->kind) {
     case TOLD_NONE:
-        text = d->base
-                   ? "The diagnosis was interrupted before a verdict. Below stands what was finished: it shows where the model "
-                     "misses the measurement, and does not say why."
-                   : "The diagnosis was interrupted before the model was fitted: there is nothing to judge yet.";
-        return text;
+        return !d->base ? "The diagnosis was interrupted before the model was fitted: there is nothing to judge yet."
+               : d->ncause
+                   ? pool_format(
+                         pool,
+                         "The diagnosis was interrupted before a verdict. A round that was finished would name %s; what would "
+                         "have followed may speak against it.",
+                         causes(pool, d, d->ncause, d->cause, "; and "))
+                   : "The diagnosis was interrupted before a verdict. Below stands what was finished: it shows where the model "
+                     "misses the measurement, and does not say why.";
     case TOLD_ADEQUATE:
         text = "The model explains the measurement within its noise: these data give no reason to doubt it.";
         break;
@@ -221,7 +225,7 @@ static void on_parameters(struct reasons *reasons, const struct diagnosis_outcom
             moved = pool_format(pool, "%s%s%s by %s\xc2\xa0%%", moved, count++ ? ", " : "", d->parameter[p].name,
                                 human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
     }
-    if (count && moved)
+    if (count && moved && d->kind != TOLD_NONE)
         say(reasons, pool_format(pool, "What was missing had moved the parameters: with it they change, %s.", moved));
     const struct fitted *fit = d->extended ? d->extended : d->base;
     for (int p = 0; fit && p < fit->nparameter; p++)

@@ -121,10 +121,17 @@ static void draw_bars(struct plot *plot, const struct bars *bars, double most, c
     plot_line(plot, "}");
 }
 
-static void upright(struct plot *plot, double x, int style)
+/* An upright line; on a phone beside the bars alone, since names stand between them. */
+static void upright(struct plot *plot, double x, int n, int style)
 {
-    if (isfinite(x))
-        plot_line(plot, "set arrow %d from first %.6g, graph 0 to first %.6g, graph 1 nohead front ls %d", style, x, x, style);
+    if (!isfinite(x))
+        return;
+    plot_line(
+        plot,
+        "if (!narrow) { set arrow %d from first %.6g, graph 0 to first %.6g, graph 1 nohead front ls %d } \\\n"
+        "else { do for [i = 1:%d] { set arrow %d+i from first %.6g, first i-LIFT-0.6*BAR to first %.6g, first i-LIFT+0.6*BAR "
+        "nohead front ls %d } }",
+        100 * style, x, x, style, n, 100 * style, x, x, style);
 }
 
 static int script(struct document *document, struct figure *figure, const struct result *result,
@@ -166,8 +173,8 @@ static int script(struct document *document, struct figure *figure, const struct
     plot_legend(&plot, entry, nentry);
     plot_axes(&plot, "drop of the misfit \xcf\x87\xc2\xb2 [1]", NULL);
     draw_bars(&plot, bars, most, (const double[]){round->threshold, margin_at});
-    upright(&plot, round->threshold, 11);
-    upright(&plot, margin_at, 12);
+    upright(&plot, round->threshold, n, 11);
+    upright(&plot, margin_at, n, 12);
     plot_line(&plot, "plot $candidates using 3:1 with dots lc rgb PAPER");
     return plot_close(&plot);
 }

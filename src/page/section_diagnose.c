@@ -14,7 +14,7 @@
 static void section_next(struct document *document, const struct diagnosis_outcome *d, const char *deck)
 {
     struct pool *pool = document->pool;
-    int count = d->ncause + d->nalternative, n = 0;
+    int count = d->kind == TOLD_NONE ? 0 : d->ncause + d->nalternative, n = 0;
     const char **text = POOL_ARRAY(pool, const char *, count + 1);
     if (!text) {
         document->failed = 1;
@@ -29,7 +29,7 @@ static void section_next(struct document *document, const struct diagnosis_outco
         if (!seen)
             text[n++] = pool_format(pool, "%s: %s.", cause->id, check);
     }
-    if (d->ncause)
+    if (count && d->ncause)
         text[n++] = pool_format(pool,
                                 "To go on with it in the model: rotid diagnose %s --extended better.inp writes the deck with the "
                                 "cause as a *CAUSE card, and rotid identify better.inp uses it.",
