@@ -194,8 +194,9 @@ void answer_plain(struct document *document, const struct result *result)
                            human_plural(result->transfer->nfunction, "function", "functions"),
                            human_trimmed(pool, result->transfer->low_hz, 4), human_trimmed(pool, result->transfer->high_hz, 5));
     } else if (result->geometry) {
-        text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d elements", human_trimmed(pool, result->geometry->length, 4),
-                           geometry_elements(result->geometry));
+        text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d %s", human_trimmed(pool, result->geometry->length, 4),
+                           geometry_elements(result->geometry),
+                           human_plural(geometry_elements(result->geometry), "element", "elements"));
     }
     document->answer = text ? text : "";
 }

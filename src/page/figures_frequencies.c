@@ -92,7 +92,7 @@ static int script(struct document *document, struct figure *figure, const struct
     struct plot_entry entry[MOST_SERIES + 1];
     double *x = POOL_ARRAY(pool, double, n), *noise = POOL_ARRAY(pool, double, n);
     const double *data[MOST_SERIES + 2] = {x, noise};
-    struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .height = 280, .left = 56, .right = 12, .top = 10, .bottom = 48};
+    struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .height = 280, .right = 12, .top = 10, .bottom = 48};
     if (!x || !noise || plot_open(&plot, pool, figure, result->file))
         return ROTID_ERROR_MEMORY;
     struct plot_range range = {0, 0};
@@ -113,11 +113,13 @@ static int script(struct document *document, struct figure *figure, const struct
     plot_head(entry, count + noisy, layout.head);
     plot_line(&plot, "# columns: place, 95 %% noise, then the errors [%%]: the fit, NLopt, references");
     plot_data(&plot, "errors", n, 2 + count, data);
+    double pad = 0.08 * (range.to - range.from) + (range.to <= range.from), tic = plot_tic(range.to - range.from + 2 * pad, 8);
+    range = (struct plot_range){range.from - pad, range.to + pad};
+    layout.left = plot_left(&range, tic);
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
     plot_legend(&plot, entry, count + noisy);
-    double pad = 0.08 * (range.to - range.from) + (range.to <= range.from);
-    plot_line(&plot, "set xrange [0.5:%g]\nset yrange [%.6g:%.6g]", n + 0.5, range.from - pad, range.to + pad);
+    plot_line(&plot, "set xrange [0.5:%g]\nset yrange [%.6g:%.6g]\nset ytics %g", n + 0.5, range.from, range.to, tic);
     draw_modes(&plot, fit);
     plot_axes(&plot, "mode of the model [1]", "error of the frequency [%]");
     plot_line(&plot, "set style fill solid noborder\nset boxwidth 0.7");

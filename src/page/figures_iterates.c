@@ -69,17 +69,18 @@ static int iterates_script(struct document *document, struct figure *figure, con
     }
     plot_line(&plot, "# columns: iteration, then each parameter over its value at the end");
     plot_data(&plot, "parameters", n, count + 1, data);
+    struct plot_range range = plot_range_of(count * n, y + n, 0.06);
+    double tic = plot_tic(range.to - range.from, 6);
     plot_begin(&plot, &(struct plot_layout){.panels = 1,
                                             .columns = {1, 1},
                                             .height = PLOT_HEIGHT + 60,
-                                            .left = 62,
+                                            .left = plot_left(&range, tic),
                                             .right = END_PX + widest,
                                             .top = 12,
                                             .bottom = 48});
     plot_panel(&plot, 0);
-    struct plot_range range = plot_range_of(count * n, y + n, 0.06);
-    plot_line(&plot, "set xrange [%g:%g]\nset yrange [%.6g:%.6g]", -0.02 * (steps + 1), steps * 1.02 + 0.02, range.from,
-              range.to);
+    plot_line(&plot, "set xrange [%g:%g]\nset yrange [%.6g:%.6g]\nset ytics %g", -0.02 * (steps + 1), steps * 1.02 + 0.02,
+              range.from, range.to, tic);
     if (steps <= 12)
         plot_line(&plot, "set xtics 1");
     plot_axes(&plot, "iteration [1]", "value over value at the end [1]");

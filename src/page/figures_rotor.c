@@ -62,7 +62,7 @@ static int script(struct document *document, struct figure *figure, const struct
     rotor_marks_data(&plot, geometry, fit);
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
-    plot_line(&plot, "# S: px a metre, the same along both axes\nS = narrow ? %.6g : %.6g; Z0 = narrow ? %g : %g",
+    plot_line(&plot, "# S: px a metre, the same along both axes\nS = narrow ? %.4f : %.4f; Z0 = narrow ? %.3f : %.3f",
               d[NARROW].scale, d[WIDE].scale, d[NARROW].left, d[WIDE].left);
     plot_line(&plot,
               "set lmargin at screen 0; set rmargin at screen 1\nset xrange [-Z0/S:(W-Z0)/S]\n"
@@ -147,9 +147,10 @@ void figure_rotor(struct document *document, const struct result *result, const 
                                                           human_plural(geometry->nspring, "spring", "springs"))
                                             : ", free at both ends";
     figure->caption =
-        pool_format(pool, "%s\xc2\xa0m long, %s\xc2\xa0m at its thickest, %d elements (ticks on the axis are nodes)%s%s.%s",
+        pool_format(pool, "%s\xc2\xa0m long, %s\xc2\xa0m at its thickest, %d %s (ticks on the axis are nodes)%s%s.%s",
                     human_trimmed(pool, geometry->length, 4), human_trimmed(pool, diameter, 3), geometry_elements(geometry),
-                    sensors ? sensors : "", springs ? springs : "", what_is_identified(pool, fit));
+                    human_plural(geometry_elements(geometry), "element", "elements"), sensors ? sensors : "",
+                    springs ? springs : "", what_is_identified(pool, fit));
     figure->alt = pool_format(pool, "Longitudinal section of a rotor with %d groups of sections, %d sensors and %d springs.",
                               geometry->ngroup, geometry->nsensor, geometry->nspring);
     figure->table = groups_table(pool, geometry);

@@ -159,14 +159,16 @@ static int curves_script(struct document *document, struct figure *figure, const
         entry[k] = (struct plot_entry){.text = text ? text : "", .style = k + 1, .keys = KEY_LINE};
     }
     plot_head(entry, modes, layout.head);
+    range.to = range.to > 0 ? 1.05 * range.to : 1;
+    double tic = plot_tic(range.to, 5);
+    layout.left = plot_left(&range, tic);
     plot_begin(&plot, &layout);
     for (int p = 0; p < count; p++) {
         plot_panel(&plot, p);
         if (p == 0)
             plot_legend(&plot, entry, modes);
         plot_line(&plot, "set xrange [%.4g:%.4g]\nset yrange [0:%.4g]\nset xtics %g\nset ytics %g", s->relative[0],
-                  s->relative[n - 1], range.to > 0 ? 1.05 * range.to : 1, plot_tic(s->relative[n - 1] - s->relative[0], 3),
-                  plot_tic(range.to > 0 ? range.to : 1, 4));
+                  s->relative[n - 1], range.to, plot_tic(s->relative[n - 1] - s->relative[0], 3), tic);
         plot_axes(&plot, "value over reference [1]", "E\xc2\xb2/2 [1]");
         plot_label(&plot, s->parameter[p].name, "graph 0, graph 1 offset 0, char 0.7", "INK", "left");
         plot_line(&plot, "plot for [c = 2:%d] $curves%d using 1:c with lines ls c-1", modes + 1, p + 1);

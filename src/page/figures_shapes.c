@@ -8,6 +8,7 @@
 #define MOST_PANELS 24  /* modes that are drawn */
 #define MOST_POINTS 120 /* of a measured shape that get bars for their noise and whole marks */
 #define NORMAL_95   1.96
+#define SPARSE      40 /* points that do not make a curve */
 #define TITLE_ROOM  26.0
 
 struct shape_panel {
@@ -24,6 +25,7 @@ struct shapes_figure {
     int nband; /* of the axis that are shaded */
     double (*band)[2];
     const char *shaded; /* what they are, NULL: nothing */
+    int sparse;         /* the model's line is known at few points, which are marked */
 };
 #define MOST_BANDS 8
 
@@ -86,8 +88,9 @@ static void draw_panel(struct plot *plot, const struct shapes_figure *all, int i
     if (panel->point && panel->bar && few)
         (void)fprintf(out, ", $measured%d using 1:2:3 with yerrorbars ls 2 lw 0.75 dt 1 ps 0", i + 1);
     if (panel->point)
-        (void)fprintf(out, ", $measured%d using 1:2 with points ls 2 ps %s", i + 1, few ? "0.4" : "0.25");
-    (void)fprintf(out, ", \\\n    $model%d with lines ls 1", i + 1);
+        (void)fprintf(out, ", $measured%d using 1:2 with points ls 2 ps %s", i + 1,
+                      few ? panel->npoint <= SPARSE ? "0.6" : "0.4" : "0.25");
+    (void)fprintf(out, ", \\\n    $model%d with %s", i + 1, all->sparse ? "linespoints ls 1 ps 0.5 lw 1" : "lines ls 1");
     for (int m = 0; m < panel->nmember; m++)
         (void)fprintf(out, ", $member%d_%d with lines ls 3 lw 2", i + 1, m + 1);
     (void)fputc('\n', out);
@@ -289,10 +292,11 @@ void figure_modes(struct document *document, const struct result *result)
         document->failed = 1;
         return;
     }
-    const struct shapes_figure all = {.count = count, .panel = panel};
-    figure->caption = pool_format(pool, "The first %s bending modes, %s to %s\xc2\xa0Hz, largest deflection 1, at %d points.",
+    const struct shapes_figure all = {.count = count, .panel = panel, .sparse = modes->nsensor <= SPARSE};
+    figure->caption = pool_format(pool, "The first %s bending modes, %s to %s\xc2\xa0Hz, largest deflection 1, at %d points%s.",
                                   human_count(pool, count), human_trimmed(pool, modes->mode[0].full_hz, 5),
-                                  human_trimmed(pool, modes->mode[count - 1].full_hz, 5), modes->nsensor);
+                                  human_trimmed(pool, modes->mode[count - 1].full_hz, 5), modes->nsensor,
+                                  all.sparse ? " (joined by straight lines)" : "");
     figure->alt = pool_format(pool, "%d panels, one a mode: deflection over the position along the rotor.", count);
     figure->table = points_table(pool, modes, count);
     document->failed |= !figure->caption || !figure->alt || shapes_script(document, figure, result->file, &all) != ROTID_OK;

@@ -94,9 +94,7 @@ static int script(struct document *document, struct figure *figure, const struct
     plot_head(entry, n, layout.head);
     if (plot_open(&plot, pool, figure, result->file))
         return ROTID_ERROR_MEMORY;
-    plot_line(&plot,
-              "set style line 21 lc rgb VERMILION pt 11 ps 0.8\n# columns: frequency [Hz], magnitude [%s], phase [degrees]",
-              out->unit);
+    plot_line(&plot, "set style line 21 lc rgb VERMILION pt 11 ps 0.8\n# columns: frequency [Hz], magnitude, phase [degrees]");
     plot_data(&plot, "synthesised", curve[0].count, 3, (const double *const[]){curve[0].hz, curve[0].size, curve[0].phase});
     if (curve[1].count)
         plot_data(&plot, "measured", curve[1].count, 3, (const double *const[]){curve[1].hz, curve[1].size, curve[1].phase});

@@ -26,9 +26,8 @@ static void read_parameters(const struct json_place *at, struct fitted *fit)
         if (place_list(&item, "ci95", 1, 2, &ci))
             memcpy(p->ci, ci, sizeof p->ci);
     }
-    if (place_matrix(at, "correlation", 1, &rows, &columns, &fit->correlation) &&
-        (rows != fit->nparameter || columns != fit->nparameter))
-        place_wrong(at, "correlation has %d rows of %d values, expected %d each", rows, columns, fit->nparameter);
+    const int square[2] = {fit->nparameter, fit->nparameter};
+    (void)place_matrix(at, "correlation", 1, square, &rows, &columns, &fit->correlation);
 }
 
 static void read_modes(const struct json_place *at, struct fitted *fit)
@@ -92,8 +91,8 @@ static void read_history(const struct json_place *at, struct fitted *fit)
 
 static void read_matrices(const struct json_place *at, struct fitted *fit)
 {
-    (void)place_matrix(at, "nco_matrix", 0, &fit->nco.rows, &fit->nco.columns, &fit->nco.value);
-    (void)place_matrix(at, "mac_matrix", 0, &fit->mac.rows, &fit->mac.columns, &fit->mac.value);
+    (void)place_matrix(at, "nco_matrix", 0, NULL, &fit->nco.rows, &fit->nco.columns, &fit->nco.value);
+    (void)place_matrix(at, "mac_matrix", 0, NULL, &fit->mac.rows, &fit->mac.columns, &fit->mac.value);
     if (fit->nco.value && fit->mac.value && (fit->nco.rows != fit->mac.rows || fit->nco.columns != fit->mac.columns))
         place_wrong(at, "nco_matrix and mac_matrix are of different size, expected one row a measured mode in both");
     const struct fitted_matrix *one = fit->mac.value ? &fit->mac : &fit->nco;

@@ -43,14 +43,25 @@ static const char *skip_blanks(const char *c, const char *end)
     return c;
 }
 
-static void say_where(const char *file, struct message_list *messages, const char *text, const char *at, const char *end)
+/* Whether a value begins here that the file does not end; begin: of all values. */
+static int is_cut_off(const char *begin, const char *at, const char *end)
+{
+    if (at < end && *at == '"') {
+        for (at++; at < end && *at != '"'; at++)
+            at += *at == '\\';
+        return at >= end;
+    }
+    return skip_blanks(at, end) >= end || (at > skip_blanks(begin, end) && at + strcspn(at, ",]}:\n") >= end);
+}
+
+static void say_where(const char *file, struct message_list *messages, const char *text, const char *at, int cut_off)
 {
     int line = 1, column = 1;
     for (const char *c = text; c < at; c++) {
         column = *c == '\n' ? 1 : column + 1;
         line += *c == '\n';
     }
-    if (skip_blanks(at, end) >= end)
+    if (cut_off)
         message_add(messages, SEVERITY_ERROR, file, line, column, "the file ends within a value, expected the rest of it");
     else if (*at < 0x20 || *at > 0x7e)
         message_add(messages, SEVERITY_ERROR, file, line, column, "byte %d is no JSON, expected a value, a comma or a bracket",
@@ -78,7 +89,7 @@ static int read_lines(const char *file, struct message_list *messages, const cha
             continue;
         }
         if (memchr(at, '\n', (size_t)(end - at))) {
-            say_where(file, messages, text, next, end);
+            say_where(file, messages, text, next, is_cut_off(at, next, end));
             return ROTID_ERROR_SYNTAX;
         }
         message_add(messages, SEVERITY_WARNING, NULL, 0, 0, "%s: the last line is not complete and left out", file);
@@ -104,7 +115,8 @@ int json_file_read(struct pool *pool, const char *file, struct message_list *mes
     }
     *json = cJSON_ParseWithLengthOpts(text, length, &rest, 0);
     if (!*json) {
-        say_where(file, messages, text, rest ? rest : text, end);
+        rest = rest ? rest : text;
+        say_where(file, messages, text, rest, is_cut_off(text, rest, end));
         return ROTID_ERROR_SYNTAX;
     }
     rest = skip_blanks(rest, end);
@@ -112,7 +124,7 @@ int json_file_read(struct pool *pool, const char *file, struct message_list *mes
         *is_lines = 1;
         status = read_lines(file, messages, text, rest, end, json);
     } else if (rest < end) {
-        say_where(file, messages, text, rest, end);
+        say_where(file, messages, text, rest, 0);
         status = ROTID_ERROR_SYNTAX;
     }
     if (status) {

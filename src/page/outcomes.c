@@ -69,6 +69,7 @@ struct sensitivity_outcome *sensitivity_read(const struct json_place *root)
     out->step = place_number(root, "step");
     out->nmode = place_list(root, "frequency_hz", 1, -1, &out->hz);
     out->npoint = place_list(root, "relative_value", 1, -1, &out->relative);
+    const int size[2] = {out->nmode, out->npoint};
     out->parameter = place_items(root, "parameters", sizeof *out->parameter, &list, &out->nparameter);
     for (struct json_place item = place_first(&list, PLACE_OBJECT); item.json && out->parameter;
          item = place_next(&item, PLACE_OBJECT)) {
@@ -78,8 +79,7 @@ struct sensitivity_outcome *sensitivity_read(const struct json_place *root)
         p->reference = place_number(&item, "reference");
         (void)place_list(&item, "sensitivity", 1, out->nmode, &p->difference);
         (void)place_list(&item, "derivative", 1, out->nmode, &p->derivative);
-        if (place_matrix(&item, "curves", 1, &rows, &columns, &p->curve) && (rows != out->nmode || columns != out->npoint))
-            place_wrong(&item, "curves: %d rows of %d values, expected %d of %d", rows, columns, out->nmode, out->npoint);
+        (void)place_matrix(&item, "curves", 1, size, &rows, &columns, &p->curve);
     }
     out->growth = read_growth(root);
     return root->reader->status ? NULL : out;

@@ -1,5 +1,7 @@
 #include "page/page.h"
 
+#include <string.h>
+
 #include "page/human.h"
 #include "page/sections.h"
 
@@ -10,9 +12,18 @@ static const char *subtitle(struct pool *pool, const struct result *result)
     return text ? text : "";
 }
 
+/* The first line of the heading that says something; of a deck without one its name. */
+static const char *title(const struct result *result)
+{
+    for (int i = 0; i < result->nheading; i++)
+        if (result->heading[i][strspn(result->heading[i], " \t")])
+            return result->heading[i];
+    return result->deck && *result->deck ? result->deck : result->file;
+}
+
 void page_compose(struct document *document, int count, const struct result *result)
 {
-    document->title = result->nheading ? result->heading[0] : result->deck ? result->deck : result->file;
+    document->title = title(result);
     document->subtitle = subtitle(document->pool, result);
     if (result->identify)
         answer_identify(document, result, result->identify);

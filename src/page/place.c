@@ -227,14 +227,21 @@ int place_list(const struct json_place *above, const char *key, int need, int ex
     return copy_numbers(&list, *value, 1);
 }
 
-int place_matrix(const struct json_place *above, const char *key, int need, int *rows, int *columns, double **value)
+int place_matrix(const struct json_place *above, const char *key, int need, const int expected[2], int *rows, int *columns,
+                 double **value)
 {
     struct json_place list;
     *rows = *columns = 0;
     *value = NULL;
-    if (!look_up(above, key, PLACE_LIST, need, &list) || !list.json->child)
+    if (!look_up(above, key, PLACE_LIST, need, &list))
         return 0;
-    int m = place_count(&list), n = cJSON_GetArraySize(list.json->child);
+    int m = place_count(&list), n = m ? cJSON_GetArraySize(list.json->child) : 0;
+    if (expected && (m != expected[0] || (m && n != expected[1]))) {
+        place_wrong(&list, "has %d rows of %d values, expected %d of %d", m, n, expected[0], expected[1]);
+        return 0;
+    }
+    if (!m || !n)
+        return 0;
     double *a = POOL_ARRAY(above->reader->pool, double, (size_t)m *(size_t)n);
     if (!a) {
         above->reader->status = ROTID_ERROR_MEMORY;

@@ -58,7 +58,9 @@ void *place_items(const struct json_place *above, const char *key, size_t size, 
 /* A list of numbers, null being NaN: how many there are, and their values (pool). `need` as above; expected: how many there have
  * to be, -1: any number. */
 int place_list(const struct json_place *above, const char *key, int need, int expected, double **value);
-/* Rows of the same length as a column-major matrix (pool): 1, or 0 where it is not there. */
-int place_matrix(const struct json_place *above, const char *key, int need, int *rows, int *columns, double **value);
+/* Rows of the same length as a column-major matrix (pool): 1, or 0 where it is not there or empty. expected: the rows and columns
+ * there have to be, NULL: any number. */
+int place_matrix(const struct json_place *above, const char *key, int need, const int expected[2], int *rows, int *columns,
+                 double **value);
 
 #endif

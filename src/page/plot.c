@@ -146,11 +146,11 @@ void plot_panel(struct plot *plot, int i)
 void plot_axes(struct plot *plot, const char *x, const char *y)
 {
     if (x)
-        plot_line(plot, "set label %d '%s' at graph 0.5, screen 1-(y_of(%d)+HEIGHT-10)/H center tc rgb INK", ++plot->labels, x,
-                  plot->panel);
+        plot_line(plot, "set label %d %s at graph 0.5, screen 1-(y_of(%d)+HEIGHT-10)/H center tc rgb INK", ++plot->labels,
+                  plot_quote(plot, x), plot->panel);
     if (y)
-        plot_line(plot, "set label %d '%s' at screen (x_of(%d)+12)/W, graph 0.5 center rotate tc rgb INK", ++plot->labels, y,
-                  plot->panel);
+        plot_line(plot, "set label %d %s at screen (x_of(%d)+12)/W, graph 0.5 center rotate tc rgb INK", ++plot->labels,
+                  plot_quote(plot, y), plot->panel);
 }
 
 void plot_label(struct plot *plot, const char *text, const char *where, const char *color, const char *more)

@@ -56,7 +56,7 @@ void plot_data(struct plot *plot, const char *name, int rows, int columns, const
 void plot_begin(struct plot *plot, const struct plot_layout *layout);
 /* Room of panel i; what was set for the one before is gone. */
 void plot_panel(struct plot *plot, int i);
-/* What the axes of the current panel show, with units: our own words, NULL where an axis has none. */
+/* What the axes of the current panel show, with units; _ and ^ are marks. NULL where an axis has none. */
 void plot_axes(struct plot *plot, const char *x, const char *y);
 /* A line of the script. */
 void plot_line(struct plot *plot, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -86,6 +86,9 @@ struct plot_range plot_decades(int count, const double *value, int most);
 
 /* A round distance of ticks that puts about `count` of them on a length: 1, 2 or 5 times a power of ten. */
 double plot_tic(double length, int count);
+
+/* Left margin [px] for an axis with its name and the numbers of these ticks. */
+double plot_left(const struct plot_range *range, double tic);
 
 /* px of a text in the type of the figures, about. */
 double plot_width(const char *text);

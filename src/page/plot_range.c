@@ -1,9 +1,13 @@
 #include <math.h>
+#include <stdio.h>
 
 #include "base/text.h"
 #include "page/plot.h"
 
-#define TYPE_PX 12.0
+#define TYPE_PX   12.0
+#define NAME_PX   22.0 /* of a turned name beside the numbers */
+#define MOST_TICS 50   /* of an axis */
+#define TICK_PX   10.0 /* between a number and the axis */
 
 void plot_range_join(struct plot_range *range, double value)
 {
@@ -49,6 +53,8 @@ struct plot_range plot_decades(int count, const double *value, int most)
 double plot_tic(double length, int count)
 {
     double rough = length / count, power = pow(10, floor(log10(rough))), step = rough / power;
+    if (!(power > 0) || !isfinite(length)) /* numbers of no size, or beyond all: whatever is drawn of them */
+        return 1;
     return power * (step < 1.5 ? 1 : step < 3.5 ? 2 : step < 7.5 ? 5 : 10);
 }
 
@@ -66,4 +72,15 @@ double plot_width(const char *text)
         text += bytes ? bytes : 1;
     }
     return TYPE_PX * width;
+}
+
+double plot_left(const struct plot_range *range, double tic)
+{
+    double widest = 0, first = ceil(range->from / tic), last = floor(range->to / tic);
+    for (double k = first; k <= last && k < first + MOST_TICS; k++) {
+        char text[32];
+        (void)snprintf(text, sizeof text, "%g", fabs(k) < 0.5 ? 0 : k * tic);
+        widest = fmax(widest, plot_width(text));
+    }
+    return NAME_PX + widest + TICK_PX;
 }

@@ -47,8 +47,9 @@ static const char *model_of(struct pool *pool, const struct result *result)
 {
     const struct fitted *fit = result_fit(result);
     const struct geometry *geometry = result->geometry;
-    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d elements", human_trimmed(pool, geometry->length, 4),
-                                              geometry_elements(geometry))
+    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length, 4),
+                                              geometry_elements(geometry),
+                                              human_plural(geometry_elements(geometry), "element", "elements"))
                                 : "",
                *how = fit ? pool_format(pool, "%s%s\xc2\xa0kg, centre of mass at %s\xc2\xa0m; functional %s, reduction %s",
                                         *size ? ", " : "", human_trimmed(pool, fit->mass_kg, 4),
