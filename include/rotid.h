@@ -13,7 +13,7 @@
  *   different data may run at the same time. The number of BLAS threads stays what the host has set.
  *   NaN stands for what is not known or cannot be stated. While rotid_deck_read, rotid_spectrum_compute, rotid_identify,
  *   rotid_diagnose, rotid_fit or rotid_lm runs, its thread computes with floating-point exceptions masked, and all but the last
- *   two with the numeric locale "C"; both are as the host had them when the call returns. Callbacks run in between. */
+ *   two with the locale "C"; both are as the host had them when the call returns. Callbacks run in between. */
 #ifndef ROTID_H
 #define ROTID_H
 
