@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "beam/effects.h"
 #include "run/client.h"
 
 #define ROUNDS 3 /* of fitting and pairing, should the pairs change with the model */
@@ -40,9 +41,17 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
     if (!status && mass) { /* the beam stands at the last point that was evaluated; the mass wants the best one */
         for (int p = 0; p < job->nparameter; p++)
             *parameter_value(&client->beam.rotor, job->parameter[p]) = (*fit)->x[p];
+        effects_refresh(&client->beam);
         beam_mass_properties(&client->beam, mass);
     }
     return status;
+}
+
+/* Also while NLopt ran: the fit itself is complete then. */
+static int is_cancelled(const rotid_fit_result *fit, const rotid_environment *environment)
+{
+    return fit->status == ROTID_STOP_CANCELLED ||
+           (environment && environment->cancelled && environment->cancelled(environment->context));
 }
 
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
@@ -80,7 +89,9 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
         message_open(&quiet, pool);
         if (!status)
             status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
-        if (status || round == ROUNDS || !memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number))
+        if (status || round == ROUNDS ||
+            !memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number) ||
+            is_cancelled(out->fit, environment))
             break;
         before = out->compared;
     }
