@@ -342,11 +342,11 @@ int override_parse(struct pool *pool, const char *text, struct override *overrid
 {
     const char *dot = strchr(text, '.'), *equals = strchr(text, '=');
     if (!dot || !equals || dot > equals || dot == text || equals == dot + 1 || !equals[1])
-        return 1;
+        return ROTID_ERROR_SYNTAX;
     *override = (struct override){pool_format(pool, "%.*s", (int)(dot - text), text),
                                   pool_format(pool, "%.*s", (int)(equals - dot - 1), dot + 1), equals + 1,
                                   pool_format(pool, "--set %s", text)};
-    return !override->card || !override->option || !override->text;
+    return override->card && override->option && override->text ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text)

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "report/diagnosis_items.h"
+#include "diagnose/items.h"
 #include "report/json_identify.h"
 
 static void add_fit(struct json_tree *tree, const char *key, const struct job *job, const struct identification *result)
