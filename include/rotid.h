@@ -238,7 +238,7 @@ typedef struct rotid_detectable {
 } rotid_detectable;
 
 typedef struct rotid_diagnosis {
-    int kind;           /* ROTID_ADEQUATE ... of physical causes only */
+    int kind;           /* ROTID_ADEQUATE ... of physical causes only; -1 where there is no verdict yet */
     int adequate_after; /* the model with what was named explains the data within their noise */
     int interrupted;    /* cancelled: what was finished is there; sentence may be NULL */
     double p_value;
