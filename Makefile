@@ -110,6 +110,12 @@ check-asan:
 	@ROTID_CHAIN_RUNS=2 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' test
 
+# Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
+# not start on kernels that randomise more bits than it knows of.
+check-tsan:
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan LDFLAGS=-fsanitize=thread CFLAGS='-O1 -g -fsanitize=thread' $(BUILD)/tsan/tests/test_threads
+	@OPENBLAS_NUM_THREADS=1 TSAN_OPTIONS=halt_on_error=1 $$(setarch -R true 2>/dev/null && echo setarch -R) $(BUILD)/tsan/tests/test_threads
+
 # without the programs that diagnose dozens of rotors: what they call is in the others
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \

@@ -36,18 +36,18 @@ void call_close(struct call *call)
     pool_close(&call->scratch);
 }
 
-/* As much of the text as fits; returns the length then. */
+/* As much of the text as fits; returns the length then, and that of a full buffer once something was cut off. */
 static size_t append(char *failure, size_t length, const char *text)
 {
-    size_t count = strlen(text), room = FAILURE_LENGTH - 1 - length;
-    if (count > room) {
-        count = room;
-        while (count && ((unsigned char)text[count] & 0xc0) == 0x80) /* not within a character of UTF-8 */
-            count--;
-    }
+    const size_t full = FAILURE_LENGTH - 1;
+    size_t count = strlen(text), room = full - length;
+    int cut = count > room;
+    if (cut)
+        for (count = room; count && ((unsigned char)text[count] & 0xc0) == 0x80;)
+            count--; /* not within a character of UTF-8 */
     memcpy(failure + length, text, count);
     failure[length + count] = 0;
-    return length + count;
+    return cut ? full : length + count;
 }
 
 void call_explain(const struct call *call, int status, char *failure)
