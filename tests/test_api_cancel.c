@@ -21,6 +21,7 @@ static char directory[] = "/tmp/test_api_cancel_XXXXXX", deck_path[64];
 
 struct host {
     int stop_at, once; /* the poll that says so; once: the next ones do not */
+    const char *stage; /* NULL, or polls are counted from the first time that this is told */
     atomic_int polls, told, polls_after, told_after, matrices_after;
     atomic_int said;
     double when;
@@ -33,6 +34,8 @@ static int cancelled(void *context)
     int poll = atomic_fetch_add(&host->polls, 1) + 1;
     if (atomic_load(&host->said))
         atomic_fetch_add(&host->polls_after, 1);
+    if (host->stage)
+        return 0;
     if (poll == host->stop_at) {
         host->when = clock_seconds();
         atomic_store(&host->said, 1);
@@ -43,8 +46,12 @@ static int cancelled(void *context)
 static void progress(void *context, const char *stage, int step)
 {
     struct host *host = context;
-    (void)stage, (void)step;
+    (void)step;
     atomic_fetch_add(&host->told, 1);
+    if (host->stage && !strcmp(stage, host->stage)) {
+        atomic_store(&host->polls, 0);
+        host->stage = NULL;
+    }
     if (atomic_load(&host->said))
         atomic_fetch_add(&host->told_after, 1);
 }
@@ -203,6 +210,33 @@ static void a_diagnosis_shows_what_was_finished(void **state)
     rotid_deck_free(deck);
 }
 
+/* Broken off while the final models are fitted: each is there whole or not at all. */
+static void a_broken_off_model_is_no_result(void **state)
+{
+    (void)state;
+    const rotid_diagnose_options options = {.replicates = 100};
+    rotid_deck *deck = bench_read(deck_path);
+    rotid_diagnosis *r;
+    int with = 0, without = 0, ended = 0;
+    for (int k = 1; !ended; k++) {
+        struct host host = {.stop_at = k, .once = 1, .stage = "final model, causes"};
+        const rotid_environment environment = environment_of(&host, NULL);
+        assert_status(rotid_diagnose(deck, &options, &environment, NULL, &r), ROTID_OK);
+        ended = !host.said;
+        assert_int_equal(r->interrupted, !ended);
+        assert_true(r->base && r->base->fit->converged);
+        assert_true(!r->extended || r->extended->fit->converged);
+        assert_int_equal(r->ncause, 1);
+        with += r->extended != NULL;
+        without += r->extended == NULL;
+        rotid_diagnosis_free(r);
+    }
+    print_message("broken off at each of %d polls, %d of them before the extended model was fitted\n", with + without - 1,
+                  without);
+    assert_true(with > 2 && without > 2);
+    rotid_deck_free(deck);
+}
+
 static int open_directory(void **state)
 {
     (void)state;
@@ -227,6 +261,7 @@ int main(void)
         cmocka_unit_test(a_fit_evaluates_nothing_more),
         cmocka_unit_test(an_identification_ends_with_the_best_point_so_far),
         cmocka_unit_test(a_diagnosis_shows_what_was_finished),
+        cmocka_unit_test(a_broken_off_model_is_no_result),
     };
     return cmocka_run_group_tests_name("api cancel", tests, open_directory, remove_directory);
 }
