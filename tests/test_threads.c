@@ -57,7 +57,7 @@ struct expected {
 
 static struct expected run_alone(const char *deck_path, int diagnoses)
 {
-    struct expected e = {NULL};
+    struct expected e = {.deck = NULL};
     struct task task = {.path = deck_path, .diagnoses = diagnoses};
     const rotid_diagnose_options one = {.threads = 1, .replicates = 100};
     (void)run(&task);
@@ -103,7 +103,7 @@ static void eight_identifications_and_two_diagnoses_at_once(void **state)
 {
     (void)state;
     pthread_t thread[IDENTIFIERS + DIAGNOSERS];
-    struct task task[IDENTIFIERS + DIAGNOSERS] = {{NULL}};
+    struct task task[IDENTIFIERS + DIAGNOSERS] = {{.path = NULL}};
     struct expected expected[DECKS], diagnosed[DIAGNOSERS];
     pthread_barrier_t begin;
     for (int d = 0; d < DECKS; d++)
