@@ -175,9 +175,9 @@ static void a_diagnosis_shows_what_was_finished(void **state)
         total = clock_seconds() - begin;
         assert_false(r->interrupted);
         rotid_diagnosis_free(r);
-        for (int i = 0; i < 15; i++) {
+        for (int i = 0; i < 11; i++) {
             struct failing_allocator memory;
-            struct host host = {.once = i % 2, .stop_at = i < 5 ? i + 1 : 1 + (whole.polls - 1) * (i - 4) / 10};
+            struct host host = {.once = i % 2, .stop_at = i < 5 ? i + 1 : 1 + (whole.polls - 1) * (i - 4) / 6};
             failing_allocator_open(&memory, 0);
             /* the allocator of the test counts without a lock */
             const rotid_environment environment = environment_of(&host, threads == 1 ? &memory.allocator : NULL);
@@ -218,7 +218,7 @@ static void a_broken_off_model_is_no_result(void **state)
     rotid_deck *deck = bench_read(deck_path);
     rotid_diagnosis *r;
     int with = 0, without = 0, ended = 0;
-    for (int k = 1; !ended; k += 3) {
+    for (int k = 1; !ended; k += 5) {
         struct host host = {.stop_at = k, .once = 1, .stage = "final model, causes"};
         const rotid_environment environment = environment_of(&host, NULL);
         assert_status(rotid_diagnose(deck, &options, &environment, NULL, &r), ROTID_OK);
