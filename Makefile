@@ -112,6 +112,7 @@ check-asan:
 
 # Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
 # not start on kernels that randomise more bits than it knows of.
+.PHONY: check-tsan
 check-tsan:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan LDFLAGS=-fsanitize=thread CFLAGS='-O1 -g -fsanitize=thread' $(BUILD)/tsan/tests/test_threads
 	@OPENBLAS_NUM_THREADS=1 TSAN_OPTIONS=halt_on_error=1 $$(setarch -R true 2>/dev/null && echo setarch -R) $(BUILD)/tsan/tests/test_threads
