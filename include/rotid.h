@@ -340,6 +340,7 @@ typedef struct rotid_fit_iteration {
     double mu;         /* damping in use */
     double gain_ratio; /* actual over predicted decrease of the step that led here; NaN at iteration 0 */
     double step;       /* norm of that step in x_p / start_p */
+    double seconds;    /* since the iteration began */
 } rotid_fit_iteration;
 
 typedef struct rotid_baseline {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "beam/effects.h"
+#include "modal/prediction.h"
 #include "run/client.h"
 
 #define ROUNDS 3 /* of fitting and pairing, should the pairs change with the model */
@@ -54,6 +55,29 @@ static int is_cancelled(const rotid_fit_result *fit, const rotid_environment *en
            (environment && environment->cancelled && environment->cancelled(environment->context));
 }
 
+/* What the model that was fitted predicts at the points of the baseline. */
+static int predict_baseline(struct pool *pool, const struct job *job, struct identification *out)
+{
+    const rotid_fit_result *fit = out->fit;
+    int failed, highest = 1, nmode = job->nmode;
+    struct client *client = POOL_NEW(pool, struct client);
+    struct prediction p;
+    for (int k = 0; k < nmode; k++)
+        highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
+    out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
+    int status = client && out->baseline_hz ? client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, client, &failed)
+                                            : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = prediction_new(pool, &client->model, job->fit.reduction, ROTID_NELSON, client->model.nrigid + highest, 0, &p);
+    for (int i = 0; i < fit->nbaseline && status != ROTID_ERROR_MEMORY; i++) {
+        int lost = status ? status : prediction_compute(&p, fit->baseline[i].x);
+        for (int k = 0; k < nmode; k++)
+            out->baseline_hz[k + (ptrdiff_t)i * nmode] =
+                lost ? NAN : prediction_hz(&p, client->model.nrigid + out->compared.number[k] - 1);
+    }
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
+}
+
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out)
 {
@@ -97,6 +121,8 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
     }
     for (size_t i = 0; i < quiet.count; i++)
         message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
+    if (!status && out->fit->nbaseline)
+        status = predict_baseline(pool, job, out);
     if (status) {
         rotid_fit_free(out->fit);
         out->fit = NULL;

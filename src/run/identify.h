@@ -11,6 +11,7 @@ struct identification {
     struct spectrum spectrum;   /* of the fitted model */
     int shapes_fitted;          /* they took part in the residual or in the quotient */
     struct mass_properties mass;
+    double *baseline_hz; /* [nmode * fit->nbaseline] predicted at the points of NLopt, NaN where there is no model */
 };
 
 /* One fit of a job with the pairing `number` [nmode] and the modes `holdout` [nmode] left out; no notes, no spectrum. mass may be
