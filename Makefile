@@ -5,6 +5,7 @@
 #   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
+#   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
@@ -166,7 +167,7 @@ check-tsan:
 # without the programs that diagnose dozens of rotors: what they call is in the others
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads),$(TEST_PROGRAMS))
 
 check-peers: all $(BUILD)/hammer
 	@sh tests/peers/run $(BUILD) $(PYTHON)

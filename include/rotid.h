@@ -76,7 +76,7 @@ ROTID_API const char *rotid_status_name(int status);
 /* ------------------------------------------------------------------------------------------------ environment */
 
 typedef struct rotid_allocator {
-    void *(*allocate)(void *context, size_t bytes); /* aligned for any type, or NULL */
+    void *(*allocate)(void *context, size_t bytes); /* aligned for any type, or NULL; must exist until all it made is freed */
     void (*release)(void *context, void *block);
     void *context;
 } rotid_allocator;
@@ -180,7 +180,8 @@ typedef struct rotid_identification {
  * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
  * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
  * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL; where
- * that is no lack of memory, why is in `failure` (NULL allowed), which must hold 512 characters. */
+ * that is no lack of memory, why is in `failure` (NULL allowed), which must hold 512 characters and is empty on success.
+ * Cancelled while NLopt runs: the fit is complete and fit->nbaseline is 0. */
 ROTID_API int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,
                              rotid_identification **result);
 ROTID_API void rotid_identification_free(rotid_identification *result);
@@ -249,7 +250,8 @@ typedef struct rotid_diagnosis {
     const rotid_cause *candidate;   /* [ncandidate] of all rounds */
     int ndata_finding, nnumerical_finding;
     const rotid_finding *data_finding, *numerical_finding;
-    const rotid_identification *base, *extended; /* extended: NULL where nothing was named. Messages are in `message` below */
+    /* base: NULL where interrupted before it; extended: NULL where nothing was named. Messages are in `message` below */
+    const rotid_identification *base, *extended;
     rotid_quality before, after;
     int nlocal; /* along the axis: where the base model's misfit acts, largest 1 */
     const double *local_z, *local;
