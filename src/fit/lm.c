@@ -12,7 +12,7 @@
 #define HALF       0.5    /* and at most */
 #define FALL       3      /* mu falls by this factor behind a good step (Nielsen 1999), by twice as much behind the next one */
 #define NOISE      1e-12  /* rounding of J, 1e-16, over the part of x by which it may move what r does not determine */
-#define REGULAR    1e-20  /* keeps the QR regular where r is small */
+#define REGULAR    1e-28  /* keeps the QR regular where r is small */
 #define FLAT       1e-8 /* predicted decrease over objective below which the noise of a computed objective can hide the decrease */
 #define FLAT_TRIES 5    /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
 
