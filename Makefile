@@ -169,7 +169,12 @@ check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
 	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads),$(TEST_PROGRAMS))
 
-check-peers: all $(BUILD)/hammer
+# beside MINPACK, where its C version is installed
+$(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
+                       $(BUILD)/tests/mgh_functions.o $(BUILD)/tests/mgh_data_fits.o $(BUILD)/librotid.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
+$(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
+check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.

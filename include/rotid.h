@@ -478,7 +478,7 @@ typedef struct rotid_lm_options {
     double gradient_tolerance;                                     /* [1e-10] on that cosine */
     double step_tolerance;                                         /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
     double objective_tolerance;                                    /* [1e-16] predicted decrease over the objective */
-    double initial_damping;                                        /* [1e-3] */
+    double initial_damping;                                        /* [1e-14] */
     int (*trace)(void *user, const rotid_lm_iteration *iteration); /* NULL, or told of every accepted point; nonzero cancels */
     void *trace_user;
 } rotid_lm_options;
@@ -491,13 +491,14 @@ typedef struct rotid_lm_result {
 /* Length of the workspace of rotid_lm in doubles. */
 ROTID_API size_t rotid_lm_workspace(int m, int n);
 
-/* Levenberg-Marquardt: min 1/2 r'r. Each step solves (J'J + mu D^2) h = -J'r by QR of [J; sqrt(mu) D], D the largest column
- * norms of J so far (More 1978); mu follows the gain ratio (Nielsen 1999; Madsen, Nielsen, Tingleff 2004, 3.2), the actual
- * decrease being (r - r+)'(r + r+)/2, which keeps its digits at the optimum.
- * Entry: m >= 1, n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the best point, r [m] and
- * jacobian [m * n] there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing.
- * Returns the stop reason (> 0) or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual at the start), _FINITE (residual at the start),
- * _RANK (J = 0 there with r != 0), _LIBRARY. */
+/* Levenberg-Marquardt: min 1/2 r'r. Each step solves (J'J + mu (s D)^2) h = -J'r by QR of [J; sqrt(mu) s D], D the largest column
+ * norms of J so far (More 1978), s the largest of |J_j|/D_j. mu follows the gain ratio (Nielsen 1999; Madsen, Nielsen, Tingleff
+ * 2004, 3.2), the actual decrease being (r - r+)'(r + r+)/2, which keeps its digits at the optimum. It is raised where |D h|
+ * would exceed a radius (More 1978): the larger of 10 |D x| and |r| at first, then 4 times the last step, after one that failed a
+ * half to a tenth of it. Entry: m >= 1, n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the
+ * best point, r [m] and jacobian [m * n] there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing. Returns the stop
+ * reason (> 0) or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual at the start), _FINITE (residual at the start), _RANK (J = 0 there
+ * with r != 0), _LIBRARY. */
 ROTID_API int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
                        double *jacobian, double *work, rotid_lm_result *result);
 
