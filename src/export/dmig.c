@@ -100,7 +100,10 @@ static void put_matrix(const struct writer *w, const char *name, int remainder)
 
 static void put_grid(FILE *stream, int id, double z)
 {
-    (void)fprintf(stream, "GRID*   %16d%16s%16s%16s\n*       %16.9E\n", id, "", "0.0", "0.0", z);
+    char text[32];
+    for (int decimals = 14; decimals > 0 && snprintf(text, sizeof text, "%.*f", decimals, z) > 16;)
+        decimals--;
+    (void)fprintf(stream, "GRID*   %16d%16s%16s%16s\n*       %16s\n", id, "", "0.0", "0.0", text);
 }
 
 static void put_case(FILE *stream, const struct export_model *model, const char *const *name, const int *remainder)
@@ -140,8 +143,10 @@ static int write_deck(struct writer *w, const char *const *name, const struct so
     for (int i = 0; i < count; i++)
         put_grid(stream, condensed ? export_master_id(model, i) : i + 1,
                  condensed ? export_master_z(model, i) : model->node[i].z);
-    for (int i = 0; i < count; i++)
-        (void)fprintf(stream, "SPC1    %8d%8d%8d\n", 1, condensed ? 23456 : 2346, condensed ? export_master_id(model, i) : i + 1);
+    if (!condensed)
+        (void)fprintf(stream, "SPC1    %8d%8d%8d%8s%8d\n", 1, 2346, 1, "THRU", count);
+    for (int i = 0; i < count && condensed; i++)
+        (void)fprintf(stream, "SPC1    %8d%8d%8d\n", 1, 23456, export_master_id(model, i));
     put_matrix(w, name[0], 0);
     if (remainder[0])
         put_matrix(w, name[1], 1);

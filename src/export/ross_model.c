@@ -5,7 +5,9 @@
 
 #include "beam/effects.h"
 
-#define SAME_SHAPE    0.9
+#define SAME_SHAPE    0.9 /* MAC of modes that are one */
+#define NEAR_SCRIPT   0.2 /* of a frequency, beyond which they are not */
+#define MOST_OWN      100 /* modes of rods and bars that are looked through */
 #define MOST_ELEMENTS 500 /* that ROSS solves in about a minute */
 
 /* The rotor without inner nodes of rods and bars; 1 where that changes it, 0 where not, or a negative status. */
@@ -52,21 +54,29 @@ static int simplify(struct pool *pool, const struct export_model *model, struct 
     return changed;
 }
 
-/* For each mode of the script the one of the deck with its shape, of several the nearest. */
-static int find_partners(struct pool *pool, struct ross_model *ross)
+/* For each mode of the script the one of the deck with its shape, of several the nearest. Among those of the deck are more, of
+ * rods and bars. */
+static int find_partners(struct pool *pool, const double *x, int nparameter, struct ross_model *ross)
 {
-    const struct spectrum *script = ross->spectrum, *deck = &ross->model->spectrum;
+    const struct job *job = ross->model->job;
+    const struct mesh *mesh = &ross->model->client->beam.mesh;
+    const struct spectrum *script = ross->spectrum;
+    struct spectrum deck;
+    int inner = 2 * (mesh->nnode - mesh->naxis), count = script->count + (inner < MOST_OWN ? inner : MOST_OWN);
+    int status = spectrum_compute(pool, &job->rotor, nparameter, job->parameter, x, ROTID_GUYAN, count, &deck);
     double *hz = POOL_ARRAY(pool, double, script->count);
-    if (!hz)
-        return ROTID_ERROR_MEMORY;
+    if (status || !hz)
+        return status ? status : ROTID_ERROR_MEMORY;
     for (int j = 0; j < script->count; j++) {
+        double nearest = NEAR_SCRIPT * script->full_hz[j];
         hz[j] = NAN;
-        for (int i = 0; i < deck->count; i++) {
-            double mac = rotid_mac(deck->nmaster, script->shape + (ptrdiff_t)j * script->nmaster,
-                                   deck->shape + (ptrdiff_t)i * deck->nmaster);
-            double distance = fabs(deck->full_hz[i] - script->full_hz[j]);
-            if (mac > SAME_SHAPE && !(distance >= fabs(hz[j] - script->full_hz[j])))
-                hz[j] = deck->full_hz[i];
+        for (int i = 0; i < deck.count; i++) {
+            double distance = fabs(deck.full_hz[i] - script->full_hz[j]);
+            if (distance < nearest && rotid_mac(deck.nmaster, script->shape + (ptrdiff_t)j * script->nmaster,
+                                                deck.shape + (ptrdiff_t)i * deck.nmaster) > SAME_SHAPE) {
+                hz[j] = deck.full_hz[i];
+                nearest = distance;
+            }
         }
     }
     ross->deck_hz = hz;
@@ -129,7 +139,7 @@ int ross_open(struct pool *pool, const struct export_model *model, struct messag
     for (int p = 0; p < nparameter; p++)
         *parameter_value(&ross->client->beam.rotor, job->parameter[p]) = x[p];
     effects_refresh(&ross->client->beam);
-    status = find_partners(pool, ross);
+    status = find_partners(pool, x, nparameter, ross);
     if (!status)
         say_shifts(ross, notes);
     return status;

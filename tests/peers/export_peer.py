@@ -18,7 +18,9 @@ from scipy.linalg import eigh
 from support import INPUT, Checks, parse, result, rotid, temporary_folder
 
 EXACT = 1e-9  # the same matrices, solved by somebody else
-RUN_MODAL = 1e-6  # ROSS solves the unsymmetric problem in state space, whose rounding is that of the highest frequency of the mesh
+# run_modal solves the unsymmetric problem in state space, whose rounding is that of the highest frequencies of the mesh: 1e-7 on the
+# rotors here, 1e-4 on 72 elements of a beam 13 mm high
+RUN_MODAL, THIN_BEAM = 1e-6, 1e-3
 
 STEEL = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 CORE = "*MATERIAL, NAME=sheets\n*ELASTIC, TYPE=SHEAR\n1.1e11, 0.35e11, 0.28\n*DENSITY\n7600\n"
@@ -155,7 +157,7 @@ def load(path):
     return module
 
 
-def ross(checks, name, deck, folder, modal, *options, expected=(0,)):
+def ross(checks, name, deck, folder, *options, modal=None, expected=(0,)):
     path = folder / "script.py"
     out = exported(checks, deck, "ross", path, *options, expected=expected)
     script = load(path)
@@ -175,11 +177,13 @@ def ross(checks, name, deck, folder, modal, *options, expected=(0,)):
         tilt["x"][0::6], tilt["x"][4::6] = rotor.nodes_pos, 1
         tilt["y"][1::6], tilt["y"][3::6] = rotor.nodes_pos, -1
         checks.close(f"{name}: polar inertia by a rigid tilt", [tilt["x"] @ g @ tilt["y"]], [POLAR[name]()], 1e-9)
+    found = script.bending_hz(rotor, len(script.BENDING_HZ), script.LOWEST_HZ)
+    checks.close(f"{name}: what the script prints of them", found, out["exported_hz"], EXACT)
     if modal:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            found = script.bending_hz(rotor, len(script.BENDING_HZ), script.LOWEST_HZ)
-        checks.close(f"{name}: run_modal of ROSS, as rotid", found, out["exported_hz"], RUN_MODAL)
+            found = script.modal_hz(rotor, len(script.BENDING_HZ), script.LOWEST_HZ)
+        checks.close(f"{name}: run_modal of ROSS, as rotid", found, out["exported_hz"], modal)
     return out
 
 
@@ -198,7 +202,7 @@ def identified(checks, folder):
         if not reduced:
             matrices = (*matrices[:2], *(np.asarray(mmread(folder / f"mm.condensed_{part}.mtx")) for part in ("stiffness", "mass")))
         dmig(checks, deck, folder, *matrices, expected=code)
-        ross(checks, name, deck, folder, name == "brake_reuss_beam.inp", expected=code)
+        ross(checks, name, deck, folder, modal=THIN_BEAM if name == "brake_reuss_beam.inp" else None, expected=code)
         out = parse((folder / "full.json").read_text())
         checks.close(f"{name}: exported parameters are those of identify", [p["value"] for p in out["parameters"]],
                      [p["value"] for p in fit["parameters"]], 1e-14)
@@ -212,7 +216,7 @@ def stated(checks, folder):
         full, reduced = ([mode[key] for mode in modes["modes"]] for key in ("full_hz", "reduced_hz"))
         matrices = matrix_market(checks, deck, folder, full, reduced if "*SENSORS" in text else None)
         dmig(checks, deck, folder, *matrices)
-        out = ross(checks, name, deck, folder, True)
+        out = ross(checks, name, deck, folder, modal=RUN_MODAL if "joint" in name else None)
         if "four elements" in name:
             left_out = [w for w in out["warnings"] if "ties" in w or "cage" in w or "moves its bending modes" in w]
             checks.true(f"{name}: what ROSS does not have is named, with the price", len(left_out) == 3, out["warnings"])
@@ -228,7 +232,8 @@ def as_user(checks, folder):
     done = subprocess.run([sys.executable, "-W", "ignore", str(path)], capture_output=True, text=True, timeout=600, cwd=folder, env=dict(os.environ))
     rows = [line.split() for line in done.stdout.splitlines() if re.match(r" +\d+ +\d+\.\d+ +\d+\.\d+ ", line)]
     checks.true("paper_rotor.inp: the script runs", done.returncode == 0 and len(rows) == 6, done.stderr[-300:])
-    checks.close("paper_rotor.inp: run_modal of ROSS, as rotid", [float(r[1]) for r in rows], [float(r[2]) for r in rows], RUN_MODAL)
+    for column, what, tolerance in ((2, "matrices of ROSS", EXACT), (4, "run_modal of ROSS", RUN_MODAL)):
+        checks.close(f"paper_rotor.inp: {what} in the table, as rotid", [float(r[column]) for r in rows], [float(r[1]) for r in rows], tolerance)
 
 
 def main():
