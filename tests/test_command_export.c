@@ -185,7 +185,7 @@ static void test_set_changes_the_model(void **state)
     assert_string_equal(get(irs, "reduction")->valuestring, "IRS");
     assert_true(holds("i.condensed_mass.mtx", "Condensed by IRS") && holds("g.condensed_mass.mtx", "Condensed by GUYAN"));
     assert_close(number_at(irs, "full_hz", 0, NULL), number_at(guyan, "full_hz", 0, NULL), 1e-14, 0);
-    assert_true(fabs(number_at(rods, "full_hz", 4, NULL) / number_at(guyan, "full_hz", 4, NULL) - 1) > 1e-3);
+    assert_true(fabs(number_at(rods, "full_hz", 1, NULL) / number_at(guyan, "full_hz", 1, NULL) - 1) > 1e-3);
     assert_true(holds("r.py", "as rods"));
     cJSON_Delete(guyan);
     cJSON_Delete(irs);
