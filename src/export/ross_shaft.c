@@ -30,7 +30,7 @@ static int near_to(double a, double b)
 
 static int same_material(const struct ross_section *a, const struct ross_section *b)
 {
-    if (!a->equivalent != !b->equivalent || (a->equivalent && strcmp(a->equivalent, b->equivalent) != 0))
+    if (strcmp(a->equivalent ? a->equivalent : "", b->equivalent ? b->equivalent : "") != 0)
         return 0;
     return near_to(a->e, b->e) && near_to(a->g, b->g) && near_to(a->nu, b->nu) && near_to(a->rho, b->rho);
 }
