@@ -338,6 +338,24 @@ static void test_places_that_cannot_be_written(void **state)
     assert_int_equal(run("export s.inp --format dmig -o /dev/null"), 0);
 }
 
+/* Nine thousand elements are fitted for seconds. */
+static void test_an_interrupted_fit_writes_nothing(void **state)
+{
+    (void)state;
+    char command[512];
+    write_file("slow.inp",
+               "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.3, 0.05, 0, 3000\n"
+               "*SHAFT, NAME=b, MATERIAL=s\n0.4, 0.1, 0.02, 3000\n*SHAFT, NAME=c, MATERIAL=s\n0.3, 0.05, 0, 3000\n" MODES
+               "*IDENTIFY\na.E, 1e9, 1e12, 2e10\nb.E, 1e9, 1e12, 2e10\nc.E, 1e9, 1e13, 2e12\n");
+    (void)snprintf(command, sizeof command,
+                   "cd %s && timeout --preserve-status -s TERM 0.2 %s export slow.inp --format dmig -o slow.bdf > out 2> err",
+                   directory, ROTID_PROGRAM);
+    int status = system(command); /* NOLINT: a fixed command of the test */
+    assert_int_equal(WEXITSTATUS(status), 1);
+    assert_true(holds("err", "interrupted, nothing was written") && !holds("out", "mode"));
+    assert_int_equal(count_files("slow."), 1);
+}
+
 /* ------------------------------------------------------------------------------------------------ large models */
 
 static long size_of(const char *name)
@@ -413,6 +431,7 @@ int main(void)
         cmocka_unit_test_teardown(test_wrong_arguments, clear),
         cmocka_unit_test_teardown(test_all_files_or_none, clear),
         cmocka_unit_test_teardown(test_places_that_cannot_be_written, clear),
+        cmocka_unit_test_teardown(test_an_interrupted_fit_writes_nothing, clear),
         cmocka_unit_test_teardown(test_two_thousand_elements, clear),
     };
     return cmocka_run_group_tests(tests, make_directory, remove_directory);

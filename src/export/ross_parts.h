@@ -1,4 +1,4 @@
-/* Parts of the ROSS script: what is rotor of it, as Python data. */
+/* Parts of the ROSS script: the rotor as Python data. */
 #ifndef ROTID_EXPORT_ROSS_PARTS_H
 #define ROTID_EXPORT_ROSS_PARTS_H
 
