@@ -20,7 +20,7 @@ struct ema_arguments {
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
     const char *name, *deck, *json, *at, *extended, *output, *format;
-    int quiet, verbose, threads, baseline, points, replicates;
+    int quiet, verbose, threads, baseline, points, replicates, start, condensed;
     unsigned long seed;
     double step, range;
     int noverride;
@@ -68,6 +68,7 @@ int command_diagnose(struct command *command);
 int command_frf(struct command *command);
 int command_ema(struct command *command);
 int command_uff(struct command *command);
+int command_export(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;

@@ -156,3 +156,19 @@ void identify_warn_of_mesh(const struct job *job, const struct identification *r
                     "allow for it",
                     job->number[worst], s->mesh_error_percent[number[worst] - 1], largest);
 }
+
+void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
+                                struct message_list *notes)
+{
+    double worst = 0;
+    for (int k = 0; k < result->compared.nmode; k++) {
+        double error = result->spectrum.reduction_error_percent[result->compared.number[k] - 1];
+        if (fabs(error) > fabs(worst))
+            worst = error;
+    }
+    if (job->fit.reduction != ROTID_REDUCTION_NONE && fabs(worst) > 0.5)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is %s "
+                    "here (rotid identify, column reduction)",
+                    reduction_name(job->fit.reduction), worst, what);
+}

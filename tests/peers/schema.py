@@ -112,7 +112,7 @@ def validate(checks, name, schema, text):
 def main():
     checks = Checks()
     schemas = {}
-    for command in (*COMMANDS, "frf", "ema"):
+    for command in (*COMMANDS, "frf", "ema", "export"):
         schema = json.loads((ROOT / "docs" / "schema" / f"{command}.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         schemas[command] = jsonschema.Draft202012Validator(schema)
@@ -129,6 +129,7 @@ def main():
 
     with temporary_folder() as folder:
         synthesise(checks, schemas["frf"], Path(folder))
+        export(checks, schemas["export"], Path(folder))
         extract(checks, schemas["ema"], Path(folder))
         for name, (text, options, codes) in SMALL.items():
             deck = Path(folder) / "deck.inp"
@@ -219,6 +220,26 @@ def synthesise(checks, schema, folder):
     checks.true("frf says that the curves are left out", many and not many["with_curves"] and many["warnings"], "")
     functions.unlink()
     beside.unlink()
+
+
+def export(checks, schema, folder):
+    """rotid export in every format: fitted, as the deck states it, condensed, and with too few sensors for that."""
+    for kind, options in (("matrix-market", ()), ("dmig", ()), ("dmig", ("--condensed",)), ("ross", ()), ("ross", ("--start",))):
+        out = run(checks, f"export {kind} {' '.join(options)}", schema, "export", INPUT / "paper_rotor.inp",
+                  ("--format", kind, "-o", folder / "model", *options), (0,))
+        checks.true(f"export {kind} names what it wrote", out and all(Path(name).exists() for name in out["files"]), out and out["files"])
+        for name in out["files"] if out else ():
+            Path(name).unlink()
+    deck = folder / "few.inp"
+    deck.write_text(SHAFT + "*SENSORS\n1, 0.3\n2, 0.9\n")
+    out = run(checks, "export dmig --condensed, few sensors", schema, "export", deck, ("--format", "dmig", "--condensed", "-o", folder / "model"), (0,))
+    checks.true("export has null for modes that the condensed model lacks", out and out["exported_hz"][-1] is None, out and out["exported_hz"])
+    deck.write_text(SHAFT + "*SENSORS\n1, 0.3\n")
+    run(checks, "export dmig --condensed, one sensor", schema, "export", deck, ("--format", "dmig", "--condensed", "-o", folder / "none"), (2,))
+    checks.true("export that is refused writes nothing", not (folder / "none").exists(), "")
+    run(checks, "export, without a standard rotor", schema, "export", INPUT / "brake_reuss_beam.inp", ("--format", "ross", "-o", folder / "model"), (0, 1))
+    deck.unlink()
+    (folder / "model").unlink()
 
 
 def extract(checks, schema, folder):
