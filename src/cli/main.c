@@ -32,6 +32,8 @@ const struct command_entry command_table[] = {
     {"ema", "time records or transfer functions (58, 58b) to modes; -o: as universal file for *MEASURED", command_ema,
      PARALLEL | TAKES_OUTPUT},
     {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
+    {"study", "many runs from one plan, or of many decks, resumable; -o: the results", command_study,
+     PARALLEL | TAKES_OUTPUT | SEVERAL_FILES},
     {NULL, NULL, NULL, 0},
 };
 
@@ -57,7 +59,7 @@ static int run(struct command *command)
         int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema or uff",
+    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, uff or study",
                            command->name);
 }
 
