@@ -1,5 +1,5 @@
 # rotid. The usual targets:
-#   make            builds the program build/rotid and the library build/librotid.a
+#   make            builds the program build/rotid and the library build/librotid.a; make MPI=1: build/rotid-study as well
 #   make demo       identifies the paper's rotor from its measured frequencies and shows the result
 #   make test       builds and runs every test; ends with one line "N passed, N failed"
 #   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
@@ -55,6 +55,9 @@ TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 .SECONDARY:
 
 all: $(BUILD)/rotid $(BUILD)/librotid.a
+ifeq ($(MPI),1)
+all: $(BUILD)/rotid-study
+endif
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -74,6 +77,12 @@ $(BUILD)/librotid.a: $(LIBRARY_OBJECTS)
 
 $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(BUILD)/librotid.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+# The same studies over MPI; nothing else depends on it.
+MPICC ?= mpicc
+$(BUILD)/src/mpi/%.o: CC = $(MPICC)
+$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(BUILD)/librotid.a
+	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))

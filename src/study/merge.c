@@ -76,15 +76,6 @@ static size_t timeless(const char *line)
     return at ? (size_t)(at - line) : strlen(line);
 }
 
-static int is_failed(const char *line)
-{
-    cJSON *json = cJSON_Parse(line);
-    const char *status = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(json, "status"));
-    int failed = status && !strcmp(status, "failed");
-    cJSON_Delete(json);
-    return failed;
-}
-
 /* A run that stands in two parts: which one counts. */
 static int settle(struct merger *m, long run, int other)
 {
@@ -97,7 +88,7 @@ static int settle(struct merger *m, long run, int other)
     size_t length[2] = {timeless(m->text[0]), timeless(m->text[1])};
     if (length[0] == length[1] && !memcmp(m->text[0], m->text[1], length[0]))
         return ROTID_OK;
-    int failed[2] = {is_failed(m->text[0]), is_failed(m->text[1])};
+    int failed[2] = {result_failed(m->text[0]), result_failed(m->text[1])};
     if (failed[0] || failed[1]) {
         m->source[run] = failed[0] ? other : m->source[run];
         return ROTID_OK;
@@ -171,7 +162,7 @@ static int write_all(struct merger *m, const char *path, struct merge *merge)
         status = fetch(m, &m->part[m->source[run]], run, m->text[0]);
         if (status)
             continue;
-        merge->failed += is_failed(m->text[0]);
+        merge->failed += result_failed(m->text[0]);
         failed = fputs(m->text[0], output.stream) < 0;
     }
     int reason = errno;

@@ -138,6 +138,15 @@ int results_index(struct pool *pool, int descriptor, const char *path, struct me
     return status == 1 ? ROTID_OK : status;
 }
 
+int result_failed(const char *line)
+{
+    cJSON *json = cJSON_Parse(line);
+    const char *status = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(json, "status"));
+    int failed = status && !strcmp(status, "failed");
+    cJSON_Delete(json);
+    return failed;
+}
+
 int results_fetch(int descriptor, struct result_place place, char *text)
 {
     size_t have = 0;

@@ -45,6 +45,9 @@ struct result_place { /* of the line that counts for a run, the last one; length
 int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
                   struct result_place **place, size_t *most);
 
+/* Whether the line is that of a run that failed. */
+int result_failed(const char *line);
+
 /* A line by its place into text [length]. ROTID_OK or ROTID_ERROR_IO. */
 int results_fetch(int descriptor, struct result_place place, char *text);
 

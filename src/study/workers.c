@@ -10,6 +10,7 @@
 
 #include "base/clock.h"
 #include "report/json.h"
+#include "study/results.h"
 #include "study/run.h"
 #include "study/worker.h"
 
@@ -45,19 +46,10 @@ static void show(struct crew *crew, double now)
     crew->options->progress(crew->options->context, &progress);
 }
 
-static int is_failed(const char *line)
-{
-    cJSON *json = cJSON_Parse(line);
-    const char *status = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(json, "status"));
-    int failed = status && !strcmp(status, "failed");
-    cJSON_Delete(json);
-    return failed;
-}
-
 static int keep(struct crew *crew, long run, const char *line)
 {
     crew->computed++;
-    return record_append(crew->record, run, line, is_failed(line));
+    return record_append(crew->record, run, line, result_failed(line));
 }
 
 static int keep_failure(struct crew *crew, long run, const char *error, double seconds)
