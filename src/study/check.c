@@ -145,19 +145,21 @@ static void check_truth(struct checker *c, int d, const struct job *job)
     }
 }
 
-static void check_hidden(struct checker *c, int d)
+static int check_hidden(struct checker *c, int d)
 {
     const struct plan *plan = c->study->plan;
-    for (int h = 0; h < plan->nhide; h++) {
+    int status = ROTID_OK;
+    for (int h = 0; h < plan->nhide && status != ROTID_ERROR_MEMORY; h++) {
         struct message_list found;
         struct truth truth;
         message_open(&found, &c->scratch);
-        if (!plan->hide[h].lower || !jobs_read_truth(&c->scratch, c->study, d, h, &found, &truth))
-            continue;
+        if (plan->hide[h].lower)
+            status = jobs_read_truth(&c->scratch, c->study, d, h, &found, &truth);
         for (size_t i = 0; i < found.count; i++)
             if (found.item[i].severity == SEVERITY_ERROR)
                 report(c, (struct place){found.item[i].file, found.item[i].line, found.item[i].column}, found.item[i].text);
     }
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
 static int check_variants(struct checker *c, int d)
@@ -201,9 +203,11 @@ static int check_deck(struct checker *c, int d)
     struct job job;
     message_open(&found, &c->scratch);
     digest_text(&c->check->decks, plan->deck[d].name);
-    (void)deck_text_read(&c->scratch, plan->deck[d].path, &found, &text); /* what is wrong with it deck_read says again */
+    int status = deck_text_read(&c->scratch, plan->deck[d].path, &found, &text); /* what is wrong with it deck_read says again */
+    if (status == ROTID_ERROR_MEMORY)
+        return status;
     digest_cards(&c->check->decks, &text);
-    int status = read_plain(c, d, &found, &job);
+    status = read_plain(c, d, &found, &job);
     if (status == ROTID_ERROR_MEMORY)
         return status;
     if (!status)
@@ -211,8 +215,8 @@ static int check_deck(struct checker *c, int d)
     if (status || found.errors)
         return give_up(c, d, &found);
     check_truth(c, d, &job);
-    check_hidden(c, d);
-    return check_variants(c, d);
+    status = check_hidden(c, d);
+    return status ? status : check_variants(c, d);
 }
 
 int check_decks(struct pool *pool, struct study *study, struct message_list *messages, struct check *check)
@@ -232,8 +236,10 @@ int check_decks(struct pool *pool, struct study *study, struct message_list *mes
         bad += study->deck[d].error != NULL;
     }
     for (size_t i = 0; i < messages->count && !status && bad == plan->ndeck;
-         i++) /* to be said whether somebody wants warnings or not */
+         i++) { /* to be said whether warnings are wanted or not */
         messages->item[i].severity = SEVERITY_ERROR;
+        messages->errors++;
+    }
     if (!status && bad == plan->ndeck)
         message_add(messages, SEVERITY_ERROR, plan->path ? plan->path : plan->deck[0].path, 1, 1,
                     plan->ndeck > 1 ? "none of the decks can be used: nothing was computed"

@@ -13,7 +13,7 @@ static struct override *overrides(struct pool *pool, const struct study *study, 
     const struct plan *plan = study->plan;
     const struct plan_variant *variant = cell ? &plan->variant[cell->variant] : NULL;
     const struct plan_modes *modes = cell ? &plan->modes[cell->modes] : NULL;
-    struct override *list = POOL_ARRAY(pool, struct override, study->noverride + (variant ? variant->noverride : 0) + 3);
+    struct override *list = POOL_ARRAY(pool, struct override, study->noverride + (variant ? variant->noverride : 0) + 4);
     *count = study->noverride;
     if (!list)
         return NULL;
@@ -43,6 +43,19 @@ static int lacks_noise(const struct job *job, const struct plan_noise *noise)
            (noise->shape > 0 && job->shape && !job_knows_shape_noise(job));
 }
 
+/* The deck by a functional that needs no noise: what it knows of that itself. */
+static int read_bare(struct pool *pool, const struct study *study, const struct study_cell *cell, struct job *bare)
+{
+    struct message_list unheard;
+    int count;
+    struct override *list = overrides(pool, study, cell, -1, &count);
+    message_open(&unheard, pool);
+    if (!list)
+        return ROTID_ERROR_MEMORY;
+    list[count++] = (struct override){"FIT", "FUNCTIONAL", "HYBRID", ""};
+    return deck_read(pool, study->plan->deck[cell->deck].path, count, list, &unheard, bare);
+}
+
 int jobs_read_fitted(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
                      struct job *job)
 {
@@ -53,9 +66,18 @@ int jobs_read_fitted(struct pool *pool, const struct study *study, const struct 
     if (!study->plan->has_noise || status == ROTID_ERROR_MEMORY ||
         (!status && !lacks_noise(job, &study->plan->noise[cell->noise])))
         return status;
+    struct job bare = *job;
+    int bare_status = status ? read_bare(pool, study, cell, &bare) : ROTID_OK;
+    if (bare_status == ROTID_ERROR_MEMORY)
+        return bare_status;
     message_open(messages, messages->pool);
     list = overrides(pool, study, cell, cell->noise, &count);
-    return list ? deck_read(pool, path, count, list, messages, job) : ROTID_ERROR_MEMORY;
+    status = list ? deck_read(pool, path, count, list, messages, job) : ROTID_ERROR_MEMORY;
+    if (!status && !bare_status) { /* the noise of the plan is added to this one */
+        job->frequency_std = bare.frequency_std;
+        job->shape_std = bare.shape_std;
+    }
+    return status;
 }
 
 const struct effect_parameter_name *truth_parameter(const struct truth *truth, int p)

@@ -65,60 +65,125 @@ static int place_sensors(struct pool *pool, const struct truth *truth, struct jo
     return correction_apply(pool, job, &truth->fault);
 }
 
-/* Modes of the full model at the sensors of the rotor. */
-static int solve(struct pool *pool, const struct rotor *rotor, int count, struct client *client, struct prediction *prediction)
+struct modes { /* elastic ones of a model at the sensors of its rotor */
+    int count, nsensor;
+    double *hz, *shape; /* [count], [nsensor * count] */
+};
+
+static int modes_new(struct pool *pool, int count, int nsensor, struct modes *modes)
 {
-    const double none = 0;
-    int failed, status = client_open(pool, rotor, 0, NULL, 1, client, &failed);
-    if (!status && client->model.nrigid + count > client->model.n)
-        status = ROTID_ERROR_ARGUMENT;
-    if (!status)
-        status =
-            prediction_new(pool, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + count, 0, prediction);
-    return status ? status : prediction_compute(prediction, &none);
+    *modes =
+        (struct modes){count, nsensor, POOL_ARRAY(pool, double, count), POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)count)};
+    return modes->hz && modes->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static void take_mode(const struct rotor *rotor, const struct client *client, const struct prediction *p, int k, struct job *job)
+/* Of the full model. */
+static int solve(const struct rotor *rotor, struct modes *modes)
 {
-    int mode = client->model.nrigid + job->number[k] - 1;
+    const double none = 0;
+    struct pool scratch;
+    struct prediction p;
+    int failed, status = ROTID_ERROR_MEMORY;
+    pool_open(&scratch, NULL);
+    struct client *client = POOL_NEW(&scratch, struct client);
+    if (client)
+        status = client_open(&scratch, rotor, 0, NULL, 1, client, &failed);
+    if (!status && client->model.nrigid + modes->count > client->model.n)
+        status = ROTID_ERROR_ARGUMENT;
+    if (!status)
+        status = prediction_new(&scratch, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + modes->count,
+                                0, &p);
+    if (!status)
+        status = prediction_compute(&p, &none);
+    for (int k = 0; k < modes->count && !status; k++) {
+        modes->hz[k] = prediction_hz(&p, client->model.nrigid + k);
+        for (int s = 0; s < modes->nsensor; s++)
+            modes->shape[s + (ptrdiff_t)k * modes->nsensor] = prediction_at_sensor(&p, client->model.nrigid + k, s);
+    }
+    pool_close(&scratch);
+    return status;
+}
+
+/* With an accelerometer that goes from sensor to sensor each records its own component as it is with the mass there, and the
+ * frequency is the mean of all. The scale of a loaded mode is the one that brings it nearest to the one without that mass. */
+static int solve_moving(struct pool *pool, const struct rotor *rotor, int effect, struct modes *modes)
+{
+    int n = modes->nsensor, status;
+    struct rotor with = *rotor;
+    struct modes bare, loaded;
+    with.effect = POOL_ARRAY(pool, struct effect, rotor->neffect);
+    status = with.effect ? modes_new(pool, modes->count, n, &bare) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = modes_new(pool, modes->count, n, &loaded);
+    if (status)
+        return status;
+    memcpy(with.effect, rotor->effect, (size_t)rotor->neffect * sizeof *with.effect);
+    with.effect[effect].variant = 1; /* FIXED */
+    with.effect[effect].target = -1; /* nowhere */
+    status = solve(&with, &bare);
+    for (int k = 0; k < modes->count; k++)
+        modes->hz[k] = 0;
+    for (int s = 0; s < n && !status; s++) {
+        with.effect[effect].target = s;
+        status = solve(&with, &loaded);
+        for (int k = 0; k < modes->count && !status; k++) {
+            const double *a = loaded.shape + (ptrdiff_t)k * n, *b = bare.shape + (ptrdiff_t)k * n;
+            double across = 0, square = 0;
+            for (int i = 0; i < n; i++) {
+                across += a[i] * b[i];
+                square += a[i] * a[i];
+            }
+            modes->shape[s + (ptrdiff_t)k * n] = across / square * a[s];
+            modes->hz[k] += loaded.hz[k] / n;
+        }
+    }
+    return status;
+}
+
+static void take_mode(const struct rotor *rotor, const struct modes *modes, int k, struct job *job)
+{
+    const double *made = modes->shape + (ptrdiff_t)(job->number[k] - 1) * modes->nsensor;
     double largest = 0;
-    job->frequency_hz[k] = prediction_hz(p, mode);
+    job->frequency_hz[k] = modes->hz[job->number[k] - 1];
     if (!job->shape)
         return;
     double *shape = job->shape + (ptrdiff_t)k * job->rotor.nsensor;
-    for (int s = 0; s < rotor->nsensor; s++)
-        largest = fmax(largest, fabs(prediction_at_sensor(p, mode, s)));
+    for (int s = 0; s < modes->nsensor; s++)
+        largest = fmax(largest, fabs(made[s]));
     for (int s = 0; s < job->rotor.nsensor; s++) {
         int there = 0;
-        while (there < rotor->nsensor && rotor->sensor[there].id != job->rotor.sensor[s].id)
+        while (there < modes->nsensor && rotor->sensor[there].id != job->rotor.sensor[s].id)
             there++;
         if (isfinite(shape[s]))
-            shape[s] = there < rotor->nsensor && largest > 0 ? prediction_at_sensor(p, mode, there) / largest : NAN;
+            shape[s] = there < modes->nsensor && largest > 0 ? made[there] / largest : NAN;
     }
 }
 
 int experiment_model(struct pool *pool, const struct study *study, long replicate, struct truth *truth,
                      struct message_list *messages, struct job *job)
 {
-    struct client *client = POOL_NEW(pool, struct client);
-    struct prediction prediction;
+    struct modes modes;
     struct job source;
     int highest = 0;
     draw_values(study, replicate, truth);
-    int status = client ? place_sensors(pool, truth, &source) : ROTID_ERROR_MEMORY;
+    int status = place_sensors(pool, truth, &source), last = source.rotor.neffect - 1;
     if (status == ROTID_ERROR_ARGUMENT)
         message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "the hidden shift leaves the sensor no place of its own");
     for (int k = 0; k < job->nmode; k++)
         highest = job->number[k] > highest ? job->number[k] : highest;
     if (!status)
-        status = solve(pool, &source.rotor, highest, client, &prediction);
+        status = modes_new(pool, highest, source.rotor.nsensor, &modes);
+    int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;
+    if (!status)
+        status = moving ? solve_moving(pool, &source.rotor, last, &modes) : solve(&source.rotor, &modes);
     for (int k = 0; k < job->nmode && !status; k++)
-        take_mode(&source.rotor, client, &prediction, k, job);
+        take_mode(&source.rotor, &modes, k, job);
     /* what else was measured is not that of this model */
     job->point_frequency_hz = job->point_frequency_std = NULL;
     job->hammer = job->ncorrection = 0;
     job->raw = NULL;
     job->has_noise_floor = 0;
-    experiment_fault(truth, 0, job);
+    if (!status)
+        experiment_fault(truth, 0, job);
     return status;
 }

@@ -85,11 +85,10 @@ void plan_decks(struct plan_reader *reader, const struct card *card)
 }
 
 /* A file that a variant names is relative to the plan, not to where the user stands as with --set. */
-static int place_file(struct plan_reader *reader, struct place place, struct override *override)
+static void place_file(struct plan_reader *reader, struct place place, struct override *override)
 {
     if (same_text(override->option, "FILE"))
         override->value = beside(reader, place, override->value);
-    return !override->value;
 }
 
 void plan_variant(struct plan_reader *reader, const struct card *card)
@@ -115,10 +114,14 @@ void plan_variant(struct plan_reader *reader, const struct card *card)
     for (int i = 0; i < card->nline; i++) {
         const struct data_line *line = &card->line[i];
         struct override *override = &variant->override[variant->noverride];
-        if (override_parse(pool, line->text, override) || place_file(reader, line->place, override)) {
-            deck_error(&reader->fields, line->place, "'%s' is no option of a deck, expected CARD.OPTION=VALUE", line->text);
+        if (override_parse(pool, line->text, override)) {
+            if (override->value) /* it has the form */
+                reader->fields.out_of_memory = 1;
+            else
+                deck_error(&reader->fields, line->place, "'%s' is no option of a deck, expected CARD.OPTION=VALUE", line->text);
             continue;
         }
+        place_file(reader, line->place, override);
         /* what is wrong with it is found when the deck is read, and reported by this name: it is put in its place there */
         override->text = pool_format(pool, "variant %s, %s", variant->name, line->text);
         reader->fields.out_of_memory |= !override->text;
