@@ -99,8 +99,9 @@ int header_difference(struct pool *pool, const struct header *file, const struct
                  {file->data_digest, here->data_digest, "the measured data"},
                  {file->options_digest, here->options_digest, "--set"}};
     *text = NULL;
+    int other_options = strcmp(file->options_digest, here->options_digest) != 0; /* they may change the data as well */
     for (size_t i = 0; i < sizeof parts / sizeof *parts && changed; i++)
-        if (strcmp(parts[i].file, parts[i].here) != 0)
+        if (strcmp(parts[i].file, parts[i].here) != 0 && !(other_options && parts[i].here == here->data_digest))
             changed = pool_format(pool, "%s%s%s", changed, *changed ? " and " : "", parts[i].what);
     if (!changed)
         return ROTID_ERROR_MEMORY;
