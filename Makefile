@@ -6,6 +6,7 @@
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
+#   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
 #   make coverage   share of the lines of src that the tests run
@@ -50,7 +51,7 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all demo test chain power bench bench-quick check-asan check-valgrind check-peers fuzz fuzzers coverage lint format install uninstall clean
+.PHONY: all demo test chain power bench bench-quick check-asan check-valgrind check-peers check-mpi fuzz fuzzers coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -83,6 +84,10 @@ MPICC ?= mpicc
 $(BUILD)/src/mpi/%.o: CC = $(MPICC)
 $(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(BUILD)/librotid.a
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+check-mpi:
+	@$(MAKE) --no-print-directory MPI=1 all
+	@sh tests/study/mpi $(BUILD)
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))

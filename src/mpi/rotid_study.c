@@ -1,7 +1,7 @@
 /* rotid-study: the command `study` over MPI. Rank 0 writes the file of results and hands out the runs; all compute. Everything
  * but the handing out is that of `rotid study`, so the files of both are the same.
  *
- * A rank has two runs, the one it computes and the next one, so that it need not wait for an answer. Rank 0 answers between its
+ * A rank has the next runs beside the one it computes, so that it need not wait for an answer. Rank 0 answers between its
  * own iterations. A rank that dies ends the whole job, as MPI has it; what arrived before stands in the file. */
 #include <errno.h>
 #include <math.h>
@@ -43,6 +43,12 @@ const struct command_entry command_table[] = {
      PARALLEL | TAKES_OUTPUT | SEVERAL_FILES},
     {NULL, NULL, NULL, 0},
 };
+
+/* MPI_Probe and MPI_Recv keep a processor busy while they wait. */
+static void rest(void)
+{
+    (void)nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);
+}
 
 /* ---- rank 0 */
 
@@ -121,11 +127,6 @@ static int is_waiting(const struct office *office)
     return 0;
 }
 
-static void rest(void)
-{
-    (void)nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL); /* not MPI_Probe, which keeps a processor busy */
-}
-
 static void compute_own(struct office *office, struct jobs *jobs)
 {
     const rotid_environment environment = {.cancelled = serve_meanwhile, .context = office};
@@ -196,6 +197,9 @@ static void follow(const struct study *study)
     for (;;) {
         char *line = NULL;
         long run;
+        int there = 0;
+        while (!MPI_Iprobe(0, TAG_RUN, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE) && !there)
+            rest();
         MPI_Recv(&run, 1, MPI_LONG, 0, TAG_RUN, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
         if (run < 0)
             break;

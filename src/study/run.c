@@ -31,10 +31,9 @@ static char *identify(struct pool *pool, const struct study *study, const struct
 {
     struct identification result;
     char *text = NULL;
-    *status = identify_run(pool, &experiment->job, study->plan->baseline, environment, notes, &result);
+    *status = identify_run_bare(pool, &experiment->job, study->plan->baseline, environment, notes, &result);
     if (*status)
         return NULL;
-    identify_warn_of_mesh(&experiment->job, &result, notes);
     if (result.fit->status == ROTID_STOP_CANCELLED)
         *status = ROTID_STOP_CANCELLED;
     else
