@@ -1,5 +1,6 @@
 # rotid. The usual targets:
-#   make            builds the program build/rotid and the library: build/librotid.a, build/librotid.so
+#   make            builds the program build/rotid and the library: build/librotid.a, build/librotid.so; make MPI=1:
+#                   build/rotid-study as well
 #   make demo       identifies the paper's rotor from its measured frequencies and shows the result
 #   make test       builds and runs every test; ends with one line "N passed, N failed"
 #   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
@@ -7,6 +8,7 @@
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
+#   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
 #   make coverage   share of the lines of src that the tests run
@@ -73,11 +75,15 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers fuzz fuzzers coverage lint format install uninstall clean
+.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers check-mpi fuzz fuzzers coverage lint format \
+        install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
 all: $(BUILD)/rotid $(BUILD)/librotid.a $(BUILD)/librotid.so
+ifeq ($(MPI),1)
+all: $(BUILD)/rotid-study
+endif
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -116,6 +122,16 @@ $(BUILD)/librotid.so: $(BUILD)/$(SHARED)
 
 $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+# The same studies over MPI; nothing else depends on it.
+MPICC ?= mpicc
+$(BUILD)/src/mpi/%.o: CC = $(MPICC)
+$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(OBJECTS)
+	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+check-mpi:
+	@$(MAKE) --no-print-directory MPI=1 all
+	@sh tests/study/mpi $(BUILD)
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "cli/arguments_ema.h"
+#include "cli/arguments_study.h"
 #include "export/files.h"
 
 static void print_help(FILE *out)
@@ -30,10 +31,12 @@ static void print_help(FILE *out)
         "  --format ascii|binary    uff: or in this one\n"
         "  --format matrix-market|dmig|ross   export: for SciPy and others, for Nastran, for ROSS\n"
         "  --start, --condensed     export: the model as the deck states it; dmig: the model condensed onto the sensors\n"
-        "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema (one a processor); seed of random numbers (1)\n"
+        "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema, processes of study (one a processor); seed of "
+        "random numbers (1)\n"
         "  --version, --help\n\n",
         out);
     (void)fputs(ema_options_help, out);
+    (void)fputs(study_options_help, out);
     (void)fputs(
         "\n"
         "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"
@@ -124,6 +127,7 @@ static int take_option(struct command *command, int option, const char *value)
         if (arguments_number("--seed", value, 0, 4294967295.0, 1, &n))
             return EXIT_USAGE;
         command->seed = (unsigned long)n;
+        command->seed_given = 1;
         return -1;
     case OPTION_EXTENDED:
         command->extended = value;
@@ -156,7 +160,7 @@ static int take_option(struct command *command, int option, const char *value)
         (void)fprintf(stderr, "rotid --help lists the options\n");
         return EXIT_USAGE;
     default:
-        return arguments_ema(command, option, value);
+        return option >= STUDY_OPTION_SHARD ? arguments_study(command, option, value) : arguments_ema(command, option, value);
     }
 }
 
@@ -180,6 +184,7 @@ int arguments_parse(struct command *command, int argc, char **argv)
                                             {"start", no_argument, NULL, OPTION_START},
                                             {"condensed", no_argument, NULL, OPTION_CONDENSED},
                                             EMA_LONG_OPTIONS,
+                                            STUDY_LONG_OPTIONS,
                                             {"version", no_argument, NULL, OPTION_VERSION},
                                             {"help", no_argument, NULL, OPTION_HELP},
                                             {NULL, 0, NULL, 0}};
@@ -199,9 +204,9 @@ int arguments_parse(struct command *command, int argc, char **argv)
     command->name = argv[optind++];
     if (optind >= argc)
         return arguments_wrong("%s: no file given, expected rotid COMMAND FILE", command->name);
-    command->deck = argv[optind++];
-    if (optind < argc)
-        return arguments_wrong("%s is one argument too many, expected one file", argv[optind]);
+    command->file = &argv[optind];
+    command->nfile = argc - optind;
+    command->deck = command->file[0];
     return -1;
 }
 
@@ -255,8 +260,9 @@ static int refuse_output(const struct command *command, const struct command_ent
         return command->format ? arguments_wrong("--format %s: expected --output as well", command->format) : -1;
     if (!strcmp(command->output, "-"))
         return arguments_wrong("--output %s: expected a file", command->output);
-    if (arguments_same_file(command->deck, command->output))
-        return arguments_wrong("--output %s is the file that is read, expected another one", command->output);
+    for (int i = 0; i < command->nfile; i++)
+        if (arguments_same_file(command->file[i], command->output))
+            return arguments_wrong("--output %s is the file that is read, expected another one", command->output);
     if (command->json && arguments_same_file(command->json, command->output))
         return arguments_wrong("--output %s is the file of --json as well, expected another file", command->output);
     return -1;
@@ -271,8 +277,14 @@ int arguments_refuse(const struct command *command, const struct command_entry *
         return arguments_wrong("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
     if (command->ema.given && strcmp(command->name, "ema"))
         return arguments_wrong("--%s is an option of ema alone", command->ema.given);
-    if (command->json && strcmp(command->json, "-") && arguments_same_file(command->deck, command->json))
-        return arguments_wrong("--json %s is the file that is read, expected another one", command->json);
+    if (command->nfile > 1 && !(entry->flags & SEVERAL_FILES))
+        return arguments_wrong("%s is one argument too many, expected one file", command->file[1]);
+    int refused = arguments_refuse_study(command);
+    if (refused >= 0)
+        return refused;
+    for (int i = 0; i < command->nfile && command->json && strcmp(command->json, "-"); i++)
+        if (arguments_same_file(command->file[i], command->json))
+            return arguments_wrong("--json %s is the file that is read, expected another one", command->json);
     if (!command->extended)
         return refuse_output(command, entry);
     if (!strcmp(command->extended, "-"))

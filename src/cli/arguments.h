@@ -7,9 +7,10 @@
 #define THREADS_MOST 1024
 
 enum command_flag {
-    READS_DECK = 1,  /* the file it is given is a deck, which is read before it runs */
-    PARALLEL = 2,    /* it runs several threads of its own, so the BLAS gets one */
-    TAKES_OUTPUT = 4 /* -o */
+    READS_DECK = 1,   /* the file it is given is a deck, which is read before it runs */
+    PARALLEL = 2,     /* it runs several threads of its own, so the BLAS gets one */
+    TAKES_OUTPUT = 4, /* -o */
+    SEVERAL_FILES = 8
 };
 
 struct command_entry {

@@ -15,10 +15,13 @@ static int uses_shapes(const struct job *job)
     return job->shape && (job->fit.functional != ROTID_LIKELIHOOD || job_knows_shape_noise(job));
 }
 
-static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, struct spectrum *spectrum)
+/* bare: what pairing needs */
+static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int bare,
+                            struct spectrum *spectrum)
 {
     int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
-    return spectrum_compute(pool, &job->rotor, job->nparameter, job->parameter, x, reduction, count, spectrum);
+    int parts = !bare ? SPECTRUM_MESH | SPECTRUM_REDUCED : job->shape ? SPECTRUM_REDUCED : 0;
+    return spectrum_compute_parts(pool, &job->rotor, job->nparameter, job->parameter, x, reduction, count, parts, spectrum);
 }
 
 int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
@@ -78,8 +81,8 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
 }
 
-int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
-                 struct message_list *notes, struct identification *out)
+static int identify(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out)
 {
     *out = (struct identification){0};
     int status, candidates = comparison_candidates(job);
@@ -93,7 +96,7 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
     struct comparison before;
     struct message_list quiet; /* what the pairing at the start says is not worth repeating unless it ends the run */
     message_open(&quiet, pool);
-    status = compute_spectrum(pool, job, start, candidates, &out->spectrum);
+    status = compute_spectrum(pool, job, start, candidates, 1, &out->spectrum);
     if (!status)
         status = comparison_make(pool, job, &out->spectrum, &quiet, &before);
     if (status) {
@@ -109,7 +112,7 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
         out->fit = NULL;
         status = identify_fit(pool, job, before.number, job->holdout, &options, environment, &out->mass, &out->fit);
         if (!status)
-            status = compute_spectrum(pool, job, out->fit->x, candidates, &out->spectrum);
+            status = compute_spectrum(pool, job, out->fit->x, candidates, bare, &out->spectrum);
         message_open(&quiet, pool);
         if (!status)
             status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
@@ -134,6 +137,18 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
     out->shapes_fitted =
         uses_shapes(job) && !(job->fit.functional != ROTID_LIKELIHOOD && job->fit.reduction == ROTID_REDUCTION_NONE);
     return ROTID_OK;
+}
+
+int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
+                 struct message_list *notes, struct identification *out)
+{
+    return identify(pool, job, baseline, 0, environment, notes, out);
+}
+
+int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
+                      struct message_list *notes, struct identification *out)
+{
+    return identify(pool, job, baseline, 1, environment, notes, out);
 }
 
 void identify_warn_of_mesh(const struct job *job, const struct identification *result, struct message_list *notes)
