@@ -279,7 +279,7 @@ int arguments_refuse(const struct command *command, const struct command_entry *
         return arguments_wrong("--%s is an option of ema alone", command->ema.given);
     if (command->nfile > 1 && !(entry->flags & SEVERAL_FILES))
         return arguments_wrong("%s is one argument too many, expected one file", command->file[1]);
-    int refused = arguments_refuse_study(command);
+    refused = arguments_refuse_study(command);
     if (refused >= 0)
         return refused;
     for (int i = 0; i < command->nfile && command->json && strcmp(command->json, "-"); i++)
