@@ -31,7 +31,7 @@ static FILE *open_deck(const char *path, int finer)
     return stream;
 }
 
-rotid_deck *bench_read(const char *path)
+rotid_deck *bench_deck(const char *path)
 {
     rotid_deck *deck = NULL;
     int status = rotid_deck_read(path, 0, NULL, NULL, &deck);
@@ -50,7 +50,7 @@ void bench_hidden_deck(const char *path, double gradient, unsigned seed)
     if (gradient != 0)
         (void)fprintf(out, "*CAUSE, NAME=hidden, TYPE=stiffness_gradient, GROUP=core\nslope, %.17g\n", gradient);
     (void)fclose(out);
-    rotid_deck *deck = bench_read(path);
+    rotid_deck *deck = bench_deck(path);
     if (rotid_spectrum_compute(deck, NULL, MODES, NULL, &s) || s->nmode != MODES)
         abort();
     rotid_deck_free(deck);

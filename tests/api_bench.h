@@ -10,7 +10,7 @@
 void bench_hidden_deck(const char *path, double gradient, unsigned seed);
 
 /* A deck that must be right. */
-rotid_deck *bench_read(const char *path);
+rotid_deck *bench_deck(const char *path);
 
 /* Memory that is spoilt when it is given back. One thread at a time. */
 struct bench_memory {

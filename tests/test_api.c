@@ -49,7 +49,7 @@ static void a_deck_shows_what_was_read(void **state)
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
     assert_status(deck_read(&pool, SOLID, 0, NULL, &messages, &job), ROTID_OK);
-    rotid_deck *deck = bench_read(SOLID);
+    rotid_deck *deck = bench_deck(SOLID);
     assert_string_equal(deck->path, SOLID);
     assert_int_equal(deck->nerror, 0);
     assert_int_equal(deck->nmessage, messages.count);
@@ -80,18 +80,18 @@ static void mass_and_centre_are_those_at_the_start_of_the_parameters(void **stat
 {
     (void)state;
     const double area = 3.14159265358979323846 / 4 * 0.1 * 0.1;
-    rotid_deck *deck = bench_read(write_text("bar.inp", BAR));
+    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR));
     assert_close(deck->length, 1.2, 1e-15, 0);
     assert_close(deck->mass, 7850 * 1.2 * area, 1e-13, 0);
     assert_close(deck->centre, 0.6, 1e-13, 0);
     assert_null(deck->shape);
     assert_int_equal(deck->nmode, 0);
     rotid_deck_free(deck);
-    deck = bench_read(write_text("bar.inp", BAR "*IDENTIFY\ncore.rho, 5000, 9000, 6000\n"));
+    deck = bench_deck(write_text("bar.inp", BAR "*IDENTIFY\ncore.rho, 5000, 9000, 6000\n"));
     assert_close(deck->mass, 6000 * 1.2 * area, 1e-13, 0);
     rotid_deck_free(deck);
     /* density of the left half raised by a cause that is part of the model, its size searched from a start of its own */
-    deck = bench_read(write_text("bar.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n"
+    deck = bench_deck(write_text("bar.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n"
                                             "*SHAFT, NAME=a, MATERIAL=steel\n0.6, 0.1, 0, 12\n"
                                             "*SHAFT, NAME=b, MATERIAL=steel\n0.6, 0.1, 0, 12\n"
                                             "*CAUSE, NAME=heavy, TYPE=density, GROUP=a\nfactor, 1.2\n"
@@ -130,7 +130,7 @@ static void modes_follow_the_parameters(void **state)
     (void)state;
     const double four = 8e11;
     rotid_spectrum *one, *two;
-    rotid_deck *deck = bench_read(write_text("bar.inp", BAR "*IDENTIFY\ncore.E, 1e11, 9e11, 2e11\n"));
+    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR "*IDENTIFY\ncore.E, 1e11, 9e11, 2e11\n"));
     assert_status(rotid_spectrum_compute(deck, NULL, 4, NULL, &one), ROTID_OK);
     assert_status(rotid_spectrum_compute(deck, &four, 4, NULL, &two), ROTID_OK);
     assert_int_equal(one->nrigid, 2);
@@ -169,7 +169,7 @@ static void a_model_with_few_modes_gives_what_it_has(void **state)
 {
     (void)state;
     rotid_spectrum *s;
-    rotid_deck *deck = bench_read(ROTID_SOURCE_DIR "/tests/data/decks/one_element.inp");
+    rotid_deck *deck = bench_deck(ROTID_SOURCE_DIR "/tests/data/decks/one_element.inp");
     assert_status(rotid_spectrum_compute(deck, NULL, 1000000000, NULL, &s), ROTID_OK);
     assert_true(s->nmode >= 1 && s->nmode <= 4);
     for (int i = s->nrigid; i < 2; i++)
@@ -195,7 +195,7 @@ static void an_identification_is_that_of_the_run_below(void **state)
     identify_warn_of_mesh(&job, &found, &messages);
     char failure[512] = "not touched";
     rotid_identification *r;
-    rotid_deck *deck = bench_read(PAPER);
+    rotid_deck *deck = bench_deck(PAPER);
     assert_status(rotid_identify(deck, 1, NULL, failure, &r), ROTID_OK);
     rotid_deck_free(deck);
     assert_string_equal(failure, "");
@@ -227,7 +227,7 @@ static void an_identification_is_that_of_the_program(void **state)
     (void)state;
     cJSON *json = program_json("identify '" PAPER "'");
     rotid_identification *r;
-    rotid_deck *deck = bench_read(PAPER);
+    rotid_deck *deck = bench_deck(PAPER);
     assert_status(rotid_identify(deck, 1, NULL, NULL, &r), ROTID_OK);
     const cJSON *item, *modes = get(json, "modes");
     int p = 0, k = 0, b = 0;
@@ -274,7 +274,7 @@ static void with_nothing_to_identify_the_model_is_compared(void **state)
     (void)state;
     rotid_spectrum *s;
     rotid_identification *r;
-    rotid_deck *deck = bench_read(write_text("bar.inp", BAR "*MODES\n1, 350\n3, 1600\n"));
+    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR "*MODES\n1, 350\n3, 1600\n"));
     assert_status(rotid_identify(deck, 1, NULL, NULL, &r), ROTID_OK);
     assert_status(rotid_spectrum_compute(deck, NULL, 3, NULL, &s), ROTID_OK);
     assert_int_equal(r->fit->iterations, 0);

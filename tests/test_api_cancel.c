@@ -115,7 +115,7 @@ static void a_fit_evaluates_nothing_more(void **state)
 static void an_identification_ends_with_the_best_point_so_far(void **state)
 {
     (void)state;
-    rotid_deck *deck = bench_read(PAPER);
+    rotid_deck *deck = bench_deck(PAPER);
     rotid_identification *whole, *r;
     double longest = 0;
     int ended = 0, in_baseline = 0;
@@ -162,7 +162,7 @@ static void an_identification_ends_with_the_best_point_so_far(void **state)
 static void a_diagnosis_shows_what_was_finished(void **state)
 {
     (void)state;
-    rotid_deck *deck = bench_read(deck_path);
+    rotid_deck *deck = bench_deck(deck_path);
     for (int threads = 1; threads <= 2; threads++) {
         const rotid_diagnose_options options = {.replicates = 100, .threads = threads};
         struct host whole = {.stop_at = INT_MAX};
@@ -215,7 +215,7 @@ static void a_broken_off_model_is_no_result(void **state)
 {
     (void)state;
     const rotid_diagnose_options options = {.replicates = 100};
-    rotid_deck *deck = bench_read(deck_path);
+    rotid_deck *deck = bench_deck(deck_path);
     rotid_diagnosis *r;
     int with = 0, without = 0, ended = 0;
     for (int k = 1; !ended; k += 5) {

@@ -130,7 +130,7 @@ static void compare_diagnoses(const char *path)
     cJSON *json = program_json(arguments);
     const cJSON *verdict = get(json, "verdict"), *gain = get(json, "gain"), *item;
     rotid_diagnosis *d;
-    rotid_deck *deck = bench_read(path);
+    rotid_deck *deck = bench_deck(path);
     char failure[512] = "not touched";
     assert_status(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);
     assert_string_equal(failure, "");
@@ -171,7 +171,7 @@ static void compare_diagnoses(const char *path)
     assert_true(fread(text, 1, (1 << 20) - 1, stream) > 0);
     (void)fclose(stream);
     assert_string_equal(d->extended_deck, text);
-    deck = bench_read(extended_path); /* and it is one */
+    deck = bench_deck(extended_path); /* and it is one */
     assert_int_equal(deck->nparameter, (d->extended ? d->extended : d->base)->nparameter);
     rotid_deck_free(deck);
     rotid_diagnosis_free(d);
@@ -193,7 +193,7 @@ static void what_was_hidden_is_named(void **state)
     rotid_diagnosis *d;
     const rotid_diagnose_options options = {.replicates = 200, .threads = 2, .seed = 4};
     bench_hidden_deck(deck_path, 0.4, 3);
-    rotid_deck *deck = bench_read(deck_path);
+    rotid_deck *deck = bench_deck(deck_path);
     assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
     rotid_deck_free(deck);
     assert_int_equal(d->kind, ROTID_NAMED);

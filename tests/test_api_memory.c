@@ -122,7 +122,7 @@ static void sweep(const char *name, const rotid_deck *deck, attempt try_it, void
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
-    rotid_deck *deck = bench_read(deck_path), *bar = bench_read(bar_path);
+    rotid_deck *deck = bench_deck(deck_path), *bar = bench_deck(bar_path);
     sweep("rotid_deck_read", NULL, try_read, free_deck, 100000, 1);
     sweep("rotid_deck_read of a wrong deck", NULL, try_read_wrong, free_deck, 300, 1.1);
     sweep("rotid_spectrum_compute", bar, try_spectrum, free_spectrum, 100000, 1);
@@ -263,7 +263,7 @@ static void results_are_small(void **state)
     const rotid_diagnose_options options = {.replicates = 100};
     bench_memory_open(&memory);
     const rotid_environment environment = {.allocator = &memory.allocator};
-    rotid_deck *deck = bench_read(deck_path);
+    rotid_deck *deck = bench_deck(deck_path);
     assert_status(rotid_identify(deck, 0, &environment, NULL, &identification), ROTID_OK);
     print_message("identification: %ld blocks of %ld kept\n", memory.in_use, memory.served);
     assert_true(memory.in_use < 60);

@@ -111,7 +111,7 @@ static void eight_identifications_and_two_diagnoses_at_once(void **state)
     assert_string_not_equal(expected[0].identification, expected[1].identification);
     diagnosed[0] = run_alone(path[0], 1);
     diagnosed[1] = run_alone(path[DECKS - 1], 1);
-    rotid_deck *shared = bench_read(path[DECKS - 1]);
+    rotid_deck *shared = bench_deck(path[DECKS - 1]);
     assert_int_equal(pthread_barrier_init(&begin, NULL, IDENTIFIERS + DIAGNOSERS), 0);
     for (int t = 0; t < IDENTIFIERS + DIAGNOSERS; t++) {
         int shares = t == IDENTIFIERS - 2 || t == IDENTIFIERS - 1 || t == IDENTIFIERS + 1;
