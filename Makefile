@@ -1,11 +1,14 @@
 # rotid. The usual targets:
-#   make            builds the program build/rotid and the library: build/librotid.a, build/librotid.so
+#   make            builds the program build/rotid and the library: build/librotid.a, build/librotid.so; make MPI=1:
+#                   build/rotid-study as well
 #   make demo       identifies the paper's rotor from its measured frequencies and shows the result
 #   make test       builds and runs every test; ends with one line "N passed, N failed"
 #   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
+#   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
+#   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
 #   make coverage   share of the lines of src that the tests run
@@ -72,11 +75,15 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers fuzz fuzzers coverage lint format install uninstall clean
+.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers check-mpi fuzz fuzzers coverage lint format \
+        install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
 all: $(BUILD)/rotid $(BUILD)/librotid.a $(BUILD)/librotid.so
+ifeq ($(MPI),1)
+all: $(BUILD)/rotid-study
+endif
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -115,6 +122,16 @@ $(BUILD)/librotid.so: $(BUILD)/$(SHARED)
 
 $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+# The same studies over MPI; nothing else depends on it.
+MPICC ?= mpicc
+$(BUILD)/src/mpi/%.o: CC = $(MPICC)
+$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(OBJECTS)
+	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+check-mpi:
+	@$(MAKE) --no-print-directory MPI=1 all
+	@sh tests/study/mpi $(BUILD)
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
@@ -156,12 +173,24 @@ check-asan:
 	@ROTID_CHAIN_RUNS=2 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' test
 
+# Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
+# not start on kernels that randomise more bits than it knows of.
+.PHONY: check-tsan
+check-tsan:
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan LDFLAGS=-fsanitize=thread CFLAGS='-O1 -g -fsanitize=thread' $(BUILD)/tsan/tests/test_threads
+	@OPENBLAS_NUM_THREADS=1 TSAN_OPTIONS=halt_on_error=1 $$(setarch -R true 2>/dev/null && echo setarch -R) $(BUILD)/tsan/tests/test_threads
+
 # without the programs that diagnose dozens of rotors: what they call is in the others
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads),$(TEST_PROGRAMS))
 
-check-peers: all $(BUILD)/hammer
+# beside MINPACK, where its C version is installed
+$(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
+                       $(BUILD)/tests/mgh_functions.o $(BUILD)/tests/mgh_data_fits.o $(BUILD)/librotid.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
+$(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
+check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.

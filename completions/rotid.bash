@@ -25,13 +25,13 @@ _rotid_words() {
 
 _rotid() {
     local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command='' files=0 i
-    local commands='check modes sensitivity identify diagnose frf ema uff'
+    local commands='check modes sensitivity identify diagnose frf ema export uff study'
     local common='--json --quiet --verbose --threads --seed --version --help'
     local of_deck='--set'
     local of_ema='--band --method --order --pick --per-point --no-refinement --reference --averages --estimator --exponential
         --force-window --block --pretrigger --threshold --keep-double-hits'
     local with_value=' --json --threads --seed --set --at --step --range --points --extended --replicates -o --output --format --band
-        --method --order --pick --reference --averages --estimator --exponential --force-window --block --pretrigger --threshold '
+        --method --order --pick --reference --averages --estimator --exponential --force-window --block --pretrigger --threshold --shard --timeout '
     COMPREPLY=()
 
     # --option=value comes as three words
@@ -51,14 +51,28 @@ _rotid() {
     case $before in
         --json) _rotid_files "$current" '*.json'; return ;;
         --extended) _rotid_files "$current" '*.inp'; return ;;
-        -o | --output) _rotid_files "$current" '*.@(unv|uff|uf)'; return ;;
+        -o | --output)
+            case $command in
+                export) _rotid_files "$current" '*.@(mtx|dmig|bdf|py)' ;;
+                study) _rotid_files "$current" '*.jsonl' ;;
+                *) _rotid_files "$current" '*.@(unv|uff|uf)' ;;
+            esac
+            return
+            ;;
         --method) _rotid_words "$current" 'lscf quadrature'; return ;;
         --estimator) _rotid_words "$current" 'H1 H2 HV'; return ;;
         FIT.FUNCTIONAL) _rotid_words "$current" 'HYBRID HYBRID_F LIKELIHOOD'; return ;;
         FIT.REDUCTION) _rotid_words "$current" 'NONE GUYAN IRS'; return ;;
         FIT.DERIVATIVE) _rotid_words "$current" 'MODAL NELSON'; return ;;
         TIEROD.MODEL) _rotid_words "$current" 'RODS TUBE'; return ;;
-        --format) _rotid_words "$current" 'ascii binary'; return ;;
+        --format)
+            case $command in
+                uff) _rotid_words "$current" 'ascii binary' ;;
+                export) _rotid_words "$current" 'matrix-market dmig ross' ;;
+                *) _rotid_words "$current" 'ascii binary matrix-market dmig ross' ;;
+            esac
+            return
+            ;;
         --set)
             _rotid_words "$current" 'FIT.FUNCTIONAL= FIT.REDUCTION= FIT.MODES= FIT.HOLDOUT= FIT.DERIVATIVE= NOISE.FREQUENCY=
                 NOISE.SHAPE= TIEROD.MODEL= MEASURED.FILE= FRF.FILE='
@@ -76,11 +90,15 @@ _rotid() {
             diagnose) common+=" $of_deck --extended --replicates" ;;
             frf) common+=" $of_deck -o --output" ;;
             ema) common+=" $of_ema -o --output" ;;
+            export) common+=" $of_deck -o --output --format --start --condensed" ;;
             uff) common+=' -o --output --format' ;;
+            study) common+=" $of_deck -o --output --shard --merge --timeout --retry-failed --summary" ;;
         esac
         _rotid_words "$current" "$common"
     elif [[ -z $command ]]; then
         _rotid_words "$current" "$commands"
+    elif [[ $command == study ]]; then
+        _rotid_files "$current" '*.@(inp|jsonl)'
     elif ((files == 0)); then
         case $command in
             ema | uff) _rotid_files "$current" '*.@(unv|uff|uf)' ;;

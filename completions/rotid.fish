@@ -1,7 +1,7 @@
 # Completion of rotid for fish: commands, the options of each, the files they read.
 
-set -l commands check modes sensitivity identify diagnose frf ema uff
-set -l decks check modes sensitivity identify diagnose frf
+set -l commands check modes sensitivity identify diagnose frf ema export uff study
+set -l decks check modes sensitivity identify diagnose frf export
 
 complete -c rotid -f
 
@@ -13,10 +13,14 @@ complete -c rotid -n $none -a identify -d 'Fit the parameters to the measured mo
 complete -c rotid -n $none -a diagnose -d 'What the model gets wrong, and why'
 complete -c rotid -n $none -a frf -d 'Synthesised transfer functions beside measured ones'
 complete -c rotid -n $none -a ema -d 'Hammer records or transfer functions to modes'
+complete -c rotid -n $none -a export -d 'The identified model for other programs'
+complete -c rotid -n $none -a study -d 'Many runs from one plan, or of many decks'
 complete -c rotid -n $none -a uff -d 'What a universal file holds; text to binary and back'
 
 complete -c rotid -n "__fish_seen_subcommand_from $decks" -k -a '(__fish_complete_suffix .inp)'
 complete -c rotid -n '__fish_seen_subcommand_from ema uff' -k -a '(__fish_complete_suffix .uff; __fish_complete_suffix .unv)'
+
+complete -c rotid -n '__fish_seen_subcommand_from study' -k -a '(__fish_complete_suffix .inp; __fish_complete_suffix .jsonl)'
 
 complete -c rotid -l json -r -F -d 'The result as JSON, - for standard output'
 complete -c rotid -l quiet -d 'No tables and no warnings'
@@ -26,7 +30,7 @@ complete -c rotid -l seed -x -d 'Of the random numbers'
 complete -c rotid -l version -d 'Version, commit and BLAS'
 complete -c rotid -l help -d 'Commands and options'
 
-complete -c rotid -n "__fish_seen_subcommand_from $decks" -l set -x -d 'Another option on every such card' -a '
+complete -c rotid -n "__fish_seen_subcommand_from $decks study" -l set -x -d 'Another option on every such card' -a '
     FIT.FUNCTIONAL= FIT.REDUCTION= FIT.MODES= FIT.HOLDOUT= FIT.DERIVATIVE= NOISE.FREQUENCY= NOISE.SHAPE= TIEROD.MODEL= MEASURED.FILE= FRF.FILE='
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l at -x -d 'Other parameters and values'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l step -x -d 'Relative step'
@@ -35,8 +39,16 @@ complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l points -x -d '
 complete -c rotid -n '__fish_seen_subcommand_from identify' -l no-baseline -d 'Without NLopt'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l extended -r -F -d 'A deck with what was found'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l replicates -x -d 'Of the bootstrap'
-complete -c rotid -n '__fish_seen_subcommand_from frf ema uff' -s o -l output -r -F -d 'Functions (frf), modes (ema), the file anew (uff)'
+complete -c rotid -n '__fish_seen_subcommand_from frf ema export uff study' -s o -l output -r -F -d 'The file that is written'
 complete -c rotid -n '__fish_seen_subcommand_from uff' -l format -x -a 'ascii binary' -d 'Of its functions'
+complete -c rotid -n '__fish_seen_subcommand_from export' -l format -x -a 'matrix-market dmig ross' -d 'Of the model'
+complete -c rotid -n '__fish_seen_subcommand_from export' -l start -d 'The model as the deck states it'
+complete -c rotid -n '__fish_seen_subcommand_from export' -l condensed -d 'dmig: condensed onto the sensors'
+complete -c rotid -n '__fish_seen_subcommand_from study' -l shard -x -d 'I/N: each N-th run from the I-th on'
+complete -c rotid -n '__fish_seen_subcommand_from study' -l timeout -x -d 'Of a run, in seconds'
+complete -c rotid -n '__fish_seen_subcommand_from study' -l retry-failed -d 'Runs that have failed once again'
+complete -c rotid -n '__fish_seen_subcommand_from study' -l merge -d 'Files of shards into one'
+complete -c rotid -n '__fish_seen_subcommand_from study' -l summary -d 'The table of a file of results'
 
 set -l ema '__fish_seen_subcommand_from ema'
 complete -c rotid -n $ema -l band -x -d 'LOW,HIGH in hertz'

@@ -147,10 +147,12 @@ static void bash_offers_every_command_and_option(void **state)
     assert_same_words(&options, "rotid --help", &all, "rotid.bash");
 }
 
-/* A value for each option that takes one; the file is not there, which is said only when the options are in order. */
-static const char *value_of(const char *option)
+/* A value for each option that takes one, of a command or of all; the file is not there, which is said only when the options are
+ * in order. */
+static const char *value_of(const char *command, const char *option)
 {
-    static const char *const values[][2] = {{"--json", "-"},
+    static const char *const values[][2] = {{"export --format", "ross"},
+                                            {"--json", "-"},
                                             {"--threads", "1"},
                                             {"--seed", "1"},
                                             {"--set", "FIT.MODES=1"},
@@ -175,11 +177,22 @@ static const char *value_of(const char *option)
                                             {"--block", "1"},
                                             {"--pretrigger", "0.1"},
                                             {"--threshold", "0.1"},
+                                            {"--shard", "1/2"},
+                                            {"--timeout", "1"},
                                             {NULL, NULL}};
+    const char *of_command = pool_format(&test_pool, "%s %s", command, option);
     int i = 0;
-    while (values[i][0] && strcmp(values[i][0], option) != 0)
+    while (values[i][0] && strcmp(values[i][0], of_command) != 0 && strcmp(values[i][0], option) != 0)
         i++;
     return values[i][0] ? values[i][1] : "";
+}
+
+/* What a command does not go without. */
+static const char *needs_of(const char *command, const char *option)
+{
+    if (strcmp(command, "export") == 0)
+        return "--format dmig -o /x/y";
+    return strcmp(command, "study") == 0 && strcmp(option, "--summary") != 0 ? "-o /x/y" : "";
 }
 
 static void bash_offers_what_a_command_takes(void **state)
@@ -190,13 +203,15 @@ static void bash_offers_what_a_command_takes(void **state)
         struct words options = offered(pool_format(&test_pool, "rotid %s -", commands.word[i]));
         assert_true(options.count > 6);
         for (int j = 0; j < options.count; j++) {
-            const char *output, *option = options.word[j];
+            const char *output, *command = commands.word[i], *option = options.word[j];
             if (strcmp(option, "--help") == 0 || strcmp(option, "--version") == 0)
                 continue;
-            int code = shell_code(&test_pool, &output, "%s %s %s %s /nowhere/file", ROTID_PROGRAM, commands.word[i], option,
-                                  value_of(option));
-            if (code != 2 || strstr(output, "rotid: --") || strstr(output, "option") || !strstr(output, "/nowhere/file"))
-                fail_msg("rotid %s %s %s: exit code %d, %s", commands.word[i], option, value_of(option), code, output);
+            const char *all =
+                pool_format(&test_pool, "%s %s %s %s", command, needs_of(command, option), option, value_of(command, option));
+            int code = shell_code(&test_pool, &output, "%s %s /nowhere/file", ROTID_PROGRAM, all);
+            if ((code != 2 && code != 3) || strstr(output, "rotid: --") || strstr(output, "option") ||
+                !strstr(output, "/nowhere/file"))
+                fail_msg("rotid %s: exit code %d, %s", all, code, output);
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/host.h"
 #include "base/pool.h"
 #include "fit/baseline.h"
 #include "fit/bounds.h"
@@ -349,12 +350,9 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     return status;
 }
 
-int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
-              const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
+static int make_result(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
+                       const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
 {
-    if (!result)
-        return ROTID_ERROR_ARGUMENT;
-    *result = NULL;
     int status = check_arguments(model, parameter, measured, options);
     if (status)
         return status;
@@ -383,6 +381,19 @@ int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const 
         pool_close(&first);
     else
         *result = made;
+    return status;
+}
+
+int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
+              const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
+{
+    struct host host;
+    if (!result)
+        return ROTID_ERROR_ARGUMENT;
+    *result = NULL;
+    host_enter_floating(&host);
+    int status = make_result(model, parameter, measured, options, environment, result);
+    host_leave_floating(&host);
     return status;
 }
 
