@@ -97,14 +97,15 @@ void html_figure(FILE *out, int number, const struct figure *figure)
         for (int l = 0; l < LAYOUTS; l++)
             (void)fprintf(out, "<div class=\"%s\">%s</div>\n", names[l], figure->svg[l]);
     }
-    (void)fprintf(out, "<figcaption><b>Figure %d.</b> ", number);
+    /* a caption comes last in its figure, so what belongs to the figure beyond it is a part of it */
+    (void)fprintf(out, "<figcaption><p><b>Figure %d.</b> ", number);
     html_text(out, figure->caption);
-    (void)fputs("</figcaption>\n", out);
+    (void)fputs("</p>\n", out);
     write_numbers(out, figure);
     (void)fprintf(out, "<p class=\"files\">%s: <a href=\"figures/%s.gp\">gnuplot script</a>", figure->id, figure->id);
     if (figure->svg[WIDE])
         (void)fprintf(out, ", <a href=\"figures/%s.svg\">SVG</a>", figure->id);
     if (figure->has_pdf)
         (void)fprintf(out, ", <a href=\"figures/%s.pdf\">PDF</a>", figure->id);
-    (void)fputs("</p>\n</figure>\n", out);
+    (void)fputs("</p>\n</figcaption></figure>\n", out);
 }
