@@ -29,6 +29,8 @@ void page_compose(struct document *document, int count, const struct result *res
         answer_identify(document, result, result->identify);
     else if (result->diagnosis)
         answer_diagnose(document, result);
+    else if (result->study)
+        answer_study(document, result);
     else
         answer_plain(document, result);
     section_rests_on(document, count, result);
@@ -43,6 +45,8 @@ void page_compose(struct document *document, int count, const struct result *res
             section_identify(document, &result[i]);
         if (result[i].diagnosis)
             section_diagnose(document, &result[i]);
+        if (result[i].study)
+            section_study(document, &result[i]);
         if (result[i].modes)
             section_modes(document, &result[i]);
         if (result[i].sensitivity)

@@ -7,6 +7,7 @@
 #include "page/fitted.h"
 #include "page/geometry.h"
 #include "page/outcomes.h"
+#include "page/studied.h"
 
 /* What an older result does not hold, and what is left out for it. */
 struct lacking {
@@ -24,7 +25,7 @@ struct result {
     const char *file; /* as given */
     const char *command, *version, *commit, *blas, *deck;
     double seed;
-    int threads;
+    int threads; /* 0: not known */
     int nheading, nreference, nwarning, nlacking;
     const char **heading, **warning;
     struct reference_values *reference;
@@ -37,6 +38,7 @@ struct result {
     /* of the command that made it, the others NULL */
     struct fitted *identify;
     struct diagnosis_outcome *diagnosis;
+    struct study_outcome *study;
     struct modes_outcome *modes;
     struct sensitivity_outcome *sensitivity;
     struct transfer_outcome *transfer;

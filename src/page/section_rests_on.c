@@ -65,8 +65,9 @@ static void facts_of(struct pool *pool, const struct result *result, const char 
     value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->command);
     value[1] = result->deck;
     value[2] = pool_format(pool, "rotid %s, commit %s", result->version, result->commit);
-    value[3] =
-        pool_format(pool, "seed %.0f, %d %s", result->seed, result->threads, human_plural(result->threads, "thread", "threads"));
+    value[3] = result->threads ? pool_format(pool, "seed %.0f, %d %s", result->seed, result->threads,
+                                             human_plural(result->threads, "thread", "threads"))
+                               : pool_format(pool, "seed %.0f", result->seed);
     value[4] = result->blas;
     value[5] = data_of(pool, result);
     value[6] = noise_of(pool, result);
