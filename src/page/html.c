@@ -89,7 +89,7 @@ static void write_numbers(FILE *out, const struct figure *figure)
 
 void html_figure(FILE *out, int number, const struct figure *figure)
 {
-    (void)fprintf(out, "<figure id=\"%s\">\n<h3>", figure->id);
+    (void)fprintf(out, "<div class=\"set\">\n<figure id=\"%s\">\n<h3>", figure->id);
     html_text(out, figure->title);
     (void)fputs("</h3>\n", out);
     if (figure->svg[WIDE]) {
@@ -99,12 +99,12 @@ void html_figure(FILE *out, int number, const struct figure *figure)
     }
     (void)fprintf(out, "<figcaption><b>Figure %d.</b> ", number);
     html_text(out, figure->caption);
-    (void)fputs("</figcaption>\n", out);
+    (void)fputs("</figcaption>\n</figure>\n", out);
     write_numbers(out, figure);
     (void)fprintf(out, "<p class=\"files\">%s: <a href=\"figures/%s.gp\">gnuplot script</a>", figure->id, figure->id);
     if (figure->svg[WIDE])
         (void)fprintf(out, ", <a href=\"figures/%s.svg\">SVG</a>", figure->id);
     if (figure->has_pdf)
         (void)fprintf(out, ", <a href=\"figures/%s.pdf\">PDF</a>", figure->id);
-    (void)fputs("</p>\n</figure>\n", out);
+    (void)fputs("</p>\n</div>\n", out);
 }
