@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/host.h"
 #include "linalg/least_squares.h"
 #include "rotid.h"
 
@@ -280,8 +281,8 @@ static double or_default(double value, double standard)
     return value > 0 ? value : standard;
 }
 
-int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
-             double *jacobian, double *work, rotid_lm_result *result)
+static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
+               double *jacobian, double *work, rotid_lm_result *result)
 {
     if (m < 1 || n < 1 || !residual || !x || !r || !jacobian || !work || !result || !all_finite(n, x))
         return ROTID_ERROR_ARGUMENT;
@@ -310,4 +311,14 @@ int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_o
     result->status = minimise(&lm);
     result->mu = lm.mu;
     return result->status;
+}
+
+int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
+             double *jacobian, double *work, rotid_lm_result *result)
+{
+    struct host host;
+    host_enter_floating(&host);
+    int status = run(m, n, residual, user, options, x, r, jacobian, work, result);
+    host_leave_floating(&host);
+    return status;
 }

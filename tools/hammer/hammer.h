@@ -16,11 +16,9 @@
 #define HAMMER_H
 
 #include <complex.h>
-
-#ifndef CMPLX /* glibc defines it for compilers that call themselves GCC 4.7 or later, which clang does not */
+#ifndef CMPLX /* glibc has it for gcc alone */
 #define CMPLX(re, im) __builtin_complex((double)(re), (double)(im))
 #endif
-
 #include <stddef.h>
 #include <stdint.h>
 
