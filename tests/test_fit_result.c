@@ -87,6 +87,21 @@ static void test_without_parameters_the_model_is_compared(void **state)
     paper_fit_close(&with);
 }
 
+/* Its seconds are those since the iteration began: they rise, and the last are not more than the whole took. */
+static void test_history_tells_the_time(void **state)
+{
+    (void)state;
+    struct paper_fit fit;
+    open_noisy(&fit, 2, ROTID_LIKELIHOOD);
+    rotid_fit_result *result = paper_run(&fit);
+    assert_true(result->nhistory > 3 && result->history[0].seconds > 0);
+    for (int i = 1; i < result->nhistory; i++)
+        assert_true(result->history[i].seconds >= result->history[i - 1].seconds);
+    assert_true(result->history[result->nhistory - 1].seconds <= result->seconds);
+    rotid_fit_free(result);
+    paper_fit_close(&fit);
+}
+
 /* Of every functional, condensed or not, and where noise is not known. */
 static void test_every_functional_compares_without_parameters(void **state)
 {
@@ -178,6 +193,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_without_parameters_the_model_is_compared),
+        cmocka_unit_test(test_history_tells_the_time),
         cmocka_unit_test(test_every_functional_compares_without_parameters),
         cmocka_unit_test(test_residuals_and_jacobian_are_those_at_the_solution),
         cmocka_unit_test(test_loose_tolerances_stop_earlier),

@@ -14,18 +14,6 @@ static void add_between(rotid_matrix *a, int first, int second, const double *e)
     matrix_add_element(a, 4, dof, e);
 }
 
-static int chain_node(const struct chain *chain, int i)
-{
-    if (i == 0)
-        return chain->first_end;
-    return i <= chain->count ? chain->inner + i - 1 : chain->last_end;
-}
-
-static int chain_elements(const struct chain *chain)
-{
-    return chain->count + (chain->last_end >= 0);
-}
-
 static void add_chain(const struct chain *chain, const double *ek, const double *em, rotid_matrix *k, rotid_matrix *m)
 {
     for (int i = 0; i < chain_elements(chain); i++) {

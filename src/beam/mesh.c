@@ -187,3 +187,15 @@ int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct 
     place_members(rotor, refine, mesh);
     return ROTID_OK;
 }
+
+int chain_elements(const struct chain *chain)
+{
+    return chain->count + (chain->last_end >= 0);
+}
+
+int chain_node(const struct chain *chain, int i)
+{
+    if (i == 0)
+        return chain->first_end;
+    return i <= chain->count ? chain->inner + i - 1 : chain->last_end;
+}

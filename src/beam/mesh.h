@@ -34,4 +34,8 @@ int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct 
 /* The node on the axis nearest to z. */
 int mesh_node_at(const struct mesh *mesh, double z);
 
+/* Elements of a chain, and its i-th node from the end where it begins, 0 <= i <= elements. */
+int chain_elements(const struct chain *chain);
+int chain_node(const struct chain *chain, int i);
+
 #endif

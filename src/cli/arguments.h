@@ -29,6 +29,9 @@ int arguments_parse(struct command *command, int argc, char **argv);
 /* -1, or the exit code after saying which file would be lost, or which option this command has no use for. */
 int arguments_refuse(const struct command *command, const struct command_entry *entry);
 
+/* Whether two names are of one file, which may not exist yet. */
+int arguments_same_file(const char *a, const char *b);
+
 /* A number of an option within its range; nonzero after saying what was expected. */
 int arguments_number(const char *option, const char *text, double least, double most, int whole, double *value);
 

@@ -30,7 +30,7 @@ struct command {
     const char *name, *deck, *json, *at, *extended, *output, *format;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
-    int quiet, verbose, threads, baseline, points, replicates, seed_given;
+    int quiet, verbose, threads, baseline, points, replicates, seed_given, start, condensed;
     unsigned long seed;
     double step, range;
     int noverride;
@@ -79,6 +79,7 @@ int command_diagnose(struct command *command);
 int command_frf(struct command *command);
 int command_ema(struct command *command);
 int command_uff(struct command *command);
+int command_export(struct command *command);
 int command_study(struct command *command);
 
 /* Of the build. */

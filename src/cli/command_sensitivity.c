@@ -82,7 +82,11 @@ int command_sensitivity(struct command *command)
     struct job *job = &command->job;
     struct selection selection;
     struct sensitivity result;
-    struct sensitivity_options options = {.step = command->step, .range = command->range, .points = command->points};
+    struct sensitivity_options options = {.step = command->step,
+                                          .range = command->range,
+                                          .points = command->points,
+                                          .with_growth = command->json != NULL,
+                                          .seed = command->seed};
     for (int k = 0; k < job->nmode; k++)
         options.modes = job->number[k] > options.modes ? job->number[k] : options.modes;
     if (!options.modes)

@@ -31,6 +31,8 @@ const struct command_entry command_table[] = {
      READS_DECK | TAKES_OUTPUT},
     {"ema", "time records or transfer functions (58, 58b) to modes; -o: as universal file for *MEASURED", command_ema,
      PARALLEL | TAKES_OUTPUT},
+    {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script; --format, -o",
+     command_export, READS_DECK | TAKES_OUTPUT},
     {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
     {"study", "many runs from one plan, or of many decks, resumable; -o: the results", command_study,
      PARALLEL | TAKES_OUTPUT | SEVERAL_FILES},
@@ -59,7 +61,8 @@ static int run(struct command *command)
         int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, uff or study",
+    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, export, uff or "
+                           "study",
                            command->name);
 }
 

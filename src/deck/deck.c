@@ -170,6 +170,7 @@ static void check_beam(struct deck_reader *reader)
     pool_open(&scratch, reader->pool->allocator);
     int status = beam_build(&scratch, &job->rotor, 0, NULL, 1, &beam, &failed);
     if (status == ROTID_ERROR_SECTION) {
+        reader->no_section = 1;
         int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
         struct place place = rod < 0    ? reader->group_place[failed]
                              : bars < 0 ? reader->tierod_place[rod]
@@ -280,5 +281,7 @@ int deck_read_with(struct pool *pool, const char *path, int noverride, const str
     read_cards(&reader);
     if (reader.out_of_memory || messages->out_of_memory || !job->deck)
         return ROTID_ERROR_MEMORY;
-    return messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
+    if (messages->errors)
+        return reader.no_section ? ROTID_ERROR_SECTION : ROTID_ERROR_SYNTAX;
+    return ROTID_OK;
 }

@@ -40,22 +40,6 @@ static int target_count(const struct rotor *rotor, enum cause_target target)
     }
 }
 
-static const char *target_name(struct pool *pool, const struct rotor *rotor, enum cause_target target, int i)
-{
-    switch (target) {
-    case TARGET_GROUP:
-        return rotor->group[i].name;
-    case TARGET_INTERFACE:
-        return pool_format(pool, "%s|%s", rotor->group[i].name, rotor->group[i + 1].name);
-    case TARGET_SPRING:
-        return rotor->spring[i].name ? rotor->spring[i].name : pool_format(pool, "at %.4g m", rotor->spring[i].position);
-    case TARGET_TIEROD:
-        return rotor->tierod[i].name;
-    default:
-        return "";
-    }
-}
-
 static int name_is_taken(const struct rotor *rotor, const char *name)
 {
     int taken = 0;
@@ -87,7 +71,7 @@ static int add(struct pool *pool, const struct job *job, const struct cause_kind
     *c = (struct scan_candidate){.cause = cause, .best = -1};
     c->effect = (struct effect){.kind = cause->effect, .target = has_target ? target : -1};
     c->effect.name = scan_free_name(pool, &job->rotor, cause->id);
-    c->target = target_name(pool, &job->rotor, cause->target, target);
+    c->target = cause_target_name(pool, &job->rotor, cause, target);
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c->effect.value[p] = cause->parameter[p].neutral;
     scan->ncandidate++;

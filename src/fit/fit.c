@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/host.h"
 #include "base/pool.h"
 #include "fit/baseline.h"
 #include "fit/bounds.h"
@@ -24,6 +25,7 @@ struct fit {
     int linearised; /* result->jacobian is dr/dx at linearised_at [n] */
     double *linearised_at;
     const double *accepted; /* y of the last accepted point, NULL before the first */
+    double begin;           /* on the clock */
 };
 
 void rotid_fit_defaults(rotid_fit_options *options)
@@ -81,7 +83,13 @@ static int trace(void *user, const rotid_lm_iteration *now)
         if (row)
             step += (x[p] - x[p - n]) * (x[p] - x[p - n]) / (unit * unit);
     }
-    result->history[row] = (rotid_fit_iteration){now->iteration, now->objective, gradient, now->mu, now->gain_ratio, sqrt(step)};
+    result->history[row] = (rotid_fit_iteration){.iteration = now->iteration,
+                                                 .objective = now->objective,
+                                                 .gradient = gradient,
+                                                 .mu = now->mu,
+                                                 .gain_ratio = now->gain_ratio,
+                                                 .step = sqrt(step),
+                                                 .seconds = clock_seconds() - fit->begin};
     result->nhistory++;
     const rotid_environment *environment = fit->environment;
     if (environment && environment->progress)
@@ -325,10 +333,10 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
                                    .trace = trace,
                                    .trace_user = fit};
     rotid_lm_result lm;
-    double begin = clock_seconds();
+    fit->begin = clock_seconds();
     status =
         n ? rotid_lm(m, n, residual, fit, &lm_options, fit->y, fit->r, fit->jacobian, fit->work, &lm) : compare_only(fit, &lm);
-    fit->result->seconds = clock_seconds() - begin;
+    fit->result->seconds = clock_seconds() - fit->begin;
     if (status < 0)
         return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
     status = conclude(fit, &lm);
@@ -342,12 +350,9 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     return status;
 }
 
-int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
-              const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
+static int make_result(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
+                       const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
 {
-    if (!result)
-        return ROTID_ERROR_ARGUMENT;
-    *result = NULL;
     int status = check_arguments(model, parameter, measured, options);
     if (status)
         return status;
@@ -376,6 +381,19 @@ int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const 
         pool_close(&first);
     else
         *result = made;
+    return status;
+}
+
+int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
+              const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
+{
+    struct host host;
+    if (!result)
+        return ROTID_ERROR_ARGUMENT;
+    *result = NULL;
+    host_enter_floating(&host);
+    int status = make_result(model, parameter, measured, options, environment, result);
+    host_leave_floating(&host);
     return status;
 }
 

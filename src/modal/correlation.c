@@ -1,4 +1,5 @@
 #include <math.h>
+#include <string.h>
 
 #include "rotid.h"
 
@@ -19,12 +20,10 @@ double rotid_mac(int n, const double *a, const double *b)
 static double mass_product(int n, const double *mass, const double *x, double *y)
 {
     double sum = 0;
-    for (int i = 0; i < n; i++) {
-        y[i] = 0;
-        for (int j = 0; j < n; j++)
-            if (isfinite(x[j]))
-                y[i] += mass[i + (ptrdiff_t)j * n] * x[j];
-    }
+    memset(y, 0, (size_t)n * sizeof *y);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n && isfinite(x[j]); i++)
+            y[i] += mass[i + (ptrdiff_t)j * n] * x[j];
     for (int i = 0; i < n; i++)
         if (isfinite(x[i]))
             sum += x[i] * y[i];

@@ -1,5 +1,6 @@
 #include "report/json.h"
 
+#include "report/json_geometry.h"
 #include "report/json_identify.h"
 
 char *json_check(const struct provenance *provenance, const struct job *job, const struct mass_properties *mass,
@@ -29,6 +30,7 @@ char *json_check(const struct provenance *provenance, const struct job *job, con
     parameters = json_array(&tree, root, "parameters");
     for (int p = 0; p < job->nparameter; p++)
         json_text(&tree, parameters, NULL, job->bounds[p].name);
+    json_geometry(&tree, job, spectrum);
     json_notes(&tree, notes);
     return json_close(&tree);
 }
@@ -54,8 +56,27 @@ char *json_modes(const struct provenance *provenance, const struct job *job, con
             if (compared->number[k] == j + 1)
                 json_measured_mode(&tree, item, job, compared, k, s->full_hz[j]);
     }
+    json_geometry(&tree, job, s);
     json_notes(&tree, notes);
     return json_close(&tree);
+}
+
+static void add_growth(struct json_tree *tree, const struct growth *growth)
+{
+    static const char *const keys[GROWTH_KINDS] = {[GROWTH_E] = "hybrid", [GROWTH_F] = "hybrid_f"};
+    if (!growth->points) {
+        json_null(tree, tree->root, "functional_growth");
+        return;
+    }
+    cJSON *item = json_object(tree, tree->root, "functional_growth");
+    json_list(tree, item, "epsilon_squared", growth->points, growth->epsilon2);
+    for (int kind = 0; kind < GROWTH_KINDS; kind++) {
+        cJSON *one = json_object(tree, item, keys[kind]);
+        json_list(tree, one, "objective", growth->points, growth->f[kind]);
+        json_number(tree, one, "slope", growth->slope[kind]);
+        json_number(tree, one, "intercept", growth->intercept[kind]);
+    }
+    json_list(tree, item, "shapes_alone", growth->points, growth->shapes_alone);
 }
 
 char *json_sensitivity(const struct provenance *provenance, const struct job *job, const rotid_parameter *parameter,
@@ -77,5 +98,6 @@ char *json_sensitivity(const struct provenance *provenance, const struct job *jo
         json_list(&tree, item, "derivative", result->m, result->derivative + (ptrdiff_t)p * result->m);
         json_matrix(&tree, item, "curves", result->m, result->points, result->curve + (ptrdiff_t)p * result->m * result->points);
     }
+    add_growth(&tree, &result->growth);
     return json_close(&tree);
 }

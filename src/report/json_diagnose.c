@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-#include "report/diagnosis_items.h"
+#include "diagnose/items.h"
+#include "report/json_geometry.h"
 #include "report/json_identify.h"
 
 static void add_fit(struct json_tree *tree, const char *key, const struct job *job, const struct identification *result)
@@ -148,6 +149,7 @@ char *json_diagnose(const struct provenance *provenance, const struct job *deck,
     json_number(&tree, noise, "shape", d->shape_noise);
     json_flag(&tree, noise, "frequency_assumed", d->frequency_noise_assumed);
     json_flag(&tree, noise, "shape_assumed", d->shape_noise_assumed);
+    json_geometry(&tree, d->job.deck ? &d->job : deck, &d->base.spectrum);
     add_fit(&tree, "today", deck, &d->today);
     add_fit(&tree, "base", &d->job, &d->base);
     add_fit(&tree, "extended", &d->extended_job, &d->extended);

@@ -1,9 +1,17 @@
 #include "report/json_identify.h"
 
+#include <math.h>
+
+#include "base/order.h"
+#include "report/json_geometry.h"
+#include "report/json_shapes.h"
+
 void json_measured_mode(struct json_tree *tree, cJSON *item, const struct job *job, const struct comparison *compared, int k,
                         double predicted)
 {
+    json_number(tree, item, "measured_mode", job->number[k]);
     json_number(tree, item, "measured_hz", job->frequency_hz[k]);
+    json_number(tree, item, "frequency_std", job->frequency_std ? job->frequency_std[k] : NAN);
     json_number(tree, item, "predicted_hz", predicted);
     json_number(tree, item, "error_percent", 100 * (predicted / job->frequency_hz[k] - 1));
     json_number(tree, item, "mac", compared->mac[k]);
@@ -58,8 +66,9 @@ static void add_fitted_modes(struct json_tree *tree, cJSON *object, const struct
     }
 }
 
-static void add_history(struct json_tree *tree, cJSON *object, const rotid_fit_result *fit)
+static void add_history(struct json_tree *tree, cJSON *object, const struct identification *result)
 {
+    const rotid_fit_result *fit = result->fit;
     cJSON *history = json_array(tree, object, "history"), *baseline;
     for (int i = 0; i < fit->nhistory; i++) {
         const rotid_fit_iteration *now = &fit->history[i];
@@ -70,6 +79,7 @@ static void add_history(struct json_tree *tree, cJSON *object, const rotid_fit_r
         json_number(tree, item, "mu", now->mu);
         json_number(tree, item, "gain_ratio", now->gain_ratio);
         json_number(tree, item, "step", now->step);
+        json_number(tree, item, "seconds", now->seconds);
         json_list(tree, item, "x", fit->n, fit->history_x + (ptrdiff_t)i * fit->n);
     }
     baseline = json_array(tree, object, "baseline");
@@ -84,7 +94,16 @@ static void add_history(struct json_tree *tree, cJSON *object, const rotid_fit_r
         json_number(tree, item, "evaluations", b->evaluations);
         json_number(tree, item, "seconds", b->seconds);
         json_list(tree, item, "x", fit->n, b->x);
+        json_list(tree, item, "predicted_hz", fit->m, result->baseline_hz + (ptrdiff_t)i * fit->m);
     }
+}
+
+/* of (30), where the deck leaves it open */
+static double bijection_chi(const struct job *job)
+{
+    rotid_fit_options standard;
+    rotid_fit_defaults(&standard);
+    return job->fit.bijection_chi > 0 ? job->fit.bijection_chi : standard.bijection_chi;
 }
 
 void json_identification(struct json_tree *tree, cJSON *object, const struct job *job, const struct identification *result)
@@ -94,6 +113,8 @@ void json_identification(struct json_tree *tree, cJSON *object, const struct job
     json_text(tree, object, "functional", functional_name(job->fit.functional));
     json_text(tree, object, "reduction", reduction_name(job->fit.reduction));
     json_text(tree, object, "derivative", derivative_name(job->fit.derivative));
+    json_flag(tree, object, "shapes_fitted", result->shapes_fitted);
+    json_number(tree, object, "bijection_chi", bijection_chi(job));
     json_number(tree, object, "objective", fit->objective);
     json_number(tree, object, "gradient", fit->gradient);
     json_number(tree, object, "chi2", fit->chi2);
@@ -108,8 +129,35 @@ void json_identification(struct json_tree *tree, cJSON *object, const struct job
     add_fitted_modes(tree, object, job, result);
     json_number(tree, object, "mass_kg", result->mass.mass);
     json_number(tree, object, "center_of_mass_m", result->mass.center);
-    add_history(tree, object, fit);
+    json_shapes(tree, object, job, result);
+    add_history(tree, object, result);
     json_number(tree, object, "seconds", fit->seconds);
+}
+
+/* The middle one of the deviations that are known of what was measured. */
+static double typical(ptrdiff_t count, const double *measured, const double *std, double *known)
+{
+    size_t found = 0;
+    for (ptrdiff_t i = 0; i < count; i++)
+        if (isfinite(measured[i]) && isfinite(std[i]))
+            known[found++] = std[i];
+    return median_of(found, known);
+}
+
+static void add_noise(struct json_tree *tree, const struct job *job, const rotid_fit_result *fit)
+{
+    ptrdiff_t components = job->shape && job->shape_std ? (ptrdiff_t)job->rotor.nsensor * job->nmode : 0;
+    struct pool pool;
+    pool_open(&pool, NULL);
+    double *work = POOL_ARRAY(&pool, double, components + job->nmode);
+    cJSON *noise = json_object(tree, tree->root, "noise");
+    tree->failed |= !work;
+    json_number(tree, noise, "frequency", work ? typical(job->nmode, job->frequency_hz, job->frequency_std, work) : NAN);
+    json_number(tree, noise, "shape", work ? typical(components, job->shape, job->shape_std, work) : NAN);
+    json_flag(tree, noise, "frequency_assumed", 0);
+    json_flag(tree, noise, "shape_assumed", 0);
+    json_text(tree, noise, "intervals_from", fit->variance_from_residuals ? "residuals" : "noise");
+    pool_close(&pool);
 }
 
 char *json_identify(const struct provenance *provenance, const struct job *job, const struct identification *result,
@@ -118,6 +166,8 @@ char *json_identify(const struct provenance *provenance, const struct job *job, 
     struct json_tree tree;
     json_begin(&tree, provenance, job);
     json_identification(&tree, tree.root, job, result);
+    add_noise(&tree, job, result->fit);
+    json_geometry(&tree, job, &result->spectrum);
     json_notes(&tree, notes);
     return json_close(&tree);
 }

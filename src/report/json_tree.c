@@ -1,8 +1,12 @@
 #include "report/json_tree.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define DIGITS 9
+#define WIDEST 24 /* characters of such a number, with sign, point and exponent */
 
 static cJSON *put(struct json_tree *tree, cJSON *parent, const char *key, cJSON *item)
 {
@@ -76,6 +80,31 @@ void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count
         json_number(tree, array, NULL, value[i]);
 }
 
+void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value)
+{
+    size_t length = 1, room = (size_t)(count > 0 ? count : 0) * (WIDEST + 1) + 3;
+    char *text = malloc(room);
+    for (int i = 0; i < count && text; i++) {
+        const char *comma = i ? "," : "";
+        int more = isfinite(value[i]) ? snprintf(text + length, room - length, "%s%.*g", comma, DIGITS, value[i])
+                                      : snprintf(text + length, room - length, "%snull", comma);
+        length += (size_t)more;
+    }
+    if (text) {
+        text[0] = '[';
+        memcpy(text + length, "]", 2);
+    }
+    (void)put(tree, parent, key, text ? cJSON_CreateRaw(text) : NULL);
+    free(text);
+}
+
+void json_rounded(struct json_tree *tree, cJSON *parent, const char *key, double value)
+{
+    char text[WIDEST + 8];
+    (void)snprintf(text, sizeof text, "%.*g", DIGITS, value);
+    json_number(tree, parent, key, isfinite(value) ? strtod(text, NULL) : NAN);
+}
+
 void json_matrix(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value)
 {
     cJSON *array = json_array(tree, parent, key);
@@ -111,6 +140,12 @@ void json_begin(struct json_tree *tree, const struct provenance *provenance, con
     cJSON *heading = json_array(tree, tree->root, "heading");
     for (int i = 0; i < job->nheading; i++)
         json_text(tree, heading, NULL, job->heading[i]);
+    cJSON *references = json_array(tree, tree->root, "references");
+    for (int i = 0; i < job->nreference; i++) {
+        cJSON *item = json_object(tree, references, NULL);
+        json_text(tree, item, "quantity", job->reference[i].quantity);
+        json_list(tree, item, "values", job->reference[i].count, job->reference[i].value);
+    }
 }
 
 void json_notes(struct json_tree *tree, const struct message_list *notes)

@@ -31,6 +31,11 @@ void json_number(struct json_tree *tree, cJSON *parent, const char *key, double 
 /* In whatever encoding: what is not UTF-8 becomes U+FFFD; null where there is no text. */
 void json_text(struct json_tree *tree, cJSON *parent, const char *key, const char *text);
 void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
+/* The same with nine significant digits, for what is drawn and not computed with: an array of the length of a mesh takes a third
+ * of the room, and one node of the tree. */
+void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
+/* A number rounded to that. */
+void json_rounded(struct json_tree *tree, cJSON *parent, const char *key, double value);
 /* rows of a column-major matrix */
 void json_matrix(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value);
 /* "warnings" of the list */

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "beam/effects.h"
+#include "modal/prediction.h"
 #include "run/client.h"
 
 #define ROUNDS 3 /* of fitting and pairing, should the pairs change with the model */
@@ -43,9 +45,40 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
     if (!status && mass) { /* the beam stands at the last point that was evaluated; the mass wants the best one */
         for (int p = 0; p < job->nparameter; p++)
             *parameter_value(&client->beam.rotor, job->parameter[p]) = (*fit)->x[p];
+        effects_refresh(&client->beam);
         beam_mass_properties(&client->beam, mass);
     }
     return status;
+}
+
+/* Also while NLopt ran: the fit itself is complete then. */
+static int is_cancelled(const rotid_fit_result *fit, const rotid_environment *environment)
+{
+    return fit->status == ROTID_STOP_CANCELLED ||
+           (environment && environment->cancelled && environment->cancelled(environment->context));
+}
+
+/* What the model that was fitted predicts at the points of the baseline. */
+static int predict_baseline(struct pool *pool, const struct job *job, struct identification *out)
+{
+    const rotid_fit_result *fit = out->fit;
+    int failed, highest = 1, nmode = job->nmode;
+    struct client *client = POOL_NEW(pool, struct client);
+    struct prediction p;
+    for (int k = 0; k < nmode; k++)
+        highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
+    out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
+    int status = client && out->baseline_hz ? client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, client, &failed)
+                                            : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = prediction_new(pool, &client->model, job->fit.reduction, ROTID_NELSON, client->model.nrigid + highest, 0, &p);
+    for (int i = 0; i < fit->nbaseline && status != ROTID_ERROR_MEMORY; i++) {
+        int lost = status ? status : prediction_compute(&p, fit->baseline[i].x);
+        for (int k = 0; k < nmode; k++)
+            out->baseline_hz[k + (ptrdiff_t)i * nmode] =
+                lost ? NAN : prediction_hz(&p, client->model.nrigid + out->compared.number[k] - 1);
+    }
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
 }
 
 static int identify(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
@@ -83,12 +116,16 @@ static int identify(struct pool *pool, const struct job *job, int baseline, int 
         message_open(&quiet, pool);
         if (!status)
             status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
-        if (status || round == ROUNDS || !memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number))
+        if (status || round == ROUNDS ||
+            !memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number) ||
+            is_cancelled(out->fit, environment))
             break;
         before = out->compared;
     }
     for (size_t i = 0; i < quiet.count; i++)
         message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
+    if (!status && out->fit->nbaseline)
+        status = predict_baseline(pool, job, out);
     if (status) {
         rotid_fit_free(out->fit);
         out->fit = NULL;
@@ -133,4 +170,20 @@ void identify_warn_of_mesh(const struct job *job, const struct identification *r
                     "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "
                     "allow for it",
                     job->number[worst], s->mesh_error_percent[number[worst] - 1], largest);
+}
+
+void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
+                                struct message_list *notes)
+{
+    double worst = 0;
+    for (int k = 0; k < result->compared.nmode; k++) {
+        double error = result->spectrum.reduction_error_percent[result->compared.number[k] - 1];
+        if (fabs(error) > fabs(worst))
+            worst = error;
+    }
+    if (job->fit.reduction != ROTID_REDUCTION_NONE && fabs(worst) > 0.5)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is %s "
+                    "here (rotid identify, column reduction)",
+                    reduction_name(job->fit.reduction), worst, what);
 }

@@ -11,6 +11,7 @@ struct identification {
     struct spectrum spectrum;   /* of the fitted model */
     int shapes_fitted;          /* they took part in the residual or in the quotient */
     struct mass_properties mass;
+    double *baseline_hz; /* [nmode * fit->nbaseline] predicted at the points of NLopt, NaN where there is no model */
 };
 
 /* One fit of a job with the pairing `number` [nmode] and the modes `holdout` [nmode] left out; no notes, no spectrum. mass may be
@@ -31,5 +32,9 @@ int identify_run_bare(struct pool *pool, const struct job *job, int baseline, co
 
 /* Warns where the mesh moves a measured mode by more than the noise of its frequency: the intervals rest on the noise alone. */
 void identify_warn_of_mesh(const struct job *job, const struct identification *result, struct message_list *notes);
+
+/* Warns where the condensed model that was fitted has other frequencies than the full one, of which `what` is said: "written". */
+void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
+                                struct message_list *notes);
 
 #endif

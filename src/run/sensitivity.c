@@ -74,5 +74,7 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
             }
         }
     }
+    if (!status && options->with_growth)
+        status = growth_run(pool, job, n, parameter, x0, m, options->seed, &out->growth);
     return status;
 }

@@ -80,8 +80,12 @@ int spectrum_compute_parts(struct pool *pool, const struct rotor *rotor, int npa
         status = full_model(pool, rotor, nparameter, parameter, x, 2, &count, fine, &q);
     if (status)
         return status;
-    *s = (struct spectrum){
-        .nrigid = client->model.nrigid, .count = count, .nmaster = client->model.nmaster, .nnode = client->beam.mesh.naxis};
+    *s = (struct spectrum){.nrigid = client->model.nrigid,
+                           .count = count,
+                           .nmaster = client->model.nmaster,
+                           .nnode = client->beam.mesh.naxis,
+                           .beam = &client->beam,
+                           .phi = p.phi + (ptrdiff_t)client->model.nrigid * p.size};
     double **arrays[] = {&s->full_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))

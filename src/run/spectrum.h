@@ -17,6 +17,8 @@ struct spectrum {
     double *shape;                   /* [nmaster * count] full model at the masters, largest component 1 */
     double *mass;     /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */
     double *master_z; /* [nmaster] m */
+    const struct beam *beam; /* the full model: its rotor at x with the end springs of a sling, its mesh */
+    const double *phi;       /* [beam->mesh.ndof * count] its mass-normalised vectors */
 };
 
 /* At the values x [nparameter] of the parameters; fewer than `count` modes where the model has fewer. reduction: ROTID_GUYAN or

@@ -64,7 +64,7 @@ static double number_of(const cJSON *object, const char *key, double least, doub
     return good ? item->valuedouble : least;
 }
 
-int header_read(struct pool *pool, const cJSON *object, struct header *header)
+int results_header_read(struct pool *pool, const cJSON *object, struct header *header)
 {
     const cJSON *digest = cJSON_GetObjectItemCaseSensitive(object, "digest");
     int failed = !cJSON_IsObject(object), end = 0;

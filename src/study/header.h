@@ -23,7 +23,7 @@ struct header header_of(const struct study *study, const char *version, const ch
 char *header_text(const struct header *header);
 
 /* Texts go to the pool. ROTID_OK, ROTID_ERROR_SYNTAX where it is no header of results, ROTID_ERROR_MEMORY. */
-int header_read(struct pool *pool, const cJSON *object, struct header *header);
+int results_header_read(struct pool *pool, const cJSON *object, struct header *header);
 
 /* What differs in "the file ..., here ...", such as "the plan has changed"; NULL where they are of one study. The shard does not
  * count. ROTID_OK or ROTID_ERROR_MEMORY. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "report/diagnosis_items.h"
+#include "diagnose/items.h"
 #include "report/json_tree.h"
 #include "study/score.h"
 

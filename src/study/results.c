@@ -86,7 +86,7 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
     if (status)
         return status > 0 ? malformed(r, 1, expected) : status;
     cJSON *json = cJSON_ParseWithLength(text, length);
-    status = header_read(pool, json, &r->header);
+    status = results_header_read(pool, json, &r->header);
     cJSON_Delete(json);
     return status == ROTID_ERROR_SYNTAX ? malformed(r, 1, expected) : status;
 }

@@ -11,6 +11,52 @@ from support import INPUT, ROOT, Checks, numbers, parse, rotid, temporary_folder
 
 COMMANDS = ("check", "modes", "sensitivity", "identify", "diagnose")
 
+# every card that a picture of the model draws, and a cause of every kind of target
+MEMBERS = """*HEADING
+members beside the axis
+paper predicted_hz = 350, 640
+*MATERIAL, NAME=steel
+*ELASTIC
+2.1e11, 0.3
+*DENSITY
+7850
+*BEAM, NAME=left, MATERIAL=steel
+0.3, 0.06, 0.05, 6
+*SHAFT, NAME=core, MATERIAL=steel
+0.4, 0.1, 0.02, 8, 0.09
+*SHAFT, NAME=right, MATERIAL=steel
+0.3, 0.05, 0, 6
+*PERFORATION, GROUP=core
+6, 0.01, 0.03
+*PRELOAD, GROUP=core
+1e3
+*TIEROD, NAME=rods, MATERIAL=steel, FROM=core.start, TO=core.end
+6, 0.008, 0.035, 1e3, 3
+*TIEROD, NAME=tube, MATERIAL=steel, FROM=0.1, TO=0.8, MODEL=TUBE
+6, 0.008, 0.035, 1e3
+*BARS, NAME=cage, MATERIAL=steel, CENTER=0.5, LENGTH=0.1
+12, 0.006, 0.045, 4
+*DISK, NAME=fan
+0.9, 0.5, 1e-3, 2e-3
+*DISK
+0.1, 0.2
+*SPRING
+0.2, 1e4
+*SLING, LENGTH=0.5
+*SENSORS
+1, start
+2, 0.25
+5, 0.6
+9, end
+*CAUSE, NAME=crack, TYPE=stiffness_local
+depth, 0.2
+z, 0.45
+width, 0.05
+*CAUSE, NAME=gap, TYPE=joint, BETWEEN=left,core
+flexibility, 1e-9
+*CAUSE, NAME=box, TYPE=accelerometer_mass, SENSOR=5, MOUNT=FIXED
+mass, 0.02
+"""
 SHAFT = """*MATERIAL, NAME=steel
 *ELASTIC
 2.1e11, 0.3
@@ -43,6 +89,9 @@ SMALL = {
         SHAFT + "*SENSORS\n1, start\n2, 0.5\n3, end\n" + MODES +
         "*SHAPE, MODE=1\n1, 1\n2, -0.6\n3, 1\n*SHAPE, MODE=2\n1, 1\n3, -1\n*NOISE, FREQUENCY=0.01, SHAPE=0.05\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n",
         (), (0, 0, 0, 0, 0)),
+    "members beside the axis": (
+        MEMBERS + "*MODES\n1, 240\n2, 385\n3, 650\n*NOISE, FREQUENCY=0.01\n*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n",
+        (), (0, 0, 0, 0, 0)),
     "one sensor": (SHAFT + "*SENSORS\n1, start\n" + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", (), (0, 0, 0, 0, 0)),
     "without the baseline": (SHAFT + MODES + "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n", ("--no-baseline",), (0, 0, 0, 0, 0)),
 }
@@ -63,7 +112,7 @@ def validate(checks, name, schema, text):
 def main():
     checks = Checks()
     schemas = {}
-    for command in (*COMMANDS, "frf", "ema", "study", "study_line"):
+    for command in (*COMMANDS, "frf", "ema", "export", "study", "study_line"):
         schema = json.loads((ROOT / "docs" / "schema" / f"{command}.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         schemas[command] = jsonschema.Draft202012Validator(schema)
@@ -80,6 +129,7 @@ def main():
 
     with temporary_folder() as folder:
         synthesise(checks, schemas["frf"], Path(folder))
+        export(checks, schemas["export"], Path(folder))
         extract(checks, schemas["ema"], Path(folder))
         study(checks, schemas["study"], schemas["study_line"], Path(folder))
         for name, (text, options, codes) in SMALL.items():
@@ -106,8 +156,55 @@ def run(checks, name, schema, command, deck, options, codes):
     elif code == 2:
         checks.true(f"{name} is refused", not out and err, f"{out[:80]!r} {err[:80]!r}")
     else:
-        return validate(checks, name, schema, out)
+        value = validate(checks, name, schema, out)
+        if value and "geometry" in value:
+            draw(checks, name, value)
+        return value
     return None
+
+
+def draw(checks, name, result):
+    """What the pictures rest on: a geometry without gaps, and shapes that give the printed MAC."""
+    geometry, length = result["geometry"], result["geometry"]["length_m"]
+    spans = [(s["from_m"], s["to_m"]) for g in geometry["groups"] for s in g["segments"]]
+    edges = [0] + [b for _, b in spans]
+    joined = all(abs(a - e) < 1e-8 * length for (a, _), e in zip(spans, edges)) and abs(edges[-1] - length) < 1e-8 * length
+    nodes = geometry["nodes_z_m"]
+    inside = all(-1e-8 <= z <= length * (1 + 1e-8) for z in nodes + [s["z_m"] for s in geometry["sensors"] + geometry["springs"]])
+    rising = all(a < b for a, b in zip(nodes, nodes[1:])) and nodes[0] == 0 and abs(nodes[-1] - length) < 1e-8 * length
+    checks.true(f"{name}: geometry without gaps", joined and inside and rising, (edges, nodes[:3], nodes[-3:]))
+    fits = [result] if "shapes" in result else [result[k] for k in ("today", "base", "extended") if result.get(k)]
+    wrong = [text for fit in fits for text in misdrawn(fit)]
+    if fits:
+        checks.true(f"{name}: shapes as printed", not wrong, "; ".join(wrong[:3]))
+
+
+def misdrawn(fit):
+    """What is wrong with the shapes of an identification."""
+    shapes, rows = fit["shapes"], {n: k for k, n in enumerate(fit["matrix_rows"])}
+    for printed, mode in zip(fit["modes"], shapes["modes"], strict=True):
+        text = f"mode {printed['measured_mode']}"
+        lengths = {len(mode["predicted"]), len(shapes["z_m"]), len(shapes["sensor_id"])}
+        if len(lengths) > 1 or len(mode["predicted_axis"]) != len(shapes["axis_z_m"]):
+            yield f"{text}: lengths {lengths}"
+        if any(len(m["z_m"]) != len(m["shape"]) for m in mode["tierods"] + mode["bars"]):
+            yield f"{text}: lengths of members"
+        if not mode["measured"]:
+            if abs(max(map(abs, mode["predicted_axis"])) - 1) > 1e-8 and len(shapes["axis_z_m"]) < 401:
+                yield f"{text}: largest {max(map(abs, mode['predicted_axis']))}"
+            continue
+        pairs = [(a, b) for a, b in zip(mode["measured"], mode["predicted"], strict=True) if a is not None]
+        if max(a for a, _ in pairs) != 1 or min(a for a, _ in pairs) < -1:
+            yield f"{text}: largest measured component {max(a for a, _ in pairs)}"
+        if printed["mac"] is None:
+            continue
+        ab, aa, bb = (sum(x) for x in zip(*((a * b, a * a, b * b) for a, b in pairs)))
+        row = rows[printed["measured_mode"]]
+        for key, matrix in (("mac", fit["mac_matrix"]), ("nco", fit["nco_matrix"])):
+            if matrix and abs(matrix[row][fit["matrix_columns"].index(printed["mode"])] - printed[key]) > 1e-7:
+                yield f"{text}: {key} {printed[key]} and {matrix[row]}"
+        if abs(ab * ab / (aa * bb) - printed["mac"]) > 1e-6:
+            yield f"{text}: MAC {ab * ab / (aa * bb)} for {printed['mac']}"
 
 
 def synthesise(checks, schema, folder):
@@ -124,6 +221,26 @@ def synthesise(checks, schema, folder):
     checks.true("frf says that the curves are left out", many and not many["with_curves"] and many["warnings"], "")
     functions.unlink()
     beside.unlink()
+
+
+def export(checks, schema, folder):
+    """rotid export in every format: fitted, as the deck states it, condensed, and with too few sensors for that."""
+    for kind, options in (("matrix-market", ()), ("dmig", ()), ("dmig", ("--condensed",)), ("ross", ()), ("ross", ("--start",))):
+        out = run(checks, f"export {kind} {' '.join(options)}", schema, "export", INPUT / "paper_rotor.inp",
+                  ("--format", kind, "-o", folder / "model", *options), (0,))
+        checks.true(f"export {kind} names what it wrote", out and all(Path(name).exists() for name in out["files"]), out and out["files"])
+        for name in out["files"] if out else ():
+            Path(name).unlink()
+    deck = folder / "few.inp"
+    deck.write_text(SHAFT + "*SENSORS\n1, 0.3\n2, 0.9\n")
+    out = run(checks, "export dmig --condensed, few sensors", schema, "export", deck, ("--format", "dmig", "--condensed", "-o", folder / "model"), (0,))
+    checks.true("export has null for modes that the condensed model lacks", out and out["exported_hz"][-1] is None, out and out["exported_hz"])
+    deck.write_text(SHAFT + "*SENSORS\n1, 0.3\n")
+    run(checks, "export dmig --condensed, one sensor", schema, "export", deck, ("--format", "dmig", "--condensed", "-o", folder / "none"), (2,))
+    checks.true("export that is refused writes nothing", not (folder / "none").exists(), "")
+    run(checks, "export, without a standard rotor", schema, "export", INPUT / "brake_reuss_beam.inp", ("--format", "ross", "-o", folder / "model"), (0, 1))
+    deck.unlink()
+    (folder / "model").unlink()
 
 
 def extract(checks, schema, folder):

@@ -4,3 +4,22 @@ int cause_parameters(const struct effect *effect)
 {
     return effect_parameters(effect);
 }
+
+const char *cause_target_name(struct pool *pool, const struct rotor *rotor, const struct cause_kind *cause, int target)
+{
+    if (target < 0)
+        return "";
+    switch (cause->target) {
+    case TARGET_GROUP:
+        return rotor->group[target].name;
+    case TARGET_INTERFACE:
+        return pool_format(pool, "%s|%s", rotor->group[target].name, rotor->group[target + 1].name);
+    case TARGET_SPRING:
+        return rotor->spring[target].name ? rotor->spring[target].name
+                                          : pool_format(pool, "at %.4g m", rotor->spring[target].position);
+    case TARGET_TIEROD:
+        return rotor->tierod[target].name;
+    default:
+        return "";
+    }
+}

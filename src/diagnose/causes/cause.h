@@ -57,4 +57,8 @@ struct cause_kind {
 /* The number of parameters of an effect in use, the first ones of its kind: a soft zone of one depth has no depth_shear. */
 int cause_parameters(const struct effect *effect);
 
+/* What a cause acts on, by name: a group, "left|right" for an interface, a spring or its place, a tie rod; "" where it has no
+ * such target. NULL where memory is out. */
+const char *cause_target_name(struct pool *pool, const struct rotor *rotor, const struct cause_kind *cause, int target);
+
 #endif

@@ -1,0 +1,108 @@
+/* How the hybrid functionals grow away from the optimum, beside closed forms. */
+#include "support.h"
+
+#include <math.h>
+
+#include "paper_rotor.h"
+#include "run/sensitivity.h"
+
+/* A free steel bar: with G tied to E every eigenvalue is proportional to E, condensed or not. */
+static void make_bar(struct job *job, struct group *group, struct segment *segment, struct sensor *sensor, int nsensor)
+{
+    *group = (struct group){.name = "bar", .material = {.e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1}};
+    *segment = (struct segment){.elements = 20, .length = 1, .outer = 0.1, .stiff_outer = 0.1};
+    for (int i = 0; i < nsensor; i++)
+        sensor[i] = (struct sensor){i + 1, (double)i / (nsensor - 1)};
+    *job = (struct job){
+        .rotor = {.ngroup = 1, .nsegment = 1, .nsensor = nsensor, .group = group, .segment = segment, .sensor = sensor}};
+    rotid_fit_defaults(&job->fit);
+}
+
+static void of_a_bar_it_is_that_of_its_modulus(void **state)
+{
+    (void)state;
+    static const struct parameter young = {PARAMETER_E, 0, 0};
+    const double x0 = 2.1e11;
+    for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++) {
+        struct group group;
+        struct segment segment;
+        struct sensor sensor[21];
+        struct job job;
+        struct growth growth;
+        make_bar(&job, &group, &segment, sensor, 21);
+        job.fit.reduction = reduction;
+        assert_status(growth_run(&test_pool, &job, 1, &young, &x0, 3, 7, &growth), ROTID_OK);
+        assert_close(growth.epsilon2[0], 1e-6, 1e-12, 0);
+        assert_close(growth.epsilon2[growth.points - 1], 1e-2, 1e-12, 0);
+        for (int i = 0; i < growth.points; i++) { /* E_k = -eps, F_k = 1 - sqrt(1 + eps) */
+            double eps = sqrt(growth.epsilon2[i]), f = 1 - sqrt(1 + eps);
+            assert_close(growth.f[GROWTH_E][i], 1.5 * eps * eps, 1e-6, 0);
+            assert_close(growth.f[GROWTH_F][i], 1.5 * f * f, 1e-6, 0);
+            assert_true(growth.shapes_alone[i] < 1e-16);
+        }
+        assert_close(growth.slope[GROWTH_E], 1, 1e-7, 0);
+        assert_close(growth.intercept[GROWTH_E], log(1.5), 1e-5, 0);
+        assert_true(growth.slope[GROWTH_F] < 1 && growth.slope[GROWTH_F] > 0.98);
+    }
+}
+
+/* Slope between neighbouring points */
+static double local_slope(const struct growth *growth, int kind, int i)
+{
+    return log(growth->f[kind][i + 1] / growth->f[kind][i]) / log(growth->epsilon2[i + 1] / growth->epsilon2[i]);
+}
+
+static void the_slope_tends_to_one_at_the_optimum(void **state)
+{
+    (void)state;
+    struct job job = {.rotor = *paper_rotor(BUNDLE_TUBE, 0)};
+    struct sensitivity result;
+    const struct sensitivity_options options = {
+        .step = 0.01, .range = 0.5, .points = 3, .modes = PAPER_MODES, .with_growth = 1, .seed = 3};
+    rotid_fit_defaults(&job.fit);
+    job.fit.reduction = ROTID_GUYAN;
+    assert_status(sensitivity_run(&test_pool, &job, 2, paper_parameters, paper_start, &options, &result), ROTID_OK);
+    const struct growth *growth = &result.growth;
+    for (int kind = 0; kind < GROWTH_KINDS; kind++) {
+        double near = fabs(local_slope(growth, kind, 0) - 1), far = fabs(local_slope(growth, kind, growth->points - 2) - 1);
+        print_message("ln f(%c) = %.4f ln(eps^2) %+.4f; slope off by %.1e at eps 0.001, %.1e at 0.1\n", kind ? 'F' : 'E',
+                      growth->slope[kind], growth->intercept[kind], near, far);
+        assert_close(near, 0, 0, 1e-3);
+        assert_true(far > 10 * near); /* in proportion to eps */
+        assert_close(growth->slope[kind], 1, 0.01, 0);
+    }
+    assert_close(growth->f[GROWTH_E][0] / growth->f[GROWTH_F][0], 4, 2e-3, 0); /* (25) */
+    double noise = 0;
+    for (int i = 0; i < growth->points; i++)
+        noise = fmax(noise, growth->shapes_alone[i]);
+    assert_true(noise > 0 && noise < 1e-20); /* the shapes take part in the quotient, and change it by rounding */
+}
+
+static void a_parameter_without_effect_has_no_slope(void **state)
+{
+    (void)state;
+    static const struct parameter mass = {PARAMETER_DISK_INERTIA, 0, 0};
+    const double x0 = 1e-30;
+    struct group group;
+    struct segment segment;
+    struct disk disk = {.name = "ghost", .position = 0.5, .diametral = 1e-30};
+    struct job job;
+    struct growth growth;
+    make_bar(&job, &group, &segment, NULL, 0);
+    job.rotor.ndisk = 1;
+    job.rotor.disk = &disk;
+    assert_status(growth_run(&test_pool, &job, 1, &mass, &x0, 2, 1, &growth), ROTID_OK);
+    for (int i = 0; i < growth.points; i++)
+        assert_true(growth.f[GROWTH_E][i] < 1e-16);
+    assert_true(isnan(growth.slope[GROWTH_E]) && isnan(growth.intercept[GROWTH_F]));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(of_a_bar_it_is_that_of_its_modulus, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_slope_tends_to_one_at_the_optimum, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_parameter_without_effect_has_no_slope, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
