@@ -183,7 +183,7 @@ check-tsan:
 # without the programs that diagnose dozens of rotors: what they call is in the others
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads study_run),$(TEST_PROGRAMS))
 
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
