@@ -231,4 +231,4 @@ TELL_INSTALL = $(foreach name,VERSION SONAME DESTDIR PREFIX BINDIR LIBDIR PKGCON
 clean:
 	rm -rf $(BUILD)
 
--include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD) -type f -name '*.d' 2>/dev/null)
