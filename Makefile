@@ -1,29 +1,53 @@
 # rotid. The usual targets:
-#   make            builds the program build/rotid and the library build/librotid.a
+#   make            builds the program build/rotid and the library: build/librotid.a, build/librotid.so; make MPI=1:
+#                   build/rotid-study as well
 #   make demo       identifies the paper's rotor from its measured frequencies and shows the result
 #   make test       builds and runs every test; ends with one line "N passed, N failed"
 #   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
+#   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
+#   make check-embedding   the programs of docs/embedding.md with gcc, clang, flang, make, CMake, Python, as far as they are there
+#   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
 #   make coverage   share of the lines of src that the tests run
-#   make lint, make format                  clang-tidy, clang-format
-#   make install, make uninstall            with PREFIX (/usr/local) and DESTDIR
+#   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
+#   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
+#   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, INCLUDEDIR, DATADIR,
+#                   MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
 # Options: CC, CFLAGS, BUILD (build), WITH_NLOPT=0 for a build without the NLopt baseline, WERROR=1.
 
 BUILD      ?= build
-PREFIX     ?= /usr/local
 CC         ?= cc
+CXX        ?= c++
 CFLAGS     ?= -O2 -g
+OBJCOPY    ?= objcopy
 WITH_NLOPT ?= 1
 PYTHON     ?= python3
 CLANG_TIDY ?= clang-tidy
 CLANG_FORMAT ?= clang-format
 FUZZ_CC    ?= clang-14
 FUZZ_SECONDS ?= 600
+
+PREFIX       ?= /usr/local
+BINDIR       ?= $(PREFIX)/bin
+LIBDIR       ?= $(PREFIX)/lib
+PKGCONFIGDIR ?= $(LIBDIR)/pkgconfig
+INCLUDEDIR   ?= $(PREFIX)/include
+DATADIR      ?= $(PREFIX)/share
+MANDIR       ?= $(DATADIR)/man
+DOCDIR       ?= $(DATADIR)/doc/rotid
+BASHDIR      ?= $(DATADIR)/bash-completion/completions
+ZSHDIR       ?= $(DATADIR)/zsh/site-functions
+FISHDIR      ?= $(DATADIR)/fish/vendor_completions.d
+
+# the version stands in the header alone
+VERSION := $(shell awk '$$2 == "ROTID_VERSION" { gsub("\"", "", $$3); print $$3 }' include/rotid.h)
+SONAME  := librotid.so.$(shell awk '$$2 == "ROTID_VERSION_MAJOR" { print $$3 }' include/rotid.h)
+SHARED  := librotid.so.$(VERSION)
 
 PACKAGES := lapacke openblas kissfft-float
 ifeq ($(WITH_NLOPT),1)
@@ -43,6 +67,8 @@ IO_SOURCES := $(foreach room,report export study page,$(wildcard src/$(room)/*.c
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))
+# what the program and the tests link: with the names that librotid keeps to itself
+OBJECTS := $(BUILD)/rotid-objects.a
 IO_OBJECTS := $(call OBJECTS_OF,$(IO_SOURCES))
 
 TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
@@ -50,11 +76,15 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all demo test chain power bench bench-quick check-asan check-valgrind check-peers fuzz fuzzers coverage lint format install uninstall clean
+.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
+        coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(BUILD)/rotid $(BUILD)/librotid.a
+all: $(BUILD)/rotid $(BUILD)/librotid.a $(BUILD)/librotid.so
+ifeq ($(MPI),1)
+all: $(BUILD)/rotid-study
+endif
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -68,12 +98,41 @@ $(BUILD)/commit: FORCE
 	@echo '$(COMMIT)' | cmp -s - $@ || echo '$(COMMIT)' > $@
 FORCE:
 
-$(BUILD)/librotid.a: $(LIBRARY_OBJECTS)
+$(OBJECTS): $(LIBRARY_OBJECTS)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-$(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(BUILD)/librotid.a
+# Static: joined into one object whose hidden names are then its own, so that a host may have a pool_open too. Of the flags only
+# those that decide what kind of object it is: a sanitizer's would link its library.
+KIND_FLAGS = $(filter -m% -flto% -fuse-ld=%,$(CFLAGS) $(LDFLAGS)) $(if $(filter -flto%,$(CFLAGS)),-flinker-output=nolto-rel)
+$(BUILD)/librotid.o: $(LIBRARY_OBJECTS)
+	$(CC) -r -nostdlib $(KIND_FLAGS) $^ -o $@
+	$(OBJCOPY) --localize-hidden $@
+$(BUILD)/librotid.a: $(BUILD)/librotid.o
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+# Shared, and what a static host has to link beside it, for rotid.pc. A sanitizer's names come with the program.
+NO_UNDEFINED = $(if $(findstring -fsanitize,$(CFLAGS) $(LDFLAGS)),,-Wl,-z,defs)
+$(BUILD)/$(SHARED): $(LIBRARY_OBJECTS)
+	$(CC) -shared -Wl,-soname,$(SONAME) $(NO_UNDEFINED) $(CFLAGS) $(LDFLAGS) $^ $(LIBRARY_LIBS) -o $@
+	@echo '$(LIBRARY_LIBS)' > $(BUILD)/librotid.libs
+$(BUILD)/librotid.so: $(BUILD)/$(SHARED)
+	@ln -sf $(SHARED) $(BUILD)/$(SONAME)
+	@ln -sf $(SONAME) $@
+
+$(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+# The same studies over MPI; nothing else depends on it.
+MPICC ?= mpicc
+$(BUILD)/src/mpi/%.o: CC = $(MPICC)
+$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(OBJECTS)
+	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+
+check-mpi:
+	@$(MAKE) --no-print-directory MPI=1 all
+	@sh tests/study/mpi $(BUILD)
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
@@ -85,17 +144,22 @@ $(BUILD)/hammer: $(call OBJECTS_OF,$(wildcard tools/hammer/*.c tools/oracle/*.c)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
 # Fresh hidden effects by the thousand; POWER holds options, such as "--cases 200 --no-shapes".
-$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(BUILD)/librotid.a
+$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 power: $(BUILD)/power
 	@OPENBLAS_NUM_THREADS=1 $(BUILD)/power $(POWER)
 
-$(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"'
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(BUILD)/librotid.a
+# Some link hosts of their own, in the way the library was built.
+$(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
+    -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
+
+abi: $(BUILD)/tests/test_abi
+	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
 
 demo: all
 	@sh tools/demo $(BUILD)/rotid
@@ -110,17 +174,32 @@ check-asan:
 	@ROTID_CHAIN_RUNS=2 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' test
 
+# Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
+# not start on kernels that randomise more bits than it knows of.
+.PHONY: check-tsan
+check-tsan:
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan LDFLAGS=-fsanitize=thread CFLAGS='-O1 -g -fsanitize=thread' $(BUILD)/tsan/tests/test_threads
+	@OPENBLAS_NUM_THREADS=1 TSAN_OPTIONS=halt_on_error=1 $$(setarch -R true 2>/dev/null && echo setarch -R) $(BUILD)/tsan/tests/test_threads
+
 # without the programs that diagnose dozens of rotors: what they call is in the others
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads study_run),$(TEST_PROGRAMS))
 
-check-peers: all $(BUILD)/hammer
+# beside MINPACK, where its C version is installed
+$(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
+                       $(BUILD)/tests/mgh_functions.o $(BUILD)/tests/mgh_data_fits.o $(BUILD)/librotid.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
+$(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
+check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
+
+check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
+	@sh tests/embedding/check '$(BUILD)'
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
 FUZZERS := uff deck
-$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(IO_OBJECTS) $(BUILD)/librotid.a
+$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(IO_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 fuzzers: $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
 fuzz:
@@ -137,20 +216,19 @@ coverage:
 
 lint:
 	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(IO_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
+	@sh tools/lint-manual
 
 format:
 	$(CLANG_FORMAT) -i $(wildcard src/*/*.[ch] include/*.h tests/*.[ch] tests/*/*.[ch] tools/*/*.[ch])
 
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include
-	install -m 755 $(BUILD)/rotid $(DESTDIR)$(PREFIX)/bin/rotid
-	install -m 644 $(BUILD)/librotid.a $(DESTDIR)$(PREFIX)/lib/librotid.a
-	install -m 644 include/rotid.h $(DESTDIR)$(PREFIX)/include/rotid.h
-
+	@$(TELL_INSTALL) sh tools/install install '$(BUILD)'
 uninstall:
-	rm -f $(DESTDIR)$(PREFIX)/bin/rotid $(DESTDIR)$(PREFIX)/lib/librotid.a $(DESTDIR)$(PREFIX)/include/rotid.h
+	@$(TELL_INSTALL) sh tools/install uninstall '$(BUILD)'
+TELL_INSTALL = $(foreach name,VERSION SONAME DESTDIR PREFIX BINDIR LIBDIR PKGCONFIGDIR INCLUDEDIR DATADIR MANDIR DOCDIR BASHDIR ZSHDIR \
+               FISHDIR,$(name)='$($(name))')
 
 clean:
 	rm -rf $(BUILD)
 
--include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD) -type f -name '*.d' 2>/dev/null)

@@ -13,7 +13,7 @@
  *   different data may run at the same time. The number of BLAS threads stays what the host has set.
  *   NaN stands for what is not known or cannot be stated. While rotid_deck_read, rotid_spectrum_compute, rotid_identify,
  *   rotid_diagnose, rotid_fit or rotid_lm runs, its thread computes with floating-point exceptions masked, and all but the last
- *   two with the numeric locale "C"; both are as the host had them when the call returns. Callbacks run in between. */
+ *   two with the locale "C"; both are as the host had them when the call returns. Callbacks run in between. */
 #ifndef ROTID_H
 #define ROTID_H
 
@@ -76,7 +76,7 @@ ROTID_API const char *rotid_status_name(int status);
 /* ------------------------------------------------------------------------------------------------ environment */
 
 typedef struct rotid_allocator {
-    void *(*allocate)(void *context, size_t bytes); /* aligned for any type, or NULL */
+    void *(*allocate)(void *context, size_t bytes); /* aligned for any type, or NULL; must exist until all it made is freed */
     void (*release)(void *context, void *block);
     void *context;
 } rotid_allocator;
@@ -180,7 +180,8 @@ typedef struct rotid_identification {
  * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
  * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
  * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL; where
- * that is no lack of memory, why is in `failure` (NULL allowed), which must hold 512 characters. */
+ * that is no lack of memory, why is in `failure` (NULL allowed), which must hold 512 characters and is empty on success.
+ * Cancelled while NLopt runs: the fit is complete and fit->nbaseline is 0. */
 ROTID_API int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,
                              rotid_identification **result);
 ROTID_API void rotid_identification_free(rotid_identification *result);
@@ -238,7 +239,7 @@ typedef struct rotid_detectable {
 } rotid_detectable;
 
 typedef struct rotid_diagnosis {
-    int kind;           /* ROTID_ADEQUATE ... of physical causes only */
+    int kind;           /* ROTID_ADEQUATE ... of physical causes only; -1 where there is no verdict yet */
     int adequate_after; /* the model with what was named explains the data within their noise */
     int interrupted;    /* cancelled: what was finished is there; sentence may be NULL */
     double p_value;
@@ -249,7 +250,8 @@ typedef struct rotid_diagnosis {
     const rotid_cause *candidate;   /* [ncandidate] of all rounds */
     int ndata_finding, nnumerical_finding;
     const rotid_finding *data_finding, *numerical_finding;
-    const rotid_identification *base, *extended; /* extended: NULL where nothing was named. Messages are in `message` below */
+    /* base: NULL where interrupted before it; extended: NULL where nothing was named. Messages are in `message` below */
+    const rotid_identification *base, *extended;
     rotid_quality before, after;
     int nlocal; /* along the axis: where the base model's misfit acts, largest 1 */
     const double *local_z, *local;
@@ -476,7 +478,7 @@ typedef struct rotid_lm_options {
     double gradient_tolerance;                                     /* [1e-10] on that cosine */
     double step_tolerance;                                         /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
     double objective_tolerance;                                    /* [1e-16] predicted decrease over the objective */
-    double initial_damping;                                        /* [1e-3] */
+    double initial_damping;                                        /* [1e-14] */
     int (*trace)(void *user, const rotid_lm_iteration *iteration); /* NULL, or told of every accepted point; nonzero cancels */
     void *trace_user;
 } rotid_lm_options;
@@ -489,13 +491,14 @@ typedef struct rotid_lm_result {
 /* Length of the workspace of rotid_lm in doubles. */
 ROTID_API size_t rotid_lm_workspace(int m, int n);
 
-/* Levenberg-Marquardt: min 1/2 r'r. Each step solves (J'J + mu D^2) h = -J'r by QR of [J; sqrt(mu) D], D the largest column
- * norms of J so far (More 1978); mu follows the gain ratio (Nielsen 1999; Madsen, Nielsen, Tingleff 2004, 3.2), the actual
- * decrease being (r - r+)'(r + r+)/2, which keeps its digits at the optimum.
- * Entry: m >= 1, n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the best point, r [m] and
- * jacobian [m * n] there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing.
- * Returns the stop reason (> 0) or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual at the start), _FINITE (residual at the start),
- * _RANK (J = 0 there with r != 0), _LIBRARY. */
+/* Levenberg-Marquardt: min 1/2 r'r. Each step solves (J'J + mu (s D)^2) h = -J'r by QR of [J; sqrt(mu) s D], D the largest column
+ * norms of J so far (More 1978), s the largest of |J_j|/D_j. mu follows the gain ratio (Nielsen 1999; Madsen, Nielsen, Tingleff
+ * 2004, 3.2), the actual decrease being (r - r+)'(r + r+)/2, which keeps its digits at the optimum. It is raised where |D h|
+ * would exceed a radius (More 1978): the larger of 10 |D x| and |r| at first, then 4 times the last step, after one that failed a
+ * half to a tenth of it. Entry: m >= 1, n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the
+ * best point, r [m] and jacobian [m * n] there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing. Returns the stop
+ * reason (> 0) or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual at the start), _FINITE (residual at the start), _RANK (J = 0 there
+ * with r != 0), _LIBRARY. */
 ROTID_API int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
                        double *jacobian, double *work, rotid_lm_result *result);
 

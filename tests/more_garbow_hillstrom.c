@@ -2,270 +2,81 @@
 
 #include <math.h>
 
-#define RESIDUAL(name) static int name(void *user, int m, int n, const double *x, double *r, double *jacobian)
-#define J(i, j)        jacobian[(i) + (j)*m]
+#include "mgh_residuals.h"
 
-/* what an overflow looks like to a caller: no residual there */
-static int unusable(int count, const double *values)
-{
-    for (int i = 0; i < count; i++)
-        if (!isfinite(values[i]))
-            return 1;
-    return 0;
-}
-
-/* 1 */
-RESIDUAL(rosenbrock)
-{
-    (void)user;
-    if (r) {
-        r[0] = 10 * (x[1] - x[0] * x[0]);
-        r[1] = 1 - x[0];
-        return unusable(m, r);
+#define OSBORNE_2                                                                                                                \
+    {                                                                                                                            \
+        1.3, 0.65, 0.65, 0.7, 0.6, 3, 5, 7, 2, 4.5, 5.5                                                                          \
     }
-    J(0, 0) = -20 * x[0];
-    J(0, 1) = 10;
-    J(1, 0) = -1;
-    J(1, 1) = 0;
-    return unusable(m * n, jacobian);
-}
-
-/* 2: two minima, 0 and 48.9842 at (11.4128, -0.896805), the one that is reached from here */
-RESIDUAL(freudenstein_roth)
-{
-    (void)user;
-    double y = x[1];
-    if (r) {
-        r[0] = -13 + x[0] + ((5 - y) * y - 2) * y;
-        r[1] = -29 + x[0] + ((y + 1) * y - 14) * y;
-        return unusable(m, r);
-    }
-    J(0, 0) = J(1, 0) = 1;
-    J(0, 1) = (10 - 3 * y) * y - 2;
-    J(1, 1) = (3 * y + 2) * y - 14;
-    return unusable(m * n, jacobian);
-}
-
-/* 6 */
-RESIDUAL(jennrich_sampson)
-{
-    (void)user;
-    for (int i = 0; i < m; i++) {
-        double t = i + 1, a = exp(t * x[0]), b = exp(t * x[1]);
-        if (r) {
-            r[i] = 2 + 2 * t - (a + b);
-        } else {
-            J(i, 0) = -t * a;
-            J(i, 1) = -t * b;
-        }
-    }
-    return r ? unusable(m, r) : unusable(m * n, jacobian);
-}
-
-/* 7: theta runs through a quarter turn at x1 = 0 */
-RESIDUAL(helical_valley)
-{
-    (void)user;
-    const double pi = 3.14159265358979323846;
-    double square = x[0] * x[0] + x[1] * x[1], root = sqrt(square);
-    if (r) {
-        double theta = x[0] > 0   ? atan(x[1] / x[0]) / (2 * pi)
-                       : x[0] < 0 ? atan(x[1] / x[0]) / (2 * pi) + 0.5
-                                  : copysign(0.25, x[1]);
-        r[0] = 10 * (x[2] - 10 * theta);
-        r[1] = 10 * (root - 1);
-        r[2] = x[2];
-        return unusable(m, r);
-    }
-    J(0, 0) = 100 * x[1] / (2 * pi * square);
-    J(0, 1) = -100 * x[0] / (2 * pi * square);
-    J(0, 2) = 10;
-    J(1, 0) = 10 * x[0] / root;
-    J(1, 1) = 10 * x[1] / root;
-    J(1, 2) = J(2, 0) = J(2, 1) = 0;
-    J(2, 2) = 1;
-    return unusable(m * n, jacobian);
-}
-
-/* 8 */
-RESIDUAL(bard)
-{
-    (void)user;
-    static const double y[15] = {0.14, 0.18, 0.22, 0.25, 0.29, 0.32, 0.35, 0.39, 0.37, 0.58, 0.73, 0.96, 1.34, 2.10, 4.39};
-    for (int i = 0; i < m; i++) {
-        double u = i + 1, v = 15 - i, w = fmin(u, v), below = v * x[1] + w * x[2];
-        if (r) {
-            r[i] = y[i] - (x[0] + u / below);
-        } else {
-            J(i, 0) = -1;
-            J(i, 1) = u * v / (below * below);
-            J(i, 2) = u * w / (below * below);
-        }
-    }
-    return r ? unusable(m, r) : unusable(m * n, jacobian);
-}
-
-/* 10 */
-RESIDUAL(meyer)
-{
-    (void)user;
-    static const double y[16] = {34780, 28610, 23650, 19630, 16370, 13720, 11540, 9744,
-                                 8261,  7030,  6005,  5147,  4427,  3820,  3307,  2872};
-    for (int i = 0; i < m; i++) {
-        double below = 50 + 5 * i + x[2], e = exp(x[1] / below);
-        if (r) {
-            r[i] = x[0] * e - y[i];
-        } else {
-            J(i, 0) = e;
-            J(i, 1) = x[0] * e / below;
-            J(i, 2) = -x[0] * e * x[1] / (below * below);
-        }
-    }
-    return r ? unusable(m, r) : unusable(m * n, jacobian);
-}
-
-/* 12 */
-RESIDUAL(box)
-{
-    (void)user;
-    for (int i = 0; i < m; i++) {
-        double t = 0.1 * (i + 1), a = exp(-t * x[0]), b = exp(-t * x[1]), c = exp(-t) - exp(-10 * t);
-        if (r) {
-            r[i] = a - b - x[2] * c;
-        } else {
-            J(i, 0) = -t * a;
-            J(i, 1) = t * b;
-            J(i, 2) = -c;
-        }
-    }
-    return r ? unusable(m, r) : unusable(m * n, jacobian);
-}
-
-/* 13: the Jacobian is singular at the minimum */
-RESIDUAL(powell_singular)
-{
-    (void)user;
-    double p = x[1] - 2 * x[2], q = x[0] - x[3], root5 = sqrt(5), root10 = sqrt(10);
-    if (r) {
-        r[0] = x[0] + 10 * x[1];
-        r[1] = root5 * (x[2] - x[3]);
-        r[2] = p * p;
-        r[3] = root10 * q * q;
-        return unusable(m, r);
-    }
-    for (int k = 0; k < m * n; k++)
-        jacobian[k] = 0;
-    J(0, 0) = 1;
-    J(0, 1) = 10;
-    J(1, 2) = root5;
-    J(1, 3) = -root5;
-    J(2, 1) = 2 * p;
-    J(2, 2) = -4 * p;
-    J(3, 0) = 2 * root10 * q;
-    J(3, 3) = -2 * root10 * q;
-    return unusable(m * n, jacobian);
-}
-
-/* 15 */
-RESIDUAL(kowalik_osborne)
-{
-    (void)user;
-    static const double y[11] = {0.1957, 0.1947, 0.1735, 0.1600, 0.0844, 0.0627, 0.0456, 0.0342, 0.0323, 0.0235, 0.0246};
-    static const double u[11] = {4, 2, 1, 0.5, 0.25, 0.167, 0.125, 0.1, 0.0833, 0.0714, 0.0625};
-    for (int i = 0; i < m; i++) {
-        double above = u[i] * (u[i] + x[1]), below = u[i] * (u[i] + x[2]) + x[3];
-        if (r) {
-            r[i] = y[i] - x[0] * above / below;
-        } else {
-            J(i, 0) = -above / below;
-            J(i, 1) = -x[0] * u[i] / below;
-            J(i, 2) = x[0] * above * u[i] / (below * below);
-            J(i, 3) = x[0] * above / (below * below);
-        }
-    }
-    return r ? unusable(m, r) : unusable(m * n, jacobian);
-}
-
-/* 16 */
-RESIDUAL(brown_dennis)
-{
-    (void)user;
-    for (int i = 0; i < m; i++) {
-        double t = 0.2 * (i + 1), a = x[0] + t * x[1] - exp(t), b = x[2] + sin(t) * x[3] - cos(t);
-        if (r) {
-            r[i] = a * a + b * b;
-        } else {
-            J(i, 0) = 2 * a;
-            J(i, 1) = 2 * a * t;
-            J(i, 2) = 2 * b;
-            J(i, 3) = 2 * b * sin(t);
-        }
-    }
-    return r ? unusable(m, r) : unusable(m * n, jacobian);
-}
-
-/* 17 */
-RESIDUAL(osborne_1)
-{
-    (void)user;
-    static const double y[33] = {0.844, 0.908, 0.932, 0.936, 0.925, 0.908, 0.881, 0.850, 0.818, 0.784, 0.751,
-                                 0.718, 0.685, 0.658, 0.628, 0.603, 0.580, 0.558, 0.538, 0.522, 0.506, 0.490,
-                                 0.478, 0.467, 0.457, 0.448, 0.438, 0.431, 0.424, 0.420, 0.414, 0.411, 0.406};
-    for (int i = 0; i < m; i++) {
-        double t = 10 * i, a = exp(-t * x[3]), b = exp(-t * x[4]);
-        if (r) {
-            r[i] = y[i] - (x[0] + x[1] * a + x[2] * b);
-        } else {
-            J(i, 0) = -1;
-            J(i, 1) = -a;
-            J(i, 2) = -b;
-            J(i, 3) = t * x[1] * a;
-            J(i, 4) = t * x[2] * b;
-        }
-    }
-    return r ? unusable(m, r) : unusable(m * n, jacobian);
-}
-
-/* 19 */
-RESIDUAL(osborne_2)
-{
-    (void)user;
-    static const double y[65] = {1.366, 1.191, 1.112, 1.013, 0.991, 0.885, 0.831, 0.847, 0.786, 0.725, 0.746, 0.679, 0.608,
-                                 0.655, 0.616, 0.606, 0.602, 0.626, 0.651, 0.724, 0.649, 0.649, 0.694, 0.644, 0.624, 0.661,
-                                 0.612, 0.558, 0.533, 0.495, 0.500, 0.423, 0.395, 0.375, 0.372, 0.391, 0.396, 0.405, 0.428,
-                                 0.429, 0.523, 0.562, 0.607, 0.653, 0.672, 0.708, 0.633, 0.668, 0.645, 0.632, 0.591, 0.559,
-                                 0.597, 0.625, 0.739, 0.710, 0.729, 0.720, 0.636, 0.581, 0.428, 0.292, 0.162, 0.098, 0.054};
-    for (int i = 0; i < m; i++) {
-        double t = 0.1 * i, sum = 0;
-        for (int k = 0; k < 4; k++) {
-            double d = k ? t - x[7 + k] : 0, e = exp(k ? -d * d * x[4 + k] : -t * x[4]);
-            sum += x[k] * e;
-            if (r)
-                continue;
-            J(i, k) = -e;
-            J(i, 4 + k) = x[k] * e * (k ? d * d : t);
-            if (k)
-                J(i, 7 + k) = -2 * x[k] * e * d * x[4 + k];
-        }
-        if (r)
-            r[i] = y[i] - sum;
-    }
-    return r ? unusable(m, r) : unusable(m * n, jacobian);
-}
 
 const struct mgh_problem mgh_problems[] = {
-    {"Rosenbrock", 2, 2, rosenbrock, {-1.2, 1}, 0, 7},
-    {"Freudenstein-Roth", 2, 2, freudenstein_roth, {0.5, -2}, 48.9842, 7},
-    {"Jennrich-Sampson", 10, 2, jennrich_sampson, {0.3, 0.4}, 124.362, 1},
-    {"helical valley", 3, 3, helical_valley, {-1, 0, 0}, 0, 7},
-    {"Bard", 15, 3, bard, {1, 1, 1}, 8.21487e-3, 1},
-    {"Meyer", 16, 3, meyer, {0.02, 4000, 250}, 87.9458, 1},
-    {"Box 3D", 10, 3, box, {0, 10, 20}, 0, 1},
-    {"Powell singular", 4, 4, powell_singular, {3, -1, 0, 1}, 0, 7},
-    {"Kowalik-Osborne", 11, 4, kowalik_osborne, {0.25, 0.39, 0.415, 0.39}, 3.07505e-4, 7},
-    {"Brown-Dennis", 20, 4, brown_dennis, {25, 5, -5, -1}, 85822.2, 7},
-    {"Osborne 1", 33, 5, osborne_1, {0.5, 1.5, -1, 0.01, 0.02}, 5.46489e-5, 7},
-    {"Osborne 2", 65, 11, osborne_2, {1.3, 0.65, 0.65, 0.7, 0.6, 3, 5, 7, 2, 4.5, 5.5}, 4.01377e-2, 1},
+    {"Rosenbrock", 2, 2, mgh_rosenbrock, {-1.2, 1}, 2, {0}, 1, {21, 8, 6}, {0}},
+    {"Freudenstein-Roth", 2, 2, mgh_freudenstein_roth, {0.5, -2}, 2, {48.9842, 0}, 2, {21, 24, 26}, {0}},
+    {"Powell badly", 2, 2, mgh_powell_badly_scaled, {0, 1}, 2, {0}, 1, {19, 0, 0}, {0, 1.01388e-08, 1}},
+    {"Brown badly", 3, 2, mgh_brown_badly_scaled, {1, 1}, 2, {0}, 1, {16, 17, 20}, {0}},
+    {"Beale", 3, 2, mgh_beale, {1, 1}, 2, {0}, 1, {10, 0, 0}, {0, 0.452009, 0.452009}},
+    {"Jennrich-Sampson", 10, 2, mgh_jennrich_sampson, {0.3, 0.4}, 2, {124.362}, 1, {28, 0, 0}, {0, 259.58, NAN}},
+    {"helical valley", 3, 3, mgh_helical_valley, {-1, 0, 0}, 3, {0}, 1, {12, 21, 19}, {0}},
+    {"Bard", 15, 3, mgh_bard, {1, 1, 1}, 3, {8.21487e-3, 17.4286}, 2, {7, 66, 43}, {0}},
+    {"Gaussian", 15, 3, mgh_gaussian, {0.4, 1, 0}, 3, {1.12793e-8}, 1, {4, 14, 73}, {0}},
+    {"Meyer", 16, 3, mgh_meyer, {0.02, 4000, 250}, 3, {87.9458}, 1, {129, 1826, 289}, {0}},
+    {"Gulf", 99, 3, mgh_gulf, {5, 2.5, 0.15}, 3, {0}, 1, {24, 2, 0}, {0, 0, 32.835}},
+    {"Box 3D", 10, 3, mgh_box, {0, 10, 20}, 3, {0}, 1, {8, 0, 0}, {0, 0.0755887, 0.0755887}},
+    {"Powell singular", 4, 4, mgh_powell_singular, {3, -1, 0, 1}, 4, {0}, 1, {58, 70, 65}, {0}},
+    {"Wood", 6, 4, mgh_wood, {-3, -1, -3, -1}, 4, {0}, 1, {70, 71, 82}, {0}},
+    {"Kowalik-Osborne",
+     11,
+     4,
+     mgh_kowalik_osborne,
+     {0.25, 0.39, 0.415, 0.39},
+     4,
+     {3.07505e-4, 1.02734e-3},
+     2,
+     {28, 107, 505},
+     {0}},
+    {"Brown-Dennis", 20, 4, mgh_brown_dennis, {25, 5, -5, -1}, 4, {85822.2}, 1, {351, 89, 414}, {0}},
+    {"Osborne 1", 33, 5, mgh_osborne_1, {0.5, 1.5, -1, 0.01, 0.02}, 5, {5.46489e-5}, 1, {19, 87, 595}, {0}},
+    {"Biggs EXP6", 13, 6, mgh_biggs, {1, 2, 1, 1, 1, 1}, 6, {0, 5.65565e-3}, 2, {40, 79, 0}, {0, 0, 0.306367}},
+    {"Osborne 2", 65, 11, mgh_osborne_2, OSBORNE_2, 11, {4.01377e-2}, 1, {19, 0, 0}, {0, 1.78981, 1.78981}},
+    {"Watson 6", 31, 6, mgh_watson, {0}, 1, {2.28767e-3}, 1, {10, 16, 18}, {0}},
+    {"Watson 9", 31, 9, mgh_watson, {0}, 1, {1.39976e-6}, 1, {9, 21, 21}, {0}},
+    {"Watson 12", 31, 12, mgh_watson, {0}, 1, {4.72238e-10}, 1, {13, 16, 37}, {0}},
+    {"Brown almost 10", 10, 10, mgh_brown_almost_linear, {0.5}, 1, {0, 1}, 2, {15, 14, 22}, {0}},
+    {"Brown almost 40", 40, 40, mgh_brown_almost_linear, {0.5}, 1, {0, 1}, 2, {19, 49, 0}, {0, 0, 4.28818e+23}},
+    {"linear full rank", 10, 5, mgh_linear_full_rank, {1}, 1, {5}, 1, {3, 3, 3}, {0}},
+    {"linear rank one", 10, 5, mgh_linear_rank_one, {1}, 1, {2.14286}, 1, {4, 7, 10}, {0}},
+    {"Chebyquad 7", 7, 7, mgh_chebyquad, {0}, 0, {0}, 1, {10, 0, 0}, {0, NAN, NAN}},
+    {"Chebyquad 8", 8, 8, mgh_chebyquad, {0}, 0, {3.51687e-3}, 1, {53, 0, 0}, {0, NAN, NAN}},
+    {"Chebyquad 9", 9, 9, mgh_chebyquad, {0}, 0, {0}, 1, {13, 0, 0}, {0, NAN, NAN}},
+    {"Chebyquad 10", 10, 10, mgh_chebyquad, {0}, 0, {6.50395e-3}, 1, {34, 0, 0}, {0, NAN, NAN}},
 };
 
 const int mgh_count = (int)(sizeof mgh_problems / sizeof *mgh_problems);
+
+const double mgh_factors[3] = {1, 10, 100};
+
+void mgh_start(const struct mgh_problem *problem, double factor, double *x)
+{
+    int zero = 1;
+    for (int j = 0; j < problem->n; j++) {
+        x[j] = factor * (problem->given ? problem->start[problem->given == 1 ? 0 : j] : (j + 1.0) / (problem->n + 1));
+        zero &= x[j] == 0;
+    }
+    for (int j = 0; zero && factor > 1 && j < problem->n; j++)
+        x[j] = factor;
+}
+
+int mgh_reached(const struct mgh_problem *problem, double sum_of_squares)
+{
+    double x[MGH_MOST_PARAMETERS], r[MGH_MOST_RESIDUALS], at_start = 0;
+    mgh_start(problem, 1, x);
+    (void)problem->residual(NULL, problem->m, problem->n, x, r, NULL);
+    for (int i = 0; i < problem->m; i++)
+        at_start += r[i] * r[i];
+    for (int k = 0; k < problem->nminimum; k++) {
+        double known = problem->minimum[k];
+        if (known > 0 ? fabs(sum_of_squares / known - 1) < 1e-5 : sum_of_squares < 1e-22 * at_start)
+            return k;
+    }
+    return -1;
+}

@@ -79,8 +79,8 @@ static void an_override_is_card_option_value(void **state)
     struct override override;
     pool_open(&pool, NULL);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        assert_int_equal(override_parse(&pool, wrong[i], &override), 1);
-    assert_int_equal(override_parse(&pool, "MEASURED.FILE=a.b=c.uff", &override), 0);
+        assert_int_equal(override_parse(&pool, wrong[i], &override), ROTID_ERROR_SYNTAX);
+    assert_int_equal(override_parse(&pool, "MEASURED.FILE=a.b=c.uff", &override), ROTID_OK);
     assert_true(!strcmp(override.card, "MEASURED") && !strcmp(override.option, "FILE"));
     assert_string_equal(override.value, "a.b=c.uff");
     pool_close(&pool);

@@ -218,7 +218,7 @@ static double complex drifted(const struct hammer_test *test, double hz, const v
 
 static void drift(void **state)
 {
-    enum { seeds = 400 };
+    enum { draws = 400 };
     struct bench_state s;
     struct hammer_impact drawn, other;
     double sum = 0, square = 0;
@@ -227,13 +227,13 @@ static void drift(void **state)
     s.bench.options.drift = 2e-3;
     s.bench.options.seconds = 0.5;
     open_state(&s);
-    for (uint64_t seed = 0; seed < seeds; seed++) {
+    for (uint64_t seed = 0; seed < draws; seed++) {
         hammer_record(&s.test, seed, 30, 0, s.force, s.response, &drawn);
         sum += drawn.drift - 1;
         square += pow(drawn.drift - 1, 2);
     }
-    assert_close(sqrt(square / seeds), 2e-3, 0.1, 0);
-    assert_close(sum / seeds, 0, 0, 3 * 2e-3 / sqrt(seeds));
+    assert_close(sqrt(square / draws), 2e-3, 0.1, 0);
+    assert_close(sum / draws, 0, 0, 3 * 2e-3 / sqrt(draws));
     hammer_record(&s.test, 1, 30, 1, s.force, s.response, &other);
     hammer_record(&s.test, 1, 30, 0, s.force, s.response, &drawn);
     assert_close(drawn.drift, other.drift, 0, 0); /* of the point, not of the impact */

@@ -316,44 +316,80 @@ static void symmetric_systems_are_solved_at_any_leading_size(void **state)
     symmetric_solve(&s, 0, NULL);
 }
 
+static double scaled_length(int n, const double *scale, const double *h)
+{
+    double sum = 0;
+    for (int j = 0; j < n; j++)
+        sum += scale[j] * h[j] * scale[j] * h[j];
+    return sqrt(sum);
+}
+
+/* With all the room it wants, and then with less: mu has grown, and the length is what was allowed. */
 static void the_damped_step_solves_the_normal_equations(void **state)
 {
     const int sizes[][2] = {{1, 1}, {6, 2}, {400, 8}, {3, 7}, {20, 20}};
-    const double dampings[] = {1e-6, 1e-2, 1, 1e4};
+    const double dampings[] = {1e-6, 1e-2, 1, 1e4}, parts[] = {2, 0.9, 0.1, 1e-6};
     struct random_stream stream = {10};
     for (int s = 0; s < 5; s++)
         for (int d = 0; d < 4; d++) {
             int m = sizes[s][0], n = sizes[s][1];
             const double *jacobian = random_numbers(*state, &stream, (ptrdiff_t)m * n), *r = random_numbers(*state, &stream, m);
-            double *scale = numbers(*state, n), *h = numbers(*state, n);
+            double *scale = numbers(*state, n), *floor = numbers(*state, n), *h = numbers(*state, n), free_length = INFINITY;
             double *work = numbers(*state, (ptrdiff_t)least_squares_workspace(m, n));
-            for (int j = 0; j < n; j++)
-                scale[j] = 0.1 + random_uniform(&stream);
-            assert_int_equal(least_squares_damped_step(m, n, jacobian, r, dampings[d], scale, h, work), 0);
-            double *normal = dense_transposed_product(*state, n, m, n, jacobian, jacobian);
-            double *right = dense_transposed_product(*state, n, m, 1, jacobian, r);
             for (int j = 0; j < n; j++) {
-                normal[j + j * n] += dampings[d] * scale[j] * scale[j];
-                right[j] = -right[j];
+                scale[j] = 0.1 + random_uniform(&stream);
+                floor[j] = 1e-3 * random_uniform(&stream);
             }
-            assert_close(solution_residual(*state, n, 1, normal, h, right), 0, 0, 1e-13);
+            for (int p = -1; p < 4; p++) {
+                double mu = dampings[d], length, radius = p < 0 ? INFINITY : parts[p] * free_length;
+                assert_int_equal(least_squares_damped_step(m, n, jacobian, r, scale, floor, radius, &mu, h, &length, work), 0);
+                double *normal = dense_transposed_product(*state, n, m, n, jacobian, jacobian);
+                double *right = dense_transposed_product(*state, n, m, 1, jacobian, r);
+                for (int j = 0; j < n; j++) {
+                    normal[j + j * n] += mu * scale[j] * scale[j] + floor[j] * floor[j];
+                    right[j] = -right[j];
+                }
+                /* rows of the damping that are larger than those above them cost digits */
+                assert_close(solution_residual(*state, n, 1, normal, h, right), 0, 0, 1e-13 * (1 + sqrt(mu)));
+                assert_close(length, scaled_length(n, scale, h), 1e-14, 0);
+                if (p < 0)
+                    free_length = length;
+                if (p <= 0) {
+                    assert_true(mu == dampings[d]);
+                    continue;
+                }
+                assert_true(length <= 1.1 * radius && (mu > dampings[d] || length == free_length));
+                assert_true(length > 0.999 * radius); /* from above: Newton's iteration does not overshoot */
+            }
         }
+}
+
+/* Two equal columns: without damping the step is as long as rounding makes it. */
+static void a_step_without_bound_is_shortened_to_the_radius(void **state)
+{
+    const double jacobian[6] = {1, 2, 3, 1, 2, 3}, r[3] = {1, -2, 0.5}, scale[2] = {1, 1}, floor[2] = {1e-14, 3e-14};
+    double *work = numbers(*state, (ptrdiff_t)least_squares_workspace(3, 2)), h[2], length;
+    for (double radius = 1e-8; radius < 1e3; radius *= 10) {
+        double mu = 1e-100;
+        assert_int_equal(least_squares_damped_step(3, 2, jacobian, r, scale, floor, radius, &mu, h, &length, work), 0);
+        assert_true(length <= 1.1 * radius);
+    }
 }
 
 static void a_step_that_is_not_finite_is_refused(void **state)
 {
-    double jacobian[6] = {1, 2, 3, 4, 5, 7}, r[3] = {1, 1, 1}, scale[2] = {1, 1}, h[2];
+    double jacobian[6] = {1, 2, 3, 4, 5, 7}, r[3] = {1, 1, 1}, scale[2] = {1, 1}, h[2], length, mu = 1;
+    const double zero[6] = {0};
     double *work = numbers(*state, (ptrdiff_t)least_squares_workspace(3, 2));
     r[1] = NAN;
-    assert_int_equal(least_squares_damped_step(3, 2, jacobian, r, 1, scale, h, work), 1);
+    assert_int_equal(least_squares_damped_step(3, 2, jacobian, r, scale, zero, 1, &mu, h, &length, work), 1);
     r[1] = 1;
     jacobian[4] = INFINITY;
-    assert_int_equal(least_squares_damped_step(3, 2, jacobian, r, 1, scale, h, work), 1);
+    assert_int_equal(least_squares_damped_step(3, 2, jacobian, r, scale, zero, 1, &mu, h, &length, work), 1);
     jacobian[4] = 5;
-    assert_int_equal(least_squares_damped_step(3, 2, jacobian, r, 1, scale, h, work), 0);
-    const double zero[6] = {0};
+    assert_int_equal(least_squares_damped_step(3, 2, jacobian, r, scale, zero, 1, &mu, h, &length, work), 0);
     scale[1] = 0; /* nothing holds h[1] */
-    assert_int_equal(least_squares_damped_step(3, 2, zero, r, 1, scale, h, work), 1);
+    assert_int_equal(least_squares_damped_step(3, 2, zero, r, scale, zero, 1, &mu, h, &length, work), 1);
 }
 
 static void singular_values_are_roots_of_the_normal_matrix(void **state)
@@ -397,6 +433,7 @@ int main(void)
         WITH_POOL(negative_eigenvalues_are_counted_in_every_gap),
         WITH_POOL(symmetric_systems_are_solved_at_any_leading_size),
         WITH_POOL(the_damped_step_solves_the_normal_equations),
+        WITH_POOL(a_step_without_bound_is_shortened_to_the_radius),
         WITH_POOL(a_step_that_is_not_finite_is_refused),
         WITH_POOL(singular_values_are_roots_of_the_normal_matrix),
     };

@@ -188,7 +188,7 @@ static void one_fault(void **state)
 {
     int all = 0, found = 0;
     (void)state;
-    for (int trouble = 0; trouble < TROUBLES; trouble++) {
+    for (enum trouble trouble = 0; trouble < TROUBLES; trouble++) {
         int visible = 0, right = 0, extra = 0;
         for (unsigned seed = 0; seed < 25; seed++) {
             enum hidden hidden = seed % 5;

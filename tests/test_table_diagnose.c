@@ -128,7 +128,7 @@ static void fill_fit(struct fit_store *f, int n, double e, double g, double erro
                                 .residual = f->residual};
     f->result = (struct identification){
         .fit = &f->fit,
-        .compared = {MODES, f->number, f->basis, f->mac, f->nco},
+        .compared = {.nmode = MODES, .number = f->number, .basis = f->basis, .mac = f->mac, .nco = f->nco},
         .spectrum = {.count = MODES, .reduction_error_percent = f->reduction, .mesh_error_percent = f->mesh},
         .mass = {.mass = 998, .center = 1.06}};
 }

@@ -1,5 +1,7 @@
 #include "base/parallel.h"
 
+#include <fenv.h>
+#include <locale.h>
 #include <pthread.h>
 #include <stdatomic.h>
 
@@ -8,6 +10,8 @@ struct shared {
     int count;
     int (*task)(void *context, int index, int worker);
     void *context;
+    fenv_t floating; /* of the caller, and its locale: a new thread has those of the process */
+    locale_t locale;
 };
 
 struct worker {
@@ -31,19 +35,29 @@ static void *work(void *argument)
     return NULL;
 }
 
+static void *work_as_caller(void *argument)
+{
+    const struct worker *worker = argument;
+    (void)fesetenv(&worker->shared->floating);
+    (void)uselocale(worker->shared->locale);
+    return work(argument);
+}
+
 int parallel_for(int threads, int count, int (*task)(void *context, int index, int worker), void *context)
 {
     pthread_t thread[PARALLEL_MOST];
     struct worker worker[PARALLEL_MOST];
     struct shared shared = {.count = count, .task = task, .context = context};
     atomic_init(&shared.next, 0);
+    (void)fegetenv(&shared.floating);
+    shared.locale = uselocale((locale_t)0);
     threads = threads < count ? threads : count;
     threads = threads < PARALLEL_MOST ? threads : PARALLEL_MOST;
     int running = 1, lowest = 0;
     worker[0] = (struct worker){.shared = &shared};
     for (; running < threads; running++) {
         worker[running] = (struct worker){.shared = &shared, .number = running};
-        if (pthread_create(&thread[running], NULL, work, &worker[running]))
+        if (pthread_create(&thread[running], NULL, work_as_caller, &worker[running]))
             break;
     }
     (void)work(&worker[0]);

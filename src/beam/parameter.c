@@ -2,9 +2,11 @@
 
 #include "beam/beam.h"
 
+enum owner { OF_GROUP, OF_TIEROD, OF_SPRING, OF_DISK };
+
 static const struct {
     enum parameter_kind kind;
-    enum { OF_GROUP, OF_TIEROD, OF_SPRING, OF_DISK } owner;
+    enum owner owner;
     const char *suffix, *unit;
 } table[] = {
     {PARAMETER_E, OF_GROUP, "E", "Pa"},           {PARAMETER_G, OF_GROUP, "G", "Pa"},
@@ -14,7 +16,7 @@ static const struct {
     {PARAMETER_DISK_MASS, OF_DISK, "mass", "kg"}, {PARAMETER_DISK_INERTIA, OF_DISK, "inertia", "kg.m2"},
 };
 
-static int count_of(const struct rotor *rotor, int owner)
+static int count_of(const struct rotor *rotor, enum owner owner)
 {
     return owner == OF_GROUP    ? rotor->ngroup
            : owner == OF_TIEROD ? rotor->ntierod
@@ -22,7 +24,7 @@ static int count_of(const struct rotor *rotor, int owner)
                                 : rotor->ndisk;
 }
 
-static const char *name_of(const struct rotor *rotor, int owner, int index)
+static const char *name_of(const struct rotor *rotor, enum owner owner, int index)
 {
     return owner == OF_GROUP    ? rotor->group[index].name
            : owner == OF_TIEROD ? rotor->tierod[index].name

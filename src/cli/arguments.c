@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 
 #include "cli/arguments_ema.h"
+#include "cli/arguments_study.h"
+#include "export/files.h"
 
 static void print_help(FILE *out)
 {
@@ -24,12 +26,18 @@ static void print_help(FILE *out)
         "  --extended FILE          diagnose: a deck with the cause that was named\n"
         "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
         "  -o, --output FILE        ema: the modes, for *MEASURED; uff: the file anew, its functions in the other format\n"
-        "                           frf: the synthesised functions; report: the folder of the page\n"
+        "                           frf: the synthesised functions; export: the model, of matrix-market the beginning of the "
+        "names\n"
+        "                           report: the folder of the page\n"
         "  --format ascii|binary    uff: or in this one\n"
-        "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema (one a processor); seed of random numbers (1)\n"
+        "  --format matrix-market|dmig|ross   export: for SciPy and others, for Nastran, for ROSS\n"
+        "  --start, --condensed     export: the model as the deck states it; dmig: the model condensed onto the sensors\n"
+        "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema, processes of study (one a processor); seed of "
+        "random numbers (1)\n"
         "  --version, --help\n\n",
         out);
     (void)fputs(ema_options_help, out);
+    (void)fputs(study_options_help, out);
     (void)fputs(
         "\n"
         "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"
@@ -61,6 +69,8 @@ enum {
     OPTION_REPLICATES,
     OPTION_OUTPUT,
     OPTION_FORMAT,
+    OPTION_START,
+    OPTION_CONDENSED,
     OPTION_VERSION,
     OPTION_HELP
 };
@@ -118,6 +128,7 @@ static int take_option(struct command *command, int option, const char *value)
         if (arguments_number("--seed", value, 0, 4294967295.0, 1, &n))
             return EXIT_USAGE;
         command->seed = (unsigned long)n;
+        command->seed_given = 1;
         return -1;
     case OPTION_EXTENDED:
         command->extended = value;
@@ -134,6 +145,12 @@ static int take_option(struct command *command, int option, const char *value)
     case OPTION_FORMAT:
         command->format = value;
         return -1;
+    case OPTION_START:
+        command->start = 1;
+        return -1;
+    case OPTION_CONDENSED:
+        command->condensed = 1;
+        return -1;
     case OPTION_VERSION:
         (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
         return EXIT_DONE;
@@ -144,7 +161,7 @@ static int take_option(struct command *command, int option, const char *value)
         (void)fprintf(stderr, "rotid --help lists the options\n");
         return EXIT_USAGE;
     default:
-        return arguments_ema(command, option, value);
+        return option >= STUDY_OPTION_SHARD ? arguments_study(command, option, value) : arguments_ema(command, option, value);
     }
 }
 
@@ -165,7 +182,10 @@ int arguments_parse(struct command *command, int argc, char **argv)
                                             {"replicates", required_argument, NULL, OPTION_REPLICATES},
                                             {"output", required_argument, NULL, OPTION_OUTPUT},
                                             {"format", required_argument, NULL, OPTION_FORMAT},
+                                            {"start", no_argument, NULL, OPTION_START},
+                                            {"condensed", no_argument, NULL, OPTION_CONDENSED},
                                             EMA_LONG_OPTIONS,
+                                            STUDY_LONG_OPTIONS,
                                             {"version", no_argument, NULL, OPTION_VERSION},
                                             {"help", no_argument, NULL, OPTION_HELP},
                                             {NULL, 0, NULL, 0}};
@@ -185,18 +205,13 @@ int arguments_parse(struct command *command, int argc, char **argv)
     command->name = argv[optind++];
     if (optind >= argc)
         return arguments_wrong("%s: no file given, expected rotid COMMAND FILE", command->name);
+    command->file = &argv[optind];
     command->nfile = argc - optind;
-    command->file = POOL_ARRAY(&command->pool, const char *, command->nfile);
-    if (!command->file)
-        return command_fail(command, ROTID_ERROR_MEMORY);
-    for (int i = 0; i < command->nfile; i++)
-        command->file[i] = argv[optind + i];
     command->deck = command->file[0];
     return -1;
 }
 
-/* Two names of one file, which may not exist yet. */
-static int same_file(const char *a, const char *b)
+int arguments_same_file(const char *a, const char *b)
 {
     struct stat first, second;
     int exists = stat(a, &first) == 0;
@@ -212,48 +227,74 @@ static int same_file(const char *a, const char *b)
            stat(folder[1], &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
 }
 
+/* -1, or the exit code after saying what is wrong with the options of export. */
+static int refuse_export(const struct command *command)
+{
+    enum export_format format;
+    int exports = !strcmp(command->name, "export");
+    if (!exports && (command->start || command->condensed))
+        return arguments_wrong("%s is an option of export alone", command->start ? "--start" : "--condensed");
+    if (!exports)
+        return -1;
+    if (!command->format)
+        return arguments_wrong("%s: expected --format matrix-market, dmig or ross", command->name);
+    if (export_format_find(command->format, &format))
+        return arguments_wrong("--format %s: expected matrix-market, dmig or ross", command->format);
+    if (!command->output)
+        return arguments_wrong("%s: expected --output FILE as well", command->name);
+    if (command->condensed && format != EXPORT_DMIG)
+        return arguments_wrong("--condensed is an option of --format dmig, not of %s", command->format);
+    return -1;
+}
+
 /* -1, or the exit code after saying what is wrong with -o and --format. */
 static int refuse_output(const struct command *command, const struct command_entry *entry)
 {
-    int converts = !strcmp(command->name, "uff");
+    int converts = !strcmp(command->name, "uff"), exports = !strcmp(command->name, "export");
     if (command->output && !(entry->flags & TAKES_OUTPUT))
         return arguments_wrong("--output is no option of %s", command->name);
-    if (command->format && !converts)
+    if (command->format && !converts && !exports)
         return arguments_wrong("--format is no option of %s", command->name);
-    if (command->format && strcmp(command->format, "ascii") && strcmp(command->format, "binary"))
+    if (command->format && converts && strcmp(command->format, "ascii") && strcmp(command->format, "binary"))
         return arguments_wrong("--format %s: expected ascii or binary", command->format);
     if (!command->output)
         return command->format ? arguments_wrong("--format %s: expected --output as well", command->format) : -1;
     if (!strcmp(command->output, "-"))
         return arguments_wrong("--output %s: expected a file", command->output);
     for (int i = 0; i < command->nfile; i++)
-        if (same_file(command->file[i], command->output))
+        if (arguments_same_file(command->file[i], command->output))
             return arguments_wrong("--output %s is the file that is read, expected another one", command->output);
-    if (command->json && same_file(command->json, command->output))
+    if (command->json && arguments_same_file(command->json, command->output))
         return arguments_wrong("--output %s is the file of --json as well, expected another file", command->output);
     return -1;
 }
 
 int arguments_refuse(const struct command *command, const struct command_entry *entry)
 {
-    int diagnoses = !strcmp(command->name, "diagnose");
-    if (command->nfile > 1 && !(entry->flags & MANY_FILES))
-        return arguments_wrong("%s is one argument too many, expected one file", command->file[1]);
-    if (entry->flags & MANY_FILES && command->json)
+    int diagnoses = !strcmp(command->name, "diagnose"), refused = refuse_export(command);
+    if (refused >= 0)
+        return refused;
+    if (command->json && !strcmp(command->name, "report"))
         return arguments_wrong("--json is no option of %s", command->name);
     if (!diagnoses && (command->extended || command->replicates))
         return arguments_wrong("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
     if (command->ema.given && strcmp(command->name, "ema"))
         return arguments_wrong("--%s is an option of ema alone", command->ema.given);
-    if (command->json && strcmp(command->json, "-") && same_file(command->deck, command->json))
-        return arguments_wrong("--json %s is the file that is read, expected another one", command->json);
+    if (command->nfile > 1 && !(entry->flags & SEVERAL_FILES))
+        return arguments_wrong("%s is one argument too many, expected one file", command->file[1]);
+    refused = arguments_refuse_study(command);
+    if (refused >= 0)
+        return refused;
+    for (int i = 0; i < command->nfile && command->json && strcmp(command->json, "-"); i++)
+        if (arguments_same_file(command->file[i], command->json))
+            return arguments_wrong("--json %s is the file that is read, expected another one", command->json);
     if (!command->extended)
         return refuse_output(command, entry);
     if (!strcmp(command->extended, "-"))
         return arguments_wrong("--extended %s: expected a file", command->extended);
-    if (same_file(command->deck, command->extended))
+    if (arguments_same_file(command->deck, command->extended))
         return arguments_wrong("--extended %s is the deck itself, expected another file", command->extended);
-    if (command->json && same_file(command->json, command->extended))
+    if (command->json && arguments_same_file(command->json, command->extended))
         return arguments_wrong("--extended %s is the file of --json as well, expected another file", command->extended);
     return -1;
 }

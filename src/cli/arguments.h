@@ -10,7 +10,7 @@ enum command_flag {
     READS_DECK = 1,   /* the file it is given is a deck, which is read before it runs */
     PARALLEL = 2,     /* it runs several threads of its own, so the BLAS gets one */
     TAKES_OUTPUT = 4, /* -o */
-    MANY_FILES = 8    /* more than one file */
+    SEVERAL_FILES = 8
 };
 
 struct command_entry {
@@ -28,6 +28,9 @@ int arguments_parse(struct command *command, int argc, char **argv);
 
 /* -1, or the exit code after saying which file would be lost, or which option this command has no use for. */
 int arguments_refuse(const struct command *command, const struct command_entry *entry);
+
+/* Whether two names are of one file, which may not exist yet. */
+int arguments_same_file(const char *a, const char *b);
 
 /* A number of an option within its range; nonzero after saying what was expected. */
 int arguments_number(const char *option, const char *text, double least, double most, int whole, double *value);

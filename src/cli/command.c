@@ -31,6 +31,7 @@ int command_fail(struct command *command, int status)
         (void)fprintf(stderr, "rotid: %s: %s\n", command->deck, rotid_status_text(status));
     switch (status) { /* what the input causes, and what it does not */
     case ROTID_ERROR_SYNTAX:
+    case ROTID_ERROR_SECTION:
     case ROTID_ERROR_ARGUMENT:
     case ROTID_ERROR_IO:
     case ROTID_ERROR_UNPAIRED:

@@ -17,17 +17,26 @@ struct ema_arguments {
     const char *given; /* the first option of it that was given, or NULL */
 };
 
+/* Of `study`: which runs, or what else to do with their results. */
+struct study_arguments {
+    int shard, shards; /* 0: all runs */
+    int retry_failed, merge, summary;
+    double timeout;    /* s, 0: none */
+    const char *given; /* the first option of it that was given, or NULL */
+};
+
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
     const char *name, *deck, *json, *at, *extended, *output, *format;
-    int nfile; /* of report: the results, the deck above being the first */
-    const char **file;
-    int quiet, verbose, threads, baseline, points, replicates;
+    int nfile;
+    char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
+    int quiet, verbose, threads, baseline, points, replicates, seed_given, start, condensed;
     unsigned long seed;
     double step, range;
     int noverride;
     struct override *override;
     struct ema_arguments ema;
+    struct study_arguments study;
 
     struct pool pool;
     struct message_list messages;
@@ -71,6 +80,8 @@ int command_frf(struct command *command);
 int command_ema(struct command *command);
 int command_uff(struct command *command);
 int command_report(struct command *command);
+int command_export(struct command *command);
+int command_study(struct command *command);
 
 /* Of the build. */
 extern const char *const build_commit;

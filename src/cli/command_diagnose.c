@@ -1,7 +1,7 @@
 #include <stdio.h>
 
 #include "cli/command.h"
-#include "deck/deck_write.h"
+#include "deck/deck_extended.h"
 #include "diagnose/diagnose.h"
 #include "report/json_diagnose.h"
 #include "report/table.h"
@@ -9,50 +9,16 @@
 
 #define WIDTH 100 /* columns: fits a terminal beside an editor, and a page of a log */
 
-/* The job to write and the values of its parameters: the base model where nothing was named. */
-static const struct job *extended_job(const struct diagnosis *d, const double **x)
-{
-    const struct job *job = d->extended_job.deck ? &d->extended_job : &d->job;
-    const rotid_fit_result *fit = d->extended.fit ? d->extended.fit : d->base.fit;
-    *x = fit && fit->n == job->nparameter ? fit->x : NULL;
-    return job;
-}
-
-static char *extended_deck(struct command *command, const struct diagnosis *d, int *status)
-{
-    struct pool *pool = &command->pool;
-    int lines = 2 + d->nalternative;
-    const char **extra = POOL_ARRAY(pool, const char *, lines);
-    char *text = NULL;
-    *status = ROTID_ERROR_MEMORY;
-    if (!extra)
-        return NULL;
-    extra[0] =
-        pool_format(pool, "rotid %s from %s, verdict %s", command->provenance.version, command->deck, verdict_name(d->kind));
-    extra[1] = d->sentence;
-    for (int i = 0; i < d->nalternative; i++) {
-        const struct candidate *other = &d->alternative[i];
-        extra[2 + i] = pool_format(pool, "cannot be told apart: %s%s%s", other->cause->id,
-                                   other->target && *other->target ? " " : "", other->target ? other->target : "");
-    }
-    for (int i = 0; i < lines; i++)
-        if (!extra[i])
-            return NULL;
-    struct deck_write_options options = {.nextra = lines, .extra = extra};
-    *status = deck_write(pool, extended_job(d, &options.x), &options, &text);
-    return *status ? NULL : text;
-}
-
 static int write_extended(struct command *command, const struct diagnosis *d, int code)
 {
-    int status;
+    char *text = NULL;
     if (!command->extended)
         return code;
     if (!d->sentence) {
         (void)fprintf(stderr, "rotid: %s is not written: there is no verdict yet\n", command->extended);
         return code;
     }
-    char *text = extended_deck(command, d, &status);
+    int status = deck_write_extended(&command->pool, d, command->deck, &text);
     if (status) {
         (void)fprintf(stderr, "rotid: cannot write %s: no deck can say this model (%s)\n", command->extended,
                       rotid_status_text(status));

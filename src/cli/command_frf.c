@@ -1,5 +1,4 @@
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -27,22 +26,6 @@ static int read_measured(struct command *command, struct measurement *measuremen
     }
     *measured = (struct frf_measured){&measurement->set, request->file, measurement->node_count, node};
     return ROTID_OK;
-}
-
-/* The condensed model that was fitted has other frequencies than the full one that is synthesised. */
-static void note_reduction(struct command *command, const struct identification *identified)
-{
-    double worst = 0;
-    for (int k = 0; k < identified->compared.nmode; k++) {
-        double error = identified->spectrum.reduction_error_percent[identified->compared.number[k] - 1];
-        if (fabs(error) > fabs(worst))
-            worst = error;
-    }
-    if (command->job.fit.reduction != ROTID_REDUCTION_NONE && fabs(worst) > 0.5)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is "
-                    "synthesised here (rotid identify, column reduction)",
-                    reduction_name(command->job.fit.reduction), worst);
 }
 
 static int write_output(struct command *command, const struct frf_view *view, int code)
@@ -118,7 +101,7 @@ int command_frf(struct command *command)
         code = EXIT_DOUBTFUL;
     }
     if (fit)
-        note_reduction(command, &identified);
+        identify_warn_of_reduction(job, &identified, "synthesised", &command->messages);
     if (result.ndone < result.nrow || command_cancelled(NULL)) {
         (void)fprintf(stderr, "rotid: interrupted; %d of %d transfer functions were finished\n", result.ndone, result.nrow);
         code = EXIT_DOUBTFUL;

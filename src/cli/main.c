@@ -31,9 +31,13 @@ const struct command_entry command_table[] = {
      READS_DECK | TAKES_OUTPUT},
     {"ema", "time records or transfer functions (58, 58b) to modes; -o: as universal file for *MEASURED", command_ema,
      PARALLEL | TAKES_OUTPUT},
+    {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script; --format, -o",
+     command_export, READS_DECK | TAKES_OUTPUT},
     {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
     {"report", "results that were written with --json as a page with figures; -o: its folder", command_report,
-     TAKES_OUTPUT | MANY_FILES},
+     TAKES_OUTPUT | SEVERAL_FILES},
+    {"study", "many runs from one plan, or of many decks, resumable; -o: the results", command_study,
+     PARALLEL | TAKES_OUTPUT | SEVERAL_FILES},
     {NULL, NULL, NULL, 0},
 };
 
@@ -59,8 +63,10 @@ static int run(struct command *command)
         int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, uff or report",
-                           command->name);
+    return arguments_wrong(
+        "%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, export, uff, report "
+        "or study",
+        command->name);
 }
 
 int main(int argc, char **argv)

@@ -170,6 +170,7 @@ static void check_beam(struct deck_reader *reader)
     pool_open(&scratch, reader->pool->allocator);
     int status = beam_build(&scratch, &job->rotor, 0, NULL, 1, &beam, &failed);
     if (status == ROTID_ERROR_SECTION) {
+        reader->no_section = 1;
         int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
         struct place place = rod < 0    ? reader->group_place[failed]
                              : bars < 0 ? reader->tierod_place[rod]
@@ -242,8 +243,26 @@ static void read_cards(struct deck_reader *reader)
     check_beam(reader);
 }
 
+static int add_cards(struct pool *pool, struct deck_text *text, int ncard, const struct card *card)
+{
+    for (int i = 0; i < ncard; i++) {
+        struct card *grown = pool_grow(pool, text->card, (size_t)text->ncard, &text->card_room, sizeof *grown);
+        if (!grown)
+            return ROTID_ERROR_MEMORY;
+        text->card = grown;
+        text->card[text->ncard++] = card[i];
+    }
+    return ROTID_OK;
+}
+
 int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
               struct job *job)
+{
+    return deck_read_with(pool, path, noverride, override, 0, NULL, messages, job);
+}
+
+int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
+                   const struct card *card, struct message_list *messages, struct job *job)
 {
     struct deck_reader reader = {.pool = pool, .messages = messages, .job = job};
     *job = (struct job){.deck = pool_copy_text(pool, path), .frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
@@ -257,8 +276,12 @@ int deck_read(struct pool *pool, const char *path, int noverride, const struct o
     for (int i = 0; i < noverride; i++)
         if (deck_text_override(pool, &override[i], messages, &reader.text) == ROTID_ERROR_MEMORY)
             return ROTID_ERROR_MEMORY;
+    if (add_cards(pool, &reader.text, ncard, card))
+        return ROTID_ERROR_MEMORY;
     read_cards(&reader);
     if (reader.out_of_memory || messages->out_of_memory || !job->deck)
         return ROTID_ERROR_MEMORY;
-    return messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
+    if (messages->errors)
+        return reader.no_section ? ROTID_ERROR_SECTION : ROTID_ERROR_SYNTAX;
+    return ROTID_OK;
 }

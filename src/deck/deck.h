@@ -6,8 +6,13 @@
 #include "run/job.h"
 
 /* Reads a deck, applies the overrides, reads the measured data it names and checks everything. All errors of the deck are in the
- * list, each with file, line and column. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO or ROTID_ERROR_MEMORY. */
+ * list, each with file, line and column. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO, ROTID_ERROR_MEMORY, or
+ * ROTID_ERROR_SECTION where all that is wrong is a section that cannot be. */
 int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
               struct job *job);
+
+/* The same with cards [ncard] of somebody else behind those of the deck. They keep their own places, which errors name. */
+int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
+                   const struct card *card, struct message_list *messages, struct job *job);
 
 #endif

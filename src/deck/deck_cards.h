@@ -23,6 +23,7 @@ struct deck_reader {
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
     const char *tie; /* FIT, TIE=E:G */
     int *mean_kept;  /* [nmode] FREQUENCIES, MEAN=NO */
+    int no_section;  /* the one error is that of a section that cannot be */
     int out_of_memory;
 };
 

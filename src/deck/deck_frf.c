@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/host.h"
 #include "deck/deck_cards.h"
 
 #define MOST_LINES 1000000
@@ -11,14 +12,14 @@
 /* Absolute, since an extended deck may be written elsewhere; that it is there is known before anything is computed. */
 static const char *measured_file(struct deck_reader *reader, const struct card *card, const struct card_option *option)
 {
-    char folder[4096];
+    char folder[4096], why[HOST_ERROR_TEXT];
     const char *path = deck_path(reader, card, option);
     if (!*option->value) {
         deck_error(reader, option->place, "*FRF has an empty FILE, expected FILE=path of a universal file");
         return NULL;
     }
     if (path && access(path, R_OK)) {
-        deck_error(reader, option->value_place, "%s: %s, expected a universal file", path, strerror(errno));
+        deck_error(reader, option->value_place, "%s: %s, expected a universal file", path, host_error_text(errno, why));
         return NULL;
     }
     if (path && *path != '/' && getcwd(folder, sizeof folder))

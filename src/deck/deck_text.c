@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/host.h"
 #include "rotid.h"
 
 struct reader {
@@ -269,6 +270,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
 {
     struct stat information;
     FILE *stream = NULL;
+    char why[HOST_ERROR_TEXT];
     if (stat(path, &information) == 0) {
         errno = EISDIR;
         if (!S_ISDIR(information.st_mode))
@@ -276,7 +278,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     }
     if (!stream) {
         message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
-                    "cannot read %s: %s, expected a deck", path, strerror(errno));
+                    "cannot read %s: %s, expected a deck", path, host_error_text(errno, why));
         return ROTID_ERROR_IO;
     }
     if (S_ISREG(information.st_mode) && information.st_size > reader->bytes_left) {
@@ -318,7 +320,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     if (length)
         reader->text->end = (struct place){path, line, (int)length + 1};
     if (ferror(stream))
-        message_add(reader->messages, SEVERITY_ERROR, path, line, 1, "reading failed: %s", strerror(errno));
+        message_add(reader->messages, SEVERITY_ERROR, path, line, 1, "reading failed: %s", host_error_text(errno, why));
     (void)fclose(stream);
     reader->continues = 0;
     if (from.file)
@@ -340,11 +342,11 @@ int override_parse(struct pool *pool, const char *text, struct override *overrid
 {
     const char *dot = strchr(text, '.'), *equals = strchr(text, '=');
     if (!dot || !equals || dot > equals || dot == text || equals == dot + 1 || !equals[1])
-        return 1;
+        return ROTID_ERROR_SYNTAX;
     *override = (struct override){pool_format(pool, "%.*s", (int)(dot - text), text),
                                   pool_format(pool, "%.*s", (int)(equals - dot - 1), dot + 1), equals + 1,
                                   pool_format(pool, "--set %s", text)};
-    return !override->card || !override->option || !override->text;
+    return override->card && override->option && override->text ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text)

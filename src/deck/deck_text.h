@@ -50,7 +50,7 @@ struct deck_text {
     struct place end;
 };
 
-/* --set CARD.OPTION=VALUE */
+/* --set CARD.OPTION=VALUE; text: what stands for the file in messages */
 struct override {
     const char *card, *option, *value, *text;
 };
@@ -59,7 +59,8 @@ struct override {
  * ROTID_ERROR_MEMORY. */
 int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text);
 
-/* Splits "CARD.OPTION=VALUE"; 0, or 1 where it has another form or no memory. */
+/* Splits "CARD.OPTION=VALUE", parts of which are pointed to. ROTID_OK, ROTID_ERROR_SYNTAX where it has another form, or
+ * ROTID_ERROR_MEMORY. */
 int override_parse(struct pool *pool, const char *text, struct override *override);
 
 /* Replaces or adds the option on every card of that name; a card of which there can only be one is added if it is missing. */

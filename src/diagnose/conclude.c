@@ -165,6 +165,19 @@ static const char *verdict_sentence(struct engine *engine)
     }
 }
 
+/* A fit that was not ended is none of the results. */
+static int identify_whole(struct engine *engine, const struct job *job, struct identification *out)
+{
+    struct message_list quiet;
+    message_open(&quiet, engine->pool);
+    int status = identify_run(engine->pool, job, 0, engine->environment, &quiet, out);
+    if (status || out->fit->status != ROTID_STOP_CANCELLED)
+        return status;
+    rotid_fit_free(out->fit);
+    out->fit = NULL;
+    return ROTID_STOP_CANCELLED;
+}
+
 /* The base again on a mesh without error: its moduli and intervals are results. */
 static int refine_base(struct engine *engine)
 {
@@ -173,9 +186,7 @@ static int refine_base(struct engine *engine)
     if (status || out->job.rotor.segment == engine->job.rotor.segment)
         return status;
     struct identification finer;
-    struct message_list quiet;
-    message_open(&quiet, engine->pool);
-    status = identify_run(engine->pool, &out->job, 0, engine->environment, &quiet, &finer);
+    status = identify_whole(engine, &out->job, &finer);
     if (status)
         return status;
     if (engine->fit == out->base.fit)
@@ -216,11 +227,9 @@ int conclude(struct engine *engine, const struct round_result *last)
     if (!status && out->ncause) {
         out->extended_job = engine->job;
         out->extended_job.rotor.segment = out->job.rotor.segment;
-        struct message_list quiet;
-        message_open(&quiet, engine->pool);
         status = keep_open_suspects(engine->pool, &out->extended_job);
         if (!status)
-            status = identify_run(engine->pool, &out->extended_job, 0, engine->environment, &quiet, &out->extended);
+            status = identify_whole(engine, &out->extended_job, &out->extended);
         if (!status) {
             settle_causes(out);
             status = job_started_at(engine->pool, &out->extended_job, out->extended.fit->x, &out->extended_job);

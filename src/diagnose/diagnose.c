@@ -22,6 +22,8 @@ static int run_rounds(struct engine *engine, struct round_result *last)
         if (status)
             return status;
         out->nround++;
+        for (int i = 0; i < round->ncandidate; i++)
+            round->candidate[i].round = out->nround;
         if (out->nround == 1)
             status = localise(engine, &last->scan);
         if (status || round->kind != VERDICT_NAMED || out->ncause == DIAGNOSE_MOST_CAUSES)
@@ -44,7 +46,8 @@ static int run(struct engine *engine, const struct job *job, struct round_result
     if (!status && job->nparameter) { /* what the user does today; should that fail, there is still the judged model */
         int today = identify_run(engine->pool, job, 0, engine->environment, &quiet, &out->today);
         out->has_today = !today;
-        status = today == ROTID_ERROR_MEMORY ? today : ROTID_OK;
+        int ends = today == ROTID_ERROR_MEMORY || (!today && out->today.fit->status == ROTID_STOP_CANCELLED);
+        status = !ends ? ROTID_OK : today ? today : ROTID_STOP_CANCELLED;
     }
     engine_step(engine, "fit of today");
     if (!status)

@@ -43,6 +43,7 @@ struct candidate {
     struct effect effect; /* at the best values found; effect.name is that of the card it would get */
     const char *target;   /* "core", "core|right", name of a spring or tie rod, "" */
     int suspect;          /* the user asked for it */
+    int round;            /* in which it was one, from 1 */
     int nparameter;       /* of the effect, in use */
     int fixed[EFFECT_MOST_PARAMETERS];
     double std[EFFECT_MOST_PARAMETERS], ci_lower[EFFECT_MOST_PARAMETERS], ci_upper[EFFECT_MOST_PARAMETERS]; /* NaN: not stated */

@@ -66,6 +66,7 @@ static double objective(unsigned n, const double *scaled, double *gradient, void
     if (environment && environment->cancelled && environment->cancelled(environment->context)) {
         problem->cancelled = 1;
         (void)nlopt_force_stop(problem->optimiser);
+        return HUGE_VAL; /* no point of this run is looked at again */
     }
     problem->evaluations++;
     if (environment && environment->progress)
@@ -176,10 +177,10 @@ int baseline_run(struct pool *keep, struct functional *functional, const rotid_p
             continue;
         out[count].x = POOL_ARRAY(keep, double, n);
         status = out[count].x ? run_one(a, n, &problem, space + n, &out[count]) : ROTID_ERROR_MEMORY;
-        if (!status)
-            judge(n, &problem, &out[count++]);
         if (problem.cancelled)
             return ROTID_STOP_CANCELLED;
+        if (!status)
+            judge(n, &problem, &out[count++]);
     }
     return status;
 }

@@ -1,11 +1,19 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/host.h"
 #include "linalg/least_squares.h"
 #include "rotid.h"
 
-#define MU_MOST    1e16  /* beyond it a step is below rounding */
-#define MU_LEAST   1e-24 /* its root against D is far below any rounding of J, and yet keeps the QR regular */
+#define MU_MOST    1e16   /* beyond it a step is below rounding */
+#define MU_LEAST   1e-100 /* nothing at all: what is left is `floor` */
+#define FIRST      10     /* a first step changes x by no more than this many times itself (More 1978: 0.1 to 100) */
+#define LONGER     4      /* than the last step that was good, at most */
+#define SHORTER    0.1    /* than a step that failed, at least */
+#define HALF       0.5    /* and at most */
+#define FALL       3      /* mu falls by this factor behind a good step (Nielsen 1999), by twice as much behind the next one */
+#define NOISE      1e-12  /* rounding of J, 1e-16, over the part of x by which it may move what r does not determine */
+#define REGULAR    1e-28  /* keeps the QR regular where r is small */
 #define FLAT       1e-8 /* predicted decrease over objective below which the noise of a computed objective can hide the decrease */
 #define FLAT_TRIES 5    /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
 
@@ -16,13 +24,18 @@ struct lm {
     rotid_lm_options options;
     double *x, *r, *jacobian; /* the caller's: the best point */
     double *trial, *trial_r, *step, *gradient, *norm, *scale, *old, *work;
+    double *floor; /* of the damping: parts of the columns of J too small to tell from its rounding */
     rotid_lm_result *result;
-    double mu, nu, gain;
+    double mu;     /* relative to the present size of J */
+    double size;   /* that: the largest |J_j|/D_j, 1 unless every column has shrunk */
+    double fall;   /* factor of mu behind the next good step */
+    double radius; /* of |D h| */
+    double length, gain;
 };
 
 size_t rotid_lm_workspace(int m, int n)
 {
-    return 7 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
+    return 8 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
 }
 
 static double half_square(int m, const double *r)
@@ -33,12 +46,21 @@ static double half_square(int m, const double *r)
     return sum / 2;
 }
 
-static int all_finite(int n, const double *x)
+static int all_finite(ptrdiff_t n, const double *x)
 {
-    for (int i = 0; i < n; i++)
+    for (ptrdiff_t i = 0; i < n; i++)
         if (!isfinite(x[i]))
             return 0;
     return 1;
+}
+
+/* |D x| */
+static double scaled_length(const struct lm *lm)
+{
+    double sum = 0;
+    for (int j = 0; j < lm->n; j++)
+        sum += lm->scale[j] * lm->x[j] * lm->scale[j] * lm->x[j];
+    return sqrt(sum);
 }
 
 /* Jacobian at x, gradient J'r, scale D = largest column norms so far, cosine. */
@@ -47,10 +69,9 @@ static int linearise(struct lm *lm)
     lm->result->jacobians++;
     if (lm->residual(lm->user, lm->m, lm->n, lm->x, NULL, lm->jacobian))
         return ROTID_ERROR_CALLBACK;
-    if (!all_finite(lm->m * lm->n, lm->jacobian))
+    if (!all_finite((ptrdiff_t)lm->m * lm->n, lm->jacobian))
         return ROTID_ERROR_FINITE;
-    double length = sqrt(2 * lm->result->objective);
-    int usable = 0;
+    double length = sqrt(2 * lm->result->objective), size = 0;
     lm->result->cosine = 0;
     for (int j = 0; j < lm->n; j++) {
         const double *column = lm->jacobian + (ptrdiff_t)j * lm->m;
@@ -60,27 +81,31 @@ static int linearise(struct lm *lm)
             square += column[i] * column[i];
             lm->gradient[j] += column[i] * lm->r[i];
         }
-        usable += square > 0;
-        if (sqrt(square) > lm->norm[j])
-            lm->norm[j] = sqrt(square);
-        lm->scale[j] =
-            lm->norm[j] > 0 ? lm->norm[j] : 1; /* where a column has been zero so far any scale keeps the system regular */
         if (!isfinite(square))
             return ROTID_ERROR_FINITE;
-        if (length > 0 &&
-            square > 0) /* with the norm of the column here, not with D: where J has shrunk by 1e10 D would end the iteration */
-            lm->result->cosine = fmax(lm->result->cosine, fabs(lm->gradient[j]) / (sqrt(square) * length));
+        double norm = lm->floor[j] = sqrt(square);
+        lm->norm[j] = fmax(lm->norm[j], norm);
+        lm->scale[j] =
+            lm->norm[j] > 0 ? lm->norm[j] : 1; /* where a column has been zero so far any scale keeps the system regular */
+        size = fmax(size, norm / lm->scale[j]);
+        if (length > 0 && norm > 0) /* with the norm of the column here, not with D: where J has shrunk by 1e10 D would end the
+                                       iteration */
+            lm->result->cosine = fmax(lm->result->cosine, fabs(lm->gradient[j]) / (norm * length));
     }
-    return usable || length == 0 || lm->result->jacobians > 1 ? ROTID_OK
-                                                              : ROTID_ERROR_RANK; /* J = 0 later: the gradient has vanished */
+    lm->size = size > 0 ? size : 1;
+    double part = sqrt(fmax(REGULAR, length > 0 ? NOISE * length / fmax(length, scaled_length(lm)) : 0));
+    for (int j = 0; j < lm->n; j++)
+        lm->floor[j] *= part;
+    return size > 0 || length == 0 || lm->result->jacobians > 1 ? ROTID_OK
+                                                                : ROTID_ERROR_RANK; /* J = 0 later: the gradient has vanished */
 }
 
-/* h'(mu D^2 h - g)/2, the decrease that the linear model promises */
+/* h'(F^2 h - g)/2, F what damped the step: the decrease that the linear model promises */
 static double predicted_decrease(const struct lm *lm)
 {
-    double sum = 0;
+    double sum = 0, mu = lm->mu * lm->size * lm->size;
     for (int j = 0; j < lm->n; j++)
-        sum += lm->step[j] * (lm->mu * lm->scale[j] * lm->scale[j] * lm->step[j] - lm->gradient[j]);
+        sum += lm->step[j] * ((mu * lm->scale[j] * lm->scale[j] + lm->floor[j] * lm->floor[j]) * lm->step[j] - lm->gradient[j]);
     return sum / 2;
 }
 
@@ -106,8 +131,11 @@ static int negligible(const struct lm *lm)
  * has no residual. */
 static int try_step(struct lm *lm, double *predicted, int *refused)
 {
-    if (least_squares_damped_step(lm->m, lm->n, lm->jacobian, lm->r, lm->mu, lm->scale, lm->step, lm->work))
+    double square = lm->size * lm->size, mu = lm->mu * square;
+    if (least_squares_damped_step(lm->m, lm->n, lm->jacobian, lm->r, lm->scale, lm->floor, lm->radius, &mu, lm->step, &lm->length,
+                                  lm->work))
         return ROTID_ERROR_LIBRARY;
+    lm->mu = mu / square;
     *predicted = predicted_decrease(lm);
     if (negligible(lm))
         return ROTID_STOP_STEP;
@@ -129,7 +157,7 @@ static void accept(struct lm *lm)
 
 /* Near the minimum the decrease drowns in the rounding of r long before the gradient does (Hager and Zhang 2005 make the same
  * point for line searches): the step is then judged by the gradient. Returns 0 with the trial accepted and linearised,
- * STOP_OBJECTIVE with everything as it was, or an error. */
+ * STOP_OBJECTIVE with everything as it was (but for scales, those of a neighbour), or an error. */
 static int accept_by_gradient(struct lm *lm)
 {
     size_t m = (size_t)lm->m, n = (size_t)lm->n;
@@ -152,6 +180,31 @@ static int accept_by_gradient(struct lm *lm)
     return ROTID_STOP_OBJECTIVE;
 }
 
+/* Behind a step that was accepted: mu after Nielsen, and a radius. */
+static void relax(struct lm *lm)
+{
+    double t = 2 * lm->gain - 1, factor = 1 - t * t * t;
+    if (factor < 1.0 / FALL) { /* good steps in a row: as mu grew by ever larger factors, were it too small, it falls by such */
+        factor = 1 / lm->fall;
+        lm->fall *= 2;
+    } else {
+        lm->fall = FALL;
+    }
+    lm->mu = fmax(lm->mu * factor, MU_LEAST);
+    lm->radius = lm->gain < 0.25 ? HALF * lm->length : LONGER * lm->length;
+}
+
+/* Behind one that was not: f along it is a parabola through what is known, whose minimum is the next length (More 1978). */
+static void tighten(struct lm *lm, double actual, int refused)
+{
+    double slope = 0;
+    for (int j = 0; j < lm->n; j++)
+        slope += lm->gradient[j] * lm->step[j];
+    double part = refused ? SHORTER : actual < 0 ? HALF * slope / (slope + actual) : HALF;
+    lm->radius = fmax(SHORTER, fmin(HALF, part)) * lm->length;
+    lm->fall = FALL;
+}
+
 /* Steps of growing damping until one lowers the objective; the accepted point is linearised. */
 static int descend(struct lm *lm)
 {
@@ -164,24 +217,19 @@ static int descend(struct lm *lm)
         lm->gain = refused ? -1 : actual / predicted;
         double flat = FLAT * lm->result->objective;
         if (lm->gain > 0.25 || (lm->gain > 0 && predicted > flat)) {
-            double t = 2 * lm->gain - 1;
             accept(lm);
-            lm->mu = fmax(lm->mu * fmax(1.0 / 3, 1 - t * t * t), MU_LEAST);
-            lm->nu = 2;
+            relax(lm);
             return linearise(lm);
         }
         if (!refused && predicted < flat && fabs(actual) < flat) {
             double before = lm->result->cosine;
             status = accept_by_gradient(lm);
             if (status == ROTID_OK && lm->result->cosine < before / 3)
-                lm->mu = fmax(lm->mu / 3, MU_LEAST);
-            if (status == ROTID_OK)
-                lm->nu = 2;
+                lm->mu = fmax(lm->mu / FALL, MU_LEAST);
             if (status != ROTID_STOP_OBJECTIVE || ++flat_steps == FLAT_TRIES)
                 return status;
         }
-        lm->mu *= lm->nu;
-        lm->nu *= 2;
+        tighten(lm, actual, refused);
         if (lm->mu > MU_MOST)
             return ROTID_STOP_STALLED;
     }
@@ -212,6 +260,9 @@ static int minimise(struct lm *lm)
     if (!isfinite(lm->result->objective))
         return ROTID_ERROR_FINITE;
     int status = linearise(lm);
+    /* where x says how far away things are, a part of that; but x may happen to be near zero: then as far as would take all of r
+     */
+    lm->radius = fmax(FIRST * scaled_length(lm), sqrt(2 * lm->result->objective));
     while (!status) {
         if (report(lm))
             return ROTID_STOP_CANCELLED;
@@ -230,8 +281,8 @@ static double or_default(double value, double standard)
     return value > 0 ? value : standard;
 }
 
-int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
-             double *jacobian, double *work, rotid_lm_result *result)
+static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
+               double *jacobian, double *work, rotid_lm_result *result)
 {
     if (m < 1 || n < 1 || !residual || !x || !r || !jacobian || !work || !result || !all_finite(n, x))
         return ROTID_ERROR_ARGUMENT;
@@ -244,19 +295,30 @@ int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_o
     lm.options.gradient_tolerance = or_default(lm.options.gradient_tolerance, 1e-10);
     lm.options.step_tolerance = or_default(lm.options.step_tolerance, 1e-12);
     lm.options.objective_tolerance = or_default(lm.options.objective_tolerance, 1e-16);
-    lm.mu = or_default(lm.options.initial_damping, 1e-3);
-    lm.nu = 2;
+    lm.mu = or_default(lm.options.initial_damping, 1e-14);
+    lm.fall = FALL;
     lm.gain = NAN;
     lm.trial = work;
     lm.step = lm.trial + n;
     lm.gradient = lm.step + n;
     lm.norm = lm.gradient + n;
     lm.scale = lm.norm + n;
-    lm.trial_r = lm.scale + n;
+    lm.floor = lm.scale + n;
+    lm.trial_r = lm.floor + n;
     lm.old = lm.trial_r + m;
     lm.work = lm.old + 2 * (size_t)n + (size_t)m + (size_t)m * (size_t)n;
     memset(lm.norm, 0, (size_t)n * sizeof *lm.norm);
     result->status = minimise(&lm);
     result->mu = lm.mu;
     return result->status;
+}
+
+int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
+             double *jacobian, double *work, rotid_lm_result *result)
+{
+    struct host host;
+    host_enter_floating(&host);
+    int status = run(m, n, residual, user, options, x, r, jacobian, work, result);
+    host_leave_floating(&host);
+    return status;
 }

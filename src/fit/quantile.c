@@ -3,6 +3,16 @@
 #include <float.h>
 #include <math.h>
 
+/* lgamma leaves the sign in a global variable, which the threads of a host would share. In POSIX since 2024, and hidden by the
+ * headers of systems older than that. */
+double lgamma_r(double x, int *sign);
+
+static double log_gamma(double x)
+{
+    int sign;
+    return lgamma_r(x, &sign);
+}
+
 /* Continued fraction of the incomplete beta function by the modified Lentz method (Press et al., Numerical Recipes, 6.4, for the
  * idea; Abramowitz and Stegun 26.5.8 for the coefficients). */
 static double beta_fraction(double a, double b, double x)
@@ -30,7 +40,7 @@ static double incomplete_beta(double a, double b, double x)
 {
     if (x <= 0 || x >= 1)
         return x >= 1;
-    double front = exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x) + b * log1p(-x));
+    double front = exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * log(x) + b * log1p(-x));
     return x < (a + 1) / (a + b + 2) ? front * beta_fraction(a, b, x) / a : 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
@@ -64,7 +74,7 @@ double chi_square_tail(double x, int dof)
         return 1;
     if (isinf(y))
         return 0;
-    double front = exp(a * log(y) - y - lgamma(a));
+    double front = exp(a * log(y) - y - log_gamma(a));
     if (y < a + 1) {
         double sum = 1 / a, term = sum;
         for (int k = 1; k < 10000 && term > sum * DBL_EPSILON; k++)

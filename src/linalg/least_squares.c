@@ -5,7 +5,9 @@
 #include <string.h>
 
 /* dgels: min(m, n) + max(1, m, n) * block; the workspace is stated, not asked for, so that callers can size theirs ahead */
-#define BLOCK 16
+#define BLOCK  16
+#define LONGER 1.1 /* than the radius: as near as it matters */
+#define TURNS  100 /* of Newton's iteration, which needs about five: it is monotonous, and quadratic near its end */
 
 size_t least_squares_workspace(int m, int n)
 {
@@ -13,8 +15,9 @@ size_t least_squares_workspace(int m, int n)
     return rows * (size_t)n + rows + (size_t)n + rows * BLOCK;
 }
 
-int least_squares_damped_step(int m, int n, const double *jacobian, const double *r, double mu, const double *scale, double *h,
-                              double *work)
+/* For one mu. R is left in the upper triangle of work, leading dimension m + n. */
+static int solve_damped(int m, int n, const double *jacobian, const double *r, const double *scale, const double *floor,
+                        double mu, double *h, double *work)
 {
     int rows = m + n;
     double *stack = work, *right = stack + (ptrdiff_t)rows * n, *lapack = right + rows, root = sqrt(mu);
@@ -22,7 +25,7 @@ int least_squares_damped_step(int m, int n, const double *jacobian, const double
         double *column = stack + (ptrdiff_t)j * rows;
         memcpy(column, jacobian + (ptrdiff_t)j * m, (size_t)m * sizeof(double));
         memset(column + m, 0, (size_t)n * sizeof(double));
-        column[m + j] = root * scale[j];
+        column[m + j] = hypot(root * scale[j], floor[j]);
     }
     for (int i = 0; i < m; i++)
         right[i] = -r[i];
@@ -35,6 +38,44 @@ int least_squares_damped_step(int m, int n, const double *jacobian, const double
         if (!isfinite(h[j]))
             return 1;
     return 0;
+}
+
+static double scaled_length(int n, const double *scale, const double *h)
+{
+    double sum = 0;
+    for (int j = 0; j < n; j++)
+        sum += scale[j] * h[j] * scale[j] * h[j];
+    return sqrt(sum);
+}
+
+/* (D^2 h)' (R'R)^-1 (D^2 h) = -|D h| d|D h|/dmu, with R of the last solution */
+static double length_slope(int m, int n, const double *scale, const double *h, double *work)
+{
+    int rows = m + n;
+    double *q = work + (ptrdiff_t)rows * n, sum = 0;
+    for (int j = 0; j < n; j++)
+        q[j] = scale[j] * scale[j] * h[j];
+    if (LAPACKE_dtrtrs_work(LAPACK_COL_MAJOR, 'U', 'T', 'N', n, 1, work, rows, q, n))
+        return 0;
+    for (int j = 0; j < n; j++)
+        sum += q[j] * q[j];
+    return sum;
+}
+
+int least_squares_damped_step(int m, int n, const double *jacobian, const double *r, const double *scale, const double *floor,
+                              double radius, double *mu, double *h, double *length, double *work)
+{
+    for (int turn = 0;; turn++) {
+        if (solve_damped(m, n, jacobian, r, scale, floor, *mu, h, work))
+            return 1;
+        *length = scaled_length(n, scale, h);
+        if (!(*length > LONGER * radius))
+            return 0;
+        double raise = *length * *length / length_slope(m, n, scale, h, work) * (*length - radius) / radius;
+        if (turn == TURNS)
+            return 1;
+        *mu += raise > 0 && isfinite(raise) ? raise : 99 * *mu; /* where the slope is lost below or above all numbers */
+    }
 }
 
 size_t singular_values_workspace(int m, int n)

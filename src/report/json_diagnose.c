@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "report/diagnosis_items.h"
+#include "diagnose/items.h"
 #include "report/json_geometry.h"
 #include "report/json_identify.h"
 

@@ -154,6 +154,20 @@ char *json_close(struct json_tree *tree)
     return text;
 }
 
+char *json_close_line(struct json_tree *tree)
+{
+    char *bare = tree->failed ? NULL : cJSON_PrintUnformatted(tree->root), *line = NULL;
+    size_t length = bare ? strlen(bare) : 0;
+    cJSON_Delete(tree->root);
+    tree->root = NULL;
+    if (bare && (line = cJSON_malloc(length + 2))) {
+        memcpy(line, bare, length);
+        memcpy(line + length, "\n", 2);
+    }
+    cJSON_free(bare);
+    return line;
+}
+
 void json_free(char *text)
 {
     cJSON_free(text);

@@ -18,6 +18,8 @@ void json_provenance(struct json_tree *tree, const struct provenance *provenance
 void json_begin(struct json_tree *tree, const struct provenance *provenance, const struct job *job);
 /* The text, to be freed with json_free, or NULL where memory was out. The tree is gone then. */
 char *json_close(struct json_tree *tree);
+/* The same without a blank, in one line that ends in a line feed. */
+char *json_close_line(struct json_tree *tree);
 
 /* Each adds to an object under `key`, to an array where `key` is NULL; nothing and a mark on the tree where `parent` is NULL. */
 cJSON *json_object(struct json_tree *tree, cJSON *parent, const char *key);

@@ -1,5 +1,6 @@
-#include "report/diagnosis_items.h"
 #include "report/json_diagnose.h"
+
+#include "diagnose/items.h"
 
 static void add_values(struct json_tree *tree, cJSON *object, const struct candidate *candidate)
 {
@@ -19,13 +20,10 @@ static void add_values(struct json_tree *tree, cJSON *object, const struct candi
 
 static void add_cause(struct json_tree *tree, cJSON *object, const struct candidate *candidate)
 {
-    int variant = candidate->effect.variant, words = (int)(sizeof candidate->cause->variant / sizeof *candidate->cause->variant);
-    const char *const *word = candidate->cause->variant;
     json_text(tree, object, "id", candidate->cause->id);
     json_text(tree, object, "target", candidate->target ? candidate->target : "");
     json_text(tree, object, "name", candidate->effect.name);
-    json_text(tree, object, "variant",
-              candidate->cause->variant_option && variant >= 0 && variant < words ? word[variant] : NULL);
+    json_text(tree, object, "variant", candidate_variant(candidate));
     add_values(tree, object, candidate);
 }
 

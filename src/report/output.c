@@ -51,25 +51,8 @@ int output_open(struct output *output, const char *path)
     return ROTID_ERROR_IO;
 }
 
-/* The file that is there now takes its final name, unless something failed. */
-static int take_name(struct output *output, int failed)
-{
-    int reason = errno;
-    mode_t mask = umask(0); /* mkstemp makes private files; a result is as readable as any other file of the user */
-    (void)umask(mask);
-    (void)chmod(output->beside, 0666 & ~mask);
-    if (!failed && rename(output->beside, output->path) != 0) {
-        failed = 1;
-        reason = errno;
-    }
-    if (failed)
-        (void)unlink(output->beside);
-    free(output->beside);
-    errno = reason;
-    return failed;
-}
-
-int output_close(struct output *output)
+/* Everything is on the disk, under the name beside the final one; 1 with errno where something failed. */
+static int finish(struct output *output)
 {
     int failed = fflush(output->stream) != 0 || ferror(output->stream), reason = errno;
     if (!failed && output->beside && fsync(fileno(output->stream)) != 0) {
@@ -80,11 +63,113 @@ int output_close(struct output *output)
         failed = 1;
         reason = errno;
     }
+    output->stream = NULL;
     errno = reason;
-    if (output->beside)
-        failed = take_name(output, failed);
+    return failed;
+}
+
+/* The file that is there now takes its final name; 1 with errno where it cannot. */
+static int take_name(const struct output *output)
+{
+    mode_t mask = umask(0); /* mkstemp makes private files; a result is as readable as any other file of the user */
+    (void)umask(mask);
+    (void)chmod(output->beside, 0666 & ~mask);
+    return rename(output->beside, output->path) != 0;
+}
+
+/* Ends an output that has its final name, or removes what stands beside it; errno is kept. */
+static void forget(struct output *output, int remove)
+{
+    int reason = errno;
+    if (remove && output->beside)
+        (void)unlink(output->beside);
+    free(output->beside);
     *output = (struct output){0};
+    errno = reason;
+}
+
+int output_close(struct output *output)
+{
+    int failed = finish(output) || (output->beside && take_name(output));
+    forget(output, failed);
     return failed ? ROTID_ERROR_IO : ROTID_OK;
+}
+
+/* A second name of what is at the path now; NULL where there is nothing or where it cannot have one. *absent: there is nothing.
+ */
+static char *keep_old(const char *path, int *absent)
+{
+    struct stat existing;
+    *absent = lstat(path, &existing) != 0;
+    char *name = *absent ? NULL : malloc(strlen(path) + sizeof ".XXXXXX");
+    if (!name)
+        return NULL;
+    (void)strcpy(name, path);
+    (void)strcat(name, ".XXXXXX");
+    int descriptor = mkstemp(name);
+    if (descriptor >= 0) {
+        (void)close(descriptor);
+        (void)unlink(name); /* link() wants a name that is free */
+        if (link(path, name) == 0)
+            return name;
+    }
+    free(name);
+    return NULL;
+}
+
+struct old_file {
+    char *name;
+    int absent;
+};
+
+/* How many of the files took their names: all, or those before one that could not, with errno. */
+static int take_names(int count, const struct output *output, struct old_file *old)
+{
+    for (int i = 0; i < count; i++) {
+        if (!output[i].beside)
+            continue;
+        old[i].name = keep_old(output[i].path, &old[i].absent);
+        if (take_name(&output[i]))
+            return i;
+    }
+    return count;
+}
+
+static void put_back(int count, const struct output *output, const struct old_file *old)
+{
+    for (int i = 0; i < count; i++)
+        if (output[i].beside && old[i].name)
+            (void)rename(old[i].name, output[i].path);
+        else if (output[i].beside && old[i].absent)
+            (void)unlink(output[i].path);
+}
+
+int output_close_all(int count, struct output *output, int *failed)
+{
+    int done = 0, reason = 0;
+    struct old_file *old = calloc((size_t)count, sizeof *old);
+    *failed = -1;
+    for (int i = 0; i < count; i++)
+        if ((!old || finish(&output[i])) && *failed < 0) {
+            *failed = i;
+            reason = old ? errno : ENOMEM;
+        }
+    if (*failed < 0 && (done = take_names(count, output, old)) < count) {
+        *failed = done;
+        reason = errno;
+        put_back(done, output, old);
+    }
+    for (int i = 0; i < count; i++) {
+        if (!old)
+            (void)fclose(output[i].stream);
+        else if (old[i].name)
+            (void)unlink(old[i].name);
+        free(old ? old[i].name : NULL);
+        forget(&output[i], *failed >= 0);
+    }
+    free(old);
+    errno = reason;
+    return *failed < 0 ? ROTID_OK : ROTID_ERROR_IO;
 }
 
 void output_abandon(struct output *output)

@@ -18,6 +18,9 @@ struct output {
 int output_open(struct output *output, const char *path);
 /* Renames the file when all of it has arrived, else removes it: ROTID_OK or ROTID_ERROR_IO (errno). */
 int output_close(struct output *output);
+/* The same for several files, all of them or none: those that had taken their names when one could not are put back as they were
+ * (where the file system has hard links). *failed is the index of that one. */
+int output_close_all(int count, struct output *output, int *failed);
 /* Removes it. */
 void output_abandon(struct output *output);
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "report/diagnosis_items.h"
+#include "diagnose/items.h"
 #include "report/layout.h"
 
 static void print_heading(const struct diagnosis_view *view)

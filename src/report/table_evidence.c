@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "report/diagnosis_items.h"
+#include "diagnose/items.h"
 #include "report/layout.h"
 #include "report/table_diagnose.h"
 

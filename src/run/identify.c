@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "beam/effects.h"
 #include "modal/prediction.h"
 #include "run/client.h"
 
@@ -14,10 +15,13 @@ static int uses_shapes(const struct job *job)
     return job->shape && (job->fit.functional != ROTID_LIKELIHOOD || job_knows_shape_noise(job));
 }
 
-static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, struct spectrum *spectrum)
+/* bare: what pairing needs */
+static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int bare,
+                            struct spectrum *spectrum)
 {
     int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
-    return spectrum_compute(pool, &job->rotor, job->nparameter, job->parameter, x, reduction, count, spectrum);
+    int parts = !bare ? SPECTRUM_MESH | SPECTRUM_REDUCED : job->shape ? SPECTRUM_REDUCED : 0;
+    return spectrum_compute_parts(pool, &job->rotor, job->nparameter, job->parameter, x, reduction, count, parts, spectrum);
 }
 
 int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
@@ -41,9 +45,17 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
     if (!status && mass) { /* the beam stands at the last point that was evaluated; the mass wants the best one */
         for (int p = 0; p < job->nparameter; p++)
             *parameter_value(&client->beam.rotor, job->parameter[p]) = (*fit)->x[p];
+        effects_refresh(&client->beam);
         beam_mass_properties(&client->beam, mass);
     }
     return status;
+}
+
+/* Also while NLopt ran: the fit itself is complete then. */
+static int is_cancelled(const rotid_fit_result *fit, const rotid_environment *environment)
+{
+    return fit->status == ROTID_STOP_CANCELLED ||
+           (environment && environment->cancelled && environment->cancelled(environment->context));
 }
 
 /* What the model that was fitted predicts at the points of the baseline. */
@@ -69,8 +81,8 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
 }
 
-int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
-                 struct message_list *notes, struct identification *out)
+static int identify(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out)
 {
     *out = (struct identification){0};
     int status, candidates = comparison_candidates(job);
@@ -84,7 +96,7 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
     struct comparison before;
     struct message_list quiet; /* what the pairing at the start says is not worth repeating unless it ends the run */
     message_open(&quiet, pool);
-    status = compute_spectrum(pool, job, start, candidates, &out->spectrum);
+    status = compute_spectrum(pool, job, start, candidates, 1, &out->spectrum);
     if (!status)
         status = comparison_make(pool, job, &out->spectrum, &quiet, &before);
     if (status) {
@@ -100,11 +112,13 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
         out->fit = NULL;
         status = identify_fit(pool, job, before.number, job->holdout, &options, environment, &out->mass, &out->fit);
         if (!status)
-            status = compute_spectrum(pool, job, out->fit->x, candidates, &out->spectrum);
+            status = compute_spectrum(pool, job, out->fit->x, candidates, bare, &out->spectrum);
         message_open(&quiet, pool);
         if (!status)
             status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
-        if (status || round == ROUNDS || !memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number))
+        if (status || round == ROUNDS ||
+            !memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number) ||
+            is_cancelled(out->fit, environment))
             break;
         before = out->compared;
     }
@@ -123,6 +137,18 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
     out->shapes_fitted =
         uses_shapes(job) && !(job->fit.functional != ROTID_LIKELIHOOD && job->fit.reduction == ROTID_REDUCTION_NONE);
     return ROTID_OK;
+}
+
+int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
+                 struct message_list *notes, struct identification *out)
+{
+    return identify(pool, job, baseline, 0, environment, notes, out);
+}
+
+int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
+                      struct message_list *notes, struct identification *out)
+{
+    return identify(pool, job, baseline, 1, environment, notes, out);
 }
 
 void identify_warn_of_mesh(const struct job *job, const struct identification *result, struct message_list *notes)
@@ -144,4 +170,20 @@ void identify_warn_of_mesh(const struct job *job, const struct identification *r
                     "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "
                     "allow for it",
                     job->number[worst], s->mesh_error_percent[number[worst] - 1], largest);
+}
+
+void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
+                                struct message_list *notes)
+{
+    double worst = 0;
+    for (int k = 0; k < result->compared.nmode; k++) {
+        double error = result->spectrum.reduction_error_percent[result->compared.number[k] - 1];
+        if (fabs(error) > fabs(worst))
+            worst = error;
+    }
+    if (job->fit.reduction != ROTID_REDUCTION_NONE && fabs(worst) > 0.5)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is %s "
+                    "here (rotid identify, column reduction)",
+                    reduction_name(job->fit.reduction), worst, what);
 }

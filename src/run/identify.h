@@ -25,7 +25,16 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out);
 
+/* The same without what the numbers are worth, mesh_error_percent and, without shapes, the condensed model of the spectrum: for
+ * many runs of one deck. */
+int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
+                      struct message_list *notes, struct identification *out);
+
 /* Warns where the mesh moves a measured mode by more than the noise of its frequency: the intervals rest on the noise alone. */
 void identify_warn_of_mesh(const struct job *job, const struct identification *result, struct message_list *notes);
+
+/* Warns where the condensed model that was fitted has other frequencies than the full one, of which `what` is said: "written". */
+void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
+                                struct message_list *notes);
 
 #endif

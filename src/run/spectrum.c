@@ -62,14 +62,21 @@ static int condensed_model(struct pool *pool, struct client *client, const doubl
 }
 
 int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
-                     const double *x, int reduction, int count, struct spectrum *s)
+                     const double *x, int reduction, int count, struct spectrum *spectrum)
+{
+    return spectrum_compute_parts(pool, rotor, nparameter, parameter, x, reduction, count, SPECTRUM_MESH | SPECTRUM_REDUCED,
+                                  spectrum);
+}
+
+int spectrum_compute_parts(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
+                           const double *x, int reduction, int count, int parts, struct spectrum *s)
 {
     struct client *client = POOL_NEW(pool, struct client), *fine = POOL_NEW(pool, struct client);
     struct prediction p, q;
     if (!client || !fine)
         return ROTID_ERROR_MEMORY;
     int status = full_model(pool, rotor, nparameter, parameter, x, 1, &count, client, &p);
-    if (!status)
+    if (!status && parts & SPECTRUM_MESH)
         status = full_model(pool, rotor, nparameter, parameter, x, 2, &count, fine, &q);
     if (status)
         return status;
@@ -92,9 +99,10 @@ int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparamete
     keep_shapes(client, &p, s);
     for (int j = 0; j < count; j++)
         s->reduced_hz[j] = NAN;
-    status = condensed_model(pool, client, x, reduction, s);
+    status = parts & SPECTRUM_REDUCED ? condensed_model(pool, client, x, reduction, s) : ROTID_OK;
     for (int j = 0; j < count && !status; j++) {
-        double coarse = prediction_hz(&p, s->nrigid + j), finer = prediction_hz(&q, fine->model.nrigid + j),
+        double coarse = prediction_hz(&p, s->nrigid + j),
+               finer = parts & SPECTRUM_MESH ? prediction_hz(&q, fine->model.nrigid + j) : NAN,
                limit = finer + (finer - coarse) / 3;
         s->full_hz[j] = coarse;
         s->mesh_error_percent[j] = 100 * (coarse / limit - 1);

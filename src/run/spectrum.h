@@ -26,6 +26,14 @@ struct spectrum {
 int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
                      const double *x, int reduction, int count, struct spectrum *spectrum);
 
+/* The same with the parts that are wanted alone; the others are NaN or NULL. */
+enum spectrum_part {
+    SPECTRUM_MESH = 1,   /* mesh_error_percent: a second mesh, half of the time */
+    SPECTRUM_REDUCED = 2 /* reduced_hz, reduction_error_percent, mass */
+};
+int spectrum_compute_parts(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
+                           const double *x, int reduction, int count, int parts, struct spectrum *spectrum);
+
 /* NCO of a measured shape [nmaster] with mode j of the full model by the condensed mass; MAC where there is no such matrix.
  * work [nmaster]. */
 double spectrum_correlation(const struct spectrum *spectrum, const double *shape, int j, double *work);

@@ -6,17 +6,20 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/host.h"
+
 int uff_open_lines(struct uff_lines *lines)
 {
     struct stat about;
+    char why[HOST_ERROR_TEXT];
     errno = 0;
     lines->stream = fopen(lines->path, "rb");
     if (!lines->stream || fstat(fileno(lines->stream), &about) != 0) {
-        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be opened: %s", strerror(errno));
+        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be opened: %s", host_error_text(errno, why));
         return ROTID_ERROR_IO;
     }
     if (S_ISDIR(about.st_mode)) {
-        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be read: %s", strerror(EISDIR));
+        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be read: %s", host_error_text(EISDIR, why));
         return ROTID_ERROR_IO;
     }
     lines->size = S_ISREG(about.st_mode) ? (long long)about.st_size : -1;
@@ -60,7 +63,8 @@ const char *uff_excerpt(const char *text, size_t length, char buffer[UFF_EXCERPT
 
 static int fail_reading(struct uff_lines *lines)
 {
-    message_add(lines->messages, SEVERITY_ERROR, lines->path, lines->line, 1, "cannot be read: %s", strerror(errno));
+    char why[HOST_ERROR_TEXT];
+    message_add(lines->messages, SEVERITY_ERROR, lines->path, lines->line, 1, "cannot be read: %s", host_error_text(errno, why));
     return ROTID_ERROR_IO;
 }
 

@@ -112,7 +112,7 @@ def validate(checks, name, schema, text):
 def main():
     checks = Checks()
     schemas = {}
-    for command in (*COMMANDS, "frf", "ema"):
+    for command in (*COMMANDS, "frf", "ema", "export", "study", "study_line"):
         schema = json.loads((ROOT / "docs" / "schema" / f"{command}.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         schemas[command] = jsonschema.Draft202012Validator(schema)
@@ -129,7 +129,9 @@ def main():
 
     with temporary_folder() as folder:
         synthesise(checks, schemas["frf"], Path(folder))
+        export(checks, schemas["export"], Path(folder))
         extract(checks, schemas["ema"], Path(folder))
+        study(checks, schemas["study"], schemas["study_line"], Path(folder))
         for name, (text, options, codes) in SMALL.items():
             deck = Path(folder) / "deck.inp"
             deck.write_text(text)
@@ -221,6 +223,26 @@ def synthesise(checks, schema, folder):
     beside.unlink()
 
 
+def export(checks, schema, folder):
+    """rotid export in every format: fitted, as the deck states it, condensed, and with too few sensors for that."""
+    for kind, options in (("matrix-market", ()), ("dmig", ()), ("dmig", ("--condensed",)), ("ross", ()), ("ross", ("--start",))):
+        out = run(checks, f"export {kind} {' '.join(options)}", schema, "export", INPUT / "paper_rotor.inp",
+                  ("--format", kind, "-o", folder / "model", *options), (0,))
+        checks.true(f"export {kind} names what it wrote", out and all(Path(name).exists() for name in out["files"]), out and out["files"])
+        for name in out["files"] if out else ():
+            Path(name).unlink()
+    deck = folder / "few.inp"
+    deck.write_text(SHAFT + "*SENSORS\n1, 0.3\n2, 0.9\n")
+    out = run(checks, "export dmig --condensed, few sensors", schema, "export", deck, ("--format", "dmig", "--condensed", "-o", folder / "model"), (0,))
+    checks.true("export has null for modes that the condensed model lacks", out and out["exported_hz"][-1] is None, out and out["exported_hz"])
+    deck.write_text(SHAFT + "*SENSORS\n1, 0.3\n")
+    run(checks, "export dmig --condensed, one sensor", schema, "export", deck, ("--format", "dmig", "--condensed", "-o", folder / "none"), (2,))
+    checks.true("export that is refused writes nothing", not (folder / "none").exists(), "")
+    run(checks, "export, without a standard rotor", schema, "export", INPUT / "brake_reuss_beam.inp", ("--format", "ross", "-o", folder / "model"), (0, 1))
+    deck.unlink()
+    (folder / "model").unlink()
+
+
 def extract(checks, schema, folder):
     """rotid ema on three transfer functions of a measured beam: as it is, with a frequency for each point, by quadrature picking, and in
     a band that holds no mode. Without stated noise the modes of the last method count as weak, exit code 1."""
@@ -235,6 +257,35 @@ def extract(checks, schema, folder):
     empty = run(checks, "ema, no mode in the band", schema, "ema", beam, ("--band", "740,930"), (1,))
     checks.true("ema without a mode writes none", empty and not empty["modes"] and empty["output"] is None, empty and empty["modes"])
     written.unlink()
+
+
+# a rotor that is found everywhere, beside decks that are not
+STUDIES = {
+    "decks": ("*STUDY\n*DECKS\n{input}/paper_rotor.inp\n{input}/missing.inp\n{input}/solid_steel.inp\n*STARTS, SPREAD=0.3, COUNT=2\n", 1),
+    "every axis": (
+        "*STUDY, REPLICATES=2, BASELINE=YES\n*DECKS\n{input}/paper_rotor.inp\n*VARIANT, NAME=a\n*VARIANT, NAME=b\nFIT.TIE=E:G\n*MODES\n1-2\n1-5\n"
+        "*SENSORS\nALL\n20\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1e11, 1.2e11\n*NOISE\n0.001\n0.002, 0.01\n*HIDE, TYPE=NONE\n"
+        "*HIDE, TYPE=stiffness, GROUP=left\nfactor, 0.9, 1.1\n", 0),
+    "diagnoses": (
+        "*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\n{input}/paper_rotor.inp\n*SENSORS\nEVERY, 3\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.01\n"
+        "*HIDE, TYPE=NONE\n*HIDE, TYPE=added_mass\nmass, 15\nz, left.start, left.end\n*HIDE, TYPE=sensor_gain, SENSOR=25\ngain, 1.5\n"
+        "*HIDE, TYPE=noise_level, AT=SHAPE\nfactor, 3\n", 0),
+    "diagnoses of measured data": ("*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\n{input}/solid_rotor.inp\n", 0),
+}
+
+
+def study(checks, summary, line, folder):
+    """rotid study: every line of its file and its summary."""
+    plan, results = folder / "study.plan", folder / "study.jsonl"
+    for name, (text, wanted) in STUDIES.items():
+        plan.write_text(text.format(input=INPUT))
+        code, out, err = rotid("study", plan, "-o", results, "--json", "-")
+        whole = validate(checks, f"study, {name}", summary, out)
+        lines = results.read_text().splitlines()
+        wrong = [f"line {i}: {e.message}" for i, value in enumerate(map(parse, lines)) for e in line.iter_errors(value)]
+        checks.true(f"study, {name}: every line", code == wanted and not wrong and whole and len(lines) == whole["runs"] + 1, [code, err[:200], *wrong][:3])
+        results.unlink()
+    plan.unlink()
 
 
 def point_frequencies(result):

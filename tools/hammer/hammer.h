@@ -16,6 +16,9 @@
 #define HAMMER_H
 
 #include <complex.h>
+#ifndef CMPLX /* glibc has it for gcc alone */
+#define CMPLX(re, im) __builtin_complex((double)(re), (double)(im))
+#endif
 #include <stddef.h>
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-#include "report/diagnosis_items.h"
+#include "diagnose/items.h"
 
 #include <string.h>
 
@@ -10,6 +10,13 @@ const struct effect_parameter_name *candidate_parameter(const struct candidate *
     if (kind)
         return p < kind->nparameter ? &kind->parameter[p] : NULL;
     return p == 0 && candidate->cause->value.name ? &candidate->cause->value : NULL;
+}
+
+const char *candidate_variant(const struct candidate *candidate)
+{
+    const struct cause_kind *cause = candidate->cause;
+    int variant = candidate->effect.variant, words = (int)(sizeof cause->variant / sizeof *cause->variant);
+    return cause->variant_option && variant >= 0 && variant < words ? cause->variant[variant] : NULL;
 }
 
 int fitted_parameter(const struct job *job, const rotid_fit_result *fit, const char *name)

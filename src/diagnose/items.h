@@ -1,11 +1,14 @@
-/* What the screen and the JSON of a diagnosis look up alike. */
-#ifndef ROTID_REPORT_DIAGNOSIS_ITEMS_H
-#define ROTID_REPORT_DIAGNOSIS_ITEMS_H
+/* What all who report a diagnosis look up alike. */
+#ifndef ROTID_DIAGNOSE_ITEMS_H
+#define ROTID_DIAGNOSE_ITEMS_H
 
 #include "diagnose/diagnose.h"
 
 /* Name and unit of parameter p of a candidate, that of the card for a fault of the measurement; NULL behind the last. */
 const struct effect_parameter_name *candidate_parameter(const struct candidate *candidate, int p);
+
+/* The word for its shape or mount, NULL where its cause has none. */
+const char *candidate_variant(const struct candidate *candidate);
 
 /* Index in the fit (may be NULL) of the parameter of that name, -1 where there is none. */
 int fitted_parameter(const struct job *job, const rotid_fit_result *fit, const char *name);

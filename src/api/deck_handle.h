@@ -1,0 +1,12 @@
+/* What stands behind the `memory` of a rotid_deck. */
+#ifndef ROTID_API_DECK_HANDLE_H
+#define ROTID_API_DECK_HANDLE_H
+
+#include "api/call.h"
+#include "run/job.h"
+
+/* The job of a deck, for reading alone; NULL where there is none to compute with (deck NULL, or with errors): the notes of the
+ * call say why then. */
+const struct job *deck_job(const rotid_deck *deck, struct call *call);
+
+#endif

@@ -1,0 +1,77 @@
+/* The modes of the model of a deck, for hosts. */
+#include <math.h>
+
+#include "api/deck_handle.h"
+#include "api/holding.h"
+#include "base/host.h"
+#include "run/spectrum.h"
+
+static int make_result(struct holding *holding, const struct spectrum *s, rotid_spectrum **result)
+{
+    rotid_spectrum *r = holding ? POOL_NEW(&holding->pool, rotid_spectrum) : NULL;
+    if (!r)
+        return ROTID_ERROR_MEMORY;
+    ptrdiff_t masters = s->nmaster;
+    *r = (rotid_spectrum){.nrigid = s->nrigid,
+                          .nmode = s->count,
+                          .nmaster = s->nmaster,
+                          .rigid_hz = {s->nrigid > 0 ? s->rigid_hz[0] : NAN, s->nrigid > 1 ? s->rigid_hz[1] : NAN},
+                          .hz = HOLDING_COPY(holding, s->full_hz, s->count),
+                          .reduced_hz = HOLDING_COPY(holding, s->reduced_hz, s->count),
+                          .reduction_error_percent = HOLDING_COPY(holding, s->reduction_error_percent, s->count),
+                          .mesh_error_percent = HOLDING_COPY(holding, s->mesh_error_percent, s->count),
+                          .shape = HOLDING_COPY(holding, s->shape, masters * s->count),
+                          .master_z = HOLDING_COPY(holding, s->master_z, masters),
+                          .master_mass = HOLDING_COPY(holding, s->mass, masters * masters),
+                          .memory = holding};
+    *result = r;
+    return holding->missing ? ROTID_ERROR_MEMORY : ROTID_OK;
+}
+
+static int compute(const struct job *job, const double *x, int nmode, struct pool *scratch, struct spectrum *spectrum)
+{
+    int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
+    double *at = POOL_ARRAY(scratch, double, job->nparameter);
+    if (!at)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < job->nparameter; p++) {
+        at[p] = x ? x[p] : job->bounds[p].start;
+        if (!isfinite(at[p]))
+            return ROTID_ERROR_ARGUMENT;
+    }
+    return spectrum_compute(scratch, &job->rotor, job->nparameter, job->parameter, at, reduction, nmode, spectrum);
+}
+
+int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
+                           rotid_spectrum **spectrum)
+{
+    struct host host;
+    struct call call;
+    struct spectrum found;
+    if (!spectrum)
+        return ROTID_ERROR_ARGUMENT;
+    *spectrum = NULL;
+    int status = host_enter(&host);
+    if (status)
+        return status;
+    call_open(&call, environment);
+    const struct job *job = deck_job(deck, &call);
+    status = job && nmode >= 1 ? compute(job, x, nmode, &call.scratch, &found) : ROTID_ERROR_ARGUMENT;
+    if (!status) {
+        struct holding *holding = holding_new(environment);
+        status = make_result(holding, &found, spectrum);
+        if (status) {
+            holding_free(holding);
+            *spectrum = NULL;
+        }
+    }
+    call_close(&call);
+    host_leave(&host);
+    return status;
+}
+
+void rotid_spectrum_free(rotid_spectrum *spectrum)
+{
+    if (spectrum)
+        holding_free(spectrum->memory);
+}

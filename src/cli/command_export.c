@@ -1,0 +1,144 @@
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "export/dmig.h"
+#include "export/files.h"
+#include "export/summary.h"
+#include "report/table.h"
+
+#define REDUCTION_DOUBTFUL 1 /* % of a frequency */
+
+static void warn(struct command *command, const char *text)
+{
+    message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0, "%s", text);
+}
+
+/* The fit, where there is something to fit and to fit it to. identified->fit stays NULL where the model is taken as it stands. */
+static int identify(struct command *command, struct identification *identified)
+{
+    struct job *job = &command->job;
+    double last = 0;
+    int terminal = command_wants_progress(command);
+    const rotid_environment environment = {
+        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    if (!job->nparameter || command->start)
+        return ROTID_OK;
+    if (!job->nmode) {
+        warn(command, "no mode was measured: the model is taken as the deck states it, not at identified parameters");
+        return ROTID_OK;
+    }
+    int status = identify_run(&command->pool, job, 0, &environment, &command->messages, identified);
+    if (terminal)
+        (void)fputs("\r\033[K", stderr);
+    return status;
+}
+
+/* What the condensed matrices are worth, where they are wanted. Nonzero after saying why they cannot be written alone. */
+static int judge_condensed(struct command *command, const struct export_model *model, enum export_format format)
+{
+    const struct export_condensed *c = &model->condensed;
+    const struct spectrum *s = &model->spectrum;
+    int alone = format == EXPORT_DMIG, highest = comparison_highest(&command->job), worst = -1;
+    if (c->impossible) {
+        message_add(&command->messages, alone ? SEVERITY_ERROR : SEVERITY_WARNING, NULL, 0, 0, "no condensed matrices: %s",
+                    c->impossible);
+        return alone;
+    }
+    for (int i = 0; i < c->count && alone; i++)
+        if (export_master_id(model, i) > DMIG_MOST_ID) {
+            message_add(&command->messages, SEVERITY_ERROR, NULL, 0, 0,
+                        "sensor %d cannot be the id of a GRID, expected at most %d", export_master_id(model, i), DMIG_MOST_ID);
+            return 1;
+        }
+    for (int j = 0; j < s->count && (!highest || j < highest) && worst < 0; j++)
+        if (!(fabs(s->reduction_error_percent[j]) <= REDUCTION_DOUBTFUL))
+            worst = j;
+    if (worst >= 0 && isfinite(s->reduced_hz[worst]))
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "the condensed model has mode %d at %.6g Hz, %+.1f %% off: %d masters are few for it", worst + 1,
+                    s->reduced_hz[worst], s->reduction_error_percent[worst], c->count);
+    else if (worst >= 0)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "the condensed model has no mode %d: %d masters are too few for it", worst + 1, c->count);
+    return 0;
+}
+
+/* 0, or an exit code after saying which file would be lost. */
+static int refuse_files(const struct command *command, const struct export_files *files)
+{
+    for (int i = 0; i < files->count; i++)
+        if (arguments_same_file(command->deck, files->path[i]))
+            return arguments_wrong("--output would write %s, which is read, expected another name", files->path[i]);
+        else if (command->json && arguments_same_file(command->json, files->path[i]))
+            return arguments_wrong("--output would write %s, the file of --json, expected another name", files->path[i]);
+    return 0;
+}
+
+static int write_files(struct command *command, const struct export_files *files, const struct export_model *model,
+                       const struct ross_model *ross, int code)
+{
+    const char *failed;
+    int status = export_files_write(&command->pool, files, model, ross, &failed);
+    if (status == ROTID_ERROR_IO) {
+        (void)fprintf(stderr, "rotid: cannot write %s: %s; no file was written\n", failed, strerror(errno));
+        return EXIT_INTERNAL;
+    }
+    if (status)
+        return command_fail(command, status);
+    if (command_wants_table(command)) {
+        table_export(stdout, files, model, ross);
+        table_notes(stdout, &command->messages);
+    }
+    char *text = command->json ? json_export(&command->provenance, files, model, ross, &command->messages) : NULL;
+    return command_write_json(command, text, code);
+}
+
+static int export(struct command *command, const struct identification *identified, int code)
+{
+    struct export_model model;
+    struct export_files files;
+    struct ross_model ross;
+    enum export_format format;
+    if (export_format_find(command->format, &format)) /* the arguments have been checked */
+        return command_fail(command, ROTID_ERROR_ARGUMENT);
+    int wants_condensed = format == EXPORT_MATRIX_MARKET || command->condensed, is_ross = format == EXPORT_ROSS;
+    int status =
+        export_model_open(&command->pool, &command->job, identified, command->provenance.version, wants_condensed, &model);
+    if (!status && wants_condensed && judge_condensed(command, &model, format))
+        status = ROTID_ERROR_ARGUMENT;
+    if (!status)
+        status = export_files_name(&command->pool, format, command->condensed, command->output, &model, &files);
+    if (!status && is_ross)
+        status = ross_open(&command->pool, &model, &command->messages, &ross);
+    if (status)
+        return command_fail(command, status);
+    int refused = refuse_files(command, &files);
+    return refused ? refused : write_files(command, &files, &model, is_ross ? &ross : NULL, code);
+}
+
+int command_export(struct command *command)
+{
+    struct identification identified = {0};
+    int status = identify(command, &identified), code = EXIT_DONE;
+    const rotid_fit_result *fit = identified.fit;
+    if (status)
+        return command_fail(command, status);
+    if (command_cancelled(NULL)) {
+        (void)fprintf(stderr, "rotid: interrupted, nothing was written\n");
+        rotid_fit_free(identified.fit);
+        return EXIT_DOUBTFUL;
+    }
+    if (fit && (!fit->converged || fit->any_at_bound || fit->any_undetermined)) {
+        warn(command, "the identification did not end well (not converged, at a bound or undetermined): see rotid identify");
+        code = EXIT_DOUBTFUL;
+    }
+    if (fit)
+        identify_warn_of_reduction(&command->job, &identified, "written", &command->messages);
+    code = export(command, fit ? &identified : NULL, code);
+    rotid_fit_free(identified.fit);
+    return code;
+}

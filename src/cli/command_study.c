@@ -1,0 +1,156 @@
+#include "cli/command_study.h"
+
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+#include "study/merge.h"
+#include "study/summary.h"
+#include "study/workers.h"
+
+/* Where standard error is a terminal: a line that is written over. */
+static void show_progress(void *context, const struct study_progress *now)
+{
+    (void)context;
+    if (now->seconds < 0.5 || !now->computed)
+        return;
+    double rate = (double)now->computed / now->seconds, left = (double)(now->wanted - now->done) / rate;
+    (void)fprintf(stderr, "\rrotid: %ld of %ld runs, %ld failed, %.3g a second, ", now->done, now->wanted, now->failed, rate);
+    if (left < 120)
+        (void)fprintf(stderr, "%.0f s left\033[K", left);
+    else if (left < 7200)
+        (void)fprintf(stderr, "%.0f min left\033[K", left / 60);
+    else
+        (void)fprintf(stderr, "%.1f h left\033[K", left / 3600);
+}
+
+static int in_processes(void *context, struct command *command, const struct study *study, struct study_record *record)
+{
+    int terminal = command_wants_progress(command);
+    const struct workers_options options = {.workers = command->threads,
+                                            .timeout = command->study.timeout,
+                                            .cancelled = command_cancelled,
+                                            .progress = terminal ? show_progress : NULL};
+    (void)context;
+    (void)fflush(NULL); /* before there are two of each buffer */
+    int status = workers_run(&command->pool, study, &options, record), reason = errno;
+    if (terminal)
+        (void)fputs("\r\033[K", stderr);
+    errno = reason;
+    return status;
+}
+
+/* What is wrong with files of results stands in the messages. */
+static int refuse(struct command *command, int status)
+{
+    command_print_messages(command);
+    if (!command->messages.errors)
+        return command_fail(command, status);
+    return status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY ? EXIT_INTERNAL : EXIT_USAGE;
+}
+
+static int report(struct command *command, const char *path, int code)
+{
+    struct summary summary;
+    int status = summary_read(&command->pool, path, &command->messages, &summary);
+    if (status)
+        return refuse(command, status);
+    if (command_wants_table(command))
+        summary_table(stdout, &summary);
+    command->provenance.seed = summary.header.seed;
+    if (summary.failed || summary.there < summary.wanted)
+        code = code > EXIT_DOUBTFUL ? code : EXIT_DOUBTFUL;
+    return command_write_json(command, command->json ? summary_json(&command->provenance, &summary) : NULL, code);
+}
+
+int study_prepare(struct command *command, struct study *study)
+{
+    struct plan *plan = POOL_NEW(&command->pool, struct plan);
+    int plans = 0;
+    if (!plan)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    for (int i = 0; i < command->nfile; i++)
+        plans += plan_is(command->file[i]);
+    if (plans && command->nfile > 1)
+        return arguments_wrong("%s: a plan and another file, expected one plan, or decks", command->name);
+    int status = plans ? plan_read(&command->pool, command->deck, &command->messages, plan)
+                       : plan_of_decks(&command->pool, command->nfile, command->file, plan);
+    if (!status)
+        status = study_open(&command->pool, plan, command->noverride, command->override,
+                            command->seed_given ? command->seed : plan->seed, &command->messages, study);
+    if (status)
+        return command_fail(command, status);
+    command_print_messages(command);
+    command->provenance.seed = study->seed;
+    return EXIT_DONE;
+}
+
+/* Everything is there: in order of the runs from now on. */
+static int finish(struct command *command, struct study_record *record, int code)
+{
+    int status = record_finish(&command->pool, record);
+    if (!status)
+        return code;
+    (void)fprintf(stderr, "rotid: every run is in %s, but it cannot be put in order: %s\n", command->output,
+                  status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+    return EXIT_INTERNAL;
+}
+
+int study_conduct(struct command *command, const struct study *study, study_compute *compute, void *context)
+{
+    const struct study_arguments *arguments = &command->study;
+    const struct header header = header_of(study, command->provenance.version, command->provenance.commit,
+                                           arguments->shards ? arguments->shard : 1, arguments->shards ? arguments->shards : 1);
+    struct sigaction ignore = {.sa_handler = SIG_IGN};
+    struct study_record record;
+    int code = EXIT_DONE;
+    (void)sigaction(SIGXFSZ, &ignore, NULL); /* a file that may not grow is then an error like a full disk */
+    int status = record_open(&command->pool, command->output, &header, arguments->retry_failed, &command->messages, &record);
+    if (status)
+        return refuse(command, status);
+    command_print_messages(command);
+    long before = record.done;
+    if (before && command_wants_progress(command))
+        (void)fprintf(stderr, "rotid: %ld of %ld runs are in %s already\n", before, record.wanted, command->output);
+    status = compute(context, command, study, &record);
+    if (status < 0) {
+        (void)fprintf(stderr, "rotid: stopped, %ld of %ld runs are in %s, the same command goes on with the rest: %s\n",
+                      record.done, record.wanted, command->output,
+                      status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+        code = EXIT_INTERNAL;
+    } else if (record.done < record.wanted) {
+        (void)fprintf(stderr, "rotid: interrupted, %ld of %ld runs are in %s; the same command goes on with the rest\n",
+                      record.done, record.wanted, command->output);
+        code = EXIT_DOUBTFUL;
+    } else {
+        code = finish(command, &record, code);
+    }
+    record_close(&record);
+    return report(command, command->output, code);
+}
+
+static int merge(struct command *command)
+{
+    struct merge merged;
+    int status = merge_results(&command->pool, command->nfile, command->file, command->output, &command->messages, &merged);
+    if (status)
+        return refuse(command, status);
+    if (merged.missing)
+        (void)fprintf(stderr, "rotid: %ld of %ld runs are missing in %s: %s; rotid study PLAN -o %s computes them\n",
+                      merged.missing, merged.runs, command->output, merged.list, command->output);
+    return report(command, command->output, merged.missing || merged.failed ? EXIT_DOUBTFUL : EXIT_DONE);
+}
+
+int command_study(struct command *command)
+{
+    struct study study;
+    if (command->study.merge)
+        return merge(command);
+    if (command->study.summary)
+        return report(command, command->deck, EXIT_DONE);
+    int code = study_prepare(command, &study);
+    return code ? code : study_conduct(command, &study, in_processes, NULL);
+}

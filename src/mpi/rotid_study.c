@@ -1,0 +1,308 @@
+/* rotid-study: the command `study` over MPI. Rank 0 writes the file of results and hands out the runs; all compute. Everything
+ * but the handing out is that of `rotid study`, so the files of both are the same.
+ *
+ * A rank has the next runs beside the one it computes, so that it need not wait for an answer. Rank 0 answers between its
+ * own iterations. A rank that dies ends the whole job, as MPI has it; what arrived before stands in the file. */
+#include <errno.h>
+#include <math.h>
+#include <mpi.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/clock.h"
+#include "cli/arguments.h"
+#include "cli/command_study.h"
+#include "study/results.h"
+#include "study/run.h"
+
+#define AHEAD           2   /* runs of a rank */
+#define COMPUTING_RANKS 16  /* with more, rank 0 only writes and hands out */
+#define GRACE           5.0 /* s for the others to answer once the job has been told to end */
+
+enum { TAG_RUN = 1, TAG_LINE };
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+int command_cancelled(void *unused)
+{
+    (void)unused;
+    return interrupted;
+}
+
+const struct command_entry command_table[] = {
+    {"study", "many runs from one plan over MPI: mpirun -n N rotid-study PLAN -o RESULTS", command_study,
+     PARALLEL | TAKES_OUTPUT | SEVERAL_FILES},
+    {NULL, NULL, NULL, 0},
+};
+
+/* MPI_Probe and MPI_Recv keep a processor busy while they wait. */
+static void rest(void)
+{
+    (void)nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);
+}
+
+/* ---- rank 0 */
+
+struct office {
+    struct command *command;
+    struct study_record *record;
+    int size, begun;      /* ranks; the others have got their first runs */
+    long (*given)[AHEAD]; /* [size] runs of a rank, the one that it computes first; -1: none */
+    int status, reason;   /* what went wrong with the file, and its errno */
+};
+
+static int is_over(const struct office *office)
+{
+    return office->status || interrupted;
+}
+
+static void give(struct office *office, int rank)
+{
+    long *given = office->given[rank];
+    for (int i = 0; i < AHEAD && !is_over(office); i++) {
+        if (given[i] >= 0)
+            continue;
+        given[i] = record_take(office->record);
+        if (given[i] < 0)
+            return;
+        MPI_Send(&given[i], 1, MPI_LONG, rank, TAG_RUN, MPI_COMM_WORLD);
+    }
+}
+
+static void keep(struct office *office, long run, const char *line)
+{
+    if (office->status || !*line) /* empty: it was stopped */
+        return;
+    office->status = record_append(office->record, run, line, result_failed(line));
+    office->reason = errno;
+}
+
+/* Takes every line that has arrived. */
+static void serve(struct office *office)
+{
+    MPI_Status from;
+    int there, length;
+    while (!MPI_Iprobe(MPI_ANY_SOURCE, TAG_LINE, MPI_COMM_WORLD, &there, &from) && there) {
+        MPI_Get_count(&from, MPI_CHAR, &length);
+        char *line = malloc((size_t)length + 1);
+        if (!line) {
+            MPI_Abort(MPI_COMM_WORLD, EXIT_INTERNAL);
+            return;
+        }
+        MPI_Recv(line, length, MPI_CHAR, from.MPI_SOURCE, TAG_LINE, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        line[length] = 0;
+        long *given = office->given[from.MPI_SOURCE];
+        keep(office, given[0], line);
+        free(line);
+        memmove(given, given + 1, (AHEAD - 1) * sizeof *given);
+        given[AHEAD - 1] = -1;
+        give(office, from.MPI_SOURCE);
+    }
+    if (!office->status && record_sync(office->record, clock_seconds())) {
+        office->status = ROTID_ERROR_IO;
+        office->reason = errno;
+    }
+}
+
+/* Between the iterations of rank 0's own run. */
+static int serve_meanwhile(void *context)
+{
+    struct office *office = context;
+    serve(office);
+    return is_over(office);
+}
+
+static int is_waiting(const struct office *office)
+{
+    for (int rank = 1; rank < office->size; rank++)
+        if (office->given[rank][0] >= 0)
+            return 1;
+    return 0;
+}
+
+static void compute_own(struct office *office, struct jobs *jobs)
+{
+    const rotid_environment environment = {.cancelled = serve_meanwhile, .context = office};
+    char *line;
+    long run = record_take(office->record);
+    if (run < 0)
+        return;
+    int status = study_run(jobs, run, &environment, &line);
+    if (status == ROTID_ERROR_MEMORY)
+        office->status = status;
+    if (status == ROTID_OK)
+        keep(office, run, line);
+    json_free(line);
+}
+
+static int hand_out(void *context, struct command *command, const struct study *study, struct study_record *record)
+{
+    struct office *office = context;
+    struct jobs jobs;
+    double end = INFINITY;
+    int computes = office->size <= COMPUTING_RANKS;
+    (void)command;
+    office->record = record;
+    office->given = malloc((size_t)office->size * sizeof *office->given);
+    if (!office->given)
+        return ROTID_ERROR_MEMORY;
+    memset(office->given, -1, (size_t)office->size * sizeof *office->given);
+    jobs_open(study, &jobs);
+    for (int rank = 1; rank < office->size; rank++)
+        give(office, rank);
+    while (!is_over(office) && record->done < record->wanted) {
+        long before = record->next;
+        if (computes)
+            compute_own(office, &jobs);
+        serve(office);
+        if (!computes || record->next == before)
+            rest();
+    }
+    for (end = clock_seconds() + GRACE; is_waiting(office) && clock_seconds() < end; rest())
+        serve(office);
+    jobs_close(&jobs);
+    if (record_sync(record, INFINITY) && !office->status) {
+        office->status = ROTID_ERROR_IO;
+        office->reason = errno;
+    }
+    errno = office->reason;
+    return office->status ? office->status : interrupted ? ROTID_STOP_CANCELLED : ROTID_OK;
+}
+
+static int lead(struct command *command, const struct study *study, int size)
+{
+    const long end = -1;
+    struct office office = {.command = command, .size = size};
+    int code = study_conduct(command, study, hand_out, &office);
+    for (int rank = 1; rank < size; rank++)
+        MPI_Send(&end, 1, MPI_LONG, rank, TAG_RUN, MPI_COMM_WORLD);
+    free(office.given);
+    return code;
+}
+
+/* ---- the other ranks */
+
+static void follow(const struct study *study)
+{
+    const rotid_environment environment = {.cancelled = command_cancelled};
+    struct jobs jobs;
+    jobs_open(study, &jobs);
+    for (;;) {
+        char *line = NULL;
+        long run;
+        int there = 0;
+        while (!MPI_Iprobe(0, TAG_RUN, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE) && !there)
+            rest();
+        MPI_Recv(&run, 1, MPI_LONG, 0, TAG_RUN, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        if (run < 0)
+            break;
+        if (study_run(&jobs, run, &environment, &line) == ROTID_ERROR_MEMORY)
+            line = study_run_failed(study, run, rotid_status_text(ROTID_ERROR_MEMORY), 0);
+        const char *text = line ? line : "";
+        MPI_Send(text, (int)strlen(text), MPI_CHAR, 0, TAG_LINE, MPI_COMM_WORLD);
+        json_free(line);
+    }
+    jobs_close(&jobs);
+}
+
+/* ---- all */
+
+/* Whether every rank has read the same study: each reads the files itself. */
+static int is_one_study(const struct command *command, const struct study *study, int rank)
+{
+    const struct header header = header_of(study, command->provenance.version, command->provenance.commit, 1, 1);
+    char *text = header_text(&header), first[4096] = "";
+    int same, all = 0;
+    if (text && !rank)
+        (void)snprintf(first, sizeof first, "%s", text);
+    MPI_Bcast(first, (int)sizeof first, MPI_CHAR, 0, MPI_COMM_WORLD);
+    same = text && !strncmp(text, first, sizeof first - 1);
+    json_free(text);
+    if (!same)
+        (void)fprintf(stderr, "rotid-study: rank %d has read other files or is another program than rank 0, expected the same\n",
+                      rank);
+    MPI_Allreduce(&same, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    return all;
+}
+
+/* Arguments and files. Rank 0 first, so that what is wrong is said once. An exit code, -1 to go on. */
+static int prepare(struct command *command, int argc, char **argv, int rank, int size, struct study *study)
+{
+    int code = -1, worst;
+    for (int turn = 0; turn < 2; turn++) {
+        if (turn == (rank > 0) && code < 0) {
+            code = arguments_parse(command, argc, argv);
+            if (code < 0)
+                code = arguments_refuse(command, &command_table[0]);
+            if (code < 0 && (command->threads || command->study.timeout > 0))
+                code = arguments_wrong("%s is no option over MPI: a rank is a process, and only mpirun can end it",
+                                       command->threads ? "--threads" : "--timeout");
+            command->quiet |= rank > 0;
+            command->threads = size;
+            command->provenance =
+                (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, size};
+            build_set_threads(1);
+            if (code < 0 && !command->study.merge && !command->study.summary) {
+                int wrong = study_prepare(command, study);
+                code = wrong ? wrong : -1;
+            }
+        }
+        MPI_Allreduce(&code, &worst, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+        if (worst >= 0)
+            return worst;
+    }
+    return code;
+}
+
+static int run(struct command *command, int argc, char **argv)
+{
+    struct study study;
+    int rank, size;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    int code = prepare(command, argc, argv, rank, size, &study);
+    if (code >= 0)
+        return code;
+    if (command->study.merge || command->study.summary)
+        return rank ? EXIT_DONE : command_study(command);
+    if (!is_one_study(command, &study, rank))
+        return EXIT_USAGE;
+    if (!rank)
+        return lead(command, &study, size);
+    follow(&study);
+    return EXIT_DONE;
+}
+
+int main(int argc, char **argv)
+{
+    struct command command = {.seed = 1, .baseline = 1};
+    struct sigaction action = {.sa_handler = interrupt};
+    MPI_Init(&argc, &argv);
+    (void)sigaction(SIGINT, &action, NULL);
+    (void)sigaction(SIGTERM, &action, NULL);
+    pool_open(&command.pool, NULL);
+    message_open(&command.messages, &command.pool);
+    char **words = POOL_ARRAY(&command.pool, char *, argc + 2); /* rotid-study PLAN is rotid study PLAN */
+    if (!words)
+        MPI_Abort(MPI_COMM_WORLD, EXIT_INTERNAL);
+    words[0] = argv[0];
+    words[1] = (char[]){"study"};
+    memcpy(words + 2, argv + 1, (size_t)argc * sizeof *words);
+    int code = run(&command, argc + 1, words);
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        (void)fprintf(stderr, "rotid-study: cannot write to standard output: %s\n", strerror(errno));
+        code = EXIT_INTERNAL;
+    }
+    pool_close(&command.pool);
+    MPI_Finalize();
+    return code;
+}

@@ -1,0 +1,189 @@
+/* Data that a model makes: its parameters and the hidden effect drawn, its modes at the sensors. */
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/sensor.h"
+#include "modal/prediction.h"
+#include "run/client.h"
+#include "study/draw.h"
+#include "study/experiment.h"
+
+static double draw(const struct study *study, enum draw_purpose purpose, long replicate, const char *name, double lower,
+                   double upper)
+{
+    struct random_stream stream = draw_stream(study->seed, purpose, replicate, digest_name(name), 0);
+    double along = random_uniform(&stream);
+    return upper > lower ? lower + along * (upper - lower) : lower;
+}
+
+static void set(struct rotor *rotor, const char *name, double value)
+{
+    struct parameter parameter;
+    const char *unit;
+    if (parameter_find(rotor, name, &parameter, &unit))
+        return;
+    if (parameter.kind == PARAMETER_G)
+        rotor->group[parameter.index].material.isotropic = 0;
+    *parameter_value(rotor, parameter) = value;
+}
+
+/* Every value is set in every run: the truth keeps nothing of the run before. */
+static void draw_values(const struct study *study, long replicate, struct truth *truth)
+{
+    const struct plan *plan = study->plan;
+    struct job *job = &truth->job;
+    for (int p = 0; p < job->nparameter; p++)
+        set(&job->rotor, job->bounds[p].name, job->bounds[p].start);
+    for (int t = 0; t < plan->ntruth; t++)
+        set(&job->rotor, plan->truth[t].name,
+            draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));
+    const struct effect_parameter_name *parameter;
+    for (int p = 0; (parameter = truth_parameter(truth, p)); p++) {
+        double value = draw(study, DRAW_HIDDEN, replicate, parameter->name, truth->lower[p], truth->upper[p]);
+        if (truth->effect)
+            truth->effect->value[p] = value;
+        else
+            truth->fault.value = value;
+    }
+}
+
+/* Where the sensors really are. Own arrays: a correction changes the order of the sensors and what refers to them. */
+static int place_sensors(struct pool *pool, const struct truth *truth, struct job *job)
+{
+    *job = truth->job;
+    job->shape = job->shape_std = job->point_frequency_hz = job->point_frequency_std = NULL;
+    if (!truth->cause || strcmp(truth->cause->id, "sensor_position") != 0)
+        return ROTID_OK;
+    job->rotor.sensor = POOL_ARRAY(pool, struct sensor, job->rotor.nsensor);
+    job->rotor.effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
+    if (!job->rotor.sensor || !job->rotor.effect)
+        return ROTID_ERROR_MEMORY;
+    memcpy(job->rotor.sensor, truth->job.rotor.sensor, (size_t)job->rotor.nsensor * sizeof *job->rotor.sensor);
+    if (job->rotor.neffect)
+        memcpy(job->rotor.effect, truth->job.rotor.effect, (size_t)job->rotor.neffect * sizeof *job->rotor.effect);
+    job->nsuspect = 0;
+    return correction_apply(pool, job, &truth->fault);
+}
+
+struct modes { /* elastic ones of a model at the sensors of its rotor */
+    int count, nsensor;
+    double *hz, *shape; /* [count], [nsensor * count] */
+};
+
+static int modes_new(struct pool *pool, int count, int nsensor, struct modes *modes)
+{
+    *modes =
+        (struct modes){count, nsensor, POOL_ARRAY(pool, double, count), POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)count)};
+    return modes->hz && modes->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* Of the full model. */
+static int solve(const struct rotor *rotor, struct modes *modes)
+{
+    const double none = 0;
+    struct pool scratch;
+    struct prediction p;
+    int failed, status = ROTID_ERROR_MEMORY;
+    pool_open(&scratch, NULL);
+    struct client *client = POOL_NEW(&scratch, struct client);
+    if (client)
+        status = client_open(&scratch, rotor, 0, NULL, 1, client, &failed);
+    if (!status && client->model.nrigid + modes->count > client->model.n)
+        status = ROTID_ERROR_ARGUMENT;
+    if (!status)
+        status = prediction_new(&scratch, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + modes->count,
+                                0, &p);
+    if (!status)
+        status = prediction_compute(&p, &none);
+    for (int k = 0; k < modes->count && !status; k++) {
+        modes->hz[k] = prediction_hz(&p, client->model.nrigid + k);
+        for (int s = 0; s < modes->nsensor; s++)
+            modes->shape[s + (ptrdiff_t)k * modes->nsensor] = prediction_at_sensor(&p, client->model.nrigid + k, s);
+    }
+    pool_close(&scratch);
+    return status;
+}
+
+/* With an accelerometer that goes from sensor to sensor each records its own component as it is with the mass there, and the
+ * frequency is the mean of all. The scale of a loaded mode is the one that brings it nearest to the one without that mass. */
+static int solve_moving(struct pool *pool, const struct rotor *rotor, int effect, struct modes *modes)
+{
+    int n = modes->nsensor, status;
+    struct rotor with = *rotor;
+    struct modes bare, loaded;
+    with.effect = POOL_ARRAY(pool, struct effect, rotor->neffect);
+    status = with.effect ? modes_new(pool, modes->count, n, &bare) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = modes_new(pool, modes->count, n, &loaded);
+    if (status)
+        return status;
+    memcpy(with.effect, rotor->effect, (size_t)rotor->neffect * sizeof *with.effect);
+    with.effect[effect].variant = 1; /* FIXED */
+    with.effect[effect].target = -1; /* nowhere */
+    status = solve(&with, &bare);
+    for (int k = 0; k < modes->count; k++)
+        modes->hz[k] = 0;
+    for (int s = 0; s < n && !status; s++) {
+        with.effect[effect].target = s;
+        status = solve(&with, &loaded);
+        for (int k = 0; k < modes->count && !status; k++) {
+            const double *a = loaded.shape + (ptrdiff_t)k * n, *b = bare.shape + (ptrdiff_t)k * n;
+            double across = 0, square = 0;
+            for (int i = 0; i < n; i++) {
+                across += a[i] * b[i];
+                square += a[i] * a[i];
+            }
+            modes->shape[s + (ptrdiff_t)k * n] = across / square * a[s];
+            modes->hz[k] += loaded.hz[k] / n;
+        }
+    }
+    return status;
+}
+
+static void take_mode(const struct rotor *rotor, const struct modes *modes, int k, struct job *job)
+{
+    const double *made = modes->shape + (ptrdiff_t)(job->number[k] - 1) * modes->nsensor;
+    double largest = 0;
+    job->frequency_hz[k] = modes->hz[job->number[k] - 1];
+    if (!job->shape)
+        return;
+    double *shape = job->shape + (ptrdiff_t)k * job->rotor.nsensor;
+    for (int s = 0; s < modes->nsensor; s++)
+        largest = fmax(largest, fabs(made[s]));
+    for (int s = 0; s < job->rotor.nsensor; s++) {
+        int there = 0;
+        while (there < modes->nsensor && rotor->sensor[there].id != job->rotor.sensor[s].id)
+            there++;
+        if (isfinite(shape[s]))
+            shape[s] = there < modes->nsensor && largest > 0 ? made[there] / largest : NAN;
+    }
+}
+
+int experiment_model(struct pool *pool, const struct study *study, long replicate, struct truth *truth,
+                     struct message_list *messages, struct job *job)
+{
+    struct modes modes;
+    struct job source;
+    int highest = 0;
+    draw_values(study, replicate, truth);
+    int status = place_sensors(pool, truth, &source), last = source.rotor.neffect - 1;
+    if (status == ROTID_ERROR_ARGUMENT)
+        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "the hidden shift leaves the sensor no place of its own");
+    for (int k = 0; k < job->nmode; k++)
+        highest = job->number[k] > highest ? job->number[k] : highest;
+    if (!status)
+        status = modes_new(pool, highest, source.rotor.nsensor, &modes);
+    int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;
+    if (!status)
+        status = moving ? solve_moving(pool, &source.rotor, last, &modes) : solve(&source.rotor, &modes);
+    for (int k = 0; k < job->nmode && !status; k++)
+        take_mode(&source.rotor, &modes, k, job);
+    /* what else was measured is not that of this model */
+    job->point_frequency_hz = job->point_frequency_std = NULL;
+    job->hammer = job->ncorrection = 0;
+    job->raw = NULL;
+    job->has_noise_floor = 0;
+    if (!status)
+        experiment_fault(truth, 0, job);
+    return status;
+}

@@ -1,0 +1,162 @@
+#include "study/results.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define BLOCK     ((size_t)1 << 18)
+#define MOST_LINE ((size_t)1 << 26) /* a line is a few thousand bytes; beyond this it is something else */
+
+static int cannot_read(struct results *r)
+{
+    message_add(r->messages, SEVERITY_ERROR, r->path, r->number + 1, 1, "reading failed: %s", strerror(errno));
+    return ROTID_ERROR_IO;
+}
+
+static int malformed(struct results *r, int line, const char *what)
+{
+    message_add(r->messages, SEVERITY_ERROR, r->path, line, 1, "%s", what);
+    return ROTID_ERROR_SYNTAX;
+}
+
+/* More of the file behind what the buffer holds. ROTID_OK, 1 at the end. */
+static int fill(struct results *r)
+{
+    if (r->first && r->buffer) {
+        memmove(r->buffer, r->buffer + r->first, r->count);
+        r->first = 0;
+    }
+    if (r->count + BLOCK > r->capacity) {
+        size_t capacity = 2 * r->capacity + BLOCK;
+        char *larger = r->count < MOST_LINE ? realloc(r->buffer, capacity) : NULL;
+        if (!larger)
+            return r->count < MOST_LINE ? ROTID_ERROR_MEMORY : malformed(r, r->number + 1, "the line is too long for a result");
+        r->buffer = larger;
+        r->capacity = capacity;
+    }
+    ssize_t got;
+    do
+        got = pread(r->descriptor, r->buffer + r->count, BLOCK, r->next + (off_t)r->count);
+    while (got < 0 && errno == EINTR);
+    if (got < 0)
+        return cannot_read(r);
+    r->count += (size_t)got;
+    return got ? ROTID_OK : 1;
+}
+
+/* A whole line, with its line feed. ROTID_OK, 1 where there is none any more. */
+static int take_line(struct results *r, const char **text, size_t *length)
+{
+    size_t looked = 0;
+    for (;;) {
+        const char *from = r->buffer ? r->buffer + r->first : NULL,
+                   *feed = from ? memchr(from + looked, '\n', r->count - looked) : NULL;
+        if (feed) {
+            *text = from;
+            *length = (size_t)(feed - from) + 1;
+            r->first += *length;
+            r->count -= *length;
+            r->next += (off_t)*length;
+            r->number++;
+            return ROTID_OK;
+        }
+        looked = r->count;
+        int status = fill(r);
+        if (status)
+            return status;
+    }
+}
+
+int results_open(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *r)
+{
+    static const char expected[] = "this is no file of results of rotid study, expected one or a new name";
+    struct stat information;
+    const char *text;
+    size_t length;
+    *r = (struct results){.descriptor = descriptor, .path = path, .messages = messages};
+    if (fstat(descriptor, &information))
+        return cannot_read(r);
+    r->size = information.st_size;
+    if (r->size && (pread(descriptor, &(char){0}, 1, 0) != 1 || !S_ISREG(information.st_mode)))
+        return malformed(r, 1, expected);
+    int status = take_line(r, &text, &length);
+    if (status)
+        return status > 0 ? malformed(r, 1, expected) : status;
+    cJSON *json = cJSON_ParseWithLength(text, length);
+    status = results_header_read(pool, json, &r->header);
+    cJSON_Delete(json);
+    return status == ROTID_ERROR_SYNTAX ? malformed(r, 1, expected) : status;
+}
+
+int results_next(struct results *r, struct result_line *line)
+{
+    cJSON_Delete(line->json);
+    *line = (struct result_line){.offset = r->next};
+    int status = take_line(r, &line->text, &line->length);
+    if (status)
+        return status;
+    line->json = cJSON_ParseWithLength(line->text, line->length);
+    const cJSON *run = cJSON_GetObjectItemCaseSensitive(line->json, "run"),
+                *state = cJSON_GetObjectItemCaseSensitive(line->json, "status");
+    if (!cJSON_IsNumber(run) || !cJSON_IsString(state))
+        return malformed(r, r->number, "this line is no result, expected an object of JSON with run and status");
+    double number = run->valuedouble;
+    if (!(number >= 0 && number < (double)r->header.runs && number == floor(number)) ||
+        (long)number % r->header.shards != r->header.shard - 1)
+        return malformed(r, r->number, "this line is of a run that the study, or this shard of it, does not have");
+    line->run = (long)number;
+    line->failed = !strcmp(state->valuestring, "failed");
+    return ROTID_OK;
+}
+
+void results_close(struct results *r, struct result_line *line)
+{
+    if (line)
+        cJSON_Delete(line->json);
+    free(r->buffer);
+    r->buffer = NULL;
+}
+
+int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
+                  struct result_place **place, size_t *most)
+{
+    struct results results;
+    struct result_line line = {0};
+    int status = results_open(pool, descriptor, path, messages, &results);
+    *most = 0;
+    *header = results.header;
+    if (!status && !(*place = POOL_ARRAY(pool, struct result_place, header->runs)))
+        status = ROTID_ERROR_MEMORY;
+    while (!status && !(status = results_next(&results, &line))) {
+        (*place)[line.run] = (struct result_place){line.offset, line.length};
+        *most = line.length > *most ? line.length : *most;
+    }
+    results_close(&results, &line);
+    return status == 1 ? ROTID_OK : status;
+}
+
+int result_failed(const char *line)
+{
+    cJSON *json = cJSON_Parse(line);
+    const char *status = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(json, "status"));
+    int failed = status && !strcmp(status, "failed");
+    cJSON_Delete(json);
+    return failed;
+}
+
+int results_fetch(int descriptor, struct result_place place, char *text)
+{
+    size_t have = 0;
+    while (have < place.length) {
+        ssize_t got = pread(descriptor, text + have, place.length - have, place.offset + (off_t)have);
+        if (got == 0)
+            errno = EIO; /* it was longer when it was looked at */
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return ROTID_ERROR_IO;
+        have += got > 0 ? (size_t)got : 0;
+    }
+    return ROTID_OK;
+}

@@ -1,0 +1,36 @@
+/* What a diagnosis says beside what was hidden. */
+#ifndef ROTID_STUDY_SCORE_H
+#define ROTID_STUDY_SCORE_H
+
+#include "diagnose/diagnose.h"
+#include "study/experiment.h"
+
+enum score {
+    SCORE_QUIET,       /* nothing was hidden and nothing was found */
+    SCORE_FALSE_ALARM, /* nothing was hidden and something was found */
+    SCORE_RIGHT,       /* named, and nothing else */
+    SCORE_IN_SET,      /* among those that cannot be told apart */
+    SCORE_OTHER_SET,   /* not among those */
+    SCORE_SILENT,      /* judged adequate */
+    SCORE_UNEXPLAINED,
+    SCORE_WRONG, /* something else was named */
+    SCORE_COUNT
+};
+
+/* "quiet", "false_alarm", "right", ... */
+const char *score_name(enum score score);
+/* The score of that name, SCORE_COUNT where there is none. */
+enum score score_find(const char *name);
+
+/* The experiment's data were made by a model. A cause is the hidden one by its id, its target, and where it has a place by that,
+ * within its width or 3 % of the length; a mass is a mass, whether it is called added or that of an accelerometer there. A fault
+ * of the data is known by its id, sensors and block. */
+enum score score_make(const struct experiment *experiment, const struct diagnosis *diagnosis);
+
+/* Whether a candidate is the hidden cause by those rules. */
+int score_is_hidden(const struct experiment *experiment, const struct diagnosis *diagnosis, const struct candidate *candidate);
+
+/* Faults of the data that were found and not hidden. */
+int score_false_findings(const struct experiment *experiment, const struct diagnosis *diagnosis);
+
+#endif

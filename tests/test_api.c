@@ -1,0 +1,330 @@
+/* The first layer of rotid.h: the same numbers as the routines below it and as the program, and closed forms where there are. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "api_bench.h"
+#include "api_program.h"
+#include "deck/deck.h"
+#include "run/identify.h"
+
+#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+#define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
+#define BAR                                                                                                                      \
+    "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1.2, 0.1, 0, 24\n"           \
+    "*SENSORS\n1, 0\n2, 0.15\n3, 0.3\n4, 0.45\n5, 0.6\n6, 0.75\n7, 0.9\n8, 1.05\n9, 1.2\n"
+
+void openblas_set_num_threads(int threads);
+
+static char directory[] = "/tmp/test_api_XXXXXX";
+
+static const char *path_of(const char *name)
+{
+    static char path[2][256];
+    static int next;
+    next = !next;
+    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
+    return path[next];
+}
+
+static const char *write_text(const char *name, const char *text)
+{
+    const char *path = path_of(name);
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
+    return path;
+}
+
+/* ------------------------------------------------------------------------------------------------ decks */
+
+static void a_deck_shows_what_was_read(void **state)
+{
+    struct pool pool;
+    struct message_list messages;
+    struct job job;
+    (void)state;
+    pool_open(&pool, NULL);
+    message_open(&messages, &pool);
+    assert_status(deck_read(&pool, SOLID, 0, NULL, &messages, &job), ROTID_OK);
+    rotid_deck *deck = bench_deck(SOLID);
+    assert_string_equal(deck->path, SOLID);
+    assert_int_equal(deck->nerror, 0);
+    assert_int_equal(deck->nmessage, messages.count);
+    assert_int_equal(deck->nsensor, job.rotor.nsensor);
+    for (int s = 0; s < deck->nsensor; s++) {
+        assert_int_equal(deck->sensor_id[s], job.rotor.sensor[s].id);
+        assert_true(deck->sensor_z[s] == job.rotor.sensor[s].position);
+    }
+    size_t modes = (size_t)job.nmode, components = modes * (size_t)job.rotor.nsensor;
+    assert_int_equal(deck->nmode, job.nmode);
+    assert_true(modes > 3 && components > 60);
+    assert_memory_equal(deck->number, job.number, modes * sizeof(int));
+    assert_memory_equal(deck->frequency_hz, job.frequency_hz, modes * sizeof(double));
+    assert_memory_equal(deck->frequency_std, job.frequency_std, modes * sizeof(double));
+    assert_memory_equal(deck->shape, job.shape, components * sizeof(double));
+    assert_memory_equal(deck->shape_std, job.shape_std, components * sizeof(double));
+    assert_memory_equal(deck->holdout, job.holdout, modes * sizeof(int));
+    assert_int_equal(deck->nparameter, job.nparameter);
+    for (int p = 0; p < deck->nparameter; p++) {
+        assert_string_equal(deck->parameter[p].name, job.bounds[p].name);
+        assert_true(deck->parameter[p].start == job.bounds[p].start && deck->parameter[p].upper == job.bounds[p].upper);
+    }
+    rotid_deck_free(deck);
+    pool_close(&pool);
+}
+
+static void mass_and_centre_are_those_at_the_start_of_the_parameters(void **state)
+{
+    (void)state;
+    const double area = 3.14159265358979323846 / 4 * 0.1 * 0.1;
+    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR));
+    assert_close(deck->length, 1.2, 1e-15, 0);
+    assert_close(deck->mass, 7850 * 1.2 * area, 1e-13, 0);
+    assert_close(deck->centre, 0.6, 1e-13, 0);
+    assert_null(deck->shape);
+    assert_int_equal(deck->nmode, 0);
+    rotid_deck_free(deck);
+    deck = bench_deck(write_text("bar.inp", BAR "*IDENTIFY\ncore.rho, 5000, 9000, 6000\n"));
+    assert_close(deck->mass, 6000 * 1.2 * area, 1e-13, 0);
+    rotid_deck_free(deck);
+    /* density of the left half raised by a cause that is part of the model, its size searched from a start of its own */
+    deck = bench_deck(write_text("bar.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n"
+                                            "*SHAFT, NAME=a, MATERIAL=steel\n0.6, 0.1, 0, 12\n"
+                                            "*SHAFT, NAME=b, MATERIAL=steel\n0.6, 0.1, 0, 12\n"
+                                            "*CAUSE, NAME=heavy, TYPE=density, GROUP=a\nfactor, 1.2\n"
+                                            "*IDENTIFY\nheavy.factor, 0.8, 1.5, 1.1\n"));
+    assert_close(deck->mass, 7850 * area * (0.6 * 1.1 + 0.6), 1e-13, 0);
+    assert_close(deck->centre, (0.3 * 1.1 + 0.9) / (1.1 + 1), 1e-13, 0);
+    rotid_deck_free(deck);
+}
+
+static void overrides_act_and_those_of_another_form_are_refused(void **state)
+{
+    static const char *const good[] = {"FIT.MODES=1-4", "fit.holdout=2"}, *const none[] = {NULL},
+                             *const bad[] = {"FIT.MODES", "=", "FIT=3", ".MODES=1", "SHAFTS.NAME=a", "FIT.MODES=fish"};
+    rotid_deck *deck;
+    (void)state;
+    assert_status(rotid_deck_read(PAPER, 2, good, NULL, &deck), ROTID_OK);
+    assert_int_equal(deck->nmode, 6);
+    for (int k = 0; k < 6; k++) /* those not fitted are predicted */
+        assert_int_equal(deck->holdout[k], k == 1 || k > 3);
+    rotid_deck_free(deck);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_status(rotid_deck_read(PAPER, 1, &bad[i], NULL, &deck), ROTID_ERROR_SYNTAX);
+        assert_non_null(deck);
+        assert_int_equal(deck->nerror, 1);
+        assert_non_null(strstr(deck->message[deck->nmessage - 1].text, "expected"));
+        rotid_deck_free(deck);
+    }
+    assert_status(rotid_deck_read(PAPER, 1, none, NULL, &deck), ROTID_ERROR_ARGUMENT);
+    assert_null(deck);
+}
+
+/* ------------------------------------------------------------------------------------------------ modes */
+
+static void modes_follow_the_parameters(void **state)
+{
+    (void)state;
+    const double four = 8e11;
+    rotid_spectrum *one, *two;
+    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR "*IDENTIFY\ncore.E, 1e11, 9e11, 2e11\n"));
+    assert_status(rotid_spectrum_compute(deck, NULL, 4, NULL, &one), ROTID_OK);
+    assert_status(rotid_spectrum_compute(deck, &four, 4, NULL, &two), ROTID_OK);
+    assert_int_equal(one->nrigid, 2);
+    assert_int_equal(one->nmode, 4);
+    assert_int_equal(one->nmaster, 9);
+    for (int k = 0; k < 4; k++) { /* G follows E: every stiffness times four */
+        assert_close(two->hz[k], 2 * one->hz[k], 1e-9, 0);
+        assert_close(two->reduced_hz[k], 2 * one->reduced_hz[k], 1e-9, 0);
+        assert_true(one->mesh_error_percent[k] > 0 && one->mesh_error_percent[k] < 0.3);
+        assert_true(one->reduction_error_percent[k] > 0);
+    }
+    /* Euler-Bernoulli (4.730)^2/(2 pi l^2) sqrt(EI/rho S), lowered by shear and rotary inertia */
+    double slender = 4.7300407 * 4.7300407 / (2 * 3.14159265 * 1.44) * sqrt(2e11 / 7850) * 0.1 / 4;
+    assert_true(one->hz[0] < slender && one->hz[0] > 0.96 * slender);
+    double total = 0, turning = 0; /* the condensed mass moves rigid bodies as they are */
+    for (int i = 0; i < 9; i++)
+        for (int j = 0; j < 9; j++) {
+            total += one->master_mass[i + 9 * j];
+            turning += one->master_mass[i + 9 * j] * one->master_z[j];
+        }
+    assert_close(total, deck->mass, 1e-9, 0);
+    assert_close(turning, deck->mass * deck->centre, 1e-9, 0);
+    for (int k = 0; k < 4; k++) {
+        double largest = 0, work[9];
+        for (int i = 0; i < 9; i++)
+            largest = fmax(largest, one->shape[i + 9 * k]);
+        assert_close(largest, 1, 1e-12, 0);
+        assert_close(rotid_nco(9, one->master_mass, one->shape + 9 * k, one->shape + 9 * k, work), 1, 1e-12, 0);
+    }
+    rotid_spectrum_free(one);
+    rotid_spectrum_free(two);
+    rotid_deck_free(deck);
+}
+
+static void a_model_with_few_modes_gives_what_it_has(void **state)
+{
+    (void)state;
+    rotid_spectrum *s;
+    rotid_deck *deck = bench_deck(ROTID_SOURCE_DIR "/tests/data/decks/one_element.inp");
+    assert_status(rotid_spectrum_compute(deck, NULL, 1000000000, NULL, &s), ROTID_OK);
+    assert_true(s->nmode >= 1 && s->nmode <= 4);
+    for (int i = s->nrigid; i < 2; i++)
+        assert_true(isnan(s->rigid_hz[i]));
+    rotid_spectrum_free(s);
+    rotid_deck_free(deck);
+}
+
+/* ------------------------------------------------------------------------------------------------ identification */
+
+static void an_identification_is_that_of_the_run_below(void **state)
+{
+    struct pool pool;
+    struct message_list messages;
+    struct job job;
+    struct identification found;
+    (void)state;
+    pool_open(&pool, NULL);
+    message_open(&messages, &pool);
+    assert_status(deck_read(&pool, PAPER, 0, NULL, &messages, &job), ROTID_OK);
+    message_open(&messages, &pool);
+    assert_status(identify_run(&pool, &job, 1, NULL, &messages, &found), ROTID_OK);
+    identify_warn_of_mesh(&job, &found, &messages);
+    char failure[512] = "not touched";
+    rotid_identification *r;
+    rotid_deck *deck = bench_deck(PAPER);
+    assert_status(rotid_identify(deck, 1, NULL, failure, &r), ROTID_OK);
+    rotid_deck_free(deck);
+    assert_string_equal(failure, "");
+    size_t n = (size_t)job.nparameter * sizeof(double), m = (size_t)job.nmode * sizeof(double);
+    assert_int_equal(r->nparameter, job.nparameter);
+    assert_int_equal(r->nmode, job.nmode);
+    assert_int_equal(r->fit->status, found.fit->status);
+    assert_int_equal(r->fit->nbaseline, found.fit->nbaseline);
+    assert_memory_equal(r->fit->x, found.fit->x, n);
+    assert_memory_equal(r->fit->ci_lower, found.fit->ci_lower, n);
+    assert_memory_equal(r->fit->predicted_hz, found.fit->predicted_hz, m);
+    assert_memory_equal(r->number, found.compared.number, (size_t)job.nmode * sizeof(int));
+    assert_memory_equal(r->measured_hz, job.frequency_hz, m);
+    for (int k = 0; k < job.nmode; k++) {
+        assert_true(r->mesh_error_percent[k] == found.spectrum.mesh_error_percent[found.compared.number[k] - 1]);
+        assert_true(r->reduction_error_percent[k] == found.spectrum.reduction_error_percent[found.compared.number[k] - 1]);
+    }
+    assert_true(r->mass == found.mass.mass && r->centre == found.mass.center);
+    assert_int_equal(r->nmessage, messages.count);
+    for (int i = 0; i < r->nmessage; i++)
+        assert_string_equal(r->message[i].text, messages.item[i].text);
+    rotid_identification_free(r);
+    rotid_fit_free(found.fit);
+    pool_close(&pool);
+}
+
+static void an_identification_is_that_of_the_program(void **state)
+{
+    (void)state;
+    cJSON *json = program_json("identify '" PAPER "'");
+    rotid_identification *r;
+    rotid_deck *deck = bench_deck(PAPER);
+    assert_status(rotid_identify(deck, 1, NULL, NULL, &r), ROTID_OK);
+    const cJSON *item, *modes = get(json, "modes");
+    int p = 0, k = 0, b = 0;
+    cJSON_ArrayForEach(item, get(json, "parameters"))
+    {
+        assert_json_text(item, "name", r->parameter[p].name);
+        assert_json_text(item, "unit", r->parameter[p].unit);
+        assert_json_number(item, "start", r->parameter[p].start);
+        assert_json_number(item, "value", r->fit->x[p]);
+        assert_json_number(item, "std", r->fit->std[p++]);
+    }
+    assert_int_equal(p, r->nparameter);
+    cJSON_ArrayForEach(item, modes)
+    {
+        assert_int_equal(number_of(item, "mode"), r->number[k]);
+        assert_json_number(item, "measured_hz", r->measured_hz[k]);
+        assert_json_number(item, "predicted_hz", r->fit->predicted_hz[k]);
+        assert_json_number(item, "nco", r->nco[k]);
+        assert_close(r->mesh_error_percent[k], cJSON_GetArrayItem(get(json, "mesh_error_percent"), k)->valuedouble, 1e-14, 0);
+        k++;
+    }
+    assert_int_equal(k, r->nmode);
+    cJSON_ArrayForEach(item, get(json, "baseline"))
+    {
+        assert_json_text(item, "algorithm", r->fit->baseline[b].algorithm);
+        assert_json_number(item, "objective", r->fit->baseline[b++].objective);
+    }
+    assert_int_equal(b, r->fit->nbaseline);
+    assert_json_number(json, "mass_kg", r->mass);
+    assert_json_number(json, "center_of_mass_m", r->centre);
+    assert_json_number(json, "objective", r->fit->objective);
+    int warnings = 0;
+    for (int i = 0; i < r->nmessage; i++)
+        if (r->message[i].severity == ROTID_WARNING)
+            assert_string_equal(r->message[i].text, cJSON_GetArrayItem(get(json, "warnings"), warnings++)->valuestring);
+    assert_int_equal(warnings, cJSON_GetArraySize(get(json, "warnings")));
+    rotid_identification_free(r);
+    rotid_deck_free(deck);
+    cJSON_Delete(json);
+}
+
+static void with_nothing_to_identify_the_model_is_compared(void **state)
+{
+    (void)state;
+    rotid_spectrum *s;
+    rotid_identification *r;
+    rotid_deck *deck = bench_deck(write_text("bar.inp", BAR "*MODES\n1, 350\n3, 1600\n"));
+    assert_status(rotid_identify(deck, 1, NULL, NULL, &r), ROTID_OK);
+    assert_status(rotid_spectrum_compute(deck, NULL, 3, NULL, &s), ROTID_OK);
+    assert_int_equal(r->fit->iterations, 0);
+    assert_int_equal(r->nparameter, 0);
+    assert_true(r->fit->predicted_hz[0] == s->hz[0] && r->fit->predicted_hz[1] == s->hz[2]);
+    assert_close(r->mass, deck->mass, 1e-15, 0);
+    rotid_identification_free(r);
+    rotid_spectrum_free(s);
+    rotid_deck_free(deck);
+}
+
+static void verdicts_have_names(void **state)
+{
+    (void)state;
+    assert_string_equal(rotid_verdict_name(ROTID_ADEQUATE), "adequate");
+    assert_string_equal(rotid_verdict_name(ROTID_NAMED), "named");
+    assert_string_equal(rotid_verdict_name(ROTID_AMBIGUOUS), "ambiguous");
+    assert_string_equal(rotid_verdict_name(ROTID_UNEXPLAINED), "unexplained");
+    assert_non_null(rotid_verdict_name(-1));
+    assert_non_null(rotid_verdict_name(4));
+}
+
+static int open_directory(void **state)
+{
+    (void)state;
+    openblas_set_num_threads(1); /* the numbers of the program too are those of one */
+    return mkdtemp(directory) == NULL;
+}
+
+static int remove_directory(void **state)
+{
+    static const char *const names[] = {"bar.inp"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        (void)unlink(path_of(names[i]));
+    return rmdir(directory);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_deck_shows_what_was_read),
+        cmocka_unit_test(mass_and_centre_are_those_at_the_start_of_the_parameters),
+        cmocka_unit_test(overrides_act_and_those_of_another_form_are_refused),
+        cmocka_unit_test(modes_follow_the_parameters),
+        cmocka_unit_test(a_model_with_few_modes_gives_what_it_has),
+        cmocka_unit_test(an_identification_is_that_of_the_run_below),
+        cmocka_unit_test(an_identification_is_that_of_the_program),
+        cmocka_unit_test(with_nothing_to_identify_the_model_is_compared),
+        cmocka_unit_test(verdicts_have_names),
+    };
+    return cmocka_run_group_tests_name("api", tests, open_directory, remove_directory);
+}

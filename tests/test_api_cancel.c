@@ -1,0 +1,266 @@
+/* A host that says stop, once or from then on: what is still computed, what it is told, and what it gets. */
+#include <limits.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "api_bench.h"
+#include "api_dump.h"
+#include "base/clock.h"
+#include "fit/baseline.h"
+#include "paper_fit.h"
+
+#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+
+void openblas_set_num_threads(int threads);
+
+static char directory[] = "/tmp/test_api_cancel_XXXXXX", deck_path[64];
+
+struct host {
+    int stop_at, once; /* the poll that says so; once: the next ones do not */
+    const char *stage; /* NULL, or polls are counted from the first time that this is told */
+    atomic_int polls, told, polls_after, told_after, matrices_after;
+    atomic_int said;
+    double when;
+    const rotid_model *model; /* counted, or NULL */
+};
+
+static int cancelled(void *context)
+{
+    struct host *host = context;
+    int poll = atomic_fetch_add(&host->polls, 1) + 1;
+    if (atomic_load(&host->said))
+        atomic_fetch_add(&host->polls_after, 1);
+    if (host->stage)
+        return 0;
+    if (poll == host->stop_at) {
+        host->when = clock_seconds();
+        atomic_store(&host->said, 1);
+    }
+    return host->once ? poll == host->stop_at : poll >= host->stop_at;
+}
+
+static void progress(void *context, const char *stage, int step)
+{
+    struct host *host = context;
+    (void)step;
+    atomic_fetch_add(&host->told, 1);
+    if (host->stage && !strcmp(stage, host->stage)) {
+        atomic_store(&host->polls, 0);
+        host->stage = NULL;
+    }
+    if (atomic_load(&host->said))
+        atomic_fetch_add(&host->told_after, 1);
+}
+
+static rotid_environment environment_of(struct host *host, const rotid_allocator *allocator)
+{
+    return (rotid_environment){.allocator = allocator, .cancelled = cancelled, .progress = progress, .context = host};
+}
+
+/* ------------------------------------------------------------------------------------------------ a host's own model */
+
+static int matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    struct host *host = user;
+    if (atomic_load(&host->said))
+        atomic_fetch_add(&host->matrices_after, 1);
+    return host->model->matrices(host->model->user, x, stiffness, mass);
+}
+
+static int derivatives(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass)
+{
+    struct host *host = user;
+    return host->model->derivatives(host->model->user, x, p, stiffness, mass);
+}
+
+static void a_fit_evaluates_nothing_more(void **state)
+{
+    (void)state;
+    int ended = 0, in_baseline = 0, most = 0;
+    struct paper_fit fit;
+    paper_fit_open(&fit, BUNDLE_TUBE);
+    fit.options.baseline = 1;
+    for (int k = 1; !ended; k = k < 8 ? k + 1 : k * 3 / 2) {
+        struct host host = {.stop_at = k, .once = 1, .model = &fit.client.model};
+        rotid_model model = fit.client.model;
+        const rotid_environment environment = environment_of(&host, NULL);
+        rotid_fit_result *result;
+        model.matrices = matrices;
+        model.derivatives = derivatives;
+        model.user = &host;
+        assert_status(rotid_fit(&model, fit.parameter, &fit.measured, &fit.options, &environment, &result), ROTID_OK);
+        ended = !host.said;
+        assert_int_equal(host.polls_after, 0);
+        assert_int_equal(host.told_after, 0);
+        most = host.matrices_after > most ? host.matrices_after : most;
+        in_baseline += host.said && result->status != ROTID_STOP_CANCELLED;
+        if (result->status == ROTID_STOP_CANCELLED)
+            assert_int_equal(result->iterations, k - 1);
+        else
+            assert_int_equal(result->nbaseline, ended ? baseline_count(2) : 0);
+        rotid_fit_free(result);
+    }
+    print_message("evaluations after the poll that stopped a fit: at most %d\n", most);
+    assert_int_equal(most, 0);
+    assert_true(in_baseline > 2 || !baseline_count(2));
+    paper_fit_close(&fit);
+}
+
+/* ------------------------------------------------------------------------------------------------ decks */
+
+static void an_identification_ends_with_the_best_point_so_far(void **state)
+{
+    (void)state;
+    rotid_deck *deck = bench_deck(PAPER);
+    rotid_identification *whole, *r;
+    double longest = 0;
+    int ended = 0, in_baseline = 0;
+    assert_status(rotid_identify(deck, 0, NULL, NULL, &whole), ROTID_OK);
+    const rotid_fit_result *full = whole->fit;
+    for (int baseline = 0; baseline < 2; baseline++)
+        for (int k = ended = 0; !ended;) {
+            struct failing_allocator memory;
+            char failure[512] = "not touched";
+            failing_allocator_open(&memory, 0);
+            k = k < 8 ? k + 1 : k * 3 / 2;
+            struct host host = {.stop_at = k, .once = 1};
+            const rotid_environment environment = environment_of(&host, &memory.allocator);
+            assert_status(rotid_identify(deck, baseline, &environment, failure, &r), ROTID_OK);
+            ended = !host.said;
+            if (!ended)
+                longest = fmax(longest, clock_seconds() - host.when);
+            assert_string_equal(failure, "");
+            assert_int_equal(host.polls_after, 0);
+            assert_int_equal(host.told_after, 0);
+            if (r->fit->status == ROTID_STOP_CANCELLED) {
+                int i = r->fit->iterations;
+                assert_int_equal(i, k - 1);
+                assert_false(r->fit->converged);
+                assert_memory_equal(r->fit->x, full->history_x + (ptrdiff_t)i * full->n, (size_t)full->n * sizeof(double));
+                assert_close(r->fit->objective, full->history[i].objective, 1e-12, 0);
+                assert_true(r->fit->evaluations <= full->evaluations && r->fit->jacobians <= i + 1);
+            } else {
+                assert_true(r->fit->converged);
+                assert_memory_equal(r->fit->x, full->x, (size_t)full->n * sizeof(double));
+                assert_int_equal(r->fit->nbaseline, ended && baseline ? baseline_count(full->n) : 0);
+                in_baseline += !ended;
+            }
+            free(dump_identification(r)); /* every number of it is there */
+            rotid_identification_free(r);
+            assert_int_equal(memory.in_use, 0);
+        }
+    assert_true(in_baseline > 2 || !baseline_count(2));
+    print_message("identification: at most %.1f ms from the poll to the return\n", 1e3 * longest);
+    rotid_identification_free(whole);
+    rotid_deck_free(deck);
+}
+
+static void a_diagnosis_shows_what_was_finished(void **state)
+{
+    (void)state;
+    rotid_deck *deck = bench_deck(deck_path);
+    for (int threads = 1; threads <= 2; threads++) {
+        const rotid_diagnose_options options = {.replicates = 100, .threads = threads};
+        struct host whole = {.stop_at = INT_MAX};
+        const rotid_environment undisturbed = environment_of(&whole, NULL);
+        rotid_diagnosis *r;
+        double longest = 0, total;
+        int nobase = 0, at = 0;
+        double begin = clock_seconds();
+        assert_status(rotid_diagnose(deck, &options, &undisturbed, NULL, &r), ROTID_OK);
+        total = clock_seconds() - begin;
+        assert_false(r->interrupted);
+        rotid_diagnosis_free(r);
+        for (int i = 0; i < 11; i++) {
+            struct failing_allocator memory;
+            struct host host = {.once = i % 2, .stop_at = i < 5 ? i + 1 : 1 + (whole.polls - 1) * (i - 4) / 6};
+            failing_allocator_open(&memory, 0);
+            /* the allocator of the test counts without a lock */
+            const rotid_environment environment = environment_of(&host, threads == 1 ? &memory.allocator : NULL);
+            assert_status(rotid_diagnose(deck, &options, &environment, NULL, &r), ROTID_OK);
+            if (clock_seconds() - host.when > longest) {
+                longest = clock_seconds() - host.when;
+                at = host.stop_at;
+            }
+            if (!r->interrupted)
+                print_error("poll %d of %d does not interrupt\n", host.stop_at, (int)whole.polls);
+            assert_true(host.said && r->interrupted);
+            assert_true(host.polls_after < threads); /* the others may be asking */
+            assert_true(host.told_after < threads);
+            assert_null(r->sentence);
+            assert_null(r->extended_deck);
+            assert_int_equal(r->kind, -1);
+            assert_true(isnan(r->p_value) && isnan(r->before.shape_rms) && isnan(r->after.shape_rms));
+            if (r->extended)
+                assert_true(r->extended->fit->status != ROTID_STOP_CANCELLED);
+            nobase += r->base == NULL;
+            free(dump_diagnosis(r));
+            rotid_diagnosis_free(r);
+            assert_int_equal(memory.in_use, 0);
+        }
+        assert_true(nobase > 0);
+        print_message("diagnosis of %.0f ms with %d polls, %d thread%s: at most %.1f ms to the return, after poll %d\n",
+                      1e3 * total, (int)whole.polls, threads, threads > 1 ? "s" : "", 1e3 * longest, at);
+        assert_true(longest < 0.5 * total);
+    }
+    rotid_deck_free(deck);
+}
+
+/* Broken off while the final models are fitted: each is there whole or not at all. */
+static void a_broken_off_model_is_no_result(void **state)
+{
+    (void)state;
+    const rotid_diagnose_options options = {.replicates = 100};
+    rotid_deck *deck = bench_deck(deck_path);
+    rotid_diagnosis *r;
+    int with = 0, without = 0, ended = 0;
+    for (int k = 1; !ended; k += 5) {
+        struct host host = {.stop_at = k, .once = 1, .stage = "final model, causes"};
+        const rotid_environment environment = environment_of(&host, NULL);
+        assert_status(rotid_diagnose(deck, &options, &environment, NULL, &r), ROTID_OK);
+        ended = !host.said;
+        assert_int_equal(r->interrupted, !ended);
+        assert_true(r->base && r->base->fit->converged);
+        assert_true(!r->extended || r->extended->fit->converged);
+        assert_int_equal(r->ncause, 1);
+        with += r->extended != NULL;
+        without += r->extended == NULL;
+        rotid_diagnosis_free(r);
+    }
+    print_message("broken off at %d polls, %d of them before the extended model was fitted\n", with + without - 1, without);
+    assert_true(with > 2 && without > 2);
+    rotid_deck_free(deck);
+}
+
+static int open_directory(void **state)
+{
+    (void)state;
+    openblas_set_num_threads(1);
+    if (!mkdtemp(directory))
+        return 1;
+    (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);
+    bench_hidden_deck(deck_path, 0.4, 3);
+    return 0;
+}
+
+static int remove_directory(void **state)
+{
+    (void)state;
+    (void)unlink(deck_path);
+    return rmdir(directory);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_fit_evaluates_nothing_more),
+        cmocka_unit_test(an_identification_ends_with_the_best_point_so_far),
+        cmocka_unit_test(a_diagnosis_shows_what_was_finished),
+        cmocka_unit_test(a_broken_off_model_is_no_result),
+    };
+    return cmocka_run_group_tests_name("api cancel", tests, open_directory, remove_directory);
+}

@@ -1,0 +1,314 @@
+/* The memory of the first layer: every allocation that fails, all of it from the host's allocator, all of it given back, and no
+ * result that leans on the deck. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "api_bench.h"
+#include "api_dump.h"
+
+#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+
+void openblas_set_num_threads(int threads);
+
+static char directory[] = "/tmp/test_api_memory_XXXXXX", deck_path[64], bar_path[64];
+
+/* ------------------------------------------------------------------------------------------------ failing allocations */
+
+typedef int (*attempt)(const rotid_deck *deck, const rotid_environment *environment, void **result);
+
+static void free_deck(void *result)
+{
+    rotid_deck_free(result);
+}
+
+static int try_read(const rotid_deck *deck, const rotid_environment *environment, void **result)
+{
+    static const char *const override[] = {"FIT.MODES=1-4", "NOISE.FREQUENCY=0.001"};
+    rotid_deck *made = (void *)1;
+    (void)deck;
+    int status = rotid_deck_read(deck_path, 2, override, environment, &made);
+    *result = made;
+    return status;
+}
+
+static int try_read_wrong(const rotid_deck *deck, const rotid_environment *environment, void **result)
+{
+    static const char *const override[] = {"FIT.FUNCTIONAL=NONE", "SHAFTS.NAME=x"};
+    rotid_deck *made = (void *)1;
+    (void)deck;
+    int status = rotid_deck_read(PAPER, 2, override, environment, &made);
+    *result = made;
+    return status == ROTID_ERROR_SYNTAX && made && made->nerror == 2 && made->nmessage >= 2 ? ROTID_OK : status;
+}
+
+static int try_spectrum(const rotid_deck *deck, const rotid_environment *environment, void **result)
+{
+    rotid_spectrum *made = (void *)1;
+    int status = rotid_spectrum_compute(deck, NULL, 6, environment, &made);
+    *result = made;
+    return status;
+}
+
+static void free_spectrum(void *result)
+{
+    rotid_spectrum_free(result);
+}
+
+static int try_identify(const rotid_deck *deck, const rotid_environment *environment, void **result)
+{
+    char failure[512];
+    rotid_identification *made = (void *)1;
+    int status = rotid_identify(deck, 1, environment, failure, &made);
+    assert_string_equal(failure, status ? rotid_status_text(status) : "");
+    *result = made;
+    return status;
+}
+
+static void free_identification(void *result)
+{
+    rotid_identification_free(result);
+}
+
+static int try_diagnose(const rotid_deck *deck, const rotid_environment *environment, void **result)
+{
+    const rotid_diagnose_options options = {.replicates = 100};
+    char failure[512];
+    rotid_diagnosis *made = (void *)1;
+    int status = rotid_diagnose(deck, &options, environment, failure, &made);
+    assert_string_equal(failure, status ? rotid_status_text(status) : "");
+    *result = made;
+    return status;
+}
+
+static void free_diagnosis(void *result)
+{
+    rotid_diagnosis_free(result);
+}
+
+/* One run whose n-th allocation fails, 0: none. Returns how many it was served. */
+static long run_once(const rotid_deck *deck, attempt try_it, void (*release)(void *result), long n)
+{
+    struct failing_allocator failing;
+    void *result;
+    failing_allocator_open(&failing, n);
+    const rotid_environment environment = {.allocator = &failing.allocator};
+    int status = try_it(deck, &environment, &result), failed = n && failing.until_failure == 0;
+    if (status != (failed ? ROTID_ERROR_MEMORY : ROTID_OK))
+        print_error("allocation %ld: %s\n", n, rotid_status_name(status));
+    assert_int_equal(status, failed ? ROTID_ERROR_MEMORY : ROTID_OK);
+    assert_true((result == NULL) == failed);
+    release(result);
+    assert_int_equal(failing.in_use, 0);
+    return failing.served;
+}
+
+/* Every n up to `early`, then further apart by `factor`, and the last ones. */
+static void sweep(const char *name, const rotid_deck *deck, attempt try_it, void (*release)(void *result), long early,
+                  double factor)
+{
+    long all = run_once(deck, try_it, release, 0), tried = 0, next;
+    for (long n = 1; n <= all; n = next) {
+        (void)run_once(deck, try_it, release, n);
+        tried++;
+        next = n < early || n + 6 > all ? n + 1 : (long)(factor * (double)n) + 1;
+        next = n < all - 5 && next > all - 5 ? all - 5 : next;
+    }
+    assert_int_equal(run_once(deck, try_it, release, all + 1), all);
+    print_message("%s: %ld allocations, %ld of them made to fail\n", name, all, tried);
+}
+
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    rotid_deck *deck = bench_deck(deck_path), *bar = bench_deck(bar_path);
+    sweep("rotid_deck_read", NULL, try_read, free_deck, 100000, 1);
+    sweep("rotid_deck_read of a wrong deck", NULL, try_read_wrong, free_deck, 300, 1.1);
+    sweep("rotid_spectrum_compute", bar, try_spectrum, free_spectrum, 100000, 1);
+    sweep("rotid_identify", bar, try_identify, free_identification, 200, 1.02);
+    sweep("rotid_diagnose", deck, try_diagnose, free_diagnosis, 150, 1.3);
+    rotid_deck_free(deck);
+    rotid_deck_free(bar);
+}
+
+/* ------------------------------------------------------------------------------------------------ whose memory */
+
+#define OWNED(pointer) assert_true(bench_owns(&memory, (pointer)))
+
+static void check_fit(const struct bench_memory *owner, const rotid_fit_result *fit)
+{
+    const struct bench_memory memory = *owner;
+    OWNED(fit);
+    OWNED(fit->x);
+    OWNED(fit->covariance);
+    OWNED(fit->predicted_hz);
+    OWNED(fit->jacobian);
+    OWNED(fit->history);
+    OWNED(fit->history_x);
+}
+
+static void check_identification(const struct bench_memory *owner, const rotid_identification *r)
+{
+    const struct bench_memory memory = *owner;
+    OWNED(r);
+    check_fit(owner, r->fit);
+    OWNED(r->parameter);
+    for (int p = 0; p < r->nparameter; p++) {
+        OWNED(r->parameter[p].name);
+        OWNED(r->parameter[p].unit);
+    }
+    OWNED(r->number);
+    OWNED(r->measured_hz);
+    OWNED(r->nco);
+    OWNED(r->reduction_error_percent);
+    OWNED(r->mesh_error_percent);
+    for (int i = 0; i < r->nmessage; i++)
+        OWNED(r->message[i].text);
+}
+
+static void check_causes(const struct bench_memory *owner, int count, const rotid_cause *cause)
+{
+    const struct bench_memory memory = *owner;
+    for (int i = 0; i < count; i++) {
+        OWNED(&cause[i]);
+        OWNED(cause[i].id);
+        OWNED(cause[i].target);
+        OWNED(cause[i].name);
+        for (int v = 0; v < cause[i].nvalue; v++) {
+            OWNED(&cause[i].value[v]);
+            OWNED(cause[i].value[v].name);
+            OWNED(cause[i].value[v].unit);
+        }
+        if (cause[i].collinear_with)
+            OWNED(cause[i].collinear_with);
+        if (cause[i].rejected_because)
+            OWNED(cause[i].rejected_because);
+        if (cause[i].variant)
+            OWNED(cause[i].variant);
+    }
+}
+
+static void check_diagnosis(const struct bench_memory *owner, const rotid_diagnosis *d)
+{
+    const struct bench_memory memory = *owner;
+    OWNED(d);
+    OWNED(d->sentence);
+    OWNED(d->extended_deck);
+    check_causes(owner, d->ncause, d->cause);
+    check_causes(owner, d->nalternative, d->alternative);
+    check_causes(owner, d->ncandidate, d->candidate);
+    check_identification(owner, d->base);
+    check_identification(owner, d->extended);
+    OWNED(d->local);
+    OWNED(d->local_z);
+    for (int i = 0; i < d->ndetectable; i++) {
+        OWNED(d->detectable[i].id);
+        OWNED(d->detectable[i].target);
+        OWNED(d->detectable[i].parameter);
+        OWNED(d->detectable[i].unit);
+    }
+    for (int i = 0; i < d->nmessage; i++)
+        OWNED(d->message[i].text);
+}
+
+/* The allocator spoils what it gets back, so a pointer into the deck would show. */
+static void results_outlive_the_deck_and_live_on_the_allocator(void **state)
+{
+    (void)state;
+    struct bench_memory memory;
+    rotid_deck *deck;
+    rotid_spectrum *spectrum;
+    rotid_identification *identification;
+    rotid_diagnosis *diagnosis;
+    const rotid_diagnose_options options = {.replicates = 100};
+    bench_memory_open(&memory);
+    const rotid_environment environment = {.allocator = &memory.allocator};
+    assert_status(rotid_deck_read(deck_path, 0, NULL, &environment, &deck), ROTID_OK);
+    OWNED(deck);
+    OWNED(deck->path);
+    OWNED(deck->sensor_z);
+    OWNED(deck->shape);
+    OWNED(deck->parameter[0].name);
+    assert_status(rotid_spectrum_compute(deck, NULL, 5, &environment, &spectrum), ROTID_OK);
+    OWNED(spectrum);
+    OWNED(spectrum->hz);
+    OWNED(spectrum->master_mass);
+    assert_status(rotid_identify(deck, 1, &environment, NULL, &identification), ROTID_OK);
+    check_identification(&memory, identification);
+    assert_status(rotid_diagnose(deck, &options, &environment, NULL, &diagnosis), ROTID_OK);
+    assert_int_equal(diagnosis->kind, ROTID_NAMED);
+    check_diagnosis(&memory, diagnosis);
+    char *with[3] = {dump_spectrum(spectrum), dump_identification(identification), dump_diagnosis(diagnosis)};
+    rotid_deck_free(deck);
+    assert_dump(dump_spectrum(spectrum), with[0]);
+    rotid_spectrum_free(spectrum);
+    assert_dump(dump_identification(identification), with[1]);
+    rotid_identification_free((rotid_identification *)diagnosis->base); /* belongs to the diagnosis: nothing happens */
+    rotid_identification_free(identification);
+    assert_dump(dump_diagnosis(diagnosis), with[2]);
+    rotid_diagnosis_free(diagnosis);
+    assert_int_equal(memory.in_use, 0);
+    for (int i = 0; i < 3; i++)
+        free(with[i]);
+}
+
+/* What a result keeps, against what its run took: the scratch is gone when the call returns. */
+static void results_are_small(void **state)
+{
+    (void)state;
+    struct bench_memory memory;
+    rotid_identification *identification;
+    rotid_diagnosis *diagnosis;
+    const rotid_diagnose_options options = {.replicates = 100};
+    bench_memory_open(&memory);
+    const rotid_environment environment = {.allocator = &memory.allocator};
+    rotid_deck *deck = bench_deck(deck_path);
+    assert_status(rotid_identify(deck, 0, &environment, NULL, &identification), ROTID_OK);
+    print_message("identification: %ld blocks of %ld kept\n", memory.in_use, memory.served);
+    assert_true(memory.in_use < 60);
+    rotid_identification_free(identification);
+    memory.served = 0;
+    assert_status(rotid_diagnose(deck, &options, &environment, NULL, &diagnosis), ROTID_OK);
+    print_message("diagnosis: %ld blocks of %ld kept\n", memory.in_use, memory.served);
+    assert_true(memory.in_use < 2000 && memory.served > 10 * memory.in_use);
+    rotid_diagnosis_free(diagnosis);
+    rotid_deck_free(deck);
+    assert_int_equal(memory.in_use, 0);
+}
+
+static int open_directory(void **state)
+{
+    (void)state;
+    openblas_set_num_threads(1);
+    if (!mkdtemp(directory))
+        return 1;
+    (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);
+    (void)snprintf(bar_path, sizeof bar_path, "%s/bar.inp", directory);
+    bench_hidden_deck(deck_path, 0.4, 3);
+    FILE *stream = fopen(bar_path, "wb");
+    if (!stream)
+        return 1;
+    (void)fprintf(stream, "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n"
+                          "1.2, 0.1, 0, 6\n*MODES\n1, 300\n2, 800\n3, 1500\n*NOISE, FREQUENCY=0.001\n"
+                          "*IDENTIFY\ncore.E, 1e11, 3e11, 1.9e11\ncore.rho, 7000, 9000, 8000\n");
+    return fclose(stream);
+}
+
+static int remove_directory(void **state)
+{
+    (void)state;
+    (void)unlink(deck_path);
+    (void)unlink(bar_path);
+    return rmdir(directory);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(results_outlive_the_deck_and_live_on_the_allocator),
+        cmocka_unit_test(results_are_small),
+    };
+    return cmocka_run_group_tests_name("api memory", tests, open_directory, remove_directory);
+}

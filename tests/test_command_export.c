@@ -1,0 +1,438 @@
+/* `rotid export` as its users and their scripts see it: what is fitted first, which files there are, what is refused, what is
+ * left when something fails, and how large and slow a large model is. */
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "export_readers.h"
+#include "json_value.h"
+#include "support.h"
+
+#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+#define BRAKE ROTID_SOURCE_DIR "/input/brake_reuss_beam.inp"
+#define MODEL                                                                                                                    \
+    "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.05, 0, 6\n"         \
+    "*SHAFT, NAME=core, MATERIAL=steel\n0.4, 0.1, 0.02, 8\n*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.05, 0, 6\n"
+#define MODES    "*MODES\n1, 383\n2, 640\n3, 1690\n"
+#define IDENTIFY "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n"
+#define SENSORS  "*SENSORS\n1, 0\n2, 0.2\n3, 0.4\n4, 0.6\n5, 0.8\n6, 1\n"
+
+static char directory[] = "/tmp/test_command_export_XXXXXX";
+static char output[1 << 16], errors[1 << 16];
+
+static const char *path_of(const char *name)
+{
+    static char path[16][256]; /* several are in use at a time */
+    static int next;
+    next = (next + 1) % 16;
+    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
+    return path[next];
+}
+
+static void read_into(const char *name, char *text, size_t size)
+{
+    FILE *stream = fopen(path_of(name), "rb");
+    assert_non_null(stream);
+    text[fread(text, 1, size - 1, stream)] = 0;
+    (void)fclose(stream);
+}
+
+static void write_file(const char *name, const char *text)
+{
+    FILE *stream = fopen(path_of(name), "wb");
+    assert_non_null(stream);
+    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
+}
+
+/* Exit code of rotid with the arguments, in the folder of the test; keeps what it prints. */
+static int run(const char *arguments)
+{
+    char command[2048];
+    (void)snprintf(command, sizeof command, "cd %s && %s %s > out 2> err", directory, ROTID_PROGRAM, arguments);
+    int status = system(command); /* NOLINT: a fixed command of the test */
+    read_into("out", output, sizeof output);
+    read_into("err", errors, sizeof errors);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+static void refuses(const char *arguments, int code, const char *text)
+{
+    int seen = run(arguments);
+    if (seen != code || !strstr(errors, text))
+        fail_msg("rotid %s: exit code %d for %d, expected \"%s\" in:\n%s", arguments, seen, code, text, errors);
+    assert_string_equal(output, "");
+}
+
+static int is_there(const char *name)
+{
+    return access(path_of(name), F_OK) == 0;
+}
+
+/* Files whose name begins so. */
+static int count_files(const char *beginning)
+{
+    DIR *folder = opendir(directory);
+    int count = 0;
+    assert_non_null(folder);
+    for (const struct dirent *entry; (entry = readdir(folder));)
+        count += !strncmp(entry->d_name, beginning, strlen(beginning));
+    (void)closedir(folder);
+    return count;
+}
+
+static int holds(const char *name, const char *text)
+{
+    static char content[1 << 22];
+    read_into(name, content, sizeof content);
+    return strstr(content, text) != NULL;
+}
+
+static cJSON *json_of(const char *arguments, int code)
+{
+    int seen = run(arguments);
+    if (seen != code)
+        fail_msg("rotid %s: exit code %d for %d: %s", arguments, seen, code, errors);
+    cJSON *json = cJSON_ParseWithOpts(output, NULL, 1);
+    assert_true(cJSON_IsObject(json));
+    return json;
+}
+
+static double number_at(const cJSON *json, const char *list, int i, const char *key)
+{
+    const cJSON *item = cJSON_GetArrayItem(get(json, list), i);
+    const cJSON *value = key ? cJSON_GetObjectItem(item, key) : item;
+    assert_true(cJSON_IsNumber(value));
+    return value->valuedouble;
+}
+
+static void empty_folder(void)
+{
+    char command[256];
+    (void)snprintf(command, sizeof command, "rm -rf %s/* ", directory);
+    assert_int_equal(system(command), 0); /* NOLINT: a fixed command of the test */
+}
+
+/* ------------------------------------------------------------------------------------------------ what is exported */
+
+static void test_the_model_is_fitted_first(void **state)
+{
+    (void)state;
+    cJSON *fit = json_of("identify " PAPER " --json - --no-baseline", 0);
+    cJSON *out = json_of("export " PAPER " --format matrix-market -o p --json -", 0);
+    for (int p = 0; p < 2; p++) {
+        assert_close(number_at(out, "parameters", p, "value"), number_at(fit, "parameters", p, "value"), 1e-14, 0);
+        assert_close(number_at(out, "parameters", p, "std"), number_at(fit, "parameters", p, "std"), 1e-12, 0);
+    }
+    assert_string_equal(get(out, "model")->valuestring, "identified");
+    assert_int_equal(cJSON_GetArraySize(get(out, "files")), 5);
+    assert_int_equal(count_files("p."), 5);
+    cJSON_Delete(out);
+    out = json_of("export " PAPER " --format matrix-market -o p --json - --start", 0);
+    cJSON *modes = json_of("modes " PAPER " --json -", 0);
+    for (int j = 0; j < 6; j++)
+        assert_close(number_at(out, "full_hz", j, NULL), number_at(modes, "modes", j, "full_hz"), 1e-12, 0);
+    assert_string_equal(get(out, "model")->valuestring, "stated");
+    assert_true(cJSON_IsNull(get(out, "status")));
+    assert_close(number_at(out, "parameters", 0, "value"), 1.157e11, 1e-15, 0);
+    assert_true(holds("p.mass.mtx", "nothing was fitted"));
+    cJSON_Delete(fit);
+    cJSON_Delete(out);
+    cJSON_Delete(modes);
+}
+
+static void test_a_doubtful_fit_is_written_with_exit_code_1(void **state)
+{
+    (void)state;
+    write_file("bound.inp", MODEL MODES "*IDENTIFY\ncore.E, 2.5e11, 1e12, 3e11\n");
+    static const char *const formats[] = {"matrix-market", "dmig", "ross"};
+    for (int f = 0; f < 3; f++) {
+        char arguments[128];
+        (void)snprintf(arguments, sizeof arguments, "export bound.inp --format %s -o b%d", formats[f], f);
+        assert_int_equal(run(arguments), 1);
+        assert_non_null(strstr(output, "did not end well"));
+    }
+    assert_true(holds("b0.stiffness.mtx", "AT A BOUND") && holds("b1", "AT A BOUND") && holds("b2", "AT A BOUND"));
+    assert_int_equal(run("export bound.inp --format dmig -o b1 --start"), 0);
+}
+
+static void test_a_deck_with_nothing_to_fit(void **state)
+{
+    (void)state;
+    write_file("plain.inp", MODEL);
+    assert_int_equal(run("export plain.inp --format matrix-market -o plain"), 0);
+    assert_non_null(strstr(output, "as the deck states it"));
+    assert_true(holds("plain.condensed_mass.mtx", "row 21: node 21 at 1 m")); /* without sensors all nodes are masters */
+    write_file("open.inp", MODEL IDENTIFY);
+    assert_int_equal(run("export open.inp --format ross -o open.py"), 0);
+    assert_non_null(strstr(output, "no mode was measured"));
+    write_file("measured.inp", MODEL MODES);
+    assert_int_equal(run("export measured.inp --format dmig -o measured.bdf --quiet"), 0);
+    assert_string_equal(output, "");
+}
+
+static void test_set_changes_the_model(void **state)
+{
+    (void)state;
+    cJSON *guyan = json_of("export " PAPER " --start --format matrix-market -o g --json -", 0);
+    cJSON *irs = json_of("export " PAPER " --start --format matrix-market -o i --json - --set FIT.REDUCTION=IRS", 0);
+    cJSON *rods = json_of("export " PAPER " --start --format ross -o r.py --json - --set TIEROD.MODEL=RODS", 0);
+    assert_string_equal(get(irs, "reduction")->valuestring, "IRS");
+    assert_true(holds("i.condensed_mass.mtx", "Condensed by IRS") && holds("g.condensed_mass.mtx", "Condensed by GUYAN"));
+    assert_close(number_at(irs, "full_hz", 0, NULL), number_at(guyan, "full_hz", 0, NULL), 1e-14, 0);
+    assert_true(fabs(number_at(rods, "full_hz", 1, NULL) / number_at(guyan, "full_hz", 1, NULL) - 1) > 1e-3);
+    assert_true(holds("r.py", "as rods"));
+    cJSON_Delete(guyan);
+    cJSON_Delete(irs);
+    cJSON_Delete(rods);
+}
+
+static void test_too_few_sensors_to_condense_onto(void **state)
+{
+    (void)state;
+    write_file("one.inp", MODEL "*SENSORS\n1, 0.3\n");
+    cJSON *out = json_of("export one.inp --format matrix-market -o one --json -", 0);
+    assert_int_equal(cJSON_GetArraySize(get(out, "files")), 3);
+    assert_true(cJSON_IsNull(get(out, "reduction")) && cJSON_IsNull(get(out, "masters")));
+    assert_non_null(
+        strstr(cJSON_GetArrayItem(get(out, "warnings"), 0)->valuestring, "no condensed matrices: 1 sensor is too few"));
+    assert_int_equal(count_files("one."), 4); /* with the deck */
+    cJSON_Delete(out);
+    refuses("export one.inp --format dmig --condensed -o one.bdf", 2, "no condensed matrices");
+    assert_false(is_there("one.bdf"));
+    write_file("two.inp", MODEL "*SENSORS\n1, 0.3\n2, 0.9\n");
+    assert_int_equal(run("export two.inp --format dmig --condensed -o two.bdf"), 0);
+    assert_non_null(strstr(output, "2 masters are too few"));
+}
+
+static void test_sensors_are_the_grids_of_the_condensed_model(void **state)
+{
+    (void)state;
+    struct dmig_file file;
+    write_file("ids.inp", MODEL "*SENSORS\n40, 0\n7, 0.2\n99999999, 0.4\n1, 0.7\n3, 1\n");
+    assert_int_equal(run("export ids.inp --format dmig --condensed -o ids.bdf"), 0);
+    FILE *stream = fopen(path_of("ids.bdf"), "rb");
+    assert_non_null(stream);
+    read_bulk(stream, &file);
+    (void)fclose(stream);
+    const int id[] = {40, 7, 99999999, 1, 3};
+    assert_int_equal(file.ngrid, 5);
+    for (int g = 0; g < 5; g++)
+        assert_true(file.grid[g] == id[g] && is_held(&file, id[g], "23456"));
+    assert_true(file.longest <= 80);
+    free(file.text);
+    write_file("ids.inp", MODEL "*SENSORS\n40, 0\n100000000, 0.4\n1, 0.7\n");
+    refuses("export ids.inp --format dmig --condensed -o no.bdf", 2, "sensor 100000000 cannot be the id of a GRID");
+    assert_int_equal(run("export ids.inp --format dmig -o full.bdf"), 0);
+    assert_false(is_there("no.bdf"));
+}
+
+static void test_rectangles_are_said_to_be_no_rotor(void **state)
+{
+    (void)state;
+    assert_int_equal(run("export " BRAKE " --format ross -o brake.py"), 0);
+    assert_non_null(strstr(output, "beam is rectangular: ROSS has round sections only"));
+    assert_true(holds("brake.py", "rectangular, bending in the measured plane only"));
+}
+
+/* Names of a deck end in Python texts and in comments: they stay what they are. */
+static void test_names_cannot_break_out(void **state)
+{
+    (void)state;
+    write_file("odd.inp", "*HEADING\n\"\"\" k\xc3\xa4se \\\n*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, "
+                          "NAME=a\");import os#, MATERIAL=s\n1, 0.1, 0, 4\n*DISK, NAME=d\"\\\n0.5, 1, 0.1\n");
+    assert_int_equal(run("export odd.inp --format ross -o odd.py"), 0);
+    assert_true(holds("odd.py", "material(\"a___import_os_\"") && holds("odd.py", "tag=\"d__\"") && !holds("odd.py", "\xc3"));
+    assert_true(holds("odd.py", "# \"\"\" k??se \\\n"));
+    assert_int_equal(run("export odd.inp --format matrix-market -o odd"), 0);
+    assert_int_equal(run("export odd.inp --format dmig -o odd.bdf"), 0);
+}
+
+/* ------------------------------------------------------------------------------------------------ what is refused */
+
+static void test_wrong_arguments(void **state)
+{
+    (void)state;
+    write_file("plain.inp", MODEL);
+    refuses("export plain.inp -o x", 2, "expected --format matrix-market, dmig or ross");
+    refuses("export plain.inp --format ansys -o x", 2, "--format ansys: expected matrix-market, dmig or ross");
+    refuses("export plain.inp --format ascii -o x", 2, "--format ascii: expected matrix-market");
+    refuses("export plain.inp --format dmig", 2, "expected --output FILE as well");
+    refuses("export plain.inp --format dmig -o -", 2, "expected a file");
+    refuses("export plain.inp --format ross --condensed -o x", 2, "--condensed is an option of --format dmig");
+    refuses("modes plain.inp --start", 2, "--start is an option of export alone");
+    refuses("identify plain.inp --condensed", 2, "--condensed is an option of export alone");
+    refuses("modes plain.inp --format dmig", 2, "--format is no option of modes");
+    refuses("uff plain.inp --format dmig -o x", 2, "expected ascii or binary");
+    refuses("export plain.inp --format dmig -o ./plain.inp", 2, "is the file that is read");
+    refuses("export plain.inp --format dmig -o x --json x", 2, "is the file of --json as well");
+    refuses("export plain.inp --format matrix-market -o x --json x.mass.mtx", 2, "would write x.mass.mtx, the file of --json");
+    refuses("export none.inp --format dmig -o x", 2, "none.inp");
+    assert_int_equal(rename(path_of("plain.inp"), path_of("x.nodes.csv")), 0);
+    refuses("export x.nodes.csv --format matrix-market -o x", 2, "would write x.nodes.csv, which is read");
+    assert_int_equal(count_files("x"), 1);
+    write_file("wrong.inp", MODEL "*SHAFT\n");
+    refuses("export wrong.inp --format dmig -o x", 2, "wrong.inp:");
+    write_file("clash.inp", MODEL MODES IDENTIFY "*FIT, FUNCTIONAL=LIKELIHOOD\n");
+    refuses("export clash.inp --format dmig -o x", 2, "LIKELIHOOD");
+    assert_int_equal(count_files("x"), 1);
+}
+
+static const char *const suffix[] = {"stiffness.mtx", "mass.mtx", "nodes.csv", "condensed_stiffness.mtx", "condensed_mass.mtx"};
+
+/* Whichever of the five cannot be written: those that were there are as they were, those that were not are not. */
+static void test_all_files_or_none(void **state)
+{
+    (void)state;
+    write_file("s.inp", MODEL SENSORS);
+    for (int bad = 0; bad < 5; bad++) {
+        char name[64];
+        for (int i = 0; i < 5; i++) {
+            (void)snprintf(name, sizeof name, "a.%s", suffix[i]);
+            if (i == bad)
+                assert_int_equal(mkdir(path_of(name), 0700), 0); /* in its place */
+            else if (i % 2)
+                write_file(name, "old");
+        }
+        refuses("export s.inp --format matrix-market -o a", 3, "no file was written");
+        assert_non_null(strstr(errors, suffix[bad]));
+        for (int i = 0; i < 5; i++) {
+            (void)snprintf(name, sizeof name, "a.%s", suffix[i]);
+            if (i == bad)
+                assert_int_equal(rmdir(path_of(name)), 0);
+            else if (i % 2)
+                assert_true(holds(name, "old"));
+            else
+                assert_false(is_there(name));
+            (void)unlink(path_of(name));
+        }
+        assert_int_equal(count_files("a"), 0); /* nor anything beside them */
+    }
+    for (int i = 0; i < 5; i++) {
+        char name[64];
+        (void)snprintf(name, sizeof name, "a.%s", suffix[i]);
+        write_file(name, "old");
+    }
+    assert_int_equal(run("export s.inp --format matrix-market -o a"), 0);
+    assert_int_equal(count_files("a."), 5);
+    assert_false(holds("a.mass.mtx", "old") || holds("a.nodes.csv", "old"));
+}
+
+static void test_places_that_cannot_be_written(void **state)
+{
+    (void)state;
+    write_file("s.inp", MODEL SENSORS);
+    refuses("export s.inp --format dmig -o no/where.bdf", 3, "cannot write no/where.bdf");
+    refuses("export s.inp --format matrix-market -o no/where", 3, "cannot write no/where.stiffness.mtx");
+    refuses("export s.inp --format dmig -o /dev/full", 3, "No space left on device");
+    refuses("export s.inp --format ross -o /dev/full", 3, "No space left on device");
+    write_file("old.bdf", "old");
+    assert_int_equal(symlink("/dev/full", path_of("f.mass.mtx")), 0); /* one of five, found at the end */
+    refuses("export s.inp --format matrix-market -o f", 3, "f.mass.mtx");
+    assert_int_equal(count_files("f."), 1);
+    assert_int_equal(run("export s.inp --format dmig -o /dev/null"), 0);
+}
+
+/* Nine thousand elements are fitted for seconds. */
+static void test_an_interrupted_fit_writes_nothing(void **state)
+{
+    (void)state;
+    char command[512];
+    write_file("slow.inp",
+               "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.3, 0.05, 0, 3000\n"
+               "*SHAFT, NAME=b, MATERIAL=s\n0.4, 0.1, 0.02, 3000\n*SHAFT, NAME=c, MATERIAL=s\n0.3, 0.05, 0, 3000\n" MODES
+               "*IDENTIFY\na.E, 1e9, 1e12, 2e10\nb.E, 1e9, 1e12, 2e10\nc.E, 1e9, 1e13, 2e12\n");
+    (void)snprintf(command, sizeof command,
+                   "cd %s && timeout --preserve-status -s TERM 0.2 %s export slow.inp --format dmig -o slow.bdf > out 2> err",
+                   directory, ROTID_PROGRAM);
+    int status = system(command); /* NOLINT: a fixed command of the test */
+    assert_int_equal(WEXITSTATUS(status), 1);
+    assert_true(holds("err", "interrupted, nothing was written") && !holds("out", "mode"));
+    assert_int_equal(count_files("slow."), 1);
+}
+
+/* ------------------------------------------------------------------------------------------------ large models */
+
+static long size_of(const char *name)
+{
+    struct stat state;
+    assert_int_equal(stat(path_of(name), &state), 0);
+    return (long)state.st_size;
+}
+
+static void test_two_thousand_elements(void **state)
+{
+    (void)state;
+    write_file("long.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
+                           "2000\n" SENSORS);
+    double start = clock_seconds();
+    assert_int_equal(run("export long.inp --format matrix-market -o long"), 0);
+    assert_int_equal(run("export long.inp --format dmig -o long.bdf"), 0);
+    assert_int_equal(run("export long.inp --format ross -o long.py"), 0);
+    double seconds = clock_seconds() - start;
+    assert_non_null(strstr(output, "ROSS solves dense matrices: 2000 elements"));
+    print_message("2000 elements: %.2f s; %ld, %ld, %ld bytes\n", seconds, size_of("long.stiffness.mtx"), size_of("long.bdf"),
+                  size_of("long.py"));
+    assert_true(seconds < 60); /* 1 s here; ten times that under valgrind */
+    assert_true(size_of("long.stiffness.mtx") < 1000000 && size_of("long.bdf") < 6000000 && size_of("long.py") < 300000);
+    FILE *stream = fopen(path_of("long.mass.mtx"), "rb");
+    assert_non_null(stream);
+    struct dense_file mass = read_market(stream);
+    double sum = 0;
+    for (ptrdiff_t i = 0; i < mass.n; i += 2)
+        for (ptrdiff_t j = 0; j < mass.n; j += 2)
+            sum += mass.a[i + j * mass.n];
+    assert_close(sum, 7850 * 20 * acos(-1) / 4 * (0.16 - 0.01), 1e-10, 0);
+    (void)fclose(stream);
+    free(mass.a);
+    write_file("bare.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
+                           "2000\n");
+    assert_int_equal(run("export bare.inp --format matrix-market -o bare"), 0); /* 2,001 masters */
+    assert_non_null(strstr(output, "2001 nodes (the deck has no sensors) are too many to condense onto"));
+    assert_false(is_there("bare.condensed_mass.mtx"));
+}
+
+static int make_directory(void **state)
+{
+    (void)state;
+    return mkdtemp(directory) == NULL;
+}
+
+static int remove_directory(void **state)
+{
+    (void)state;
+    empty_folder();
+    return rmdir(directory);
+}
+
+static int clear(void **state)
+{
+    (void)state;
+    empty_folder();
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_the_model_is_fitted_first, clear),
+        cmocka_unit_test_teardown(test_a_doubtful_fit_is_written_with_exit_code_1, clear),
+        cmocka_unit_test_teardown(test_a_deck_with_nothing_to_fit, clear),
+        cmocka_unit_test_teardown(test_set_changes_the_model, clear),
+        cmocka_unit_test_teardown(test_too_few_sensors_to_condense_onto, clear),
+        cmocka_unit_test_teardown(test_sensors_are_the_grids_of_the_condensed_model, clear),
+        cmocka_unit_test_teardown(test_rectangles_are_said_to_be_no_rotor, clear),
+        cmocka_unit_test_teardown(test_names_cannot_break_out, clear),
+        cmocka_unit_test_teardown(test_wrong_arguments, clear),
+        cmocka_unit_test_teardown(test_all_files_or_none, clear),
+        cmocka_unit_test_teardown(test_places_that_cannot_be_written, clear),
+        cmocka_unit_test_teardown(test_an_interrupted_fit_writes_nothing, clear),
+        cmocka_unit_test_teardown(test_two_thousand_elements, clear),
+    };
+    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+}

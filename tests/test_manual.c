@@ -1,0 +1,298 @@
+/* What the program offers beside what the manual page and the completions of the shells say of it, in both directions. */
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell.h"
+#include "support.h"
+
+#define MOST   200
+#define MANUAL ROTID_SOURCE_DIR "/docs/rotid.1"
+#define BASH   ROTID_SOURCE_DIR "/completions/rotid.bash"
+#define ZSH    ROTID_SOURCE_DIR "/completions/_rotid"
+#define FISH   ROTID_SOURCE_DIR "/completions/rotid.fish"
+
+/* A set of words. */
+struct words {
+    int count;
+    const char *word[MOST];
+};
+
+static int has(const struct words *words, const char *word)
+{
+    for (int i = 0; i < words->count; i++)
+        if (strcmp(words->word[i], word) == 0)
+            return 1;
+    return 0;
+}
+
+/* Of letters, digits and hyphens: how many from here on. */
+static int span(const char *at)
+{
+    int length = 0;
+    while (isalnum((unsigned char)at[length]) || at[length] == '-')
+        length++;
+    return length;
+}
+
+static void add(struct words *words, const char *beginning, const char *at, int length)
+{
+    const char *word = pool_format(&test_pool, "%s%.*s", beginning, length, at);
+    assert_non_null(word);
+    if (has(words, word))
+        return;
+    assert_true(words->count < MOST);
+    words->word[words->count++] = word;
+}
+
+/* Every word behind `mark`, which a blank or another character that is no letter stands before, with `beginning` before it. */
+static void find_behind(struct words *words, const char *text, const char *mark, const char *beginning)
+{
+    for (const char *at = strstr(text, mark); at; at = strstr(at + 1, mark)) {
+        const char *word = at + strlen(mark);
+        if ((at == text || span(at - 1) == 0 || isspace((unsigned char)mark[0])) && islower((unsigned char)*word))
+            add(words, beginning, word, span(word));
+    }
+}
+
+/* Long options anywhere in a text. */
+static void find_options(struct words *words, const char *text)
+{
+    for (const char *at = strstr(text, "--"); at; at = strstr(at + 2, "--"))
+        if ((at == text || !(isalnum((unsigned char)at[-1]) || at[-1] == '-')) && islower((unsigned char)at[2]))
+            add(words, "", at, span(at));
+}
+
+static void assert_same_words(const struct words *a, const char *name_a, const struct words *b, const char *name_b)
+{
+    for (int i = 0; i < a->count; i++)
+        if (!has(b, a->word[i]))
+            fail_msg("%s of %s is missing in %s", a->word[i], name_a, name_b);
+    for (int i = 0; i < b->count; i++)
+        if (!has(a, b->word[i]))
+            fail_msg("%s of %s is missing in %s", b->word[i], name_b, name_a);
+}
+
+/* What `rotid --help` lists: lines of two blanks, a word and its text, up to the first empty line behind them. */
+static struct words commands_of_the_program(void)
+{
+    struct words commands = {0};
+    const char *line = strstr(shell(&test_pool, "%s --help", ROTID_PROGRAM), "\n\n");
+    assert_non_null(line);
+    for (line += 2; line[0] == ' ' && line[1] == ' ' && islower((unsigned char)line[2]); line += strcspn(line, "\n") + 1)
+        add(&commands, "", line + 2, span(line + 2));
+    assert_true(commands.count >= 8);
+    return commands;
+}
+
+/* The help of all commands together. */
+static struct words options_of_the_program(void)
+{
+    struct words options = {0}, commands = commands_of_the_program();
+    find_options(&options, shell(&test_pool, "%s --help", ROTID_PROGRAM));
+    for (int i = 0; i < commands.count; i++)
+        find_options(&options, shell(&test_pool, "%s %s --help", ROTID_PROGRAM, commands.word[i]));
+    assert_true(options.count >= 30);
+    return options;
+}
+
+/* What the completion of bash offers behind these words, the last of which is completed. */
+static struct words offered(const char *words)
+{
+    struct words found = {0};
+    const char *text = shell(&test_pool,
+                             "bash -c '. %s; COMP_WORDS=(%s); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _rotid; "
+                             "printf \"%%s\\n\" \"${COMPREPLY[@]}\"'",
+                             BASH, words);
+    for (; *text; text += strcspn(text, "\n") + 1)
+        if (*text != '\n')
+            add(&found, "", text, (int)strcspn(text, "\n"));
+    return found;
+}
+
+static void the_manual_names_every_command_and_option(void **state)
+{
+    (void)state;
+    struct words commands = commands_of_the_program(), options = options_of_the_program(), named = {0}, listed = {0};
+    char *text = pool_copy_text(&test_pool, shell_file(&test_pool, MANUAL)), *end = text;
+    assert_non_null(text);
+    for (const char *at = text; *at; at++) /* \- is a hyphen that is not broken at */
+        if (*at != '\\')
+            *end++ = *at;
+    *end = 0;
+    find_behind(&listed, text, "\n.It Ic ", "");
+    assert_same_words(&commands, "rotid --help", &listed, "docs/rotid.1");
+    /* each in a list where it is explained, and none anywhere that there is not */
+    find_behind(&named, text, "Fl -", "--");
+    find_options(&named, text);
+    assert_same_words(&options, "rotid --help", &named, "docs/rotid.1");
+    named.count = 0;
+    for (const char *at = text; *at; at += strcspn(at, "\n") + 1)
+        if (strncmp(at, ".It ", 4) == 0)
+            find_behind(&named, pool_format(&test_pool, "%.*s", (int)strcspn(at, "\n"), at), "Fl -", "--");
+    assert_same_words(&options, "rotid --help", &named, "the lists of docs/rotid.1");
+}
+
+static void bash_offers_every_command_and_option(void **state)
+{
+    (void)state;
+    struct words commands = commands_of_the_program(), options = options_of_the_program(), listed = offered("rotid \"\""),
+                 all = {0};
+    assert_same_words(&commands, "rotid --help", &listed, "rotid.bash");
+    for (int i = 0; i < commands.count; i++) {
+        struct words found = offered(pool_format(&test_pool, "rotid %s --", commands.word[i]));
+        for (int j = 0; j < found.count; j++)
+            add(&all, "", found.word[j], (int)strlen(found.word[j]));
+    }
+    assert_same_words(&options, "rotid --help", &all, "rotid.bash");
+}
+
+/* A value for each option that takes one, of a command or of all; the file is not there, which is said only when the options are
+ * in order. */
+static const char *value_of(const char *command, const char *option)
+{
+    static const char *const values[][2] = {{"export --format", "ross"},
+                                            {"--json", "-"},
+                                            {"--threads", "1"},
+                                            {"--seed", "1"},
+                                            {"--set", "FIT.MODES=1"},
+                                            {"--at", "core.E"},
+                                            {"--step", "0.1"},
+                                            {"--range", "0.1"},
+                                            {"--points", "2"},
+                                            {"--extended", "/x/y"},
+                                            {"--replicates", "100"},
+                                            {"--output", "/x/y"},
+                                            {"-o", "/x/y"},
+                                            {"--format", "ascii -o /x/y"},
+                                            {"--band", "1,2"},
+                                            {"--method", "lscf"},
+                                            {"--order", "4"},
+                                            {"--pick", "1,2"},
+                                            {"--reference", "1"},
+                                            {"--averages", "3"},
+                                            {"--estimator", "H1"},
+                                            {"--exponential", "0.1"},
+                                            {"--force-window", "1"},
+                                            {"--block", "1"},
+                                            {"--pretrigger", "0.1"},
+                                            {"--threshold", "0.1"},
+                                            {"--shard", "1/2"},
+                                            {"--timeout", "1"},
+                                            {NULL, NULL}};
+    const char *of_command = pool_format(&test_pool, "%s %s", command, option);
+    int i = 0;
+    while (values[i][0] && strcmp(values[i][0], of_command) != 0 && strcmp(values[i][0], option) != 0)
+        i++;
+    return values[i][0] ? values[i][1] : "";
+}
+
+/* What a command does not go without. */
+static const char *needs_of(const char *command, const char *option)
+{
+    if (strcmp(command, "export") == 0)
+        return "--format dmig -o /x/y";
+    return strcmp(command, "study") == 0 && strcmp(option, "--summary") != 0 ? "-o /x/y" : "";
+}
+
+static void bash_offers_what_a_command_takes(void **state)
+{
+    (void)state;
+    struct words commands = commands_of_the_program();
+    for (int i = 0; i < commands.count; i++) {
+        struct words options = offered(pool_format(&test_pool, "rotid %s -", commands.word[i]));
+        assert_true(options.count > 6);
+        for (int j = 0; j < options.count; j++) {
+            const char *output, *command = commands.word[i], *option = options.word[j];
+            if (strcmp(option, "--help") == 0 || strcmp(option, "--version") == 0)
+                continue;
+            const char *all =
+                pool_format(&test_pool, "%s %s %s %s", command, needs_of(command, option), option, value_of(command, option));
+            int code = shell_code(&test_pool, &output, "%s %s /nowhere/file", ROTID_PROGRAM, all);
+            if ((code != 2 && code != 3) || strstr(output, "rotid: --") || strstr(output, "option") ||
+                !strstr(output, "/nowhere/file"))
+                fail_msg("rotid %s: exit code %d, %s", all, code, output);
+        }
+    }
+}
+
+/* expected: separated by bars. */
+static void assert_offered(const char *words, const char *expected)
+{
+    struct words found = offered(words), wanted = {0};
+    for (const char *at = expected; *at; at += strcspn(at, "|") + (at[strcspn(at, "|")] == '|'))
+        add(&wanted, "", at, (int)strcspn(at, "|"));
+    assert_same_words(&wanted, "what is expected", &found, words);
+}
+
+static void bash_completes_values_and_files(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/test_manual_XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    (void)shell(&test_pool,
+                "cd %s && mkdir 'a b' data empty && touch one.inp two.INP 'with blank.inp' r.json modes.unv rec.UFF notes.txt",
+                folder);
+    const char *at = pool_format(&test_pool, "rotid identify %s", folder);
+    assert_offered("rotid dia", "diagnose");
+    assert_offered("rotid --quiet --json r.json che", "check");
+    assert_offered("rotid --json = r.json che", "check");
+    assert_offered("rotid ema --method \"\"", "lscf|quadrature");
+    assert_offered("rotid ema --method = q", "quadrature");
+    assert_offered("rotid ema --method =", "lscf|quadrature");
+    assert_offered("rotid identify --set FIT.REDUCTION = G", "GUYAN");
+    assert_offered("rotid identify --thr", "--threads");
+    assert_offered("rotid identify --threads \"\"", "");
+    assert_offered("rotid identify a.inp \"\"", "");
+    assert_offered(pool_format(&test_pool, "%s/o", at), pool_format(&test_pool, "%s/one.inp", folder));
+    assert_offered(pool_format(&test_pool, "%s/t", at), pool_format(&test_pool, "%s/two.INP", folder));
+    assert_offered(pool_format(&test_pool, "%s/n", at), pool_format(&test_pool, "%s/notes.txt", folder)); /* no deck begins so */
+    assert_offered(pool_format(&test_pool, "%s/d", at), pool_format(&test_pool, "%s/data", folder));
+    assert_offered(
+        pool_format(&test_pool, "rotid ema %s/", folder),
+        pool_format(&test_pool, "%s/modes.unv|%s/rec.UFF|%s/data|%s/empty|%s/a b", folder, folder, folder, folder, folder));
+    (void)shell(&test_pool, "rm -r %s", folder);
+}
+
+/* By their texts: these shells need not be there. */
+static void zsh_and_fish_offer_every_command_and_option(void **state)
+{
+    (void)state;
+    struct words commands = commands_of_the_program(), options = options_of_the_program(), found = {0}, listed = {0};
+    const char *zsh = shell_file(&test_pool, ZSH), *fish = shell_file(&test_pool, FISH);
+    const char *list = strstr(zsh, "commands=(");
+    assert_non_null(list);
+    find_behind(&listed, pool_format(&test_pool, "%.*s", (int)(strstr(list, "\n    )") - list), list), "\n        '", "");
+    assert_same_words(&commands, "rotid --help", &listed, "_rotid");
+    find_options(&found, zsh);
+    assert_same_words(&options, "rotid --help", &found, "_rotid");
+
+    found.count = listed.count = 0;
+    find_behind(&found, fish, " -l ", "--");
+    /* of fish's own `set -l` */
+    static const char *const own[] = {"--commands", "--decks", "--none", "--ema", NULL};
+    for (int i = 0; own[i]; i++)
+        for (int j = 0; j < found.count; j++)
+            if (strcmp(found.word[j], own[i]) == 0)
+                found.word[j] = found.word[--found.count];
+    assert_same_words(&options, "rotid --help", &found, "rotid.fish");
+    find_behind(&listed, fish, "-n $none -a ", "");
+    assert_same_words(&commands, "rotid --help", &listed, "rotid.fish");
+    list = strstr(fish, "set -l commands ");
+    assert_non_null(list);
+    listed.count = 0;
+    find_behind(&listed, pool_format(&test_pool, "%.*s", (int)strcspn(list, "\n") - 15, list + 15), " ", "");
+    assert_same_words(&commands, "rotid --help", &listed, "the list of commands in rotid.fish");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(the_manual_names_every_command_and_option, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(bash_offers_every_command_and_option, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(bash_offers_what_a_command_takes, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(bash_completes_values_and_files, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(zsh_and_fish_offer_every_command_and_option, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

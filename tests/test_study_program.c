@@ -1,0 +1,313 @@
+/* rotid study as its users see it: the same results whatever the number of processes, whatever kills whom, whoever goes on. */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "json_value.h"
+#include "study_bench.h"
+#include "support.h"
+
+/* 120 runs of some milliseconds */
+#define PLAN                                                                                                                     \
+    "*STUDY, REPLICATES=20\n*DECKS\ndeck.inp\n*DATA, SOURCE=MODEL\n*MODES\n1-4\n1-6\n*NOISE\n0.001\n0.002, 0.01\n0.004, 0.02\n"
+#define RUNS 120
+
+static void rest(double seconds)
+{
+    const struct timespec time = {(time_t)seconds, (long)(1e9 * (seconds - (double)(time_t)seconds))};
+    (void)nanosleep(&time, NULL);
+}
+
+static int setup(void **state)
+{
+    if (bench_make(state))
+        return 1;
+    (void)bench_write("a.plan", PLAN);
+    (void)bench_write("plain.inp", BENCH_DECK);
+    return bench_run("study a.plan -o one.jsonl --threads 1 --quiet").code;
+}
+
+static void any_number_of_processes_gives_one_result(void **state)
+{
+    (void)state;
+    assert_int_equal(bench_lines("one.jsonl"), 1 + RUNS);
+    bench_says("study a.plan -o three.jsonl --threads 3 --quiet", 0, "");
+    assert_true(bench_same("one.jsonl", "three.jsonl"));
+    bench_says("study a.plan -o three.jsonl --quiet", 0, ""); /* everything is there */
+    assert_true(bench_same("one.jsonl", "three.jsonl"));
+}
+
+static void shards_merge_to_one_result(void **state)
+{
+    (void)state;
+    bench_says("study a.plan -o s1.jsonl --shard 1/3 --quiet", 0, "");
+    bench_says("study a.plan -o s2.jsonl --shard 2/3 --quiet", 0, "");
+    bench_says("study --merge s1.jsonl s2.jsonl -o most.jsonl --quiet", 1, "40 of 120 runs are missing in most.jsonl: 2, 5, 8,");
+    bench_says("study a.plan -o s3.jsonl --shard 3/3 --quiet", 0, "");
+    bench_says("study --merge s3.jsonl s1.jsonl s2.jsonl -o all.jsonl --quiet", 0, "");
+    assert_true(bench_same("one.jsonl", "all.jsonl"));
+    bench_says("study a.plan -o most.jsonl --quiet", 0, ""); /* or the rest is computed here */
+    assert_true(bench_same("one.jsonl", "most.jsonl"));
+    bench_says("study --merge s1.jsonl deck.inp -o x.jsonl", 2, "deck.inp:1:1: this is no file of results");
+}
+
+/* The coordinator is killed at some moment, again and again: what is there is whole, and in the end all is. */
+static void nothing_is_lost_by_kill_9(void **state)
+{
+    (void)state;
+    unsigned seed = 12345;
+    for (int round = 0; round < 4; round++) {
+        int kills = 0, before = 0;
+        bench_delete("killed.jsonl");
+        for (int left = 1; left;) {
+            pid_t process = bench_start("study a.plan -o killed.jsonl --threads 2 --quiet"), child[8];
+            seed = seed * 1103515245u + 12345u;
+            rest(0.01 + 0.08 * (double)(seed >> 16 & 1023) / 1023);
+            int children = bench_children(process, 8, child);
+            (void)kill(process, SIGKILL);
+            struct bench_outcome outcome = bench_wait(process);
+            left = outcome.code != 0;
+            assert_true(left == 0 || outcome.code == 128 + SIGKILL);
+            kills += left;
+            for (int i = 0, tries = 0; i < children; i++) /* nobody is left behind */
+                for (; kill(child[i], 0) == 0 && tries < 500; tries++)
+                    rest(0.01);
+            for (int i = 0; i < children; i++)
+                assert_int_equal(kill(child[i], 0), -1);
+            int lines = bench_lines("killed.jsonl");
+            assert_true(lines >= before && lines <= 1 + RUNS);
+            before = lines;
+            assert_true(kills < 400);
+        }
+        print_message("%d kills\n", kills);
+        assert_true(bench_same("one.jsonl", "killed.jsonl"));
+    }
+}
+
+/* A plan of diagnoses takes long enough for somebody to step in. */
+#define SLOW                                                                                                                     \
+    "*STUDY, COMMAND=DIAGNOSE, REPLICATES=4, BOOTSTRAP=100\n*DECKS\n" ROTID_SOURCE_DIR                                           \
+    "/input/solid_rotor.inp\n*DATA, SOURCE=MODEL\n*SENSORS\nEVERY, 6\n*NOISE\n0.001, 0.01\n"
+
+static int wait_for_children(pid_t process, int wanted, pid_t *child)
+{
+    int count = 0;
+    for (int tries = 0; tries < 1000 && count < wanted; tries++) {
+        rest(0.005);
+        count = bench_children(process, wanted, child);
+    }
+    return count;
+}
+
+static void a_worker_that_dies_costs_its_run(void **state)
+{
+    (void)state;
+    (void)bench_write("slow.plan", SLOW);
+    bench_delete("slow.jsonl");
+    pid_t process = bench_start("study slow.plan -o slow.jsonl --threads 2"), child[2];
+    assert_int_equal(wait_for_children(process, 2, child), 2);
+    rest(0.05);
+    assert_int_equal(kill(child[0], SIGKILL), 0);
+    struct bench_outcome outcome = bench_wait(process);
+    assert_int_equal(outcome.code, 1);
+    assert_non_null(strstr(outcome.out, "worker ended by signal 9"));
+    assert_int_equal(bench_lines("slow.jsonl"), 5);
+    char *text = bench_read("slow.jsonl");
+    assert_non_null(strstr(text, "\"status\":\"failed\",\"error\":\"worker ended by signal 9"));
+    free(text);
+    bench_says("study slow.plan -o slow.jsonl --quiet", 1, ""); /* it is kept */
+    bench_says("study slow.plan -o slow.jsonl --quiet --retry-failed", 0, "");
+    bench_says("study slow.plan -o again.jsonl --quiet", 0, "");
+    assert_true(bench_same("slow.jsonl", "again.jsonl"));
+}
+
+static void a_run_that_takes_too_long_has_failed(void **state)
+{
+    (void)state;
+    (void)bench_write("slow.plan", SLOW);
+    bench_delete("late.jsonl");
+    bench_says("study slow.plan -o late.jsonl --timeout 0.05", 1, "no result within 0.05 s (--timeout)");
+    bench_says("study --summary late.jsonl", 1, "4 of 4 runs of diagnose, 4 failed");
+}
+
+static void an_interruption_keeps_what_is_finished(void **state)
+{
+    (void)state;
+    static const int signals[] = {SIGINT, SIGTERM};
+    for (int i = 0; i < 2; i++) {
+        bench_delete("stopped.jsonl");
+        int lines = 0;
+        pid_t process = bench_start("study a.plan -o stopped.jsonl --threads 2 --json s.json --quiet");
+        for (int tries = 0; tries < 2000 && lines < 10; tries++) {
+            rest(0.002);
+            lines = bench_lines("stopped.jsonl");
+        }
+        assert_int_equal(kill(process, signals[i]), 0);
+        struct bench_outcome outcome = bench_wait(process);
+        assert_int_equal(outcome.code, 1);
+        lines = bench_lines("stopped.jsonl");
+        char words[100], *json = bench_read("s.json");
+        (void)snprintf(words, sizeof words, "interrupted, %d of 120 runs are in stopped.jsonl; the same command goes on",
+                       lines - 1);
+        assert_non_null(strstr(outcome.out, words));
+        cJSON *summary = cJSON_Parse(json);
+        assert_true(number_of(summary, "missing") == (double)(1 + RUNS - lines) && number_of(summary, "failed") == 0);
+        cJSON_Delete(summary);
+        free(json);
+        bench_says("study a.plan -o stopped.jsonl --quiet", 0, "");
+        assert_true(bench_same("one.jsonl", "stopped.jsonl"));
+    }
+}
+
+static void two_studies_do_not_write_one_file(void **state)
+{
+    (void)state;
+    (void)bench_write("slow.plan", SLOW);
+    bench_delete("held.jsonl");
+    pid_t process = bench_start("study slow.plan -o held.jsonl --threads 1 --quiet"), child[1];
+    assert_int_equal(wait_for_children(process, 1, child), 1);
+    bench_says("study slow.plan -o held.jsonl --quiet", 2, "held.jsonl:1:1: is being written by process");
+    bench_says("study --summary held.jsonl", 1, "runs are missing"); /* reading is no harm */
+    assert_int_equal(kill(process, SIGTERM), 0);
+    assert_int_equal(bench_wait(process).code, 1);
+}
+
+static void a_changed_study_is_refused(void **state)
+{
+    (void)state;
+    bench_says("study a.plan -o one.jsonl --seed 2", 2, "its seed is 1, not 2");
+    bench_says("study a.plan -o one.jsonl --set NOISE.FREQUENCY=0.01", 2, "--set has changed");
+    bench_says("study a.plan -o one.jsonl --shard 1/2", 2, "this file is of shard 1/1 and not of 1/2");
+    (void)bench_write("a.plan", PLAN "*SENSORS\nALL\n");
+    bench_says("study a.plan -o one.jsonl", 2, "the plan has changed since it was begun");
+    (void)bench_write("a.plan", PLAN);
+    (void)bench_write("deck.inp", BENCH_BEAM BENCH_SENSORS BENCH_WANTED BENCH_MODES "*DISK\n0.5, 1\n");
+    bench_says("study a.plan -o one.jsonl", 2, "a deck has changed since it was begun");
+    (void)bench_write("deck.inp", "** the same\n" BENCH_DECK);
+    bench_says("study a.plan -o one.jsonl --quiet", 0, "");
+    bench_says("study a.plan -o deck.inp", 2, "deck.inp:1:1: this is no file of results");
+    assert_int_equal(bench_lines("deck.inp"), 1 + bench_lines("plain.inp"));
+}
+
+static void decks_are_identified_as_they_stand(void **state)
+{
+    (void)state;
+    (void)bench_write("wrong.inp", "*SHAFT\n");
+    bench_says("study deck.inp wrong.inp plain.inp -o decks.jsonl --json d.json", 1, "1 of 3 decks cannot be used");
+    assert_int_equal(bench_lines("decks.jsonl"), 4);
+    char *text = bench_read("d.json");
+    cJSON *json = cJSON_Parse(text);
+    assert_true(cJSON_GetArraySize(get(json, "cells")) == 3 && number_of(json, "failed") == 1 && cJSON_IsNull(get(json, "plan")));
+    cJSON_Delete(json);
+    free(text);
+    bench_says("study deck.inp a.plan -o x.jsonl", 2, "a plan and another file, expected one plan, or decks");
+    bench_says("study wrong.inp -o x.jsonl --quiet", 2, "wrong.inp:1:1: *SHAFT has no NAME");
+    assert_int_equal(bench_lines("x.jsonl"), 0);
+}
+
+static void wrong_usage_is_refused(void **state)
+{
+    (void)state;
+    bench_says("study a.plan", 2, "no file for the results, expected -o FILE");
+    bench_says("study a.plan -o -", 2, "expected a file");
+    bench_says("study a.plan -o a.plan", 2, "is the file that is read");
+    bench_says("study a.plan -o x.jsonl --shard 0/3", 2, "--shard 0/3: expected I/N with I from 1 to N");
+    bench_says("study a.plan -o x.jsonl --shard 4/3", 2, "expected I/N");
+    bench_says("study a.plan -o x.jsonl --shard 1/3x", 2, "expected I/N");
+    bench_says("study a.plan -o x.jsonl --timeout 0", 2, "--timeout 0: expected a number");
+    bench_says("study --summary one.jsonl a.plan", 2, "is one argument too many");
+    bench_says("study --summary one.jsonl -o x.jsonl", 2, "--summary writes no results");
+    bench_says("study --summary a.plan", 2, "this is no file of results");
+    bench_says("study --summary none.jsonl", 3, "cannot be opened");
+    bench_says("study --merge one.jsonl", 2, "no file for the results");
+    bench_says("study --merge --summary one.jsonl", 2, "both given");
+    bench_says("study --merge one.jsonl -o x.jsonl --shard 1/2", 2, "--merge computes nothing");
+    bench_says("identify deck.inp --shard 1/2", 2, "--shard is an option of study alone");
+    bench_says("identify deck.inp deck.inp", 2, "is one argument too many");
+    bench_says("study a.plan -o x.jsonl --no-baseline", 2, "a plan has BASELINE=NO");
+    assert_int_equal(bench_lines("x.jsonl"), 0);
+}
+
+static void the_summary_is_a_table_or_json(void **state)
+{
+    (void)state;
+    bench_says("study --summary one.jsonl", 0, "study a.plan: 120 of 120 runs of identify, 0 failed");
+    bench_says("study --summary one.jsonl", 0, "core.E");
+    struct bench_outcome outcome = bench_run("study --summary one.jsonl --json -");
+    cJSON *json = cJSON_Parse(outcome.out), *same;
+    if (!json) { /* longer than the outcome holds */
+        char *text = bench_read("said");
+        json = cJSON_Parse(text);
+        free(text);
+    }
+    assert_int_equal(cJSON_GetArraySize(get(json, "cells")), 6);
+    const cJSON *cell = cJSON_GetArrayItem(get(json, "cells"), 5);
+    assert_true(number_of(cell, "runs") == 20 && number_of(cell, "converged") == 20 && number_of(cell, "first_run") == 100);
+    assert_true(number_of(get(cell, "cell"), "noise_frequency") == 0.004);
+    assert_true(bench_number(cell, "parameters", 0, "coverage95") > 0.5);
+    /* the lines in another order say the same */
+    char *text = bench_read("one.jsonl"), *turned = calloc(1, strlen(text) + 1);
+    size_t head = strcspn(text, "\n") + 1;
+    (void)snprintf(turned, head + 1, "%s", text);
+    for (char *end = text + strlen(text) - 1; end > text + head;) {
+        char *begin = end;
+        while (begin > text + head && begin[-1] != '\n')
+            begin--;
+        strncat(turned, begin, (size_t)(end - begin) + 1);
+        end = begin - 1;
+    }
+    (void)bench_write("turned.jsonl", turned);
+    bench_says("study --summary turned.jsonl --quiet --json t.json", 0, "");
+    free(text);
+    text = bench_read("t.json");
+    same = cJSON_Parse(text);
+    cJSON_ReplaceItemInObject(same, "results", cJSON_CreateString("one.jsonl"));
+    assert_true(cJSON_Compare(json, same, 1));
+    cJSON_Delete(json);
+    cJSON_Delete(same);
+    free(text);
+    free(turned);
+}
+
+/* A file that may not grow: exit code 3, whole lines, and on it goes. */
+static void a_full_disk_stops_it(void **state)
+{
+    (void)state;
+    char command[1500];
+    bench_delete("full.jsonl");
+    (void)snprintf(command, sizeof command, "cd %s && (ulimit -f 40; exec %s study a.plan -o full.jsonl --quiet) >said 2>&1",
+                   bench_folder, ROTID_PROGRAM); /* 40 blocks of 512 or 1024 bytes */
+    int status = system(command);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 3);
+    char *said = bench_read("said");
+    assert_non_null(strstr(said, "runs are in full.jsonl, the same command goes on with the rest: File too large"));
+    free(said);
+    int lines = bench_lines("full.jsonl");
+    assert_true(lines > 2 && lines < RUNS);
+    bench_says("study a.plan -o full.jsonl --quiet", 0, "");
+    assert_true(bench_same("one.jsonl", "full.jsonl"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_number_of_processes_gives_one_result),
+        cmocka_unit_test(shards_merge_to_one_result),
+        cmocka_unit_test(nothing_is_lost_by_kill_9),
+        cmocka_unit_test(a_worker_that_dies_costs_its_run),
+        cmocka_unit_test(a_run_that_takes_too_long_has_failed),
+        cmocka_unit_test(an_interruption_keeps_what_is_finished),
+        cmocka_unit_test(two_studies_do_not_write_one_file),
+        cmocka_unit_test(decks_are_identified_as_they_stand),
+        cmocka_unit_test(wrong_usage_is_refused),
+        cmocka_unit_test(the_summary_is_a_table_or_json),
+        cmocka_unit_test(a_full_disk_stops_it),
+        cmocka_unit_test(a_changed_study_is_refused), /* last: it changes the deck */
+    };
+    return cmocka_run_group_tests_name("study_program", tests, setup, bench_remove);
+}

@@ -1,0 +1,451 @@
+/* The file of results: what is in it, what is refused, what a sudden end leaves, what happens when it cannot grow. */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "study/merge.h"
+#include "study/record.h"
+#include "study/summary.h"
+#include "study_bench.h"
+#include "support.h"
+
+#define RUNS 6
+
+static struct study study;
+static struct header header;
+
+static int setup(void **state)
+{
+    struct message_list messages;
+    (void)open_test_pool(state);
+    if (bench_study(&test_pool, "*STUDY, REPLICATES=6\n*DECKS\ndeck.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001\n", &messages,
+                    &study))
+        return 1;
+    header = header_of(&study, "1.2.3", "abc", 1, 1);
+    bench_delete("r.jsonl");
+    return 0;
+}
+
+/* As study_run writes them: the time last. */
+static const char *line_of(long run, const char *status, double value)
+{
+    static char text[8][400];
+    static int next;
+    next = (next + 1) % 8;
+    (void)snprintf(
+        text[next], sizeof text[next],
+        "{\"run\":%ld,\"cell\":{\"deck\":\"d\"},\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
+        "\"objective\":%g,\"parameters\":[{\"name\":\"a\",\"unit\":\"1\",\"value\":%g,\"std\":2,\"ci95\":[0,4],\"truth\":3}],"
+        "\"modes\":[],\"seconds\":%g}\n",
+        run, run, status, value, value, 0.001 * (double)run);
+    return text[next];
+}
+
+static int open_record(int retry, struct message_list *messages, struct study_record *record)
+{
+    message_open(messages, &test_pool);
+    return record_open(&test_pool, bench_path("r.jsonl"), &header, retry, messages, record);
+}
+
+static struct study_record opened(int retry)
+{
+    struct message_list messages;
+    struct study_record record;
+    int status = open_record(retry, &messages, &record);
+    for (size_t i = 0; i < messages.count && status; i++)
+        print_error("%s\n", messages.item[i].text);
+    assert_status(status, ROTID_OK);
+    return record;
+}
+
+static void append(struct study_record *record, long run, const char *status)
+{
+    assert_status(record_append(record, run, line_of(run, status, (double)run), !strcmp(status, "failed")), ROTID_OK);
+}
+
+/* Refused with these words, and the file is left as it is. */
+static void refuses(const char *text, int status, const char *words)
+{
+    struct message_list messages;
+    struct study_record record;
+    if (text)
+        (void)bench_write("r.jsonl", text);
+    char *before = bench_read("r.jsonl");
+    int found = open_record(0, &messages, &record);
+    char *after = bench_read("r.jsonl");
+    if (found != status || !messages.count || !strstr(messages.item[0].text, words))
+        print_error("%s, \"%s\"; expected \"%s\"\n", rotid_status_name(found), messages.count ? messages.item[0].text : "",
+                    words);
+    assert_true(found == status && messages.count && strstr(messages.item[0].text, words));
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+}
+
+/* In any order, whatever interrupts it: in the end the lines stand in the order of the runs. */
+static void the_file_ends_in_order(void **state)
+{
+    (void)state;
+    static const long order[RUNS] = {3, 0, 5, 1, 4, 2};
+    char expected[4000] = "";
+    struct study_record record = opened(0);
+    assert_true(record.wanted == RUNS && !record.done);
+    for (int i = 0; i < RUNS; i++) {
+        append(&record, order[i], order[i] == 4 ? "failed" : "converged");
+        if (i == 2) { /* a restart */
+            record_close(&record);
+            record = opened(0);
+            assert_int_equal(record.done, 3);
+            assert_int_equal(record_take(&record), 1);
+            assert_int_equal(record_take(&record), 2);
+            assert_int_equal(record_take(&record), 4);
+            assert_int_equal(record_take(&record), -1);
+        }
+    }
+    assert_true(record.done == RUNS && record.failed == 1 && !record.in_order);
+    assert_status(record_finish(&test_pool, &record), ROTID_OK);
+    record_close(&record);
+    char *text = bench_read("r.jsonl"), *first = header_text(&header);
+    (void)snprintf(expected, sizeof expected, "%s", first);
+    for (long run = 0; run < RUNS; run++)
+        (void)snprintf(expected + strlen(expected), sizeof expected - strlen(expected), "%s",
+                       line_of(run, run == 4 ? "failed" : "converged", (double)run));
+    assert_string_equal(text, expected);
+    free(text);
+    json_free(first);
+    record = opened(1); /* the failed one again */
+    assert_true(record.done == RUNS - 1 && record_take(&record) == 4 && record_take(&record) == -1);
+    append(&record, 4, "converged");
+    assert_status(record_finish(&test_pool, &record), ROTID_OK);
+    record_close(&record);
+    assert_int_equal(bench_lines("r.jsonl"), 1 + RUNS);
+    record = opened(0);
+    assert_true(record.done == RUNS && !record.failed && record.in_order);
+    record_close(&record);
+}
+
+/* Whatever byte the end comes at, everything before the cut line is kept and the cut line goes. */
+static void a_cut_line_is_removed(void **state)
+{
+    (void)state;
+    struct study_record record = opened(0);
+    for (long run = 0; run < 3; run++)
+        append(&record, run, "converged");
+    record_close(&record);
+    char *whole = bench_read("r.jsonl"), *first = header_text(&header);
+    size_t head = strlen(first), length = strlen(whole);
+    for (size_t cut = 0; cut <= length; cut += cut + 40 < head ? 29 : 1) {
+        char kept = whole[cut];
+        whole[cut] = 0;
+        (void)bench_write("r.jsonl", whole);
+        record = opened(0);
+        long lines = 0;
+        for (size_t i = head; i < cut; i++)
+            lines += whole[i] == '\n';
+        assert_int_equal(record.done, lines);
+        append(&record, 5, "converged");
+        record_close(&record);
+        whole[cut] = kept;
+        char *text = bench_read("r.jsonl");
+        size_t same = head;
+        for (size_t i = head; i < cut; i++)
+            same = whole[i] == '\n' ? i + 1 : same;
+        assert_true(!strncmp(text, whole, same) && !strcmp(text + same, line_of(5, "converged", 5)));
+        free(text);
+    }
+    free(whole);
+    json_free(first);
+}
+
+static void other_files_are_left_alone(void **state)
+{
+    (void)state;
+    struct header other = header;
+    struct study_record record = opened(0);
+    append(&record, 0, "converged");
+    record_close(&record);
+    const struct {
+        struct header header;
+        const char *words;
+    } table[] = {
+        {{"1.2.4", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 1,
+          RUNS, 1, 1},
+         "begun by rotid 1.2.3 (abc), this is 1.2.4 (abc)"},
+        {{"1.2.3", "abc", NULL, "identify", "x", study.decks_digest, study.data_digest, study.options_digest, 1, RUNS, 1, 1},
+         "the plan has changed"},
+        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, "x", "y", study.options_digest, 1, RUNS, 1, 1},
+         "a deck and the measured data have changed"},
+        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, "x", 1, RUNS, 1, 1},
+         "--set has changed"},
+        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 7,
+          RUNS, 1, 1},
+         "its seed is 1, not 7"},
+        {{"1.2.3", "abc", NULL, "identify", study.plan_digest, study.decks_digest, study.data_digest, study.options_digest, 1,
+          RUNS, 2, 3},
+         "is of shard 1/1 and not of 2/3"},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        header = table[i].header;
+        refuses(NULL, ROTID_ERROR_ARGUMENT, table[i].words);
+    }
+    header = other;
+    refuses("*STUDY\n*DECKS\ndeck.inp\n", ROTID_ERROR_ARGUMENT, "no file of results of rotid study");
+    refuses("{\"schema\":1}\n", ROTID_ERROR_ARGUMENT, "no file of results of rotid study");
+    refuses("something", ROTID_ERROR_ARGUMENT, "no file of results of rotid study");
+    char *first = header_text(&header), text[3000];
+    (void)snprintf(text, sizeof text, "%shello\n", first);
+    refuses(text, ROTID_ERROR_ARGUMENT, "this line is no result");
+    (void)snprintf(text, sizeof text, "%s{\"run\":6,\"status\":\"converged\"}\n", first);
+    refuses(text, ROTID_ERROR_ARGUMENT, "of a run that the study");
+    (void)snprintf(text, sizeof text, "%s{\"run\":1.5,\"status\":\"converged\"}\n", first);
+    refuses(text, ROTID_ERROR_ARGUMENT, "of a run that the study");
+    json_free(first);
+}
+
+static void what_is_no_file_is_refused(void **state)
+{
+    (void)state;
+    struct message_list messages;
+    struct study_record record;
+    static const char *const paths[] = {"/dev/full", "/dev/null", "/tmp", "/nowhere/at/all"};
+    for (size_t i = 0; i < 4; i++) {
+        message_open(&messages, &test_pool);
+        int status = record_open(&test_pool, paths[i], &header, 0, &messages, &record);
+        assert_true(status == ROTID_ERROR_ARGUMENT || status == ROTID_ERROR_IO);
+        assert_int_equal(messages.errors, 1);
+    }
+    assert_int_equal(mkfifo(bench_path("pipe"), 0600), 0);
+    message_open(&messages, &test_pool);
+    assert_status(record_open(&test_pool, bench_path("pipe"), &header, 0, &messages, &record), ROTID_ERROR_ARGUMENT);
+}
+
+/* A second process is kept out while the first one lives, and no longer. */
+static void one_process_at_a_time(void **state)
+{
+    (void)state;
+    int pipes[2];
+    char byte;
+    assert_int_equal(pipe(pipes), 0);
+    pid_t child = fork();
+    if (!child) {
+        struct message_list messages;
+        struct study_record record;
+        _exit(open_record(0, &messages, &record) || write(pipes[1], "x", 1) != 1 || pause());
+    }
+    assert_int_equal(read(pipes[0], &byte, 1), 1);
+    refuses(NULL, ROTID_ERROR_ARGUMENT, "is being written by process");
+    assert_int_equal(kill(child, SIGKILL), 0);
+    assert_true(waitpid(child, NULL, 0) == child);
+    struct study_record record = opened(0);
+    record_close(&record);
+    (void)close(pipes[0]);
+    (void)close(pipes[1]);
+}
+
+/* A file that may not grow, at every size: an error, and whole lines only. */
+static void a_full_disk_leaves_whole_lines(void **state)
+{
+    (void)state;
+    struct rlimit before, limit;
+    struct sigaction ignore = {.sa_handler = SIG_IGN}, old;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_int_equal(sigaction(SIGXFSZ, &ignore, &old), 0);
+    char *first = header_text(&header);
+    size_t head = strlen(first), one = strlen(line_of(0, "converged", 0));
+    for (size_t size = 1; size < head + 2 * one; size += 13) {
+        struct message_list messages;
+        struct study_record record;
+        bench_delete("r.jsonl");
+        limit = before;
+        limit.rlim_cur = size;
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        int status = open_record(0, &messages, &record), count = 0;
+        errno = 0;
+        for (long run = 0; run < RUNS && !status; run++) {
+            status = record_append(&record, run, line_of(run, "converged", (double)run), 0);
+            count += !status;
+        }
+        int reason = errno;
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+        assert_status(status, ROTID_ERROR_IO);
+        assert_true(size < head || reason == EFBIG);
+        if (size >= head) {
+            assert_int_equal(bench_lines("r.jsonl"), 1 + count);
+            record_close(&record);
+        }
+        record = opened(0); /* there is room again */
+        assert_int_equal(record.done, count);
+        for (long run; (run = record_take(&record)) >= 0;)
+            append(&record, run, "converged");
+        assert_status(record_finish(&test_pool, &record), ROTID_OK);
+        record_close(&record);
+        assert_int_equal(bench_lines("r.jsonl"), 1 + RUNS);
+    }
+    /* putting it in order needs room as well */
+    bench_delete("r.jsonl");
+    struct study_record record = opened(0);
+    for (long run = RUNS - 1; run >= 0; run--)
+        append(&record, run, "converged");
+    char *unordered = bench_read("r.jsonl");
+    limit = before;
+    limit.rlim_cur = head + one;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    assert_status(record_finish(&test_pool, &record), ROTID_ERROR_IO);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    record_close(&record);
+    char *left = bench_read("r.jsonl");
+    assert_string_equal(left, unordered);
+    record = opened(0);
+    assert_status(record_finish(&test_pool, &record), ROTID_OK);
+    record_close(&record);
+    free(left);
+    left = bench_read("r.jsonl");
+    assert_string_not_equal(left, unordered);
+    free(left);
+    free(unordered);
+    json_free(first);
+    (void)sigaction(SIGXFSZ, &old, NULL);
+}
+
+static void shards_share_the_runs(void **state)
+{
+    (void)state;
+    char *paths[3] = {pool_copy_text(&test_pool, bench_path("1.jsonl")), pool_copy_text(&test_pool, bench_path("2.jsonl")),
+                      pool_copy_text(&test_pool, bench_path("3.jsonl"))};
+    struct message_list messages;
+    struct merge merge;
+    const char *all = bench_path("all.jsonl");
+    bench_delete("all.jsonl");
+    for (int shard = 1; shard <= 3; shard++) {
+        struct study_record record;
+        struct header part = header;
+        part.shard = shard;
+        part.shards = 3;
+        (void)unlink(paths[shard - 1]);
+        message_open(&messages, &test_pool);
+        assert_status(record_open(&test_pool, paths[shard - 1], &part, 0, &messages, &record), ROTID_OK);
+        assert_int_equal(record.wanted, 2);
+        for (long run; (run = record_take(&record)) >= 0;) {
+            assert_int_equal(run % 3, shard - 1);
+            append(&record, run, "converged");
+        }
+        assert_true(record.done == record.wanted);
+        record_close(&record);
+    }
+    assert_status(merge_results(&test_pool, 3, paths, all, &messages, &merge), ROTID_OK);
+    assert_true(merge.runs == RUNS && !merge.missing && !merge.failed);
+    struct study_record record = opened(0); /* what one program alone writes */
+    for (long run; (run = record_take(&record)) >= 0;)
+        append(&record, run, "converged");
+    record_close(&record);
+    char *one = bench_read("r.jsonl"), *merged = bench_read("all.jsonl");
+    assert_string_equal(one, merged);
+    free(one);
+    free(merged);
+    /* it does not write over anything */
+    message_open(&messages, &test_pool);
+    assert_status(merge_results(&test_pool, 3, paths, all, &messages, &merge), ROTID_ERROR_ARGUMENT);
+    assert_non_null(strstr(messages.item[0].text, "exists"));
+    /* without the second: a file that goes on */
+    bench_delete("all.jsonl");
+    char *two[2] = {paths[0], paths[2]};
+    assert_status(merge_results(&test_pool, 2, two, all, &messages, &merge), ROTID_OK);
+    assert_int_equal(merge.missing, 2);
+    assert_string_equal(merge.list, "1, 4");
+    message_open(&messages, &test_pool);
+    assert_status(record_open(&test_pool, all, &header, 0, &messages, &record), ROTID_OK);
+    assert_true(record_take(&record) == 1 && record_take(&record) == 4 && record_take(&record) == -1);
+    record_close(&record);
+}
+
+static void parts_that_contradict_each_other_are_refused(void **state)
+{
+    (void)state;
+    char *first = header_text(&header), text[3000];
+    char *paths[2] = {pool_copy_text(&test_pool, bench_path("1.jsonl")), pool_copy_text(&test_pool, bench_path("2.jsonl"))};
+    struct message_list messages;
+    struct merge merge;
+    const char *all = bench_path("all.jsonl");
+    bench_delete("all.jsonl");
+    (void)snprintf(text, sizeof text, "%s%s%s", first, line_of(0, "converged", 1), line_of(1, "failed", 1));
+    (void)bench_write("1.jsonl", text);
+    (void)snprintf(text, sizeof text, "%s%s", first, line_of(0, "converged", 1.5));
+    (void)bench_write("2.jsonl", text);
+    message_open(&messages, &test_pool);
+    assert_status(merge_results(&test_pool, 2, paths, all, &messages, &merge), ROTID_ERROR_ARGUMENT);
+    assert_non_null(strstr(messages.item[0].text, "run 0 has another result in"));
+    assert_int_equal(access(all, F_OK), -1);
+    /* another time is no contradiction, and what failed in one part is taken from the other */
+    char later[400];
+    (void)snprintf(later, sizeof later, "%s", line_of(0, "converged", 1));
+    strcpy(strstr(later, "\"seconds\":"), "\"seconds\":77}\n");
+    (void)snprintf(text, sizeof text, "%s%s%s", first, later, line_of(1, "converged", 2));
+    (void)bench_write("2.jsonl", text);
+    message_open(&messages, &test_pool);
+    assert_status(merge_results(&test_pool, 2, paths, all, &messages, &merge), ROTID_OK);
+    assert_true(merge.missing == RUNS - 2 && !merge.failed);
+    assert_string_equal(merge.list, "2-5");
+    json_free(first);
+    /* of another study */
+    header.seed = 2;
+    first = header_text(&header);
+    (void)bench_write("2.jsonl", first);
+    bench_delete("all.jsonl");
+    assert_status(merge_results(&test_pool, 2, paths, all, &messages, &merge), ROTID_ERROR_ARGUMENT);
+    assert_non_null(strstr(messages.item[messages.count - 1].text, "not of the same study"));
+    json_free(first);
+}
+
+/* Sums by hand. */
+static void summaries_add_up(void **state)
+{
+    (void)state;
+    struct message_list messages;
+    struct summary s;
+    struct study_record record = opened(0);
+    static const double value[] = {2, 3, 5, 6}; /* truth 3, interval 0 to 4, std 2 */
+    for (long run = 3; run >= 0; run--)
+        assert_status(record_append(&record, run, line_of(run, run == 1 ? "at_bound" : "converged", value[run]), 0), ROTID_OK);
+    append(&record, 4, "failed");
+    assert_status(record_append(&record, 5, line_of(5, "not_converged", 1e9), 0), ROTID_OK);
+    record_close(&record);
+    message_open(&messages, &test_pool);
+    assert_status(summary_read(&test_pool, bench_path("r.jsonl"), &messages, &s), ROTID_OK);
+    assert_true(s.ncell == 1 && s.there == RUNS && s.wanted == RUNS && s.failed == 1 && s.nerror == 1);
+    const struct summary_cell *cell = &s.cell[0];
+    assert_true(cell->converged == 3 && cell->at_bound == 1 && cell->not_converged == 1 && cell->failed == 1);
+    const struct summary_parameter *p = &cell->parameter[0];
+    assert_true(cell->nparameter == 1 && p->count == 4 && p->smallest == 2 && p->largest == 6);
+    assert_close(p->mean, 4, 1e-14, 0);
+    assert_close(summary_std(p), sqrt(10.0 / 3), 1e-14, 0);
+    assert_close(summary_mean_std(p), 2, 1e-14, 0);
+    assert_close(summary_bias(p), 1, 1e-14, 0);
+    assert_close(summary_rms_error(p), sqrt((1 + 0 + 4 + 9) / 4.0), 1e-14, 0);
+    assert_close(summary_std_error(p), sqrt(10.0 / 3), 1e-13, 0);
+    assert_close(summary_coverage(p), 1, 1e-14, 0); /* the interval of every line holds 3 */
+    assert_close(s.seconds, 0.015, 1e-9, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(the_file_ends_in_order, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_cut_line_is_removed, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(other_files_are_left_alone, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(what_is_no_file_is_refused, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(one_process_at_a_time, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_full_disk_leaves_whole_lines, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(shards_share_the_runs, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(parts_that_contradict_each_other_are_refused, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(summaries_add_up, setup, close_test_pool),
+    };
+    return cmocka_run_group_tests_name("study_record", tests, bench_make, bench_remove);
+}
