@@ -8,6 +8,7 @@
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
+#   make check-embedding   the programs of docs/embedding.md with gcc, clang, flang, make, CMake, Python, as far as they are there
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
@@ -75,8 +76,8 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers check-mpi fuzz fuzzers coverage lint format \
-        install uninstall clean
+.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
+        coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -183,7 +184,7 @@ check-tsan:
 # without the programs that diagnose dozens of rotors: what they call is in the others
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads study_run),$(TEST_PROGRAMS))
 
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
@@ -192,6 +193,9 @@ $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_g
 $(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
 check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
+
+check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
+	@sh tests/embedding/check '$(BUILD)'
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
 FUZZERS := uff deck
@@ -227,4 +231,4 @@ TELL_INSTALL = $(foreach name,VERSION SONAME DESTDIR PREFIX BINDIR LIBDIR PKGCON
 clean:
 	rm -rf $(BUILD)
 
--include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD) -type f -name '*.d' 2>/dev/null)

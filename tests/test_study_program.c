@@ -112,13 +112,13 @@ static void a_worker_that_dies_costs_its_run(void **state)
     pid_t process = bench_start("study slow.plan -o slow.jsonl --threads 2"), child[2];
     assert_int_equal(wait_for_children(process, 2, child), 2);
     rest(0.05);
-    assert_int_equal(kill(child[0], SIGSEGV), 0);
+    assert_int_equal(kill(child[0], SIGKILL), 0);
     struct bench_outcome outcome = bench_wait(process);
     assert_int_equal(outcome.code, 1);
-    assert_non_null(strstr(outcome.out, "worker ended by signal 11 (segmentation fault)"));
+    assert_non_null(strstr(outcome.out, "worker ended by signal 9"));
     assert_int_equal(bench_lines("slow.jsonl"), 5);
     char *text = bench_read("slow.jsonl");
-    assert_non_null(strstr(text, "\"status\":\"failed\",\"error\":\"worker ended by signal 11"));
+    assert_non_null(strstr(text, "\"status\":\"failed\",\"error\":\"worker ended by signal 9"));
     free(text);
     bench_says("study slow.plan -o slow.jsonl --quiet", 1, ""); /* it is kept */
     bench_says("study slow.plan -o slow.jsonl --quiet --retry-failed", 0, "");

@@ -94,8 +94,10 @@ static void serve(struct office *office)
     while (!MPI_Iprobe(MPI_ANY_SOURCE, TAG_LINE, MPI_COMM_WORLD, &there, &from) && there) {
         MPI_Get_count(&from, MPI_CHAR, &length);
         char *line = malloc((size_t)length + 1);
-        if (!line)
+        if (!line) {
             MPI_Abort(MPI_COMM_WORLD, EXIT_INTERNAL);
+            return;
+        }
         MPI_Recv(line, length, MPI_CHAR, from.MPI_SOURCE, TAG_LINE, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
         line[length] = 0;
         long *given = office->given[from.MPI_SOURCE];

@@ -55,11 +55,16 @@ static void on_convergence(struct reasons *reasons, const struct fitted *fit)
             "The fit ended with a parameter pressed against its bound: what it would be without the bound is not known.");
     else
         say(reasons, TONE_BAD, pool_format(pool, "The fit did not converge: %s.", fit->stop_reason));
-    for (int p = 0; p < fit->nparameter; p++)
+    const char *held = "", *loose = "";
+    for (int p = 0; p < fit->nparameter && held && loose; p++) {
+        const char **list = fit->parameter[p].at_bound ? &held : &loose;
         if (!fit->parameter[p].identifiable)
-            say(reasons, TONE_BAD,
-                pool_format(pool, "%s %s.", fit->parameter[p].name,
-                            fit->parameter[p].at_bound ? "is at its bound" : "is not determined by these data"));
+            *list = pool_format(pool, "%s%s%s", *list, **list ? ", " : "", fit->parameter[p].name);
+    }
+    if (held && *held)
+        say(reasons, TONE_BAD, pool_format(pool, "At a bound: %s.", held));
+    if (loose && *loose)
+        say(reasons, TONE_BAD, pool_format(pool, "Not determined by these data, alone or in a combination: %s.", loose));
 }
 
 static void on_baseline(struct reasons *reasons, const struct fitted *fit)
@@ -129,16 +134,19 @@ static void on_intervals(struct reasons *reasons, const struct fitted *fit)
     int none = 0;
     for (int p = 0; p < fit->nparameter && wide; p++) {
         double half = human_half_width_percent(fit->parameter[p].value, fit->parameter[p].ci);
-        none += !isfinite(half);
-        widest = fmax(widest, half); /* without NaN */
-        wide = pool_format(pool, "%s%s%s \xc2\xb1%s\xc2\xa0%%", wide, p ? ", " : "", fit->parameter[p].name,
+        if (!isfinite(half)) {
+            none++;
+            continue;
+        }
+        widest = fmax(widest, half);
+        wide = pool_format(pool, "%s%s%s \xc2\xb1%s\xc2\xa0%%", wide, *wide ? ", " : "", fit->parameter[p].name,
                            human_digits(pool, half, 2));
     }
     if (none == fit->nparameter)
-        say(reasons, TONE_CARE, "No interval can be stated: there are no more data than unknowns, and no noise is stated.");
+        say(reasons, TONE_CARE, "No interval can be stated for any parameter.");
     else
         say(reasons, widest > WIDE_PERCENT ? TONE_CARE : TONE_GOOD,
-            pool_format(pool, "The 95\xc2\xa0%% intervals: %s.%s", wide ? wide : "",
+            pool_format(pool, "The 95\xc2\xa0%% intervals: %s%s.%s", wide ? wide : "", none ? ", none for the others" : "",
                         isfinite(fit->chi2)
                             ? fit->widened_by > 1 ? " They are widened because the misfit exceeds the stated noise." : ""
                             : " They rest on the misfit that is left, since no noise is stated (*NOISE)."));

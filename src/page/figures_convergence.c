@@ -80,7 +80,8 @@ static int script(struct document *document, struct figure *figure, const struct
     for (int c = 0; c < CURVES; c++)
         height[c] = plot_share(&range, log10(last_of(n, data[c + 1])));
     plot_end_labels(&plot, CURVES, text, height, series_color);
-    plot_line(&plot, "plot for [c = 2:%d] $iterations using 1:c with linespoints ls c-1", CURVES + 1);
+    plot_line(&plot, "plot for [c = 2:%d] $iterations using 1:c with linespoints ls c-1 pointinterval %d", CURVES + 1,
+              1 + n / 25);
     return plot_close(&plot);
 }
 

@@ -125,9 +125,11 @@ static int script(struct document *document, struct figure *figure, const struct
     plot_line(&plot, "set style fill solid noborder\nset boxwidth 0.7");
     plot_line(&plot, "plot $errors using 1:(0):(0.35):2 with boxxyerror fc rgb STEEL, 0 with lines lc rgb INK lw 1 \\");
     (void)fprintf(plot.out, "   , $errors using 1:(0):(0):3 with vectors nohead ls 1 lw 1.5");
-    for (int s = count - 1; s >= 0; s--)
-        (void)fprintf(plot.out, ", \\\n    $errors using ($1%+g):%d with points ls %d ps %s",
-                      s ? (s % 2 ? -SIDE : SIDE) * ((s + 1) / 2) : 0.0, s + 3, series[s].style, s ? "0.85" : "0.9");
+    for (int s = count - 1; s >= 0; s--) { /* the fit on top, the others to its left and right in turn */
+        int steps = (s + 1) / 2;
+        (void)fprintf(plot.out, ", \\\n    $errors using ($1%+g):%d with points ls %d ps %s", (s % 2 ? -SIDE : SIDE) * steps,
+                      s + 3, series[s].style, s ? "0.85" : "0.9");
+    }
     (void)fputc('\n', plot.out);
     return plot_close(&plot);
 }

@@ -87,8 +87,10 @@ static int iterates_script(struct document *document, struct figure *figure, con
     for (int p = 0; p < count; p++)
         height[p] = plot_share(&range, 1);
     plot_end_labels(&plot, count, name, height, color);
-    plot_line(&plot, "plot 1 with lines lc rgb MUTED lw 0.75, for [c = 2:%d] $parameters using 1:c with linespoints ls c-1",
-              count + 1);
+    plot_line(
+        &plot,
+        "plot 1 with lines lc rgb MUTED lw 0.75, for [c = 2:%d] $parameters using 1:c with linespoints ls c-1 pointinterval %d",
+        count + 1, 1 + n / 25);
     return plot_close(&plot);
 }
 

@@ -110,10 +110,9 @@ void figure_matrices(struct document *document, const struct result *result, con
 void figure_correlation(struct document *document, const struct result *result, const struct fitted *fit)
 {
     struct pool *pool = document->pool;
-    int n = fit->nparameter, first = 0, second = 1;
+    int n = fit->nparameter, first = -1, second = -1;
     if (n < 3 || n > MOST_SIDE || !fit->correlation)
         return; /* of two the caption of the intervals tells it */
-    struct figure *figure = document_figure(document, "correlation-of-parameters", "How the parameters depend on each other");
     const char **name = POOL_ARRAY(pool, const char *, n);
     if (!name) {
         document->failed = 1;
@@ -122,11 +121,16 @@ void figure_correlation(struct document *document, const struct result *result, 
     for (int i = 0; i < n; i++) {
         name[i] = fit->parameter[i].name;
         for (int j = 0; j < i; j++)
-            if (fabs(fit->correlation[i + (ptrdiff_t)j * n]) > fabs(fit->correlation[first + (ptrdiff_t)second * n])) {
+            if (isfinite(fit->correlation[i + (ptrdiff_t)j * n]) &&
+                (first < 0 ||
+                 fabs(fit->correlation[i + (ptrdiff_t)j * n]) > fabs(fit->correlation[first + (ptrdiff_t)second * n]))) {
                 first = i;
                 second = j;
             }
     }
+    if (first < 0)
+        return; /* none can be stated */
+    struct figure *figure = document_figure(document, "correlation-of-parameters", "How the parameters depend on each other");
     const struct matrix_panel panel = {.title = "correlation",
                                        .row_axis = NULL,
                                        .column_axis = NULL,

@@ -241,6 +241,8 @@ void figure_transfer(struct document *document, const struct result *result)
             add(document, result, &out->function[i], "");
         return;
     }
+    document_paragraph(document, "Of %d functions %s are drawn; the result has all.", n,
+                       isfinite(out->frac) ? "the best, the middle and the worst one" : "the first four");
     sort_by_agreement(n, out, order);
     if (!isfinite(out->function[order[0]].frac)) {
         for (int i = 0; i < MOST_FIGURES; i++)

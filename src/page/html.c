@@ -89,7 +89,7 @@ static void write_numbers(FILE *out, const struct figure *figure)
 
 void html_figure(FILE *out, int number, const struct figure *figure)
 {
-    (void)fprintf(out, "<figure id=\"%s\">\n<h3>", figure->id);
+    (void)fprintf(out, "<div class=\"set\">\n<figure id=\"%s\">\n<h3>", figure->id);
     html_text(out, figure->title);
     (void)fputs("</h3>\n", out);
     if (figure->svg[WIDE]) {
@@ -97,15 +97,14 @@ void html_figure(FILE *out, int number, const struct figure *figure)
         for (int l = 0; l < LAYOUTS; l++)
             (void)fprintf(out, "<div class=\"%s\">%s</div>\n", names[l], figure->svg[l]);
     }
-    /* a caption comes last in its figure, so what belongs to the figure beyond it is a part of it */
-    (void)fprintf(out, "<figcaption><p><b>Figure %d.</b> ", number);
+    (void)fprintf(out, "<figcaption><b>Figure %d.</b> ", number);
     html_text(out, figure->caption);
-    (void)fputs("</p>\n", out);
+    (void)fputs("</figcaption>\n</figure>\n", out);
     write_numbers(out, figure);
     (void)fprintf(out, "<p class=\"files\">%s: <a href=\"figures/%s.gp\">gnuplot script</a>", figure->id, figure->id);
     if (figure->svg[WIDE])
         (void)fprintf(out, ", <a href=\"figures/%s.svg\">SVG</a>", figure->id);
     if (figure->has_pdf)
         (void)fprintf(out, ", <a href=\"figures/%s.pdf\">PDF</a>", figure->id);
-    (void)fputs("</p>\n</figcaption></figure>\n", out);
+    (void)fputs("</p>\n</div>\n", out);
 }

@@ -8,7 +8,7 @@
 /* The whole file with a zero byte behind it. */
 static int read_text(struct pool *pool, const char *file, struct message_list *messages, char **text, size_t *length)
 {
-    struct stat is;
+    struct stat is = {.st_size = 0};
     FILE *stream = fopen(file, "rb");
     int status = ROTID_ERROR_IO;
     const char *why = NULL;

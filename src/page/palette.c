@@ -9,7 +9,7 @@ const struct role palette[] = {
     {"GRID", 0xd9dde2, 0x3a4048},  /* thin lines */
     {"PAPER", 0xffffff, 0x16181d}, /* the ground */
     {"BLUE", 0x0072b2, 0x56b4e9},  /* series */
-    {"VERMILION", 0xb94f00, 0xf08a4b},
+    {"VERMILION", 0xb04a00, 0xf08a4b},
     {"GREEN", 0x007a58, 0x2bbf93},
     {"PURPLE", 0xa8487e, 0xd992b9},
     {"OCHRE", 0x8a5c00, 0xe0b040},

@@ -58,11 +58,17 @@ void section_transfer(struct document *document, const struct result *result)
 {
     const struct transfer_outcome *out = result->transfer;
     struct pool *pool = document->pool;
+    const char *at = "";
     document_section(document, "transfer", "Transfer functions");
     document_paragraph(document, "%d synthesised %s from modes up to %s\xc2\xa0Hz with the damping below; %s%s.", out->nfunction,
                        human_plural(out->nfunction, "function", "functions"), human_trimmed(pool, out->up_to_hz, 4),
                        out->measured_file ? "measured ones from " : "none was measured",
                        out->measured_file ? out->measured_file : "");
+    for (int p = 0; p < out->nparameter && at; p++)
+        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameter[p].name,
+                         human_value(pool, out->parameter[p].value, out->parameter[p].unit));
+    if (out->nparameter)
+        document_paragraph(document, "The model is the identified one: %s.", at ? at : "");
     if (isfinite(out->frac))
         document_paragraph(document,
                            "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",

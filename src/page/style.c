@@ -23,7 +23,7 @@ static const char layout[] =
     "nav ul{list-style:none;padding:0;display:flex;flex-wrap:wrap;gap:.25rem 1.25rem}\nnav li{margin:0}\n"
     "dl div{display:grid;grid-template-columns:11rem 1fr;gap:1rem;padding:.25rem 0;border-bottom:1px solid var(--grid)}\n"
     "dt{color:var(--muted)}\ndd{margin:0;overflow-wrap:anywhere}\n"
-    "figure{margin:2rem 0}\nfigure h3{margin:0 0 .5rem}\nfigcaption{margin:.4rem 0}\n"
+    ".set{margin:2rem 0}\nfigure{margin:0}\nfigure h3{margin:0 0 .5rem}\nfigcaption{margin:.4rem 0}\n"
     "figure svg{display:block;width:100%;height:auto;fill:none;stroke:currentColor;stroke-width:1;font-size:12px}\n"
     "figure svg text{white-space:pre}\n"
     ".narrow{display:none}\n"
@@ -50,12 +50,12 @@ static const char paper[] =
 
 void style_write(FILE *out)
 {
-    (void)fputs(":root{color-scheme:light dark;", out);
+    (void)fputs(":root{", out);
     palette_style(out, 0);
     (void)fputs("}\n@media screen and (prefers-color-scheme:dark){:root{", out);
     palette_style(out, 1);
     (void)fputs("}}\n", out);
     palette_rules(out);
     (void)fputs(layout, out);
-    (void)fprintf(out, "@media print{\n:root{color-scheme:light}\n%s}\n", paper);
+    (void)fprintf(out, "@media print{\n%s}\n", paper);
 }

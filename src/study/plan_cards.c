@@ -50,7 +50,7 @@ void plan_study(struct plan_reader *reader, const struct card *card)
         plan->replicates = (int)number;
     if (whole_option(reader, card, "BOOTSTRAP", 100, 1000000, &number))
         plan->bootstrap = (int)number;
-    if (plan->baseline && plan->command == PLAN_DIAGNOSE)
+    if (baseline && plan->baseline && plan->command == PLAN_DIAGNOSE)
         deck_error(&reader->fields, baseline->place, "BASELINE has no meaning for COMMAND=DIAGNOSE, expected COMMAND=IDENTIFY");
     if (card_option(card, "BOOTSTRAP") && plan->command == PLAN_IDENTIFY)
         deck_error(&reader->fields, card_option(card, "BOOTSTRAP")->place,

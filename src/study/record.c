@@ -1,4 +1,5 @@
-#define _XOPEN_SOURCE 700 /* realpath; POSIX 2008 has it, the headers of glibc want this word for it */
+/* realpath: it is in POSIX 2008, but the headers of glibc want this word for it. NOLINTNEXTLINE(bugprone-reserved-identifier) */
+#define _XOPEN_SOURCE 700
 
 #include "study/record.h"
 

@@ -25,7 +25,7 @@ static int malformed(struct results *r, int line, const char *what)
 /* More of the file behind what the buffer holds. ROTID_OK, 1 at the end. */
 static int fill(struct results *r)
 {
-    if (r->first) {
+    if (r->first && r->buffer) {
         memmove(r->buffer, r->buffer + r->first, r->count);
         r->first = 0;
     }

@@ -74,8 +74,11 @@ static int bury(struct crew *crew, struct worker *worker, const char *why)
                             : WTERMSIG(ended) == SIGSEGV ? "segmentation fault"
                             : WTERMSIG(ended) == SIGABRT ? "abort"
                                                          : "see signal(7)");
+    else if (!error && WEXITSTATUS(ended) == WORKER_NO_MEMORY)
+        error = "worker ended for want of memory";
     else if (!error)
-        error = WEXITSTATUS(ended) == WORKER_NO_MEMORY ? "worker ended for want of memory" : "worker was told to end";
+        error = WEXITSTATUS(ended) ? pool_format(crew->pool, "worker ended with exit code %d", WEXITSTATUS(ended))
+                                   : "worker was told to end";
     return run < 0 || crew->ending || is_stopped(crew) ? ROTID_OK
            : error                                     ? keep_failure(crew, run, error, seconds)
                                                        : ROTID_ERROR_MEMORY;
