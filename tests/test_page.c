@@ -254,6 +254,20 @@ static void a_figure_that_fails_costs_no_other(void **state)
     assert_non_null(strstr(page_err, "gnuplot wrote no complete picture"));
 }
 
+static void an_interrupt_leaves_nothing_behind(void **state)
+{
+    (void)state;
+    make_result("identify", PAPER, "paper.json");
+    page_write_file("slow", "#!/bin/sh\n[ \"$1\" = --version ] && { echo gnuplot 5.4 patchlevel 0; exit 0; }\nexec sleep 30\n");
+    double begin = clock_seconds();
+    assert_int_equal(page_run("chmod 755 %s; GNUPLOT=%s %s report %s -o %s & sleep 0.7; kill -INT $!; wait $!", page_path("slow"),
+                              page_path("slow"), ROTID_PROGRAM, page_path("paper.json"), page_path("stopped")),
+                     1);
+    assert_true(clock_seconds() - begin < 15);
+    assert_non_null(strstr(page_err, "interrupted; "));
+    assert_int_equal(page_count("", "stopped"), 0); /* nor anything beside it */
+}
+
 /* ------------------------------------------------------------------------------------------------ whose files */
 
 static void nothing_of_anybody_else_is_written_over(void **state)
@@ -468,6 +482,7 @@ int main(void)
         cmocka_unit_test(an_older_result_says_what_it_lacks),
         cmocka_unit_test(without_gnuplot_the_numbers_stand_in_tables),
         cmocka_unit_test(a_figure_that_fails_costs_no_other),
+        cmocka_unit_test(an_interrupt_leaves_nothing_behind),
         cmocka_unit_test(nothing_of_anybody_else_is_written_over),
         cmocka_unit_test(a_folder_that_cannot_be_written_is_said),
         cmocka_unit_test(a_text_in_a_deck_stays_a_text),

@@ -6,8 +6,9 @@ struct number_table *table_new(struct pool *pool, int rows, int columns)
     size_t cells = (size_t)rows * (size_t)columns;
     if (!table)
         return NULL;
-    *table = (struct number_table){columns, rows, POOL_ARRAY(pool, const char *, columns), POOL_ARRAY(pool, const char *, cells)};
-    if (!table->head || !table->cell)
+    *table = (struct number_table){columns, rows, POOL_ARRAY(pool, const char *, columns), POOL_ARRAY(pool, const char *, cells),
+                                   POOL_ARRAY(pool, char, columns)};
+    if (!table->head || !table->cell || !table->look)
         return NULL;
     for (int j = 0; j < columns; j++)
         table->head[j] = "";

@@ -9,6 +9,7 @@ struct number_table {
     int columns, rows;
     const char **head; /* [columns] with units in brackets */
     const char **cell; /* [rows * columns] */
+    char *look;        /* [columns] what html_table finds them to be */
 };
 
 enum { WIDE, NARROW, LAYOUTS }; /* for a page 720 px wide, and for a phone */

@@ -7,8 +7,8 @@
 #include "page/palette.h"
 #include "page/plot.h"
 
-enum { OBJECTIVE, GRADIENT, DAMPING, STEP, CURVES };
-#define MOST_DECADES 20 /* below rounding of anything */
+enum { OBJECTIVE, GRADIENT, STEP, DAMPING, CURVES };
+#define MOST_DECADES 18
 
 static struct number_table *iterations_table(struct pool *pool, const struct fitted *fit)
 {
@@ -37,7 +37,7 @@ static double *curves(struct pool *pool, const struct fitted *fit)
     double *y = POOL_ARRAY(pool, double, (CURVES + 1) * (size_t)n);
     for (int i = 0; i < n && y; i++) {
         const struct fitted_iteration *now = &fit->history[i];
-        const double value[CURVES] = {now->objective, now->gradient, now->mu, now->step};
+        const double value[CURVES] = {now->objective, now->gradient, now->step, now->mu};
         y[i] = now->iteration;
         for (int c = 0; c < CURVES; c++)
             y[i + (ptrdiff_t)(c + 1) * n] = value[c] > 0 ? value[c] : (double)NAN;
@@ -52,23 +52,34 @@ static double last_of(int n, const double *value)
     return value[n - 1];
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct fitted *fit)
+/* The decades that are drawn. The damping can be smaller by far than all else, and is left out then: *drawn is the number of
+ * curves. */
+static struct plot_range decades(int n, const double *y, int *drawn)
 {
-    static const char *const text[CURVES] = {"functional", "gradient", "damping \xce\xbc", "step"};
-    static const char *const column[CURVES + 1] = {"x", "objective", "gradient", "damping", "step"};
-    int n = fit->nhistory, steps = fit->history[n - 1].iteration;
-    const double *y = curves(document->pool, fit), *data[CURVES + 1];
+    struct plot_range others = plot_decades(DAMPING * n, y + n, MOST_DECADES),
+                      all = plot_decades(CURVES * n, y + n, MOST_DECADES),
+                      damping = plot_decades(n, y + (ptrdiff_t)(1 + DAMPING) * n, MOST_DECADES);
+    *drawn = damping.to > others.from ? CURVES : DAMPING;
+    return *drawn == CURVES ? all : others;
+}
+
+static int script(struct document *document, struct figure *figure, const struct result *result, const struct fitted *fit,
+                  const double *y)
+{
+    static const char *const text[CURVES] = {"functional", "gradient", "step", "damping \xce\xbc"};
+    int n = fit->nhistory, steps = fit->history[n - 1].iteration, drawn;
+    const double *data[CURVES + 1];
     struct plot plot;
-    if (!y || plot_open(&plot, document->pool, figure, result->file))
+    struct plot_range range = decades(n, y, &drawn);
+    if (plot_open(&plot, document->pool, figure, result->file))
         return ROTID_ERROR_MEMORY;
     for (int c = 0; c <= CURVES; c++)
         data[c] = y + (ptrdiff_t)c * n;
-    plot_line(&plot, "# columns: iteration, %s, %s, %s, %s", column[1], column[2], column[3], column[4]);
+    plot_line(&plot, "# columns: iteration, functional, gradient, step, damping");
     plot_data(&plot, "iterations", n, CURVES + 1, data);
     plot_begin(&plot, &(struct plot_layout){
                           .panels = 1, .columns = {1, 1}, .height = 330, .left = 62, .right = 84, .top = 12, .bottom = 48});
     plot_panel(&plot, 0);
-    struct plot_range range = plot_decades(CURVES * n, y + n, MOST_DECADES);
     int every = (int)ceil((range.to - range.from) / 8);
     plot_line(&plot, "set logscale y\nset format y '10^{%%T}'\nset ytics 1e%d", every);
     plot_line(&plot, "set xrange [%g:%g]\nset yrange [1e%g:1e%g]", fit->history[0].iteration - 0.02 * (steps + 1),
@@ -77,11 +88,10 @@ static int script(struct document *document, struct figure *figure, const struct
         plot_line(&plot, "set xtics 1");
     plot_axes(&plot, "iteration [1]", "value [1]");
     double height[CURVES];
-    for (int c = 0; c < CURVES; c++)
+    for (int c = 0; c < drawn; c++)
         height[c] = plot_share(&range, log10(last_of(n, data[c + 1])));
-    plot_end_labels(&plot, CURVES, text, height, series_color);
-    plot_line(&plot, "plot for [c = 2:%d] $iterations using 1:c with linespoints ls c-1 pointinterval %d", CURVES + 1,
-              1 + n / 25);
+    plot_end_labels(&plot, drawn, text, height, series_color);
+    plot_line(&plot, "plot for [c = 2:%d] $iterations using 1:c with linespoints ls c-1 pointinterval %d", drawn + 1, 1 + n / 25);
     return plot_close(&plot);
 }
 
@@ -93,20 +103,28 @@ void figure_convergence(struct document *document, const struct result *result, 
     struct figure *figure =
         document_figure(document, "convergence", "Functional, gradient, damping and step over the iterations");
     const struct fitted_iteration *first = &fit->history[0], *last = &fit->history[fit->nhistory - 1];
+    const double *y = curves(pool, fit);
+    int drawn = CURVES;
+    if (y)
+        (void)decades(fit->nhistory, y, &drawn);
+    const char *damping = drawn < CURVES
+                              ? pool_format(pool, " The damping goes from %s to %s, too small to be drawn beside the others.",
+                                            human_digits(pool, first->mu, 2), human_digits(pool, last->mu, 2))
+                              : "";
     figure->caption = pool_format(
         pool,
         "The functional falls from %s to %s in %s %s and %s evaluations of the model (%s), the gradient from %s to %s. The "
-        "iteration ended: %s.",
+        "iteration ended: %s.%s",
         human_digits(pool, first->objective, 3), human_digits(pool, last->objective, 3), human_count(pool, last->iteration),
         human_plural(last->iteration, "iteration", "iterations"), human_count(pool, fit->evaluations),
         human_seconds(pool, fit->seconds), human_digits(pool, first->gradient, 2), human_digits(pool, last->gradient, 2),
-        fit->stop_reason);
+        fit->stop_reason, damping ? damping : "");
     figure->alt =
         pool_format(pool,
-                    "Four curves over %d iterations on a logarithmic scale: the functional levels out at %s, the gradient "
-                    "falls to %s, the damping ends at %s, the last step is %s.",
-                    last->iteration, human_digits(pool, last->objective, 3), human_digits(pool, last->gradient, 2),
-                    human_digits(pool, last->mu, 2), human_digits(pool, last->step, 2));
+                    "%s curves over %d iterations on a logarithmic scale: the functional levels out at %s, the gradient "
+                    "falls to %s, the last step is %s, the damping ends at %s.",
+                    drawn == CURVES ? "Four" : "Three", last->iteration, human_digits(pool, last->objective, 3),
+                    human_digits(pool, last->gradient, 2), human_digits(pool, last->step, 2), human_digits(pool, last->mu, 2));
     figure->table = iterations_table(pool, fit);
-    document->failed |= !figure->caption || !figure->alt || script(document, figure, result, fit) != ROTID_OK;
+    document->failed |= !y || !figure->caption || !figure->alt || script(document, figure, result, fit, y) != ROTID_OK;
 }

@@ -134,6 +134,12 @@ static const char *what_is_identified(struct pool *pool, const struct fitted *fi
     return text ? text : "";
 }
 
+/* As the script decides it for the wide layout. */
+static int nodes_show(const struct geometry *geometry)
+{
+    return geometry->nnode > 1 && (double)WIDE_PX / (geometry->nnode - 1) > NODES_PX;
+}
+
 void figure_rotor(struct document *document, const struct result *result, const struct geometry *geometry,
                   const struct fitted *fit)
 {
@@ -146,11 +152,11 @@ void figure_rotor(struct document *document, const struct result *result, const 
                *springs = geometry->nspring ? pool_format(pool, ", %s %s", human_count(pool, geometry->nspring),
                                                           human_plural(geometry->nspring, "spring", "springs"))
                                             : ", free at both ends";
-    figure->caption =
-        pool_format(pool, "%s\xc2\xa0m long, %s\xc2\xa0m at its thickest, %d %s (ticks on the axis are nodes)%s%s.%s",
-                    human_trimmed(pool, geometry->length, 4), human_trimmed(pool, diameter, 3), geometry_elements(geometry),
-                    human_plural(geometry_elements(geometry), "element", "elements"), sensors ? sensors : "",
-                    springs ? springs : "", what_is_identified(pool, fit));
+    figure->caption = pool_format(pool, "%s\xc2\xa0m long, %s\xc2\xa0m at its thickest, %d %s%s%s%s.%s",
+                                  human_trimmed(pool, geometry->length, 4), human_trimmed(pool, diameter, 3),
+                                  geometry_elements(geometry), human_plural(geometry_elements(geometry), "element", "elements"),
+                                  nodes_show(geometry) ? " (ticks on the axis are nodes)" : "", sensors ? sensors : "",
+                                  springs ? springs : "", what_is_identified(pool, fit));
     figure->alt = pool_format(pool, "Longitudinal section of a rotor with %d groups of sections, %d sensors and %d springs.",
                               geometry->ngroup, geometry->nsensor, geometry->nspring);
     figure->table = groups_table(pool, geometry);

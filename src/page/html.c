@@ -1,5 +1,6 @@
 #include "page/html.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -35,42 +36,56 @@ void html_element(FILE *out, const char *name, const char *text)
     (void)fprintf(out, "</%.*s>\n", (int)strcspn(name, " "), name);
 }
 
+#define NONE "\xe2\x80\x93" /* the dash of human_fixed */
+
 /* A number, a dash for one that is not there, or nothing. */
 static int is_number(const char *cell)
 {
-    return !*cell || strchr("0123456789+-", *cell) || !strncmp(cell, "\xe2\x88\x92", 3) || !strncmp(cell, "\xe2\x80\x93", 3);
+    return !*cell || strchr("0123456789+-", *cell) || !strncmp(cell, "\xe2\x88\x92", 3) || !strcmp(cell, NONE);
 }
 
-static int is_number_column(const struct number_table *table, int column)
+enum look { LOOK_TEXT, LOOK_NUMBERS, LOOK_IDLE };
+
+/* A column without a single value says nothing, and is left out. */
+static void judge_columns(const struct number_table *table)
 {
-    for (int i = 0; i < table->rows; i++)
-        if (!is_number(table->cell[i * table->columns + column]))
-            return 0;
-    return 1;
+    for (int j = 0; j < table->columns; j++) {
+        int numbers = 1, idle = j > 0 && table->rows > 0;
+        for (int i = 0; i < table->rows; i++) {
+            const char *cell = table->cell[i * table->columns + j];
+            numbers &= is_number(cell);
+            idle &= !*cell || !strcmp(cell, NONE);
+        }
+        table->look[j] = idle ? LOOK_IDLE : numbers ? LOOK_NUMBERS : LOOK_TEXT;
+    }
+}
+
+static void write_row(FILE *out, const struct number_table *table, const char *const *cell, const char *first, const char *other)
+{
+    (void)fputs("<tr>", out);
+    for (int j = 0; j < table->columns; j++) {
+        const char *element = j ? other : first;
+        if (table->look[j] == LOOK_IDLE)
+            continue;
+        (void)fprintf(out, "<%s%s>", element, table->look[j] == LOOK_NUMBERS ? " class=\"n\"" : "");
+        html_text(out, cell[j]);
+        (void)fprintf(out, "</%.2s>", element);
+    }
+    (void)fputs("</tr>\n", out);
 }
 
 void html_table(FILE *out, const char *id, const char *caption, const struct number_table *table)
 {
+    judge_columns(table);
     (void)fprintf(
         out, "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-labelledby=\"%s\">\n<table>\n<caption id=\"%s\"><span>",
         id, id);
     html_text(out, caption);
-    (void)fputs("</span></caption>\n<thead><tr>", out);
-    for (int j = 0; j < table->columns; j++) {
-        (void)fprintf(out, "<th scope=\"col\"%s>", is_number_column(table, j) ? " class=\"n\"" : "");
-        html_text(out, table->head[j]);
-        (void)fputs("</th>", out);
-    }
-    (void)fputs("</tr></thead>\n<tbody>\n", out);
-    for (int i = 0; i < table->rows; i++) {
-        (void)fputs("<tr>", out);
-        for (int j = 0; j < table->columns; j++) {
-            (void)fprintf(out, "<%s%s>", j ? "td" : "th scope=\"row\"", is_number_column(table, j) ? " class=\"n\"" : "");
-            html_text(out, table->cell[i * table->columns + j]);
-            (void)fputs(j ? "</td>" : "</th>", out);
-        }
-        (void)fputs("</tr>\n", out);
-    }
+    (void)fputs("</span></caption>\n<thead>", out);
+    write_row(out, table, table->head, "th scope=\"col\"", "th scope=\"col\"");
+    (void)fputs("</thead>\n<tbody>\n", out);
+    for (int i = 0; i < table->rows; i++)
+        write_row(out, table, table->cell + (ptrdiff_t)i * table->columns, "th scope=\"row\"", "td");
     (void)fputs("</tbody></table></div>\n", out);
 }
 
