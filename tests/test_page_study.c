@@ -8,6 +8,7 @@
 
 #include "json_value.h"
 #include "page/by_modes.h"
+#include "page/page.h"
 #include "page_bench.h"
 #include "study_bench.h"
 #include "support.h"
@@ -318,6 +319,36 @@ static void runs_are_sorted_into_series_by_their_modes(void **state)
     assert_int_equal(by.nseries, 0);
 }
 
+/* Memory of the pool that ends after n blocks, while the lines are read and composed. */
+static void memory_that_runs_out_is_survived(void **state)
+{
+    (void)state;
+    long served = 0;
+    make_study("starts", starts_plan);
+    for (long n = 0; n == 0 || n <= served; n += 1 + n / 9) { /* 0: counts */
+        struct failing_allocator failing;
+        struct pool pool;
+        struct message_list messages;
+        struct result result;
+        struct document document;
+        failing_allocator_open(&failing, n);
+        pool_open(&pool, &failing.allocator);
+        message_open(&messages, &pool);
+        int status = result_read(&pool, page_path("starts.jsonl"), &messages, &result);
+        if (!status) {
+            document_open(&document, &pool);
+            page_compose(&document, 1, &result);
+            assert_true(n > 0 || !document.failed);
+        } else {
+            assert_true(n > 0);
+        }
+        served = n ? served : failing.served;
+        pool_close(&pool);
+        assert_int_equal(failing.in_use, 0);
+    }
+    assert_true(served > 150);
+}
+
 static void the_real_gnuplot_draws_them(void **state)
 {
     (void)state;
@@ -347,6 +378,7 @@ int main(void)
         cmocka_unit_test(many_decks_stand_beside_each_other),
         cmocka_unit_test(broken_lines_are_told_with_their_place),
         cmocka_unit_test_setup_teardown(runs_are_sorted_into_series_by_their_modes, open_test_pool, close_test_pool),
+        cmocka_unit_test(memory_that_runs_out_is_survived),
         cmocka_unit_test(the_real_gnuplot_draws_them),
     };
     return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);

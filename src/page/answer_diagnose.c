@@ -116,7 +116,7 @@ static const char *verdict(struct pool *pool, const struct diagnosis_outcome *d)
 
 static const char *headline(struct pool *pool, const struct diagnosis_outcome *d)
 {
-    const char *label = d->ncause ? cause_label(pool, d->cause[0].id, d->cause[0].target) : "";
+    const char *label = d->ncause ? cause_label(pool, &d->cause[0]) : "";
     switch (d->kind) {
     case TOLD_ADEQUATE:
         return "Adequate";
@@ -141,7 +141,9 @@ static const char *next(struct pool *pool, const struct diagnosis_outcome *d, co
     if (d->kind == TOLD_ADEQUATE)
         return "Next: read the blind spots below before you rely on the moduli. What is smaller than they say may be there.";
     if (d->kind == TOLD_NAMED && *check)
-        text = pool_format(pool, "%s%s%s", check, text ? "; and " : ", before you believe it", text ? text : "");
+        text = text && strstr(text, check)
+                   ? text /* says it already */
+                   : pool_format(pool, "%s%s%s", check, text ? "; and " : ", before you believe it", text ? text : "");
     return text ? pool_format(pool, "Next: %s.", text) : NULL;
 }
 
@@ -180,10 +182,15 @@ static void on_lead(struct reasons *reasons, const struct diagnosis_outcome *d)
     if (d->kind == TOLD_NAMED && first >= 0 && second >= 0)
         say(reasons,
             pool_format(pool, "Of %s causes that were fitted it leads the next one, %s, by %s in the misfit; %s are asked for.",
-                        human_count(pool, tried),
-                        cause_label(pool, round->candidate[second].cause.id, round->candidate[second].cause.target),
+                        human_count(pool, tried), cause_label(pool, &round->candidate[second].cause),
                         human_digits(pool, diagnosis_lead(&round->candidate[first], &round->candidate[second]), 3),
                         human_trimmed(pool, round->required_margin, 3)));
+    else if (d->kind == TOLD_NAMED && first >= 0 && tried > 1)
+        say(reasons,
+            pool_format(pool,
+                        "Of %s causes that were fitted all others were refused, for their size or for what they do to modes "
+                        "that were held out.",
+                        human_count(pool, tried)));
     if (d->kind == TOLD_AMBIGUOUS && d->nalternative > 1 && isfinite(round->required_margin))
         say(reasons, pool_format(pool,
                                  "None of them leads the others by %s in the misfit, which a name asks for. The order in which "

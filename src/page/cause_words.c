@@ -24,7 +24,7 @@ const char *cause_check(const char *id)
     return kind ? kind->check : "";
 }
 
-const char *cause_label(struct pool *pool, const char *id, const char *target)
+const char *cause_name(struct pool *pool, const char *id, const char *target)
 {
     int left = (int)strcspn(target, "|");
     if (!*target)
@@ -34,17 +34,24 @@ const char *cause_label(struct pool *pool, const char *id, const char *target)
     return or_nothing(pool_format(pool, strncmp(target, "at ", 3) ? "%s of %s" : "%s %s", id, target));
 }
 
-#define SMALL 1e-3 /* shown with a power of ten */
+const char *cause_label(struct pool *pool, const struct told_cause *cause)
+{
+    return cause->suspect && cause->name ? cause->name : cause_name(pool, cause->id, cause->target);
+}
+
+#define TINY  1e-12 /* zero but for rounding, in SI units */
+#define SMALL 1e-3  /* shown with a power of ten */
 #define LARGE 1e5
 
 /* "22.2 kg (95 %: 19.0 to 25.5)": two digits of half the interval, and of the value; this is read as a sentence. */
 static const char *with_interval(struct pool *pool, const struct told_value *value)
 {
     struct human_unit shown = human_unit(value->value, value->unit);
-    double f = shown.factor, number = f * value->value, half = f * (value->ci[1] - value->ci[0]) / 2;
+    double f = shown.factor, number = fabs(value->value) < TINY ? 0 : f * value->value,
+           half = f * (value->ci[1] - value->ci[0]) / 2;
     const char *text[3], *space = *shown.text ? "\xc2\xa0" : "";
-    if (value->fixed || !isfinite(half))
-        return human_value(pool, value->value, value->unit);
+    if (value->fixed || !isfinite(half) || (number == 0 && half < TINY))
+        return human_value(pool, number == 0 ? 0 : value->value, value->unit);
     int power = number != 0 && (fabs(number) < SMALL || fabs(number) >= LARGE),
         decimals = human_decimals(number, fmin(10 * half, fabs(number) > 0 ? 10 * fabs(number) : INFINITY));
     const double part[3] = {number, f * value->ci[0], f * value->ci[1]};
@@ -66,11 +73,13 @@ const char *cause_values(struct pool *pool, const struct told_cause *cause)
 
 const char *cause_in_words(struct pool *pool, const struct told_cause *cause, int with_values)
 {
-    const char *meaning = cause_meaning(cause->id), *label = cause_label(pool, cause->id, cause->target),
+    const char *meaning = cause_meaning(cause->id), *name = cause_name(pool, cause->id, cause->target),
                *values = with_values ? cause_values(pool, cause) : "";
+    if (cause->suspect && cause->name)
+        name = or_nothing(pool_format(pool, "%s, a %s as you suspected", cause->name, name));
     if (!*meaning)
-        return or_nothing(pool_format(pool, *values ? "%s (%s)" : "%s%s", label, values));
-    return or_nothing(pool_format(pool, "%s (%s%s%s)", meaning, label, *values ? ": " : "", values));
+        return or_nothing(pool_format(pool, *values ? "%s (%s)" : "%s%s", name, values));
+    return or_nothing(pool_format(pool, "%s (%s%s%s)", meaning, name, *values ? ": " : "", values));
 }
 
 double cause_falls_from(const char *id)

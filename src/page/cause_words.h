@@ -9,7 +9,9 @@
 const char *cause_meaning(const char *id);
 const char *cause_check(const char *id);
 /* "stiffness of right", "joint between core and right", "added_mass" */
-const char *cause_label(struct pool *pool, const char *id, const char *target);
+const char *cause_name(struct pool *pool, const char *id, const char *target);
+/* The same of a cause; of a suspicion the name that its card gives it. */
+const char *cause_label(struct pool *pool, const struct told_cause *cause);
 /* "mass 22.22 kg (95 %: 18.96 to 25.48), z 0.8983 m (95 %: 0.8886 to 0.9080)"; "" of one without values. */
 const char *cause_values(struct pool *pool, const struct told_cause *cause);
 /* "a zone softer than its surroundings (stiffness_local: depth 0.58, ...)", the values only where they are asked for. */

@@ -117,7 +117,7 @@ static void read_rounds(const struct json_place *root, struct diagnosis_outcome 
 static void read_candidate(const struct json_place *at, struct evidence *c)
 {
     read_cause(at, &c->cause);
-    c->suspect = place_flag(at, "suspect");
+    c->cause.suspect = place_flag(at, "suspect");
     c->refitted = place_flag(at, "refitted");
     c->predicted_drop = place_number(at, "predicted_drop");
     c->chi2_drop = place_number(at, "chi2_drop");
@@ -239,6 +239,17 @@ static struct fitted *read_fit(const struct json_place *root, const char *key)
     return place_find(root, key, PLACE_OBJECT, &at) ? fitted_read(&at) : NULL;
 }
 
+/* The verdict does not say which of its causes were asked for: the evidence does. */
+static void mark_suspects(const struct diagnosis_outcome *out, int count, struct told_cause *cause)
+{
+    for (int i = 0; i < count && cause; i++)
+        for (int r = 0; r < out->nround && out->round; r++)
+            for (int k = 0; k < out->round[r].ncandidate; k++) {
+                const struct told_cause *tried = &out->round[r].candidate[k].cause;
+                cause[i].suspect |= tried->suspect && tried->name && cause[i].name && !strcmp(tried->name, cause[i].name);
+            }
+}
+
 struct diagnosis_outcome *diagnosis_read(const struct json_place *root)
 {
     struct diagnosis_outcome *out = room_for(root, 1, sizeof *out);
@@ -250,6 +261,8 @@ struct diagnosis_outcome *diagnosis_read(const struct json_place *root)
     out->numerical = read_findings(root, "numerical_findings", 1, &out->nnumerical);
     read_rounds(root, out);
     read_candidates(root, out);
+    mark_suspects(out, out->ncause, out->cause);
+    mark_suspects(out, out->nalternative, out->alternative);
     read_gain(root, out);
     read_misfit(root, out);
     read_sizes(root, out);

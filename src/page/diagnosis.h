@@ -15,13 +15,14 @@ struct told_value { /* of a cause */
 
 struct told_cause {
     const char *id, *target, *name; /* target "" of a cause that has none; name of the CAUSE card, NULL */
+    int suspect;                    /* asked for by a card, which gave it that name */
     int nvalue;
     struct told_value *value;
 };
 
 struct evidence { /* for one candidate */
     struct told_cause cause;
-    int suspect, refitted, at_bound;
+    int refitted, at_bound;
     double predicted_drop, chi2_drop, bic, holdout_rms, mode_out_rms, sensor_out_rms, p_value, cosine; /* NaN: not known */
     const char *collinear_with, *collinear_target, *rejected_because;                                  /* or NULL */
 };
@@ -107,7 +108,9 @@ int diagnosis_place(const struct geometry *geometry, const struct told_cause *ca
 /* By how much candidate `a` of a round leads candidate `b`: chi2 and a penalty for each parameter that was searched for, as the
  * decision counts it. */
 double diagnosis_lead(const struct evidence *a, const struct evidence *b);
-/* The best candidate of a round that the nonlinear fit judged, and the best other one; -1: none. */
+/* The best candidate of a round, and the best other one that was not refused for a reason of its own, such as its size or what it
+ * does to modes held out: such a one is no rival. -1: none. */
+int diagnosis_is_rival(const struct evidence *candidate);
 void diagnosis_leaders(const struct evidence_round *round, int *first, int *second);
 
 #endif

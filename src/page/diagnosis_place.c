@@ -72,13 +72,21 @@ double diagnosis_lead(const struct evidence *a, const struct evidence *b)
     return a->chi2_drop - b->chi2_drop - PARAMETER_PENALTY * (searched(a) - searched(b));
 }
 
+/* The result has the reasons as sentences alone. */
+int diagnosis_is_rival(const struct evidence *c)
+{
+    const char *why = c->rejected_because;
+    return c->refitted && isfinite(c->chi2_drop) &&
+           (!why || !strncmp(why, "loses to ", 9) || !strncmp(why, "gains no more ", 14));
+}
+
 void diagnosis_leaders(const struct evidence_round *round, int *first, int *second)
 {
     *first = round->nset ? 0 : -1; /* whatever fits better was refused, and says why */
     *second = -1;
     for (int i = 0; i < round->ncandidate; i++) {
         const struct evidence *c = &round->candidate[i];
-        if (!c->refitted || !isfinite(c->chi2_drop) || i == *first)
+        if (!diagnosis_is_rival(c) || i == *first)
             continue;
         if (*second < 0 || diagnosis_lead(c, &round->candidate[*second]) > 0)
             *second = i;

@@ -48,7 +48,11 @@ void document_section(struct document *document, const char *id, const char *hea
         return;
     }
     section->id = free_id(document, id);
-    section->heading = heading;
+    section->heading = document->of ? pool_format(document->pool, "%s: %s", heading, document->of) : heading;
+    if (!section->heading) {
+        document->failed = 1;
+        section->heading = heading;
+    }
     if (document->last)
         document->last->next = section;
     else

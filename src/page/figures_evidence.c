@@ -14,8 +14,8 @@
 #define EDGE_PX   14.0
 #define NUMBER_PX 62.0 /* behind a bar */
 
-enum fate { FATE_NAMED, FATE_POSSIBLE, FATE_REFUSED, FATE_SCANNED, FATES };
-static const char *const fate_color[FATES] = {"VERMILION", "PURPLE", "BLUE", "BLUE"};
+enum fate { FATE_NAMED, FATE_POSSIBLE, FATE_LOSES, FATE_REFUSED, FATE_SCANNED, FATES };
+static const char *const fate_color[FATES] = {"VERMILION", "PURPLE", "BLUE", "MUTED", "BLUE"};
 
 struct bar {
     const struct evidence *evidence;
@@ -46,13 +46,12 @@ static struct bars *collect(struct pool *pool, const struct evidence_round *roun
     for (int i = 0; i < round->ncandidate; i++) {
         const struct evidence *c = &round->candidate[i];
         double drop = c->refitted ? c->chi2_drop : c->predicted_drop;
-        enum fate fate = i < round->nset ? round->kind == TOLD_NAMED ? FATE_NAMED : FATE_POSSIBLE
-                         : c->refitted   ? FATE_REFUSED
-                                         : FATE_SCANNED;
+        enum fate fate = i < round->nset         ? round->kind == TOLD_NAMED ? FATE_NAMED : FATE_POSSIBLE
+                         : !c->refitted          ? FATE_SCANNED
+                         : diagnosis_is_rival(c) ? FATE_LOSES
+                                                 : FATE_REFUSED;
         if (isfinite(drop))
-            all[count++] =
-                (struct bar){c, fate, fmax(drop, 0),
-                             c->suspect && c->cause.name ? c->cause.name : cause_label(pool, c->cause.id, c->cause.target)};
+            all[count++] = (struct bar){c, fate, fmax(drop, 0), cause_label(pool, &c->cause)};
     }
     qsort(all, (size_t)count, sizeof *all, longer);
     for (int i = 0; i < count; i++) {
@@ -67,8 +66,8 @@ static struct bars *collect(struct pool *pool, const struct evidence_round *roun
 
 static int legend_of(const struct bars *bars, const struct evidence_round *round, int with_margin, struct plot_entry *entry)
 {
-    static const char *const texts[FATES] = {"named", "possible, not to be told apart", "fitted and refused",
-                                             "only scanned: the drop expected"};
+    static const char *const texts[FATES] = {"named", "possible, not to be told apart", "fitted, loses",
+                                             "refused for a reason of its own", "only scanned: the drop expected"};
     int n = 0;
     for (int f = 0; f < FATES; f++)
         if (bars->has[f])
@@ -78,7 +77,7 @@ static int legend_of(const struct bars *bars, const struct evidence_round *round
     if (isfinite(round->threshold))
         entry[n++] = (struct plot_entry){.text = "chance alone reaches this in 3 of 100 tests", .style = 11, .keys = KEY_LINE};
     if (with_margin)
-        entry[n++] = (struct plot_entry){.text = "a rival beyond this takes the name away", .style = 12, .keys = KEY_LINE};
+        entry[n++] = (struct plot_entry){.text = "a rival that loses may not come beyond this", .style = 12, .keys = KEY_LINE};
     return n;
 }
 
@@ -181,7 +180,7 @@ static int script(struct document *document, struct figure *figure, const struct
 
 static struct number_table *bars_table(struct pool *pool, const struct bars *bars)
 {
-    static const char *const fates[FATES] = {"named", "possible", "refused", "only scanned"};
+    static const char *const fates[FATES] = {"named", "possible", "loses", "refused for a reason of its own", "only scanned"};
     struct number_table *table = table_new(pool, bars->count, 4);
     table_head(table, 0, "cause");
     table_head(table, 1, "drop expected [1]");
@@ -197,33 +196,34 @@ static struct number_table *bars_table(struct pool *pool, const struct bars *bar
 }
 
 /* Who leads whom, and by how much. */
-static const char *lead(struct pool *pool, const struct evidence_round *round)
+static const char *lead(struct pool *pool, const struct evidence_round *round, const struct bars *bars)
 {
     int first, second;
     diagnosis_leaders(round, &first, &second);
-    const char *name =
-                   first >= 0 ? cause_label(pool, round->candidate[first].cause.id, round->candidate[first].cause.target) : "",
-               *next =
-                   second >= 0 ? cause_label(pool, round->candidate[second].cause.id, round->candidate[second].cause.target) : "";
-    double by = first >= 0 && second >= 0 ? diagnosis_lead(&round->candidate[first], &round->candidate[second]) : NAN;
-    const char *text = "";
-    if (round->kind == TOLD_NAMED && first >= 0)
+    const struct evidence *best = first >= 0 ? &round->candidate[first] : NULL, *longest = bars->bar[0].evidence;
+    const char *name = best ? cause_label(pool, &best->cause) : "",
+               *next = second >= 0 ? cause_label(pool, &round->candidate[second].cause) : "";
+    const char *asked = human_trimmed(pool, round->required_margin, 3), *text = "";
+    if (round->kind == TOLD_NAMED && best)
         text = pool_format(pool, "%s lowers the misfit of %s by %s", name, human_digits(pool, round->chi2, 4),
-                           human_digits(pool, round->candidate[first].chi2_drop, 3));
-    if (round->kind == TOLD_NAMED && second >= 0 && text)
-        text = pool_format(pool, "%s and leads the runner-up, %s, by %s, with %g charged for each parameter; a name asks for %s",
-                           text, next, human_digits(pool, by, 3), 3.0, human_trimmed(pool, round->required_margin, 3));
+                           human_digits(pool, best->chi2_drop, 3));
+    if (round->kind == TOLD_NAMED && best && second >= 0 && text)
+        text = pool_format(pool, "%s and leads the runner-up, %s, by %s, with 3 charged for each parameter; a name asks for %s",
+                           text, next, human_digits(pool, diagnosis_lead(best, &round->candidate[second]), 3), asked);
+    else if (round->kind == TOLD_NAMED && best && longest != best && text)
+        text = pool_format(pool, "%s. %s does so by more and was refused: %s", text, bars->bar[0].label,
+                           longest->rejected_because ? longest->rejected_because : "");
     else if (round->nset > 1)
         text = pool_format(pool,
                            "%s causes explain the data about equally well: a name asks for a lead of %s over every other, with 3 "
                            "charged for each parameter",
-                           words_sentence(pool, human_count(pool, round->nset)), human_trimmed(pool, round->required_margin, 3));
+                           words_sentence(pool, human_count(pool, round->nset)), asked);
     else if (round->nset == 1 && round->kind != TOLD_NAMED)
         text = pool_format(pool, "%s leads, but these data cannot carry its name", name);
-    else if (!round->nset && second >= 0)
-        text = pool_format(pool, "Nothing is left to name: the longest bar, %s, was refused%s%s", next,
-                           round->candidate[second].rejected_because ? " because " : "",
-                           round->candidate[second].rejected_because ? round->candidate[second].rejected_because : "");
+    else if (!round->nset)
+        text =
+            pool_format(pool, "Nothing is left to name: the longest bar, %s, was refused%s%s", bars->bar[0].label,
+                        longest->rejected_because ? " because " : "", longest->rejected_because ? longest->rejected_because : "");
     return text ? text : "";
 }
 
@@ -233,13 +233,14 @@ void figure_evidence(struct document *document, const struct result *result, int
     struct pool *pool = document->pool;
     struct bars *bars = collect(pool, round);
     int first, second;
-    if (!bars || !bars->count || (!bars->has[FATE_NAMED] && !bars->has[FATE_POSSIBLE] && !bars->has[FATE_REFUSED])) {
+    if (!bars || !bars->count ||
+        (!bars->has[FATE_NAMED] && !bars->has[FATE_POSSIBLE] && !bars->has[FATE_LOSES] && !bars->has[FATE_REFUSED])) {
         document->failed |= !bars;
         return;
     }
     diagnosis_leaders(round, &first, &second);
     double margin_at = first >= 0 ? round->candidate[first].chi2_drop - round->required_margin : NAN;
-    if (!(margin_at > 0))
+    if (!(margin_at > 0) || !bars->has[FATE_LOSES])
         margin_at = NAN;
     struct figure *figure =
         document_figure(document, "evidence",
@@ -251,7 +252,7 @@ void figure_evidence(struct document *document, const struct result *result, int
                *hidden = bars->hidden ? pool_format(pool, " %s shorter ones stand in the table.",
                                                     words_sentence(pool, human_count(pool, bars->hidden)))
                                       : "";
-    const char *says = lead(pool, round);
+    const char *says = lead(pool, round, bars);
     figure->caption = pool_format(pool, "%s%s%s%s", says, *says ? "." : "", chance ? chance : "", hidden ? hidden : "");
     figure->alt = pool_format(pool, "Bars of %d causes, the longest %s with %s, the shortest %s with %s.", bars->count,
                               bars->bar[0].label, human_digits(pool, bars->bar[0].drop, 3), bars->bar[bars->count - 1].label,

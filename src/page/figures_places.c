@@ -46,7 +46,7 @@ static struct places find_places(const struct result *result)
 /* The longest text of a lane that fits, and where it begins [px from the left]. */
 static const char *lane_text(struct pool *pool, const struct lane *lane, double width, double middle, double *from)
 {
-    const char *label = cause_label(pool, lane->cause->id, lane->cause->target), *values = cause_values(pool, lane->cause);
+    const char *label = cause_label(pool, lane->cause), *values = cause_values(pool, lane->cause);
     const char *text = *values ? pool_format(pool, "%s: %s", label, values) : label;
     if (!text || plot_width(text) > width - 12)
         text = label;
@@ -170,8 +170,7 @@ static const char *which(struct pool *pool, const struct places *places)
                                ? pool_format(pool, " (95\xc2\xa0%% of its place: %s to %s\xc2\xa0m)",
                                              human_digits(pool, place->ci[0], 3), human_digits(pool, place->ci[1], 3))
                                : "";
-        text = pool_format(pool, "%s%s%s %s%s", text, i ? "; " : "",
-                           cause_label(pool, places->lane[i].cause->id, places->lane[i].cause->target), where ? where : "",
+        text = pool_format(pool, "%s%s%s %s%s", text, i ? "; " : "", cause_label(pool, places->lane[i].cause), where ? where : "",
                            sure ? sure : "");
     }
     if (!places->count || !text)

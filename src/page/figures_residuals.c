@@ -76,14 +76,15 @@ static void draw_modes(struct plot *plot, const struct diagnosis_outcome *d, con
               NORMAL_95, NORMAL_95);
 }
 
-static void draw_sensors(struct plot *plot, const struct diagnosis_outcome *d, const double *rms, const struct told_misfit *m)
+static void draw_sensors(struct plot *plot, const struct result *result, const double *rms, const struct told_misfit *m)
 {
+    const struct diagnosis_outcome *d = result->diagnosis;
     struct plot_range range = plot_range_of(d->nsensor, rms, 0);
-    double length = d->sensor[d->nsensor - 1].z - d->sensor[0].z;
+    double length = result->geometry ? result->geometry->length : d->sensor[d->nsensor - 1].z;
+    length = length > 0 ? length : 1;
     range.to = fmax(range.to, fmax(1, m->limit));
-    plot_line(plot, "set xrange [%.6g:%.6g]\nset yrange [0:%.6g]\nset xtics %g", d->sensor[0].z - 0.02 * length,
-              d->sensor[d->nsensor - 1].z + 0.02 * length + (length > 0 ? 0 : 1), 1.1 * range.to,
-              plot_tic(length > 0 ? length : 1, 4));
+    plot_line(plot, "set xrange [%.6g:%.6g]\nset yrange [0:%.6g]\nset xtics %g", -0.02 * length, 1.02 * length, 1.1 * range.to,
+              plot_tic(length, 4));
     plot_axes(plot, "position of the sensor z [m]", "rms of its residuals over noise [1]");
     plot_line(plot,
               "plot $sensors using 1:2 with impulses lc rgb BLUE lw 2 dt 1, 1 with lines lc rgb INK lw 1 dt 1, \\\n"
@@ -129,9 +130,15 @@ static int script(struct document *document, struct figure *figure, const struct
     draw_modes(&plot, d, d->mode_z);
     if (sensors) {
         plot_panel(&plot, 1);
-        draw_sensors(&plot, d, rms, m);
+        draw_sensors(&plot, result, rms, m);
     }
     return plot_close(&plot);
+}
+
+static const char *about(struct pool *pool, double count)
+{
+    const char *text = pool_format(pool, "about %s", human_count(pool, (int)floor(count + 0.5)));
+    return text ? text : "";
 }
 
 static const char *none_or(struct pool *pool, int count)
@@ -175,20 +182,21 @@ void figure_residuals(struct document *document, const struct result *result)
         m.loudest < 0
             ? " No shape was fitted, so nothing can be said of single sensors."
             : pool_format(pool,
-                          " Sensors: 1 is noise alone; %s of %d exceed %s, where noise alone lets about %s. The worst is sensor "
+                          " Sensors: 1 is noise alone; %s of %d exceed %s, where noise alone lets %s. The worst is sensor "
                           "%.0f at %s\xc2\xa0m with %s.",
                           none_or(pool, m.loud), m.sensors, human_fixed(pool, m.limit, 2),
-                          human_count(pool, (int)floor(OUTSIDE * m.sensors + 0.5)), d->sensor[m.loudest].id,
+                          m.sensors * OUTSIDE < 0.5 ? "hardly one" : about(pool, OUTSIDE * m.sensors), d->sensor[m.loudest].id,
                           human_trimmed(pool, d->sensor[m.loudest].z, 4), human_fixed(pool, d->sensor[m.loudest].rms, 2));
     struct figure *figure =
         document_figure(document, "residuals",
                         m.loudest < 0 ? "What the model misses, mode by mode" : "What the model misses, by modes and by sensors");
-    figure->caption = pool_format(
-        pool,
-        "Modes: the error of each frequency over its noise; %s of %s fitted ones lie beyond \xc2\xb1%g, the "
-        "largest is %s in mode %d%s.%s",
-        none_or(pool, m.beyond), human_count(pool, m.fitted), NORMAL_95, human_signed(pool, d->mode_z[m.worst], 1),
-        d->base->mode[m.worst].mode, held ? "; modes with a star were held out of the fit" : "", sensors ? sensors : "");
+    figure->caption =
+        pool_format(pool,
+                    "Modes: the error of each frequency over its noise; %s of %s fitted ones lie beyond \xc2\xb1%g, the "
+                    "largest is %s in mode %d%s.%s",
+                    m.beyond == m.fitted ? "all" : none_or(pool, m.beyond), human_count(pool, m.fitted), NORMAL_95,
+                    human_signed(pool, d->mode_z[m.worst], 1), d->base->mode[m.worst].mode,
+                    held ? "; modes with a star were held out of the fit" : "", sensors ? sensors : "");
     figure->alt = pool_format(pool, "Bars for %d modes, from %s to %s times their noise%s.", d->nmode,
                               human_signed(pool, plot_range_of(d->nmode, d->mode_z, 0).from, 1),
                               human_signed(pool, plot_range_of(d->nmode, d->mode_z, 0).to, 1),

@@ -21,6 +21,16 @@ static const char *title(const struct result *result)
     return result->deck && *result->deck ? result->deck : result->file;
 }
 
+/* The deck of a further result where it is another one than that of the page, NULL where it is not. */
+static const char *other_deck(const struct result *result, const struct result *main_result)
+{
+    const char *name;
+    if (!result->deck || !main_result->deck || !strcmp(result->deck, main_result->deck))
+        return NULL;
+    name = strrchr(result->deck, '/');
+    return name ? name + 1 : result->deck;
+}
+
 void page_compose(struct document *document, int count, const struct result *result)
 {
     document->title = title(result);
@@ -41,6 +51,7 @@ void page_compose(struct document *document, int count, const struct result *res
         break;
     }
     for (int i = 0; i < count; i++) {
+        document->of = other_deck(&result[i], result);
         if (result[i].identify)
             section_identify(document, &result[i]);
         if (result[i].diagnosis)

@@ -108,6 +108,8 @@ static void section_evidence(struct document *document, const struct result *res
             continue;
         document_table(document, pool_format(pool, "Candidates of round %d, those that stay first", i + 1),
                        tables_candidates(pool, round));
+        document_table(document, pool_format(pool, "What the fitted ones of round %d predict, and what they look like", i + 1),
+                       tables_candidate_quality(pool, round));
         document_table(document, pool_format(pool, "Sizes and places of the candidates of round %d", i + 1),
                        tables_candidate_sizes(pool, round));
     }

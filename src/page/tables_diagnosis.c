@@ -33,67 +33,84 @@ static const char *fate(struct pool *pool, const struct evidence_round *round, i
 
 static const char *label_of(struct pool *pool, const struct evidence *c)
 {
-    const char *label = cause_label(pool, c->cause.id, c->cause.target), *text;
-    if (!c->suspect)
-        return label;
-    text = pool_format(pool, "%s (your suspicion)", c->cause.name ? c->cause.name : label);
+    const char *label = cause_label(pool, &c->cause),
+               *text = c->cause.suspect ? pool_format(pool, "%s (your suspicion)", label) : label;
     return text ? text : label;
 }
 
 struct number_table *tables_candidates(struct pool *pool, const struct evidence_round *round)
 {
-    static const char *const head[] = {
-        "cause",        "drop expected",    "drop reached", "BIC", "chance", "modes left out [%]", "sensors left out [1]",
-        "held out [%]", "what became of it"};
-    enum { COLUMNS = sizeof head / sizeof *head, LEFT_OUT = 5, FATE = COLUMNS - 1 };
-    int shown[COLUMNS], count = 0, known[COLUMNS];
+    static const char *const head[] = {"cause", "drop expected", "drop reached", "chance", "what became of it"};
+    enum { COLUMNS = sizeof head / sizeof *head };
+    struct number_table *table = table_new(pool, round->ncandidate, COLUMNS);
     for (int j = 0; j < COLUMNS; j++)
-        known[j] = j < LEFT_OUT || j == FATE;
+        table_head(table, j, head[j]);
+    for (int i = 0; i < round->ncandidate; i++) {
+        const struct evidence *c = &round->candidate[i];
+        table_cell(table, i, 0, label_of(pool, c));
+        table_cell(table, i, 1, human_digits(pool, c->predicted_drop, 4));
+        table_cell(table, i, 2, human_digits(pool, c->chi2_drop, 4));
+        table_cell(table, i, 3, chance_of(pool, c->p_value));
+        table_cell(table, i, 4, fate(pool, round, i));
+    }
+    return table;
+}
+
+struct number_table *tables_candidate_quality(struct pool *pool, const struct evidence_round *round)
+{
+    static const char *const head[] = {
+        "cause", "BIC", "modes left out [%]", "sensors left out [1]", "held out [%]", "looks like (cosine)"};
+    enum { COLUMNS = sizeof head / sizeof *head, LEFT_OUT = 2, LIKE = COLUMNS - 1 };
+    int shown[COLUMNS], count = 0, rows = 0, known[COLUMNS] = {1, 1, 0, 0, 0, 1};
     for (int i = 0; i < round->ncandidate; i++) { /* what was not left out has no column */
         const struct evidence *c = &round->candidate[i];
         known[LEFT_OUT] |= isfinite(c->mode_out_rms) != 0;
         known[LEFT_OUT + 1] |= isfinite(c->sensor_out_rms) != 0;
         known[LEFT_OUT + 2] |= isfinite(c->holdout_rms) != 0;
+        rows += c->refitted != 0;
     }
     for (int j = 0; j < COLUMNS; j++)
         if (known[j])
             shown[count++] = j;
-    struct number_table *table = table_new(pool, round->ncandidate, count);
+    struct number_table *table = table_new(pool, rows, count);
     for (int j = 0; j < count; j++)
         table_head(table, j, head[shown[j]]);
-    for (int i = 0; i < round->ncandidate; i++) {
+    for (int i = 0, row = 0; i < round->ncandidate; i++) {
         const struct evidence *c = &round->candidate[i];
-        const char *const cell[COLUMNS] = {label_of(pool, c),
-                                           human_digits(pool, c->predicted_drop, 4),
-                                           human_digits(pool, c->chi2_drop, 4),
-                                           human_digits(pool, c->bic, 5),
-                                           chance_of(pool, c->p_value),
-                                           human_digits(pool, c->mode_out_rms, 3),
-                                           human_digits(pool, c->sensor_out_rms, 3),
-                                           human_digits(pool, c->holdout_rms, 3),
-                                           fate(pool, round, i)};
+        if (!c->refitted)
+            continue;
+        const char *const cell[COLUMNS] = {
+            label_of(pool, c),
+            human_digits(pool, c->bic, 5),
+            human_digits(pool, c->mode_out_rms, 3),
+            human_digits(pool, c->sensor_out_rms, 3),
+            human_digits(pool, c->holdout_rms, 3),
+            c->collinear_with ? pool_format(pool, "%s (%s)",
+                                            cause_name(pool, c->collinear_with, c->collinear_target ? c->collinear_target : ""),
+                                            human_fixed(pool, c->cosine, 2))
+                              : ""};
         for (int j = 0; j < count; j++)
-            table_cell(table, i, j, cell[shown[j]]);
+            table_cell(table, row, j, cell[shown[j]]);
+        row++;
     }
     return table;
 }
 
 struct number_table *tables_candidate_sizes(struct pool *pool, const struct evidence_round *round)
 {
-    struct number_table *table = table_new(pool, round->ncandidate, 3);
+    int rows = 0;
+    for (int i = 0; i < round->ncandidate; i++)
+        rows += round->candidate[i].refitted != 0;
+    struct number_table *table = table_new(pool, rows, 2);
     table_head(table, 0, "cause");
-    table_head(table, 1, "looks like (cosine)");
-    table_head(table, 2, "size and place, 95 % interval");
-    for (int i = 0; i < round->ncandidate; i++) {
+    table_head(table, 1, "size and place, 95 % interval");
+    for (int i = 0, row = 0; i < round->ncandidate; i++) {
         const struct evidence *c = &round->candidate[i];
         const char *values = cause_values(pool, &c->cause);
-        table_cell(table, i, 0, label_of(pool, c));
-        if (c->collinear_with)
-            table_cell(table, i, 1,
-                       pool_format(pool, "%s (%s)",
-                                   cause_label(pool, c->collinear_with, c->collinear_target ? c->collinear_target : ""),
-                                   human_fixed(pool, c->cosine, 2)));
-        table_cell(table, i, 2, c->at_bound ? pool_format(pool, "%s, at a bound", values) : values);
+        if (!c->refitted)
+            continue;
+        table_cell(table, row, 0, label_of(pool, c));
+        table_cell(table, row++, 1, c->at_bound ? pool_format(pool, "%s, at a bound", values) : values);
     }
     return table;
 }
@@ -146,7 +163,7 @@ struct number_table *tables_blind_spots(struct pool *pool, const struct diagnosi
         const struct told_size *size = &d->size[i];
         int none = size->beyond || !isfinite(size->smallest);
         double neutral = cause_falls_from(size->id), shown = isfinite(neutral) ? neutral - size->smallest : size->smallest;
-        table_cell(table, i, 0, cause_label(pool, size->id, size->target));
+        table_cell(table, i, 0, cause_name(pool, size->id, size->target));
         table_cell(table, i, 1, size->parameter);
         table_cell(table, i, 2,
                    none ? "no size within physical bounds"

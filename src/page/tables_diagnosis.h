@@ -7,7 +7,8 @@
 
 /* Candidates of a round, each with what became of it. */
 struct number_table *tables_candidates(struct pool *pool, const struct evidence_round *round);
-/* Their sizes and places, and what they look like. */
+/* Of those that were fitted: how well they predict what was left out, and what they look like; their sizes and places. */
+struct number_table *tables_candidate_quality(struct pool *pool, const struct evidence_round *round);
 struct number_table *tables_candidate_sizes(struct pool *pool, const struct evidence_round *round);
 /* Misfit of the model, and of the extended one beside it: fitted, held out, left out in turn. */
 struct number_table *tables_quality(struct pool *pool, const struct diagnosis_outcome *d);
