@@ -3,22 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-static int same_text(const char *a, const char *b)
-{
-    return a == b || (a && b && !strcmp(a, b));
-}
-
-static int same_number(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
-}
-
 /* Cells that differ in the modes alone. */
 static int same_but_modes(const struct told_cell *a, const struct told_cell *b)
 {
-    return same_text(a->deck, b->deck) && same_text(a->variant, b->variant) && same_text(a->sensors, b->sensors) &&
-           same_text(a->hide, b->hide) && same_number(a->noise_frequency, b->noise_frequency) &&
-           same_number(a->noise_shape, b->noise_shape);
+    return axis_same_text(a->deck, b->deck) && axis_same_text(a->variant, b->variant) && axis_same_text(a->sensors, b->sensors) &&
+           axis_same_text(a->hide, b->hide) && axis_same_number(a->noise_frequency, b->noise_frequency) &&
+           axis_same_number(a->noise_shape, b->noise_shape);
 }
 
 /* "orthotropic, modes 1-4" without the modes. */

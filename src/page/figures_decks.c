@@ -4,14 +4,9 @@
 
 #include "page/figures_study.h"
 #include "page/human.h"
-#include "page/plot.h"
+#include "page/rows.h"
 
-#define MOST_ROWS 40
-#define LEAST     3
-#define WIDE_ROW  22.0
-#define TALL_ROW  38.0
-#define NAMES_PX  200.0
-#define EDGE_PX   14.0
+#define LEAST 3
 
 struct deck_row {
     const char *name;
@@ -22,7 +17,7 @@ struct decks {
     const struct cell_parameter *parameter;
     struct human_unit unit;
     int count, hidden;
-    struct deck_row row[MOST_ROWS];
+    struct deck_row row[ROWS_MOST];
 };
 
 /* The parameter that most decks have, -1 of cells that are no decks side by side. */
@@ -62,7 +57,7 @@ static void collect(const struct study_outcome *s, const char *name, struct deck
                 decks->unit = human_unit(run->value[p].value, cell->parameter[p].unit);
             }
             double f = decks->unit.factor;
-            if (decks->count == MOST_ROWS)
+            if (decks->count == ROWS_MOST)
                 decks->hidden++;
             else
                 decks->row[decks->count++] = (struct deck_row){*cell->label ? cell->label : cell->deck,
@@ -75,14 +70,8 @@ static void collect(const struct study_outcome *s, const char *name, struct deck
 static int script(struct document *document, struct figure *figure, const struct result *result, const struct decks *decks)
 {
     int n = decks->count;
-    struct plot_layout layout = {.panels = 1,
-                                 .columns = {1, 1},
-                                 .height = 60 + WIDE_ROW * n,
-                                 .narrow_height = 60 + TALL_ROW * n,
-                                 .left = NAMES_PX,
-                                 .right = 20,
-                                 .top = 8,
-                                 .bottom = 48};
+    struct plot_layout layout = rows_layout(n);
+    const char *name[ROWS_MOST] = {NULL};
     struct plot_range range = {INFINITY, -INFINITY};
     double *data = POOL_ARRAY(document->pool, double, 4 * (size_t)n);
     struct plot plot;
@@ -90,6 +79,7 @@ static int script(struct document *document, struct figure *figure, const struct
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++) {
         const struct deck_row *row = &decks->row[i];
+        name[i] = row->name;
         const double line[] = {n - i, row->value, row->ci[0], row->ci[1]};
         for (int c = 0; c < 4; c++)
             data[i + (ptrdiff_t)c * n] = line[c];
@@ -101,21 +91,12 @@ static int script(struct document *document, struct figure *figure, const struct
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
     double pad = 0.05 * (range.to - range.from) + 1e-12;
-    plot_line(&plot,
-              "LIFT = narrow ? 0.2 : 0\nif (narrow) { set lmargin at screen %g/W }\nset xrange [%.8g:%.8g]\nset yrange [0.4:%g]\n"
-              "unset ytics\nset border 1\nset xtics %g",
-              EDGE_PX, range.from - pad, range.to + pad, n + 0.6, plot_tic(range.to - range.from + 2 * pad, 5));
+    plot_line(&plot, "set xrange [%.8g:%.8g]\nset xtics %g", range.from - pad, range.to + pad,
+              plot_tic(range.to - range.from + 2 * pad, 5));
+    rows_draw(&plot, n, name);
     const char *axis = pool_format(document->pool, "%s [%s]", decks->parameter->name, *decks->unit.text ? decks->unit.text : "1");
     plot_label(&plot, axis ? axis : "", "graph 0.5, screen 1-(y_of(0)+HEIGHT-10)/H", "INK", "center");
-    for (int l = 0; l < LAYOUTS; l++) {
-        plot_line(&plot, l == WIDE ? "if (!narrow) {" : "} else {");
-        for (int i = 0; i < n; i++) {
-            char where[64];
-            (void)snprintf(where, sizeof where, l == WIDE ? "graph 0, first %d" : "graph 0, first %d+0.26", n - i);
-            plot_label(&plot, decks->row[i].name, where, "INK", l == WIDE ? "right offset char -0.7, 0" : "left");
-        }
-    }
-    plot_line(&plot, "}\nplot $decks using 3:($1-LIFT):($4-$3):(0) with vectors heads size screen 0.006,90 ls 1 lw 1.5 dt 1, \\\n"
+    plot_line(&plot, "plot $decks using 3:($1-LIFT):($4-$3):(0) with vectors heads size screen 0.006,90 ls 1 lw 1.5 dt 1, \\\n"
                      "    $decks using 2:($1-LIFT) with points ls 1 ps 0.8");
     return plot_close(&plot);
 }
@@ -160,7 +141,7 @@ void figure_decks(struct document *document, const struct result *result)
     figure->caption = pool_format(pool, "From %s\xc2\xa0%s (%s) to %s\xc2\xa0%s (%s), each with its 95\xc2\xa0%% interval.%s",
                                   human_digits(pool, decks->row[least].value, 4), decks->unit.text, decks->row[least].name,
                                   human_digits(pool, decks->row[most].value, 4), decks->unit.text, decks->row[most].name,
-                                  decks->hidden ? " The first 40 are drawn." : "");
+                                  decks->hidden ? " The first 24 are drawn." : "");
     figure->alt = pool_format(pool, "A point with its interval for each of %d decks.", decks->count);
     figure->table = decks_table(pool, decks);
     document->failed |= !figure->title || !figure->caption || !figure->alt || script(document, figure, result, decks) != ROTID_OK;

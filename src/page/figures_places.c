@@ -135,7 +135,7 @@ static int script(struct document *document, struct figure *figure, const struct
         (void)rotor_draw(&plot, geometry, NULL, 0);
         plot_line(&plot, "plot NaN");
     }
-    if (places->count) {
+    if (geometry && places->count) {
         plot_panel(&plot, 0);
         margins(&plot, "ROTOR", "ROTOR+LANES");
         plot_line(&plot, "set xrange [0:%.6g]\nset yrange [0:%d]\nset border 0; unset tics; unset grid", length, places->count);

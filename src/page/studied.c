@@ -78,9 +78,14 @@ static void read_cells(const struct json_place *root, struct study_outcome *out)
     }
 }
 
-static int same_text(const char *a, const char *b)
+int axis_same_text(const char *a, const char *b)
 {
     return a == b || (a && b && !strcmp(a, b));
+}
+
+int axis_same_number(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
 }
 
 static const char *name_of_file(const char *path)
@@ -96,13 +101,13 @@ static int name_cells(struct pool *pool, struct study_outcome *out)
     int varies[AXES] = {0};
     for (int i = 1; i < out->ncell; i++) {
         const struct told_cell *a = &out->cell[0], *b = &out->cell[i];
-        varies[DECK] |= !same_text(a->deck, b->deck);
-        varies[VARIANT] |= !same_text(a->variant, b->variant);
-        varies[MODES] |= !same_text(a->modes, b->modes);
-        varies[SENSORS] |= !same_text(a->sensors, b->sensors);
-        varies[HIDE] |= !same_text(a->hide, b->hide);
-        varies[NOISE] |= memcmp(&a->noise_frequency, &b->noise_frequency, sizeof(double)) != 0 ||
-                         memcmp(&a->noise_shape, &b->noise_shape, sizeof(double)) != 0;
+        varies[DECK] |= !axis_same_text(a->deck, b->deck);
+        varies[VARIANT] |= !axis_same_text(a->variant, b->variant);
+        varies[MODES] |= !axis_same_text(a->modes, b->modes);
+        varies[SENSORS] |= !axis_same_text(a->sensors, b->sensors);
+        varies[HIDE] |= !axis_same_text(a->hide, b->hide);
+        varies[NOISE] |=
+            !axis_same_number(a->noise_frequency, b->noise_frequency) || !axis_same_number(a->noise_shape, b->noise_shape);
     }
     for (int i = 0; i < out->ncell; i++) {
         struct told_cell *cell = &out->cell[i];

@@ -53,6 +53,10 @@ struct study_outcome {
     struct told_failure *failure;
 };
 
+/* Values of an axis: NULL and NaN, where there is none, are the same as themselves. */
+int axis_same_text(const char *a, const char *b);
+int axis_same_number(double a, double b);
+
 /* A summary; NULL where something is wrong: reader->status tells. */
 struct study_outcome *study_read(const struct json_place *root);
 /* A file of results as the list of its lines, the header first. */

@@ -1,0 +1,118 @@
+/* How often the intervals of a study hold the truth, cell by cell. */
+#include <math.h>
+#include <string.h>
+
+#include "page/figures_study.h"
+#include "page/human.h"
+#include "page/rows.h"
+
+#define MOST_DOTS 5 /* parameters */
+#define NOMINAL   95.0
+
+struct dot {
+    const char *name; /* of a parameter */
+    int count;
+    double row[ROWS_MOST], percent[ROWS_MOST], intervals[ROWS_MOST];
+};
+
+struct coverage {
+    int rows, ndot;
+    const char *name[ROWS_MOST];
+    struct dot dot[MOST_DOTS];
+    double least, fewest; /* % ; intervals of a cell */
+};
+
+static void add_dot(struct coverage *c, const struct cell_parameter *p)
+{
+    int k = 0;
+    while (k < c->ndot && strcmp(c->dot[k].name, p->name) != 0)
+        k++;
+    if (k == MOST_DOTS)
+        return;
+    struct dot *dot = &c->dot[k];
+    if (k == c->ndot) {
+        dot->name = p->name;
+        c->ndot++;
+    }
+    dot->row[dot->count] = c->rows; /* from the top, turned round when it is drawn */
+    dot->percent[dot->count] = 100 * p->coverage;
+    dot->intervals[dot->count++] = p->intervals;
+    c->least = fmin(c->least, 100 * p->coverage);
+    c->fewest = fmin(c->fewest, p->intervals);
+}
+
+static void collect_coverage(const struct study_outcome *s, struct coverage *c)
+{
+    *c = (struct coverage){.least = NOMINAL, .fewest = INFINITY};
+    for (int i = 0; i < s->ncell && c->rows < ROWS_MOST; i++) {
+        int any = 0;
+        for (int p = 0; p < s->cell[i].nparameter; p++)
+            if (isfinite(s->cell[i].parameter[p].coverage)) {
+                any = 1;
+                add_dot(c, &s->cell[i].parameter[p]);
+            }
+        if (any)
+            c->name[c->rows++] = s->cell[i].label;
+    }
+}
+
+static int coverage_script(struct document *document, struct figure *figure, const struct result *result, struct coverage *c)
+{
+    struct plot_layout layout = rows_layout(c->rows);
+    struct plot_entry entry[MOST_DOTS + 1];
+    struct plot plot;
+    for (int k = 0; k < c->ndot; k++)
+        entry[k] = (struct plot_entry){.text = c->dot[k].name, .style = k + 1, .keys = KEY_MARK};
+    entry[c->ndot] = (struct plot_entry){.text = "95 %", .style = 11, .keys = KEY_LINE};
+    plot_head(entry, c->ndot + 1, layout.head);
+    if (plot_open(&plot, document->pool, figure, result->file))
+        return ROTID_ERROR_MEMORY;
+    plot_line(&plot, "set style line 11 lc rgb INK lw 1 dt (8,4)\n# columns: intervals that hold the truth [%%], row from below");
+    for (int k = 0; k < c->ndot; k++) {
+        char name[32];
+        struct dot *dot = &c->dot[k];
+        for (int i = 0; i < dot->count; i++)
+            dot->row[i] = c->rows - dot->row[i];
+        (void)snprintf(name, sizeof name, "coverage%d", k + 1);
+        plot_data(&plot, name, dot->count, 2, (const double *const[]){dot->percent, dot->row});
+    }
+    plot_begin(&plot, &layout);
+    plot_panel(&plot, 0);
+    plot_legend(&plot, entry, c->ndot + 1);
+    double low = fmax(0, 10 * floor((c->least - 5) / 10));
+    plot_line(&plot, "set xrange [%g:101]\nset xtics %g", low, plot_tic(100 - low, 5));
+    rows_draw(&plot, c->rows, c->name);
+    plot_axes(&plot, "intervals that hold the truth [%]", NULL);
+    plot_line(&plot, "set arrow 1 from first %g, graph 0 to first %g, graph 1 nohead ls 11", NOMINAL, NOMINAL);
+    (void)fputs("plot ", plot.out);
+    for (int k = 0; k < c->ndot; k++)
+        (void)fprintf(plot.out, "%s$coverage%d using 1:($2-LIFT%+.3g*(1-LIFT)) with points ls %d ps 1", k ? ", " : "", k + 1,
+                      -0.7 / c->ndot * (k - 0.5 * (c->ndot - 1)), k + 1);
+    (void)fputc('\n', plot.out);
+    return plot_close(&plot);
+}
+
+void figure_coverage(struct document *document, const struct result *result)
+{
+    struct pool *pool = document->pool;
+    struct coverage *c = POOL_NEW(pool, struct coverage);
+    if (!c) {
+        document->failed = 1;
+        return;
+    }
+    collect_coverage(result->study, c);
+    if (c->rows < 2)
+        return;
+    struct figure *figure = document_figure(document, "coverage", "How often the 95 % intervals hold the truth");
+    double luck = 196 * sqrt(0.95 * 0.05 / c->fewest);
+    figure->caption =
+        pool_format(pool,
+                    "The least is %s\xc2\xa0%%. With %.0f intervals in the smallest cell chance alone moves a share by about "
+                    "\xc2\xb1%s points; what lies lower shows a model or a noise other than those of the data, what lies "
+                    "higher intervals that are too wide.",
+                    human_digits(pool, c->least, 3), c->fewest, human_digits(pool, luck, 1));
+    figure->alt = pool_format(pool, "For each of %d cells the share of intervals that hold the truth, from %s to 100 %%.",
+                              c->rows, human_digits(pool, c->least, 3));
+    /* its numbers: the table of the cells */
+    document->failed |= !figure->caption || !figure->alt || coverage_script(document, figure, result, c) != ROTID_OK;
+}

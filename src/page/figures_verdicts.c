@@ -1,0 +1,164 @@
+/* Verdicts of the diagnoses of a study, cell by cell. */
+#include <math.h>
+#include <string.h>
+
+#include "page/figures_study.h"
+#include "page/human.h"
+#include "page/rows.h"
+
+#define LEAST_WIDE 0.09 /* of a bar, for a number in it */
+
+struct part {
+    const char *text, *says, *color; /* in the legend, in a sentence */
+    int which;                       /* of told_score_text or told_verdict_text */
+};
+
+/* Best first, so that bars are compared from the left. */
+static const struct part score_parts[] = {
+    {"right", "right", "GREEN", 2},
+    {"quiet: nothing was hidden, nothing found", "rightly quiet", "LEAF", 0},
+    {"in the set that cannot be told apart", "in the set that cannot be told apart", "BLUE", 3},
+    {"in another set", "in another set", "OCHRE", 4},
+    {"silent: judged adequate", "silent", "STEEL", 5},
+    {"unexplained", "unexplained", "PURPLE", 6},
+    {"wrong", "wrong", "VERMILION", 7},
+    {"false alarm", "false alarms", "ROSE", 1}};
+static const struct part verdict_parts[] = {{"adequate", "adequate", "GREEN", 0},
+                                            {"named", "named", "BLUE", 1},
+                                            {"ambiguous", "ambiguous", "OCHRE", 2},
+                                            {"unexplained", "unexplained", "PURPLE", 3}};
+
+struct verdicts {
+    int rows, nshown, scored;
+    const struct part *part;
+    int shown[TOLD_SCORES]; /* parts that occur */
+    const struct told_cell *cell[ROWS_MOST];
+};
+
+static double part_of(const struct verdicts *v, const struct told_cell *cell, int shown)
+{
+    int which = v->part[v->shown[shown]].which;
+    return v->scored ? cell->score[which] : cell->verdict[which];
+}
+
+static void collect_verdicts(const struct study_outcome *s, struct verdicts *v)
+{
+    *v = (struct verdicts){.scored = 1};
+    for (int i = 0; i < s->ncell && v->rows < ROWS_MOST; i++)
+        if (s->cell[i].judged > 0) {
+            v->cell[v->rows++] = &s->cell[i];
+            v->scored &= s->cell[i].scored;
+        }
+    v->part = v->scored ? score_parts : verdict_parts;
+    for (int k = 0; k < (v->scored ? TOLD_SCORES : TOLD_VERDICTS); k++) {
+        double sum = 0;
+        v->shown[v->nshown] = k;
+        for (int i = 0; i < v->rows; i++)
+            sum += part_of(v, v->cell[i], v->nshown);
+        v->nshown += sum > 0;
+    }
+}
+
+static int is_face(const char *color) /* light: numbers on it in INK */
+{
+    return !strcmp(color, "LEAF") || !strcmp(color, "STEEL") || !strcmp(color, "ROSE");
+}
+
+static void draw_verdicts(struct plot *plot, const struct verdicts *v)
+{
+    int object = 0;
+    for (int i = 0; i < v->rows; i++) {
+        double from = 0;
+        for (int k = 0; k < v->nshown; k++) {
+            const struct part *part = &v->part[v->shown[k]];
+            double share = 100 * part_of(v, v->cell[i], k) / v->cell[i]->judged;
+            char where[64];
+            if (!(share > 0))
+                continue;
+            plot_line(plot,
+                      "set object %d rectangle from %.6g,%d-LIFT-0.3 to %.6g,%d-LIFT+0.3 fs solid border lc rgb MUTED fc rgb %s",
+                      ++object, from, v->rows - i, from + share, v->rows - i, part->color);
+            (void)snprintf(where, sizeof where, "first %.6g, first %d-LIFT", from + share / 2, v->rows - i);
+            if (share > 100 * LEAST_WIDE)
+                plot_label(plot, human_fixed(plot->pool, part_of(v, v->cell[i], k), 0), where,
+                           is_face(part->color) ? "INK" : "PAPER", "center");
+            from += share;
+        }
+    }
+}
+
+static int verdicts_script(struct document *document, struct figure *figure, const struct result *result,
+                           const struct verdicts *v)
+{
+    struct plot_layout layout = rows_layout(v->rows);
+    struct plot_entry entry[TOLD_SCORES];
+    const char *name[ROWS_MOST] = {NULL};
+    struct plot plot;
+    for (int k = 0; k < v->nshown; k++)
+        entry[k] = (struct plot_entry){.text = v->part[v->shown[k]].text, .keys = KEY_FACE, .face = v->part[v->shown[k]].color};
+    plot_head(entry, v->nshown, layout.head);
+    if (plot_open(&plot, document->pool, figure, result->file))
+        return ROTID_ERROR_MEMORY;
+    (void)fputs("# rows from below; columns:", plot.out);
+    for (int k = 0; k < v->nshown; k++)
+        (void)fprintf(plot.out, " %s,", v->part[v->shown[k]].text);
+    (void)fputs(" runs\n$verdicts << end\n", plot.out);
+    for (int i = v->rows - 1; i >= 0; i--) {
+        for (int k = 0; k < v->nshown; k++)
+            (void)fprintf(plot.out, "%.0f ", part_of(v, v->cell[i], k));
+        (void)fprintf(plot.out, "%.0f\n", v->cell[i]->judged);
+    }
+    (void)fputs("end\n", plot.out);
+    plot_begin(&plot, &layout);
+    plot_panel(&plot, 0);
+    plot_legend(&plot, entry, v->nshown);
+    plot_line(&plot, "set xrange [0:100]\nset xtics 20");
+    for (int i = 0; i < v->rows; i++)
+        name[i] = *v->cell[i]->label ? v->cell[i]->label : "all runs";
+    rows_draw(&plot, v->rows, name);
+    plot_axes(&plot, "share of the runs [%]", NULL);
+    draw_verdicts(&plot, v);
+    plot_line(&plot, "plot NaN");
+    return plot_close(&plot);
+}
+
+static struct number_table *verdicts_table(struct pool *pool, const struct verdicts *v)
+{
+    struct number_table *table = table_new(pool, v->rows, 2 + v->nshown);
+    table_head(table, 0, "cell");
+    table_head(table, 1, "runs");
+    for (int k = 0; k < v->nshown; k++)
+        table_head(table, 2 + k, v->part[v->shown[k]].text);
+    for (int i = 0; i < v->rows; i++) {
+        table_cell(table, i, 0, *v->cell[i]->label ? v->cell[i]->label : "all runs");
+        table_cell(table, i, 1, human_fixed(pool, v->cell[i]->judged, 0));
+        for (int k = 0; k < v->nshown; k++)
+            table_cell(table, i, 2 + k, human_fixed(pool, part_of(v, v->cell[i], k), 0));
+    }
+    return table;
+}
+
+void figure_verdicts(struct document *document, const struct result *result)
+{
+    struct pool *pool = document->pool;
+    struct verdicts v;
+    const char *says = "";
+    double runs = 0;
+    collect_verdicts(result->study, &v);
+    if (!v.rows || !v.nshown)
+        return;
+    struct figure *figure = document_figure(document, "verdicts", v.scored ? "Verdicts beside what was hidden" : "Verdicts");
+    for (int i = 0; i < v.rows; i++)
+        runs += v.cell[i]->judged;
+    for (int k = 0; k < v.nshown && says; k++) {
+        double sum = 0;
+        for (int i = 0; i < v.rows; i++)
+            sum += part_of(&v, v.cell[i], k);
+        says = pool_format(pool, "%s%s%.0f %s", says, k ? ", " : "", sum, v.part[v.shown[k]].says);
+    }
+    figure->caption = pool_format(pool, "Of %.0f diagnoses: %s. Numbers in the bars are runs.", runs, says ? says : "");
+    figure->alt =
+        pool_format(pool, "A bar for each of %d cells, divided by verdicts. Of all runs: %s.", v.rows, says ? says : "");
+    figure->table = verdicts_table(pool, &v);
+    document->failed |= !says || !figure->caption || !figure->alt || verdicts_script(document, figure, result, &v) != ROTID_OK;
+}
