@@ -114,15 +114,22 @@ static const char *verdict(struct pool *pool, const struct diagnosis_outcome *d)
                        d->interrupted ? " It was interrupted afterwards: what follows is not complete." : "");
 }
 
+/* "step_stiffness and added_mass" */
+static const char *names(struct pool *pool, int count, const struct told_cause *cause)
+{
+    const char *text = "";
+    for (int i = 0; i < count && text; i++)
+        text = pool_format(pool, "%s%s%s", text, !i ? "" : i + 1 == count ? " and " : ", ", cause_label(pool, &cause[i]));
+    return or_nothing(text);
+}
+
 static const char *headline(struct pool *pool, const struct diagnosis_outcome *d)
 {
-    const char *label = d->ncause ? cause_label(pool, &d->cause[0]) : "";
     switch (d->kind) {
     case TOLD_ADEQUATE:
         return "Adequate";
     case TOLD_NAMED:
-        return d->ncause > 1 ? pool_format(pool, "Named: %s and %s more", label, human_count(pool, d->ncause - 1))
-                             : pool_format(pool, "Named: %s", label);
+        return pool_format(pool, "Named: %s", names(pool, d->ncause, d->cause));
     case TOLD_AMBIGUOUS:
         return d->nalternative == 1 ? "Ambiguous: no name can be given"
                                     : pool_format(pool, "Ambiguous: one of %s causes", human_count(pool, d->nalternative));
@@ -133,17 +140,25 @@ static const char *headline(struct pool *pool, const struct diagnosis_outcome *d
     }
 }
 
+/* How to look for all that was named. */
+static const char *checks(struct pool *pool, const struct diagnosis_outcome *d)
+{
+    const char *text = "";
+    for (int i = 0; i < d->ncause && text; i++)
+        if (!strstr(text, cause_check(d->cause[i].id)))
+            text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", cause_check(d->cause[i].id));
+    return or_nothing(text);
+}
+
 static const char *next(struct pool *pool, const struct diagnosis_outcome *d, const char *deck)
 {
-    const char *text = d->next_measurement, *check = d->ncause ? cause_check(d->cause[0].id) : "";
+    const char *text = d->next_measurement, *look = checks(pool, d);
     if (d->kind == TOLD_NONE)
         return pool_format(pool, "Next: run rotid diagnose %s to its end.", deck);
     if (d->kind == TOLD_ADEQUATE)
         return "Next: read the blind spots below before you rely on the moduli. What is smaller than they say may be there.";
-    if (d->kind == TOLD_NAMED && *check)
-        text = text && strstr(text, check)
-                   ? text /* says it already */
-                   : pool_format(pool, "%s%s%s", check, text ? "; and " : ", before you believe it", text ? text : "");
+    if (d->kind == TOLD_NAMED && *look && !(text && strstr(text, look))) /* or it says it already */
+        text = pool_format(pool, "%s%s%s", look, text ? "; and " : ", before you believe it", text ? text : "");
     return text ? pool_format(pool, "Next: %s.", text) : NULL;
 }
 
@@ -181,8 +196,9 @@ static void on_lead(struct reasons *reasons, const struct diagnosis_outcome *d)
         tried += round->candidate[i].refitted;
     if (d->kind == TOLD_NAMED && first >= 0 && second >= 0)
         say(reasons,
-            pool_format(pool, "Of %s causes that were fitted it leads the next one, %s, by %s in the misfit; %s are asked for.",
-                        human_count(pool, tried), cause_label(pool, &round->candidate[second].cause),
+            pool_format(pool, "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; %s are asked for.",
+                        human_count(pool, tried), cause_label(pool, &round->candidate[first].cause),
+                        cause_label(pool, &round->candidate[second].cause),
                         human_digits(pool, diagnosis_lead(&round->candidate[first], &round->candidate[second]), 3),
                         human_trimmed(pool, round->required_margin, 3)));
     else if (d->kind == TOLD_NAMED && first >= 0 && tried > 1)
@@ -290,6 +306,8 @@ void answer_diagnose(struct document *document, const struct result *result)
     on_parameters(&reasons, d);
     on_today(&reasons, d);
     on_data(&reasons, d);
+    if (d->sentence) /* holds what no key does: a second place, parameters that the data leave open */
+        say(&reasons, pool_format(document->pool, "In the words of rotid diagnose: %s", d->sentence));
     if (!reasons.count)
         return;
     document_section(document, "trust", "Why");

@@ -22,12 +22,13 @@ struct lane {
 };
 
 struct places {
-    int count, others; /* with a place; without one, or no room */
+    int count, others;     /* with a place; without one, or no room */
+    const char *placeless; /* the first of those without one, NULL: none */
     struct lane lane[MOST_LANES];
     int named; /* these were named; else they cannot be told apart */
 };
 
-static struct places find_places(const struct result *result)
+static struct places find_places(struct pool *pool, const struct result *result)
 {
     const struct diagnosis_outcome *d = result->diagnosis;
     struct places places = {.named = d->ncause > 0};
@@ -35,10 +36,13 @@ static struct places find_places(const struct result *result)
     const struct told_cause *cause = d->ncause ? d->cause : d->alternative;
     for (int i = 0; i < count; i++) {
         struct lane lane = {.cause = &cause[i]};
-        if (places.count < MOST_LANES && diagnosis_place(result->geometry, lane.cause, &lane.place))
+        int has_place = diagnosis_place(result->geometry, lane.cause, &lane.place);
+        if (has_place && places.count < MOST_LANES)
             places.lane[places.count++] = lane;
         else
             places.others++;
+        if (!has_place && !places.placeless)
+            places.placeless = cause_label(pool, lane.cause);
     }
     return places;
 }
@@ -156,7 +160,7 @@ static int script(struct document *document, struct figure *figure, const struct
 }
 
 /* What the places are, in a sentence that begins with a blank. */
-static const char *which(struct pool *pool, const struct places *places)
+static const char *which(struct pool *pool, const struct places *places, int result_has_geometry)
 {
     const char *text = "";
     int left = places->others + (places->count > MOST_TOLD ? places->count - MOST_TOLD : 0);
@@ -173,10 +177,18 @@ static const char *which(struct pool *pool, const struct places *places)
         text = pool_format(pool, "%s%s%s %s%s", text, i ? "; " : "", cause_label(pool, places->lane[i].cause), where ? where : "",
                            sure ? sure : "");
     }
+    const char *nowhere = places->placeless && places->others == 1 && result_has_geometry
+                              ? pool_format(pool, " %s acts at no single place.", places->placeless)
+                              : "";
+    left -= nowhere && *nowhere ? 1 : 0;
     if (!places->count || !text)
-        return places->others ? " What was named has no single place along the axis." : "";
-    text = pool_format(pool, " %s: %s%s.", places->named ? "Named" : "Possible, and not to be told apart", text,
-                       left > 0 ? pool_format(pool, "; and %s more", human_count(pool, left)) : "");
+        return nowhere ? nowhere : "";
+    const char *more = left > 0 ? pool_format(pool, "; and %s more", human_count(pool, left)) : "";
+    text = pool_format(pool, " %s: %s%s.%s",
+                       places->named       ? "Named"
+                       : places->count > 1 ? "Possible, and not to be told apart"
+                                           : "Possible",
+                       text, more ? more : "", nowhere ? nowhere : "");
     return text ? text : "";
 }
 
@@ -202,13 +214,13 @@ void figure_places(struct document *document, const struct result *result)
             most = i;
     if (most < 0 || d->nlocal < 2 || d->kind == TOLD_ADEQUATE)
         return;
-    struct places places = find_places(result);
+    struct places places = find_places(pool, result);
     struct figure *figure = document_figure(document, "places", "Where the misfit acts");
     figure->caption =
         pool_format(pool,
                     "The misfit is mended best by a force at %s\xc2\xa0m, where the indicator is 1.%s The curve is a hint "
                     "where to look, no cause: an error anywhere smears over its neighbourhood.",
-                    human_digits(pool, d->local_z[most], 3), which(pool, &places));
+                    human_digits(pool, d->local_z[most], 3), which(pool, &places, result->geometry != NULL));
     figure->alt = pool_format(pool, "The rotor, %s places of causes under it, and a curve along its axis with its peak at %s m.",
                               human_count(pool, places.count), human_digits(pool, d->local_z[most], 3));
     figure->table = places_table(pool, d);

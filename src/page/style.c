@@ -38,7 +38,8 @@ static const char layout[] =
     "td:last-child{white-space:normal;min-width:5rem;padding-right:0}\n.n{text-align:right}\n"
     "footer{margin-top:3rem;padding-top:.75rem;border-top:1px solid var(--grid);font-size:.875rem;color:var(--muted);"
     "overflow-wrap:anywhere}\n"
-    "@media (max-width:600px){.wide{display:none}.narrow{display:block}body{padding:1rem 1rem 2rem}h1{font-size:1.35rem}"
+    "@media (max-width:600px){td:last-child:not(.n){min-width:11rem}.wide{display:none}.narrow{display:block}body{padding:1rem "
+    "1rem 2rem}h1{font-size:1.35rem}"
     "dl div{grid-template-columns:1fr;gap:0}}\n";
 
 static const char paper[] =
