@@ -972,7 +972,7 @@ contains
     type(rotid_environment), intent(in), optional, target :: environment
     type(rotid_environment), target :: given
     integer(c_int) :: status
-    type(rotid_model) :: host
+    type(rotid_model), target :: host
     type(rotid_measured) :: measured
     type(rotid_fit_options) :: how
     integer(c_int), allocatable, target :: c_master(:), c_far(:), c_number(:), c_holdout(:)
