@@ -126,13 +126,14 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(OBJECTS)
 
 # The same studies over MPI; nothing else depends on it.
 MPICC ?= mpicc
+STUDY_RUNS ?= 1000
 $(BUILD)/src/mpi/%.o: CC = $(MPICC)
 $(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(OBJECTS)
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 check-mpi:
 	@$(MAKE) --no-print-directory MPI=1 all
-	@sh tests/study/mpi $(BUILD)
+	@sh tests/study/mpi $(BUILD) $(STUDY_RUNS)
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
