@@ -81,6 +81,7 @@ int command_diagnose(struct command *command);
 int command_frf(struct command *command);
 int command_ema(struct command *command);
 int command_uff(struct command *command);
+int command_report(struct command *command);
 int command_export(struct command *command);
 int command_study(struct command *command);
 

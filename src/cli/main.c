@@ -19,6 +19,8 @@ const struct command_entry command_table[] = {
     {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script; --format, -o",
      command_export, READS_DECK | TAKES_OUTPUT},
     {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
+    {"report", "results that were written with --json as a page with figures; -o: its folder", command_report,
+     TAKES_OUTPUT | SEVERAL_FILES},
     {"study", "many runs from one plan, or of many decks, resumable; -o: the results", command_study,
      PARALLEL | TAKES_OUTPUT | SEVERAL_FILES},
     {NULL, NULL, NULL, 0},
@@ -46,9 +48,10 @@ static int run(struct command *command)
         int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, export, uff or "
-                           "study",
-                           command->name);
+    return arguments_wrong(
+        "%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, export, uff, report "
+        "or study",
+        command->name);
 }
 
 int main(int argc, char **argv)
