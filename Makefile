@@ -8,6 +8,7 @@
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
+#   make check-embedding   the programs of docs/embedding.md with gcc, clang, flang, make, CMake, Python, as far as they are there
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks, universal files, plans and results on random input, FUZZ_SECONDS (600) each
@@ -62,7 +63,7 @@ PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
 
 LIBRARY_ROOMS := base linalg beam modal fit signal ema run diagnose/causes diagnose uff import deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
-IO_SOURCES := $(foreach room,report export study,$(wildcard src/$(room)/*.c))
+IO_SOURCES := $(foreach room,report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))
@@ -75,8 +76,8 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers check-mpi fuzz fuzzers coverage lint format \
-        install uninstall clean
+.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
+        coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -125,13 +126,14 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(OBJECTS)
 
 # The same studies over MPI; nothing else depends on it.
 MPICC ?= mpicc
-$(BUILD)/src/mpi/%.o: CC = $(MPICC)
+STUDY_RUNS ?= 1000
+$(BUILD)/src/mpi/%.o: override CC = $(MPICC)
 $(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(OBJECTS)
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 check-mpi:
 	@$(MAKE) --no-print-directory MPI=1 all
-	@sh tests/study/mpi $(BUILD)
+	@sh tests/study/mpi $(BUILD) $(STUDY_RUNS)
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
@@ -193,6 +195,9 @@ $(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
 check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
 
+check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
+	@sh tests/embedding/check '$(BUILD)'
+
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
 FUZZERS := uff deck plan results
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(IO_OBJECTS) $(OBJECTS)
@@ -227,4 +232,4 @@ TELL_INSTALL = $(foreach name,VERSION SONAME DESTDIR PREFIX BINDIR LIBDIR PKGCON
 clean:
 	rm -rf $(BUILD)
 
--include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD) -type f -name '*.d' 2>/dev/null)

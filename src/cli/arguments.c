@@ -28,6 +28,7 @@ static void print_help(FILE *out)
         "  -o, --output FILE        ema: the modes, for *MEASURED; uff: the file anew, its functions in the other format\n"
         "                           frf: the synthesised functions; export: the model, of matrix-market the beginning of the "
         "names\n"
+        "                           report: the folder of the page\n"
         "  --format ascii|binary    uff: or in this one\n"
         "  --format matrix-market|dmig|ross   export: for SciPy and others, for Nastran, for ROSS\n"
         "  --start, --condensed     export: the model as the deck states it; dmig: the model condensed onto the sensors\n"
@@ -273,6 +274,8 @@ int arguments_refuse(const struct command *command, const struct command_entry *
     int diagnoses = !strcmp(command->name, "diagnose"), refused = refuse_export(command);
     if (refused >= 0)
         return refused;
+    if (command->json && !strcmp(command->name, "report"))
+        return arguments_wrong("--json is no option of %s", command->name);
     if (!diagnoses && (command->extended || command->replicates))
         return arguments_wrong("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
     if (command->ema.given && strcmp(command->name, "ema"))

@@ -1,24 +1,9 @@
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "cli/arguments.h"
-
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int signal_number)
-{
-    (void)signal_number;
-    interrupted = 1;
-}
-
-int command_cancelled(void *unused)
-{
-    (void)unused;
-    return interrupted;
-}
 
 const struct command_entry command_table[] = {
     {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check, READS_DECK},
@@ -34,6 +19,8 @@ const struct command_entry command_table[] = {
     {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script; --format, -o",
      command_export, READS_DECK | TAKES_OUTPUT},
     {"uff", "what a universal file holds, and what is doubtful in it; -o: ASCII to binary and back", command_uff, TAKES_OUTPUT},
+    {"report", "results that were written with --json as a page with figures; -o: its folder", command_report,
+     TAKES_OUTPUT | SEVERAL_FILES},
     {"study", "many runs from one plan, or of many decks, resumable; -o: the results", command_study,
      PARALLEL | TAKES_OUTPUT | SEVERAL_FILES},
     {NULL, NULL, NULL, 0},
@@ -61,17 +48,16 @@ static int run(struct command *command)
         int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
         return code ? code : c->run(command);
     }
-    return arguments_wrong("%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, export, uff or "
-                           "study",
-                           command->name);
+    return arguments_wrong(
+        "%s is no command, expected check, modes, sensitivity, identify, diagnose, frf, ema, export, uff, report "
+        "or study",
+        command->name);
 }
 
 int main(int argc, char **argv)
 {
     struct command command = {.seed = 1, .step = 0.01, .range = 0.5, .points = 11, .baseline = 1};
-    struct sigaction action = {.sa_handler = interrupt};
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
+    command_watch_signals();
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
     int code = arguments_parse(&command, argc, argv);

@@ -123,7 +123,6 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     double left_frequency = 0, predicts = INFINITY, noise = frequency_noise(&engine->job);
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
-        c->round = engine->out->nround + 1;
         c->rejected_because = reason(engine, before, c);
         if (!c->rejected_because && c->chi2_drop > round->threshold && isfinite(c->holdout_rms))
             predicts = fmin(predicts, c->holdout_rms);

@@ -22,6 +22,8 @@ static int run_rounds(struct engine *engine, struct round_result *last)
         if (status)
             return status;
         out->nround++;
+        for (int i = 0; i < round->ncandidate; i++)
+            round->candidate[i].round = out->nround;
         if (out->nround == 1)
             status = localise(engine, &last->scan);
         if (status || round->kind != VERDICT_NAMED || out->ncause == DIAGNOSE_MOST_CAUSES)

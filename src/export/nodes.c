@@ -4,9 +4,8 @@ static void place_chain(const struct mesh *mesh, const struct chain *chain, doub
                         struct export_node *node)
 {
     double from = mesh->z[chain->first_end];
-    int elements = chain->count + (chain->last_end >= 0);
     for (int i = 1; i <= chain->count; i++)
-        node[chain->inner + i - 1] = (struct export_node){from + (end - from) * i / elements, member, 0};
+        node[chain_node(chain, i)] = (struct export_node){from + (end - from) * i / chain_elements(chain), member, 0};
 }
 
 int export_nodes(struct pool *pool, struct export_model *model)

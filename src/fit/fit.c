@@ -8,6 +8,7 @@
 #include "fit/baseline.h"
 #include "fit/bounds.h"
 #include "fit/covariance.h"
+#include "linalg/matrix_check.h"
 #include "modal/functional.h"
 #include "rotid.h"
 
@@ -100,21 +101,16 @@ static int trace(void *user, const rotid_lm_iteration *now)
 static int check_arguments(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
                            const rotid_fit_options *options)
 {
-    if (!model || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n || model->nfar < 0 ||
-        model->nparam < 0 || (model->nparam && !parameter) || model->nrigid < 0 || model->nmaster < 0 || !model->matrices ||
-        measured->nmode < 1 || !measured->number || !measured->frequency_hz || (model->nmaster && !model->master) ||
-        (model->nfar && !model->far))
+    if (!model || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n || model->nparam < 0 ||
+        (model->nparam && !parameter) || model->nrigid < 0 || !model->matrices || measured->nmode < 1 || !measured->number ||
+        !measured->frequency_hz)
         return ROTID_ERROR_ARGUMENT;
     if (options->functional < ROTID_HYBRID || options->functional > ROTID_LIKELIHOOD ||
         options->reduction < ROTID_REDUCTION_NONE || options->reduction > ROTID_IRS || options->derivative < ROTID_NELSON ||
         options->derivative > ROTID_MODAL)
         return ROTID_ERROR_ARGUMENT;
-    for (int s = 0; s < model->nmaster; s++)
-        if (model->master[s] < 0 || model->master[s] >= model->n || (s && model->master[s] <= model->master[s - 1]))
-            return ROTID_ERROR_ARGUMENT;
-    for (int f = 0; f < model->nfar; f++)
-        if (model->far[f] < 0 || model->far[f] >= model->n || (f && model->far[f] <= model->far[f - 1]))
-            return ROTID_ERROR_ARGUMENT;
+    if (!indices_increase(model->nmaster, model->master, model->n) || !indices_increase(model->nfar, model->far, model->n))
+        return ROTID_ERROR_ARGUMENT;
     for (int p = 0; p < model->nparam; p++) {
         const rotid_parameter *q = &parameter[p];
         if (!(isfinite(q->lower) && isfinite(q->upper) && q->lower < q->start && q->start < q->upper && q->start != 0))

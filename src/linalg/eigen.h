@@ -23,6 +23,9 @@ int eigen_dense_new(struct pool *pool, int n, int count, struct eigen_dense *e);
  */
 int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, double *lambda, double *phi);
 
+/* y [n * columns] := (K - s M)^-1 y with the matrices and the shift of the last eigen_dense_solve */
+void eigen_dense_inverse(struct eigen_dense *e, int columns, double *y);
+
 /* ---- banded: the full chain, in O(n) */
 
 struct eigen_band {
@@ -54,5 +57,24 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * the end proves that none was missed. K positive semidefinite, M positive definite. lambda [count], phi [n * count]. ROTID_OK,
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
+
+/* ---- whichever of the two is the faster one, on the matrices of the full model */
+
+struct eigen_full {
+    int dense;
+    struct eigen_band band;
+    struct eigen_dense solver;
+    double *k, *m; /* [n * n] dense copies */
+    double *image, *product, *squares, *work;
+};
+
+/* For the lowest `count` pairs of matrices structured as `structure`. ROTID_OK or ROTID_ERROR_MEMORY. */
+int eigen_full_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e);
+/* The dense one in any case. */
+int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e);
+
+/* As eigen_band_solve. The dense solver is followed by one step of inverse iteration and Rayleigh-Ritz with K and M as they are:
+ * the reduction to standard form costs the lowest pairs of a fine mesh some digits. */
+int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
 #endif

@@ -71,8 +71,8 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
         least = fmin(least, ratio);
         most = fmax(most, ratio);
     }
-    if (passes == 2)
-        e->shift = -1e-4 * least;
+    if (passes == 2) /* a diagonal element of zero belongs to a row of zeros */
+        e->shift = least == 0 ? -1e-10 * (most > 0 ? most : 1) : -1e-4 * least;
     if (!(e->shift < 0) || !isfinite(e->shift)) {
         e->shift = 0;
         return ROTID_ERROR_STIFFNESS;
@@ -88,7 +88,7 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
             for (int i = 0; i < n; i++)
                 phi[i + (ptrdiff_t)j * n] = scale * e->vectors[i + (ptrdiff_t)source * n];
         }
-        if (!status && lambda[0] < -1e-10 * most)
+        if (!status && lambda[0] < -1e-10 * fmax(most, -e->shift))
             status = ROTID_ERROR_STIFFNESS; /* a shift of before may hide what a first one shows */
         if (status)
             return status;
@@ -99,4 +99,9 @@ int eigen_dense_solve(struct eigen_dense *e, const double *k, const double *m, d
             e->shift = -lambda[reference];
     }
     return ROTID_OK;
+}
+
+void eigen_dense_inverse(struct eigen_dense *e, int columns, double *y)
+{
+    (void)LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', e->n, columns, e->b, e->n, y, e->n);
 }

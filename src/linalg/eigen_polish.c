@@ -2,17 +2,16 @@
 
 #include <cblas.h>
 #include <float.h>
-#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
 #include "linalg/matrix.h"
+#include "linalg/ritz.h"
 
-#define ROUNDS      4     /* the error is cubed in each */
-#define TOLERANCE   1e-12 /* of the residual */
-#define CLUSTER     1e-3  /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
-#define OFFSET      1e-7  /* of that shift below the lowest of them */
-#define INDEPENDENT 1e-3  /* least sine between a vector and those before it */
+#define ROUNDS    4     /* the error is cubed in each */
+#define TOLERANCE 1e-12 /* of the residual */
+#define CLUSTER   1e-3  /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
+#define OFFSET    1e-7  /* of that shift below the lowest of them */
 
 double eigen_rounding(const struct eigen_band *e)
 {
@@ -41,37 +40,7 @@ double eigen_residuals(struct eigen_band *e, const rotid_matrix *m, int columns,
 
 int eigen_ritz_pairs(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
-    int n = e->n, count = e->count;
-    double *y = e->image, *product = e->basis, *a = e->projected, *b = a + (ptrdiff_t)count * count;
-    for (int j = 0; j < count; j++) { /* solutions near an eigenvalue are of any size */
-        double size = cblas_dnrm2(n, y + (ptrdiff_t)j * n, 1);
-        if (!(size > 0) || !isfinite(size))
-            return 1;
-        cblas_dscal(n, 1 / size, y + (ptrdiff_t)j * n, 1);
-    }
-    matrix_multiply(m, count, y, product);
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, count, count, n, 1, y, n, product, n, 0, b, count);
-    for (int j = 0; j < count; j++) {
-        double square = b[j + (ptrdiff_t)j * count], inverse = 1 / sqrt(square);
-        if (!(square > 0))
-            return 1;
-        cblas_dscal(n, inverse, y + (ptrdiff_t)j * n, 1);
-        cblas_dscal(count, inverse, b + (ptrdiff_t)j * count, 1);
-        cblas_dscal(count, inverse, b + j, count);
-    }
-    matrix_multiply(k, count, y, product);
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, count, count, n, 1, y, n, product, n, 0, a, count);
-    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', count, b, count))
-        return 1;
-    for (int j = 0; j < count; j++)
-        if (!(b[j + (ptrdiff_t)j * count] > INDEPENDENT))
-            return 1;
-    if (LAPACKE_dsygst_work(LAPACK_COL_MAJOR, 1, 'L', count, a, count, b, count) ||
-        LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'L', count, a, count, e->value, e->work, 34 * count))
-        return 1;
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, count, count, 1, b, count, a, count);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, count, count, 1, y, n, a, count, 0, e->ritz, n);
-    return 0;
+    return ritz_pairs(e->n, e->count, k, m, e->image, e->value, e->ritz, e->basis, e->projected, e->work);
 }
 
 /* One past the last pair of the cluster that begins with pair j */

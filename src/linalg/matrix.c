@@ -1,7 +1,10 @@
 #include "linalg/matrix.h"
 
+#include <cblas.h>
 #include <math.h>
 #include <string.h>
+
+#define WIDE 20 /* half band width from which BLAS is the faster one */
 
 int matrix_new(struct pool *pool, int n, int kd, int nfar, const int *far, rotid_matrix *a)
 {
@@ -93,6 +96,8 @@ void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double
             for (int i = 3; i < n - 3; i++)
                 y[i] = row_product(a->band + 4 * (ptrdiff_t)i, 4, 3, 3, x + i);
             multiply_rows(a, n - 3, n, x, y);
+        } else if (a->kd >= WIDE) {
+            cblas_dsbmv(CblasColMajor, CblasLower, n, a->kd, 1, a->band, a->kd + 1, x, 1, 0, y, 1);
         } else {
             multiply_rows(a, 0, n, x, y);
         }
@@ -114,9 +119,25 @@ double matrix_product(const rotid_matrix *a, const double *x, const double *y, d
 int matrix_is_finite(const rotid_matrix *a)
 {
     double sum = 0; /* 0 * x is NaN for every x that is not finite */
-    for (size_t i = 0, length = band_length(a); i < length; i++)
+    int ld = a->kd + 1;
+    for (size_t i = 0, full = (size_t)(a->n - a->kd) * (size_t)ld; i < full; i++)
         sum += 0 * a->band[i];
+    for (int j = a->n - a->kd; j < a->n; j++) /* where the band ends below the matrix, its storage holds anything */
+        for (int d = 0; d < a->n - j; d++)
+            sum += 0 * a->band[d + (ptrdiff_t)j * ld];
     for (size_t i = 0, length = block_length(a); i < length; i++)
         sum += 0 * a->block[i];
     return isfinite(sum);
+}
+
+void matrix_to_dense(const rotid_matrix *a, int ld, double *full)
+{
+    for (int j = 0; j < a->n; j++)
+        memset(full + (ptrdiff_t)j * ld, 0, (size_t)a->n * sizeof *full);
+    for (int j = 0; j < a->n; j++)
+        for (int d = 0; d <= a->kd && j + d < a->n; d++)
+            full[j + d + (ptrdiff_t)j * ld] = full[j + (ptrdiff_t)(j + d) * ld] = a->band[d + (ptrdiff_t)j * (a->kd + 1)];
+    for (int g = 0; g < a->nfar; g++)
+        for (int f = 0; f < a->nfar; f++)
+            full[a->far[f] + (ptrdiff_t)a->far[g] * ld] += a->block[f + (ptrdiff_t)g * a->nfar];
 }

@@ -27,4 +27,7 @@ double matrix_product(const rotid_matrix *a, const double *x, const double *y, d
 
 int matrix_is_finite(const rotid_matrix *a);
 
+/* full [n, n], leading dimension ld, := A, both triangles. */
+void matrix_to_dense(const rotid_matrix *a, int ld, double *full);
+
 #endif

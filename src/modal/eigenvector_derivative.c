@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "linalg/matrix.h"
+#include "linalg/product.h"
 
 #define ENOUGH 1e-9 /* relative change of V by a step of refinement whose square is below rounding */
 
@@ -11,6 +12,16 @@ int eigenvalue_is_close(int count, const double *lambda, int k)
 {
     double reach = CLOSE_EIGENVALUES * fabs(lambda[k]);
     return (k > 0 && lambda[k] - lambda[k - 1] < reach) || (k + 1 < count && lambda[k + 1] - lambda[k] < reach);
+}
+
+double nelson_right_side(int n, double lambda, const double *phi, const double *m_phi, const double *dk_phi, const double *dm_phi,
+                         double *p, double *q)
+{
+    double dlambda = product_dot(n, phi, dk_phi) - lambda * product_dot(n, phi, dm_phi);
+    for (int i = 0; i < n; i++)
+        p[i] = -(dk_phi[i] - dlambda * m_phi[i] - lambda * dm_phi[i]);
+    *q = -0.5 * product_dot(n, phi, dm_phi);
+    return dlambda;
 }
 
 static int largest_component(int n, const double *phi)

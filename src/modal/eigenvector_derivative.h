@@ -15,6 +15,10 @@
 
 int eigenvalue_is_close(int count, const double *lambda, int k);
 
+/* P [n] and *q from M phi, dK phi and dM phi [n]. Returns dlambda = phi' (dK - lambda dM) phi. */
+double nelson_right_side(int n, double lambda, const double *phi, const double *m_phi, const double *dk_phi, const double *dm_phi,
+                         double *p, double *q);
+
 /* ---- dense: the condensed problem */
 
 struct nelson_dense {

@@ -21,7 +21,7 @@ static int new_solvers(struct pool *pool, const rotid_model *model, int with_vec
 {
     int status;
     if (p->reduction == ROTID_REDUCTION_NONE) {
-        status = eigen_band_new(pool, &p->k, p->count, &p->band);
+        status = eigen_full_new(pool, &p->k, p->count, &p->full);
         return status || !with_vectors ? status : nelson_band_new(pool, &p->k, model->nparam, &p->nelson_band);
     }
     status = reduction_new(pool, p->reduction, &p->k, model->nmaster, model->master, &p->condensed);
@@ -85,7 +85,7 @@ int prediction_compute(struct prediction *p, const double *x)
     if (status)
         return status;
     if (p->reduction == ROTID_REDUCTION_NONE)
-        return eigen_band_solve(&p->band, &p->k, &p->m, p->lambda, p->phi);
+        return eigen_full_solve(&p->full, &p->k, &p->m, p->lambda, p->phi);
     status = reduction_compute(&p->condensed, &p->k, &p->m);
     return status ? status : eigen_dense_solve(&p->dense, p->condensed.kc, p->condensed.mc, p->lambda, p->phi);
 }
@@ -134,17 +134,6 @@ static double eigenvalue_derivative(struct prediction *p, int k)
     return product_dot(n, phi, a) - p->lambda[k] * product_dot(n, phi, b);
 }
 
-/* right-hand sides of (34, 35) from dK phi and dM phi, and lambda's derivative */
-static double right_side(int n, double lambda, const double *phi, const double *m_phi, const double *dk_phi, const double *dm_phi,
-                         double *p, double *q)
-{
-    double dlambda = product_dot(n, phi, dk_phi) - lambda * product_dot(n, phi, dm_phi);
-    for (int i = 0; i < n; i++)
-        p[i] = -(dk_phi[i] - dlambda * m_phi[i] - lambda * dm_phi[i]);
-    *q = -0.5 * product_dot(n, phi, dm_phi);
-    return dlambda;
-}
-
 static void multiply_dense(int n, const double *a, const double *x, double *y)
 {
     memset(y, 0, (size_t)n * sizeof *y);
@@ -173,8 +162,8 @@ static void form_right_side(struct prediction *p, int k, int q)
         dk_phi = p->kx + place;
         dm_phi = p->mx + place;
     }
-    p->dlambda[k + (ptrdiff_t)q * p->count] = right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, p->right + place,
-                                                         &p->constant[q + (ptrdiff_t)k * p->model->nparam]);
+    p->dlambda[k + (ptrdiff_t)q * p->count] = nelson_right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, p->right + place,
+                                                                &p->constant[q + (ptrdiff_t)k * p->model->nparam]);
 }
 
 /* dphi of mode k for every parameter */

@@ -17,7 +17,7 @@ struct prediction {
     struct reduction condensed;
     struct reduction_mode *mode; /* [count], condensed */
     struct eigen_dense dense;
-    struct eigen_band band;
+    struct eigen_full full;
     struct nelson_dense nelson_dense;
     struct nelson_band nelson_band;
     double *lambda;   /* [count], ascending */

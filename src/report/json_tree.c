@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+
 #define DIGITS 9
 #define WIDEST 24 /* characters of such a number, with sign, point and exponent */
 
@@ -42,18 +44,6 @@ void json_number(struct json_tree *tree, cJSON *parent, const char *key, double 
     (void)put(tree, parent, key, isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
 }
 
-/* Bytes of the UTF-8 character that begins here, 0 where there is none (RFC 3629). */
-static size_t utf8_bytes(const unsigned char *c)
-{
-    size_t bytes = *c < 0x80 ? 1 : *c < 0xc2 ? 0 : *c < 0xe0 ? 2 : *c < 0xf0 ? 3 : *c < 0xf5 ? 4 : 0;
-    for (size_t i = 1; i < bytes; i++)
-        if ((c[i] & 0xc0) != 0x80)
-            return 0;
-    if ((*c == 0xe0 && c[1] < 0xa0) || (*c == 0xed && c[1] > 0x9f) || (*c == 0xf0 && c[1] < 0x90) || (*c == 0xf4 && c[1] > 0x8f))
-        return 0;
-    return bytes;
-}
-
 void json_text(struct json_tree *tree, cJSON *parent, const char *key, const char *text)
 {
     if (!text) {
@@ -62,7 +52,7 @@ void json_text(struct json_tree *tree, cJSON *parent, const char *key, const cha
     }
     char *clean = malloc(3 * strlen(text) + 1), *end = clean;
     while (clean && *text) {
-        size_t bytes = utf8_bytes((const unsigned char *)text);
+        size_t bytes = text_utf8(text);
         memcpy(end, bytes ? text : "\xef\xbf\xbd", bytes ? bytes : 3);
         end += bytes ? bytes : 3;
         text += bytes ? bytes : 1;

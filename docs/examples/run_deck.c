@@ -1,0 +1,34 @@
+/* Runs a deck: what rotid identifies in it, with 95 % intervals. C and C++. */
+#include <rotid.h>
+#include <stdio.h>
+
+static void tell(int count, const rotid_message *message)
+{
+    for (int i = 0; i < count; i++) {
+        if (message[i].file)
+            fprintf(stderr, "%s:%d:%d: ", message[i].file, message[i].line, message[i].column);
+        fprintf(stderr, "%s\n", message[i].text);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    rotid_deck *deck;
+    rotid_identification *found = NULL;
+    char failure[512] = "";
+    int status = rotid_deck_read(argc > 1 ? argv[1] : "rotor.inp", 0, NULL, NULL, &deck);
+    if (deck)
+        tell(deck->nmessage, deck->message);
+    if (status == ROTID_OK && rotid_identify(deck, 0, NULL, failure, &found) != ROTID_OK)
+        fprintf(stderr, "%s\n", failure);
+    if (found) {
+        tell(found->nmessage, found->message);
+        for (int p = 0; p < found->nparameter; p++)
+            printf("%s %.6g %s, 95 %% interval %.6g ... %.6g\n", found->parameter[p].name, found->fit->x[p],
+                   found->parameter[p].unit, found->fit->ci_lower[p], found->fit->ci_upper[p]);
+    }
+    int good = found && found->fit->converged;
+    rotid_identification_free(found);
+    rotid_deck_free(deck);
+    return good ? 0 : 1;
+}

@@ -1,0 +1,1089 @@
+! rotid for Fortran 2008: the twin of rotid.h, where the comments on every constant, type, member and routine stand.
+!
+! What is in this module
+!   Constants, types and routines have the names of rotid.h; only the text ROTID_VERSION is ROTID_VERSION_TEXT here, since
+!   rotid_version is a function. A pointer to a function, member X of rotid_Y, has the abstract interface rotid_Y_X.
+!   The routines of rotid.h are bound to C as they are: every index that they take or give counts from 0, and what may be a
+!   null pointer is type(c_ptr) or type(c_funptr), by value.
+!   The routines at the end (module procedures) are for Fortran: they take arrays, strings and optional arguments, and every
+!   index that they take counts from 1.
+!   Members of types are as in C: pointers to arrays are type(c_ptr), seen through rotid_reals, rotid_integers or
+!   c_f_pointer, and indices in them count from 0. A type starts out as zeros and null pointers, so that a constructor names
+!   only the members that matter: rotid_parameter(lower=1e9_c_double, upper=1e12_c_double, start=2e11_c_double).
+!   What a callback changes through `user` or `context` needs the attribute target, and so does the rotid_model, rotid_environment
+!   or rotid_matrix that names it; else a compiler that optimises may take it for unchanged.
+!
+! Compile this file with the compiler of the host, then link with `pkg-config --libs rotid`.
+module rotid
+  use, intrinsic :: iso_c_binding, only: c_int, c_long, c_size_t, c_double, c_char, c_ptr, c_funptr, c_null_ptr, c_null_funptr, &
+                                         c_null_char, c_loc, c_funloc, c_associated, c_f_pointer
+  implicit none
+
+  character(len=*), parameter :: ROTID_VERSION_TEXT = "0.2.0"
+  integer(c_int), parameter :: ROTID_VERSION_MAJOR = 0
+
+  ! ------------------------------------------------------------------------------------------------ constants
+
+  ! status
+  integer(c_int), parameter :: ROTID_OK = 0
+  integer(c_int), parameter :: ROTID_STOP_GRADIENT = 1
+  integer(c_int), parameter :: ROTID_STOP_STEP = 2
+  integer(c_int), parameter :: ROTID_STOP_OBJECTIVE = 3
+  integer(c_int), parameter :: ROTID_STOP_ITERATIONS = 4
+  integer(c_int), parameter :: ROTID_STOP_STALLED = 5
+  integer(c_int), parameter :: ROTID_STOP_CANCELLED = 6
+  integer(c_int), parameter :: ROTID_ERROR_ARGUMENT = -1
+  integer(c_int), parameter :: ROTID_ERROR_MEMORY = -2
+  integer(c_int), parameter :: ROTID_ERROR_MASS = -3
+  integer(c_int), parameter :: ROTID_ERROR_SLAVE = -4
+  integer(c_int), parameter :: ROTID_ERROR_STIFFNESS = -5
+  integer(c_int), parameter :: ROTID_ERROR_EIGEN = -6
+  integer(c_int), parameter :: ROTID_ERROR_CLOSE = -7
+  integer(c_int), parameter :: ROTID_ERROR_UNPAIRED = -8
+  integer(c_int), parameter :: ROTID_ERROR_RANK = -9
+  integer(c_int), parameter :: ROTID_ERROR_CALLBACK = -10
+  integer(c_int), parameter :: ROTID_ERROR_FINITE = -11
+  integer(c_int), parameter :: ROTID_ERROR_SECTION = -12
+  integer(c_int), parameter :: ROTID_ERROR_SYNTAX = -13
+  integer(c_int), parameter :: ROTID_ERROR_IO = -14
+  integer(c_int), parameter :: ROTID_ERROR_LIBRARY = -15
+
+  ! severity of a message
+  integer(c_int), parameter :: ROTID_NOTE = 0
+  integer(c_int), parameter :: ROTID_WARNING = 1
+  integer(c_int), parameter :: ROTID_ERROR = 2
+
+  ! verdict
+  integer(c_int), parameter :: ROTID_ADEQUATE = 0
+  integer(c_int), parameter :: ROTID_NAMED = 1
+  integer(c_int), parameter :: ROTID_AMBIGUOUS = 2
+  integer(c_int), parameter :: ROTID_UNEXPLAINED = 3
+
+  ! functional
+  integer(c_int), parameter :: ROTID_HYBRID = 0
+  integer(c_int), parameter :: ROTID_HYBRID_F = 1
+  integer(c_int), parameter :: ROTID_LIKELIHOOD = 2
+
+  ! reduction
+  integer(c_int), parameter :: ROTID_REDUCTION_NONE = 0
+  integer(c_int), parameter :: ROTID_GUYAN = 1
+  integer(c_int), parameter :: ROTID_IRS = 2
+
+  ! eigenvector derivative
+  integer(c_int), parameter :: ROTID_NELSON = 0
+  integer(c_int), parameter :: ROTID_MODAL = 1
+
+  ! ------------------------------------------------------------------------------------------------ types: environment
+
+  type, bind(C) :: rotid_allocator
+    type(c_funptr) :: allocate = c_null_funptr ! rotid_allocator_allocate
+    type(c_funptr) :: release = c_null_funptr  ! rotid_allocator_release
+    type(c_ptr) :: context = c_null_ptr
+  end type rotid_allocator
+
+  type, bind(C) :: rotid_environment
+    type(c_ptr) :: allocator = c_null_ptr       ! a rotid_allocator
+    type(c_funptr) :: cancelled = c_null_funptr ! rotid_environment_cancelled
+    type(c_funptr) :: progress = c_null_funptr  ! rotid_environment_progress
+    type(c_ptr) :: context = c_null_ptr
+  end type rotid_environment
+
+  ! ------------------------------------------------------------------------------------------------ types: run a deck
+
+  type, bind(C) :: rotid_parameter
+    type(c_ptr) :: name = c_null_ptr, unit = c_null_ptr ! texts that end with c_null_char
+    real(c_double) :: lower = 0, upper = 0, start = 0
+  end type rotid_parameter
+
+  type, bind(C) :: rotid_message
+    integer(c_int) :: severity = 0
+    integer(c_int) :: line = 0, column = 0
+    type(c_ptr) :: file = c_null_ptr
+    type(c_ptr) :: text = c_null_ptr
+  end type rotid_message
+
+  type, bind(C) :: rotid_deck
+    type(c_ptr) :: path = c_null_ptr
+    integer(c_int) :: nmessage = 0, nerror = 0
+    type(c_ptr) :: message = c_null_ptr ! rotid_message [nmessage]
+    real(c_double) :: length = 0, mass = 0, centre = 0
+    integer(c_int) :: nsensor = 0
+    type(c_ptr) :: sensor_id = c_null_ptr     ! integer [nsensor]
+    type(c_ptr) :: sensor_z = c_null_ptr      ! real [nsensor]
+    integer(c_int) :: nmode = 0
+    type(c_ptr) :: number = c_null_ptr        ! integer [nmode]
+    type(c_ptr) :: frequency_hz = c_null_ptr  ! real [nmode]
+    type(c_ptr) :: frequency_std = c_null_ptr ! real [nmode]
+    type(c_ptr) :: shape = c_null_ptr         ! real [nsensor, nmode]
+    type(c_ptr) :: shape_std = c_null_ptr     ! real [nsensor, nmode]
+    type(c_ptr) :: holdout = c_null_ptr       ! integer [nmode]
+    integer(c_int) :: nparameter = 0
+    type(c_ptr) :: parameter = c_null_ptr     ! rotid_parameter [nparameter]
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_deck
+
+  type, bind(C) :: rotid_spectrum
+    integer(c_int) :: nrigid = 0
+    integer(c_int) :: nmode = 0
+    integer(c_int) :: nmaster = 0
+    real(c_double) :: rigid_hz(2) = 0
+    type(c_ptr) :: hz = c_null_ptr                       ! real [nmode]
+    type(c_ptr) :: reduced_hz = c_null_ptr               ! real [nmode]
+    type(c_ptr) :: reduction_error_percent = c_null_ptr  ! real [nmode]
+    type(c_ptr) :: mesh_error_percent = c_null_ptr       ! real [nmode]
+    type(c_ptr) :: shape = c_null_ptr                    ! real [nmaster, nmode]
+    type(c_ptr) :: master_z = c_null_ptr                 ! real [nmaster]
+    type(c_ptr) :: master_mass = c_null_ptr              ! real [nmaster, nmaster]
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_spectrum
+
+  type, bind(C) :: rotid_identification
+    type(c_ptr) :: fit = c_null_ptr                      ! a rotid_fit_result
+    integer(c_int) :: nparameter = 0
+    type(c_ptr) :: parameter = c_null_ptr                ! rotid_parameter [nparameter]
+    integer(c_int) :: nmode = 0
+    type(c_ptr) :: number = c_null_ptr                   ! integer [nmode]
+    type(c_ptr) :: measured_hz = c_null_ptr              ! real [nmode]
+    type(c_ptr) :: nco = c_null_ptr                      ! real [nmode]
+    type(c_ptr) :: reduction_error_percent = c_null_ptr  ! real [nmode]
+    type(c_ptr) :: mesh_error_percent = c_null_ptr       ! real [nmode]
+    real(c_double) :: mass = 0, centre = 0
+    integer(c_int) :: nmessage = 0
+    type(c_ptr) :: message = c_null_ptr                  ! rotid_message [nmessage]
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_identification
+
+  ! ------------------------------------------------------------------------------------------------ types: diagnosis
+
+  type, bind(C) :: rotid_cause_value
+    type(c_ptr) :: name = c_null_ptr, unit = c_null_ptr
+    real(c_double) :: value = 0, std = 0, ci_lower = 0, ci_upper = 0
+    integer(c_int) :: fixed = 0
+  end type rotid_cause_value
+
+  type, bind(C) :: rotid_cause
+    type(c_ptr) :: id = c_null_ptr, target = c_null_ptr, name = c_null_ptr
+    type(c_ptr) :: variant = c_null_ptr
+    integer(c_int) :: nvalue = 0
+    type(c_ptr) :: value = c_null_ptr ! rotid_cause_value [nvalue]
+    integer(c_int) :: round = 0
+    integer(c_int) :: refitted = 0
+    real(c_double) :: chi2 = 0, chi2_drop = 0, bic = 0, holdout_rms = 0, mode_out_rms = 0, sensor_out_rms = 0
+    real(c_double) :: predicted_drop = 0, p_value = 0
+    integer(c_int) :: at_bound = 0
+    type(c_ptr) :: collinear_with = c_null_ptr
+    real(c_double) :: cosine = 0
+    type(c_ptr) :: rejected_because = c_null_ptr
+  end type rotid_cause
+
+  type, bind(C) :: rotid_finding
+    type(c_ptr) :: id = c_null_ptr
+    integer(c_int) :: nsensor = 0, nmode = 0
+    type(c_ptr) :: sensor = c_null_ptr, mode = c_null_ptr ! integer [nsensor], [nmode]
+    type(c_ptr) :: error_percent = c_null_ptr             ! real [nmode]
+    type(c_ptr) :: block = c_null_ptr
+    real(c_double) :: value = 0, std = 0, chi2_drop = 0
+    type(c_ptr) :: text = c_null_ptr
+  end type rotid_finding
+
+  type, bind(C) :: rotid_quality
+    real(c_double) :: frequency_rms_percent = 0, frequency_max_percent = 0, shape_rms = 0, chi2_per_dof = 0, nco_min = 0
+    real(c_double) :: holdout_frequency_rms_percent = 0, holdout_shape_rms = 0
+    real(c_double) :: mode_out_frequency_rms_percent = 0, mode_out_shape_rms = 0
+    real(c_double) :: sensor_out_shape_rms = 0
+  end type rotid_quality
+
+  type, bind(C) :: rotid_detectable
+    type(c_ptr) :: id = c_null_ptr, target = c_null_ptr, parameter = c_null_ptr, unit = c_null_ptr
+    real(c_double) :: smallest = 0, z = 0, worst = 0
+    integer(c_int) :: beyond = 0
+  end type rotid_detectable
+
+  type, bind(C) :: rotid_diagnosis
+    integer(c_int) :: kind = 0
+    integer(c_int) :: adequate_after = 0
+    integer(c_int) :: interrupted = 0
+    real(c_double) :: p_value = 0
+    type(c_ptr) :: sentence = c_null_ptr, next_measurement = c_null_ptr
+    integer(c_int) :: ncause = 0, nalternative = 0, ncandidate = 0
+    type(c_ptr) :: cause = c_null_ptr                                         ! rotid_cause [ncause]
+    type(c_ptr) :: alternative = c_null_ptr                                   ! rotid_cause [nalternative]
+    type(c_ptr) :: candidate = c_null_ptr                                     ! rotid_cause [ncandidate]
+    integer(c_int) :: ndata_finding = 0, nnumerical_finding = 0
+    type(c_ptr) :: data_finding = c_null_ptr, numerical_finding = c_null_ptr  ! rotid_finding [...]
+    type(c_ptr) :: base = c_null_ptr, extended = c_null_ptr                   ! a rotid_identification each
+    type(rotid_quality) :: before = rotid_quality(), after = rotid_quality()
+    integer(c_int) :: nlocal = 0
+    type(c_ptr) :: local_z = c_null_ptr, local = c_null_ptr                   ! real [nlocal]
+    integer(c_int) :: ndetectable = 0
+    type(c_ptr) :: detectable = c_null_ptr                                    ! rotid_detectable [ndetectable]
+    type(c_ptr) :: extended_deck = c_null_ptr
+    integer(c_int) :: nmessage = 0
+    type(c_ptr) :: message = c_null_ptr                                       ! rotid_message [nmessage]
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_diagnosis
+
+  type, bind(C) :: rotid_diagnose_options
+    integer(c_int) :: threads = 0
+    integer(c_int) :: replicates = 0
+    integer(c_long) :: seed = 0
+  end type rotid_diagnose_options
+
+  ! ------------------------------------------------------------------------------------------------ types: your own model
+
+  type, bind(C) :: rotid_matrix
+    integer(c_int) :: n = 0, kd = 0, nfar = 0
+    type(c_ptr) :: far = c_null_ptr   ! integer [nfar], from 0
+    type(c_ptr) :: band = c_null_ptr  ! real [kd + 1, n], see rotid_band
+    type(c_ptr) :: block = c_null_ptr ! real [nfar, nfar], see rotid_block
+  end type rotid_matrix
+
+  type, bind(C) :: rotid_model
+    integer(c_int) :: n = 0, kd = 0, nfar = 0
+    type(c_ptr) :: far = c_null_ptr    ! integer [nfar], from 0; rotid_fit_model takes it as an array
+    integer(c_int) :: nparam = 0
+    integer(c_int) :: nrigid = 0
+    integer(c_int) :: nmaster = 0
+    type(c_ptr) :: master = c_null_ptr ! integer [nmaster], from 0; rotid_fit_model takes it as an array
+    type(c_funptr) :: matrices = c_null_funptr    ! rotid_model_matrices
+    type(c_funptr) :: derivatives = c_null_funptr ! rotid_model_derivatives
+    type(c_ptr) :: user = c_null_ptr
+  end type rotid_model
+
+  type, bind(C) :: rotid_measured
+    integer(c_int) :: nmode = 0
+    type(c_ptr) :: number = c_null_ptr        ! integer [nmode]
+    type(c_ptr) :: frequency_hz = c_null_ptr  ! real [nmode]
+    type(c_ptr) :: frequency_std = c_null_ptr ! real [nmode]
+    type(c_ptr) :: shape = c_null_ptr         ! real [nmaster, nmode]
+    type(c_ptr) :: shape_std = c_null_ptr     ! real [nmaster, nmode]
+    type(c_ptr) :: holdout = c_null_ptr       ! integer [nmode]
+  end type rotid_measured
+
+  type, bind(C) :: rotid_fit_options
+    integer(c_int) :: functional = 0, reduction = 0, derivative = 0
+    integer(c_int) :: max_iterations = 0
+    real(c_double) :: gradient_tolerance = 0
+    real(c_double) :: step_tolerance = 0
+    real(c_double) :: bijection_chi = 0
+    integer(c_int) :: baseline = 0
+  end type rotid_fit_options
+
+  type, bind(C) :: rotid_fit_iteration
+    integer(c_int) :: iteration = 0
+    real(c_double) :: objective = 0
+    real(c_double) :: gradient = 0
+    real(c_double) :: mu = 0
+    real(c_double) :: gain_ratio = 0
+    real(c_double) :: step = 0
+    real(c_double) :: seconds = 0
+  end type rotid_fit_iteration
+
+  type, bind(C) :: rotid_baseline
+    type(c_ptr) :: algorithm = c_null_ptr, result = c_null_ptr
+    integer(c_int) :: code = 0
+    integer(c_int) :: usable = 0
+    real(c_double) :: objective = 0, seconds = 0, gradient = 0
+    integer(c_int) :: evaluations = 0
+    type(c_ptr) :: x = c_null_ptr ! real [nparam]
+  end type rotid_baseline
+
+  type, bind(C) :: rotid_fit_result
+    integer(c_int) :: status = 0
+    integer(c_int) :: converged = 0
+    integer(c_int) :: any_at_bound = 0, any_undetermined = 0
+    integer(c_int) :: n = 0, m = 0, nresidual = 0, dof = 0
+    real(c_double) :: objective = 0, gradient = 0, chi2 = 0, chi2_per_dof = 0
+    integer(c_int) :: iterations = 0, evaluations = 0, jacobians = 0
+    real(c_double) :: seconds = 0
+    type(c_ptr) :: x = c_null_ptr, std = c_null_ptr, ci_lower = c_null_ptr, ci_upper = c_null_ptr ! real [n]
+    type(c_ptr) :: at_bound = c_null_ptr, identifiable = c_null_ptr                               ! integer [n]
+    type(c_ptr) :: covariance = c_null_ptr, correlation = c_null_ptr                              ! real [n, n]
+    real(c_double) :: condition_number = 0
+    type(c_ptr) :: singular_value = c_null_ptr                                                    ! real [n]
+    type(c_ptr) :: direction = c_null_ptr                                                         ! real [n, n]
+    type(c_ptr) :: direction_undetermined = c_null_ptr                                            ! integer [n]
+    real(c_double) :: widened_by = 0
+    integer(c_int) :: variance_from_residuals = 0
+    type(c_ptr) :: predicted_hz = c_null_ptr, mac = c_null_ptr, residual = c_null_ptr             ! real [m]
+    type(c_ptr) :: r = c_null_ptr                                                                 ! real [nresidual]
+    type(c_ptr) :: jacobian = c_null_ptr                                                          ! real [nresidual, n]
+    integer(c_int) :: nhistory = 0
+    type(c_ptr) :: history = c_null_ptr                                                           ! rotid_fit_iteration [nhistory]
+    type(c_ptr) :: history_x = c_null_ptr                                                         ! real [n, nhistory]
+    integer(c_int) :: nbaseline = 0
+    type(c_ptr) :: baseline = c_null_ptr                                                          ! rotid_baseline [nbaseline]
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_fit_result
+
+  ! ------------------------------------------------------------------------------------------------ types: least squares
+
+  type, bind(C) :: rotid_lm_iteration
+    integer(c_int) :: iteration = 0
+    real(c_double) :: objective = 0, mu = 0, gain_ratio = 0
+    real(c_double) :: cosine = 0
+    type(c_ptr) :: x = c_null_ptr, gradient = c_null_ptr ! real [n]
+  end type rotid_lm_iteration
+
+  type, bind(C) :: rotid_lm_options
+    integer(c_int) :: max_iterations = 0
+    real(c_double) :: gradient_tolerance = 0
+    real(c_double) :: step_tolerance = 0
+    real(c_double) :: objective_tolerance = 0
+    real(c_double) :: initial_damping = 0
+    type(c_funptr) :: trace = c_null_funptr ! rotid_lm_options_trace
+    type(c_ptr) :: trace_user = c_null_ptr
+  end type rotid_lm_options
+
+  type, bind(C) :: rotid_lm_result
+    integer(c_int) :: status = 0, iterations = 0, evaluations = 0, jacobians = 0
+    real(c_double) :: objective = 0, cosine = 0, mu = 0
+  end type rotid_lm_result
+
+  ! ------------------------------------------------------------------------------------------------ what a host supplies
+
+  abstract interface
+
+    function rotid_allocator_allocate(context, bytes) result(block) bind(C)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: context
+      integer(c_size_t), value :: bytes
+      type(c_ptr) :: block
+    end function rotid_allocator_allocate
+
+    subroutine rotid_allocator_release(context, block) bind(C)
+      import :: c_ptr
+      type(c_ptr), value :: context, block
+    end subroutine rotid_allocator_release
+
+    function rotid_environment_cancelled(context) result(stop) bind(C)
+      import :: c_ptr, c_int
+      type(c_ptr), value :: context
+      integer(c_int) :: stop
+    end function rotid_environment_cancelled
+
+    subroutine rotid_environment_progress(context, stage, step) bind(C)
+      import :: c_ptr, c_int
+      type(c_ptr), value :: context, stage
+      integer(c_int), value :: step
+    end subroutine rotid_environment_progress
+
+    ! x [nparam]; stiffness and mass come with the structure of the model and set to zero
+    function rotid_model_matrices(user, x, stiffness, mass) result(failure) bind(C)
+      import :: c_ptr, c_int, c_double, rotid_matrix
+      type(c_ptr), value :: user
+      real(c_double), intent(in) :: x(*)
+      type(rotid_matrix), intent(inout), target :: stiffness, mass
+      integer(c_int) :: failure
+    end function rotid_model_matrices
+
+    ! p counts from 0: it is x(p + 1) by which the matrices are differentiated
+    function rotid_model_derivatives(user, x, p, stiffness, mass) result(failure) bind(C)
+      import :: c_ptr, c_int, c_double, rotid_matrix
+      type(c_ptr), value :: user
+      real(c_double), intent(in) :: x(*)
+      integer(c_int), value :: p
+      type(rotid_matrix), intent(inout), target :: stiffness, mass
+      integer(c_int) :: failure
+    end function rotid_model_derivatives
+
+    ! r [m], jacobian [m, n]: one of the two is null
+    function rotid_residual(user, m, n, x, r, jacobian) result(failure) bind(C)
+      import :: c_ptr, c_int, c_double
+      type(c_ptr), value :: user
+      integer(c_int), value :: m, n
+      real(c_double), intent(in) :: x(*)
+      type(c_ptr), value :: r, jacobian
+      integer(c_int) :: failure
+    end function rotid_residual
+
+    function rotid_lm_options_trace(user, iteration) result(cancel) bind(C)
+      import :: c_ptr, c_int, rotid_lm_iteration
+      type(c_ptr), value :: user
+      type(rotid_lm_iteration), intent(in) :: iteration
+      integer(c_int) :: cancel
+    end function rotid_lm_options_trace
+
+  end interface
+
+  ! ------------------------------------------------------------------------------------------------ routines of rotid.h
+
+  interface
+
+    function rotid_version() result(text) bind(C, name="rotid_version")
+      import :: c_ptr
+      type(c_ptr) :: text
+    end function rotid_version
+
+    function rotid_status_text(status) result(text) bind(C, name="rotid_status_text")
+      import :: c_ptr, c_int
+      integer(c_int), value :: status
+      type(c_ptr) :: text
+    end function rotid_status_text
+
+    function rotid_status_name(status) result(text) bind(C, name="rotid_status_name")
+      import :: c_ptr, c_int
+      integer(c_int), value :: status
+      type(c_ptr) :: text
+    end function rotid_status_name
+
+    ! ---- run a deck; with strings and optional arguments: rotid_read_deck, rotid_compute_spectrum, rotid_identify_deck,
+    ! rotid_diagnose_deck, rotid_free
+
+    function rotid_deck_read(path, noverride, override, environment, deck) result(status) bind(C, name="rotid_deck_read")
+      import :: c_char, c_ptr, c_int
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int), value :: noverride
+      type(c_ptr), value :: override    ! type(c_ptr) [noverride]
+      type(c_ptr), value :: environment
+      type(c_ptr), intent(out) :: deck
+      integer(c_int) :: status
+    end function rotid_deck_read
+
+    subroutine rotid_deck_free(deck) bind(C, name="rotid_deck_free")
+      import :: c_ptr
+      type(c_ptr), value :: deck
+    end subroutine rotid_deck_free
+
+    function rotid_spectrum_compute(deck, x, nmode, environment, spectrum) result(status) bind(C, name="rotid_spectrum_compute")
+      import :: c_ptr, c_int
+      type(c_ptr), value :: deck
+      type(c_ptr), value :: x           ! real [nparameter]
+      integer(c_int), value :: nmode
+      type(c_ptr), value :: environment
+      type(c_ptr), intent(out) :: spectrum
+      integer(c_int) :: status
+    end function rotid_spectrum_compute
+
+    subroutine rotid_spectrum_free(spectrum) bind(C, name="rotid_spectrum_free")
+      import :: c_ptr
+      type(c_ptr), value :: spectrum
+    end subroutine rotid_spectrum_free
+
+    function rotid_identify(deck, baseline, environment, failure, result) result(status) bind(C, name="rotid_identify")
+      import :: c_ptr, c_int
+      type(c_ptr), value :: deck
+      integer(c_int), value :: baseline
+      type(c_ptr), value :: environment, failure
+      type(c_ptr), intent(out) :: result
+      integer(c_int) :: status
+    end function rotid_identify
+
+    subroutine rotid_identification_free(result) bind(C, name="rotid_identification_free")
+      import :: c_ptr
+      type(c_ptr), value :: result
+    end subroutine rotid_identification_free
+
+    function rotid_diagnose(deck, options, environment, failure, result) result(status) bind(C, name="rotid_diagnose")
+      import :: c_ptr, c_int
+      type(c_ptr), value :: deck
+      type(c_ptr), value :: options, environment, failure
+      type(c_ptr), intent(out) :: result
+      integer(c_int) :: status
+    end function rotid_diagnose
+
+    subroutine rotid_diagnosis_free(result) bind(C, name="rotid_diagnosis_free")
+      import :: c_ptr
+      type(c_ptr), value :: result
+    end subroutine rotid_diagnosis_free
+
+    function rotid_verdict_name(kind) result(text) bind(C, name="rotid_verdict_name")
+      import :: c_ptr, c_int
+      integer(c_int), value :: kind
+      type(c_ptr) :: text
+    end function rotid_verdict_name
+
+    ! ---- your own model; with arrays and optional arguments: rotid_fit_model, rotid_free
+
+    subroutine rotid_fit_defaults(options) bind(C, name="rotid_fit_defaults")
+      import :: rotid_fit_options
+      type(rotid_fit_options), intent(out) :: options
+    end subroutine rotid_fit_defaults
+
+    function rotid_fit(model, parameter, measured, options, environment, result) result(status) bind(C, name="rotid_fit")
+      import :: c_ptr, c_int, rotid_model, rotid_parameter, rotid_measured, rotid_fit_options
+      type(rotid_model), intent(in), target :: model
+      type(rotid_parameter), intent(in) :: parameter(*)
+      type(rotid_measured), intent(in) :: measured
+      type(rotid_fit_options), intent(in) :: options
+      type(c_ptr), value :: environment
+      type(c_ptr), intent(out) :: result
+      integer(c_int) :: status
+    end function rotid_fit
+
+    subroutine rotid_fit_free(result) bind(C, name="rotid_fit_free")
+      import :: c_ptr
+      type(c_ptr), value :: result
+    end subroutine rotid_fit_free
+
+    ! ---- building blocks: the beam
+
+    function rotid_shear_coefficient_annulus(nu, a) result(coefficient) bind(C, name="rotid_shear_coefficient_annulus")
+      import :: c_double
+      real(c_double), value :: nu, a
+      real(c_double) :: coefficient
+    end function rotid_shear_coefficient_annulus
+
+    function rotid_shear_coefficient_rectangle(nu) result(coefficient) bind(C, name="rotid_shear_coefficient_rectangle")
+      import :: c_double
+      real(c_double), value :: nu
+      real(c_double) :: coefficient
+    end function rotid_shear_coefficient_rectangle
+
+    function rotid_equivalent_cylinder(area, inertia, outer, inner) result(status) bind(C, name="rotid_equivalent_cylinder")
+      import :: c_double, c_int
+      real(c_double), value :: area, inertia
+      real(c_double), intent(out) :: outer, inner
+      integer(c_int) :: status
+    end function rotid_equivalent_cylinder
+
+    subroutine rotid_element_stiffness(ei, kgs, l, stiffness) bind(C, name="rotid_element_stiffness")
+      import :: c_double
+      real(c_double), value :: ei, kgs, l
+      real(c_double), intent(out) :: stiffness(4, 4)
+    end subroutine rotid_element_stiffness
+
+    subroutine rotid_element_geometric(force, phi, l, stiffness) bind(C, name="rotid_element_geometric")
+      import :: c_double
+      real(c_double), value :: force, phi, l
+      real(c_double), intent(out) :: stiffness(4, 4)
+    end subroutine rotid_element_geometric
+
+    subroutine rotid_element_mass(rhos, rhoi, phi, l, mass) bind(C, name="rotid_element_mass")
+      import :: c_double
+      real(c_double), value :: rhos, rhoi, phi, l
+      real(c_double), intent(out) :: mass(4, 4)
+    end subroutine rotid_element_mass
+
+    ! ---- building blocks: matrices; with indices from 1: rotid_add, rotid_add_element, rotid_set_full
+
+    function rotid_matrix_add(a, i, j, value) result(status) bind(C, name="rotid_matrix_add")
+      import :: c_double, c_int, rotid_matrix
+      type(rotid_matrix), intent(inout) :: a
+      integer(c_int), value :: i, j
+      real(c_double), value :: value
+      integer(c_int) :: status
+    end function rotid_matrix_add
+
+    function rotid_matrix_add_element(a, nd, dof, e) result(status) bind(C, name="rotid_matrix_add_element")
+      import :: c_double, c_int, rotid_matrix
+      type(rotid_matrix), intent(inout) :: a
+      integer(c_int), value :: nd
+      integer(c_int), intent(in) :: dof(*)
+      real(c_double), intent(in) :: e(nd, *)
+      integer(c_int) :: status
+    end function rotid_matrix_add_element
+
+    function rotid_matrix_set_dense(a, full, ld) result(status) bind(C, name="rotid_matrix_set_dense")
+      import :: c_double, c_int, rotid_matrix
+      type(rotid_matrix), intent(inout) :: a
+      integer(c_int), value :: ld
+      real(c_double), intent(in) :: full(ld, *)
+      integer(c_int) :: status
+    end function rotid_matrix_set_dense
+
+    function rotid_matrix_get_dense(a, full, ld) result(status) bind(C, name="rotid_matrix_get_dense")
+      import :: c_double, c_int, rotid_matrix
+      type(rotid_matrix), intent(in) :: a
+      integer(c_int), value :: ld
+      real(c_double), intent(inout) :: full(ld, *)
+      integer(c_int) :: status
+    end function rotid_matrix_get_dense
+
+    function rotid_matrix_multiply(a, columns, x, y) result(status) bind(C, name="rotid_matrix_multiply")
+      import :: c_double, c_int, rotid_matrix
+      type(rotid_matrix), intent(in) :: a
+      integer(c_int), value :: columns
+      real(c_double), intent(in) :: x(a%n, *)
+      real(c_double), intent(inout) :: y(a%n, *)
+      integer(c_int) :: status
+    end function rotid_matrix_multiply
+
+    function rotid_condense(k, m, nmaster, master, kind, environment, kc, mc, t) result(status) bind(C, name="rotid_condense")
+      import :: c_double, c_int, c_ptr, rotid_matrix
+      type(rotid_matrix), intent(in) :: k, m
+      integer(c_int), value :: nmaster
+      integer(c_int), intent(in) :: master(*)   ! from 0
+      integer(c_int), value :: kind
+      type(c_ptr), value :: environment
+      real(c_double), intent(inout) :: kc(nmaster, *), mc(nmaster, *)
+      type(c_ptr), value :: t                   ! real [n, nmaster]
+      integer(c_int) :: status
+    end function rotid_condense
+
+    function rotid_condense_derivative(k, m, dk, dm, nmaster, master, kind, environment, dkc, dmc) result(status) &
+      bind(C, name="rotid_condense_derivative")
+      import :: c_double, c_int, c_ptr, rotid_matrix
+      type(rotid_matrix), intent(in) :: k, m, dk, dm
+      integer(c_int), value :: nmaster
+      integer(c_int), intent(in) :: master(*)   ! from 0
+      integer(c_int), value :: kind
+      type(c_ptr), value :: environment
+      real(c_double), intent(inout) :: dkc(nmaster, *), dmc(nmaster, *)
+      integer(c_int) :: status
+    end function rotid_condense_derivative
+
+    function rotid_eigenpairs(k, m, count, environment, lambda, phi) result(status) bind(C, name="rotid_eigenpairs")
+      import :: c_double, c_int, c_ptr, rotid_matrix
+      type(rotid_matrix), intent(in) :: k, m
+      integer(c_int), value :: count
+      type(c_ptr), value :: environment
+      real(c_double), intent(inout) :: lambda(*), phi(k%n, *)
+      integer(c_int) :: status
+    end function rotid_eigenpairs
+
+    function rotid_eigenpair_derivative(k, m, dk, dm, count, lambda, phi, j, environment, dlambda, dphi) result(status) &
+      bind(C, name="rotid_eigenpair_derivative")
+      import :: c_double, c_int, c_ptr, rotid_matrix
+      type(rotid_matrix), intent(in) :: k, m, dk, dm
+      integer(c_int), value :: count
+      real(c_double), intent(in) :: lambda(*), phi(k%n, *)
+      integer(c_int), value :: j                ! from 0
+      type(c_ptr), value :: environment
+      real(c_double), intent(out) :: dlambda
+      type(c_ptr), value :: dphi                ! real [n]
+      integer(c_int) :: status
+    end function rotid_eigenpair_derivative
+
+    ! ---- building blocks: least squares
+
+    function rotid_lm_workspace(m, n) result(length) bind(C, name="rotid_lm_workspace")
+      import :: c_int, c_size_t
+      integer(c_int), value :: m, n
+      integer(c_size_t) :: length
+    end function rotid_lm_workspace
+
+    function rotid_lm(m, n, residual, user, options, x, r, jacobian, work, result) result(status) bind(C, name="rotid_lm")
+      import :: c_double, c_int, c_ptr, c_funptr, rotid_lm_result
+      integer(c_int), value :: m, n
+      type(c_funptr), value :: residual         ! rotid_residual
+      type(c_ptr), value :: user
+      type(c_ptr), value :: options             ! a rotid_lm_options
+      real(c_double), intent(inout) :: x(*), r(*), jacobian(m, *), work(*)
+      type(rotid_lm_result), intent(inout) :: result
+      integer(c_int) :: status
+    end function rotid_lm
+
+    function rotid_check_jacobian_workspace(m, n) result(length) bind(C, name="rotid_check_jacobian_workspace")
+      import :: c_int, c_size_t
+      integer(c_int), value :: m, n
+      integer(c_size_t) :: length
+    end function rotid_check_jacobian_workspace
+
+    function rotid_check_jacobian(m, n, residual, user, x, scale, error, doubt, work) result(status) &
+      bind(C, name="rotid_check_jacobian")
+      import :: c_double, c_int, c_ptr, c_funptr
+      integer(c_int), value :: m, n
+      type(c_funptr), value :: residual         ! rotid_residual
+      type(c_ptr), value :: user
+      real(c_double), intent(in) :: x(*)
+      type(c_ptr), value :: scale               ! real [n]
+      real(c_double), intent(inout) :: error(*), doubt(*), work(*)
+      integer(c_int) :: status
+    end function rotid_check_jacobian
+
+    ! ---- building blocks: modes
+
+    function rotid_mac(n, a, b) result(mac) bind(C, name="rotid_mac")
+      import :: c_double, c_int
+      integer(c_int), value :: n
+      real(c_double), intent(in) :: a(*), b(*)
+      real(c_double) :: mac
+    end function rotid_mac
+
+    function rotid_nco(n, mass, a, b, work) result(nco) bind(C, name="rotid_nco")
+      import :: c_double, c_int
+      integer(c_int), value :: n
+      real(c_double), intent(in) :: mass(n, *), a(*), b(*)
+      real(c_double), intent(inout) :: work(*)
+      real(c_double) :: nco
+    end function rotid_nco
+
+  end interface
+
+  ! ------------------------------------------------------------------------------------------------ for Fortran
+
+  ! Frees a deck or a result and nullifies its pointer; a null pointer is allowed.
+  interface rotid_free
+    module procedure free_deck, free_spectrum, free_identification, free_diagnosis, free_fit
+  end interface rotid_free
+
+  ! rotid_reals(member, n), rotid_reals(member, m, n): the array behind a member; null where the member is.
+  interface rotid_reals
+    module procedure real_vector, real_matrix
+  end interface rotid_reals
+
+  interface
+    pure function c_length(text) result(length) bind(C, name="strlen")
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: text
+      integer(c_size_t) :: length
+    end function c_length
+  end interface
+
+  private :: free_deck, free_spectrum, free_identification, free_diagnosis, free_fit, real_vector, real_matrix, c_length, &
+             c_string, ones_to_zeros, failure_length
+  integer, parameter :: failure_length = 512
+
+contains
+
+  ! ---- texts
+
+  ! A text of the library; empty where `text` is null.
+  function rotid_string(text) result(string)
+    type(c_ptr), intent(in) :: text
+    character(len=:), allocatable :: string
+    character(kind=c_char), pointer :: c(:)
+    integer :: i
+    if (.not. c_associated(text)) then
+      string = ""
+      return
+    end if
+    call c_f_pointer(text, c, [c_length(text)])
+    allocate (character(len=size(c)) :: string)
+    do i = 1, size(c)
+      string(i:i) = c(i)
+    end do
+  end function rotid_string
+
+  ! "out of memory" for ROTID_ERROR_MEMORY.
+  function rotid_status_message(status) result(string)
+    integer(c_int), intent(in) :: status
+    character(len=:), allocatable :: string
+    string = rotid_string(rotid_status_text(status))
+  end function rotid_status_message
+
+  ! "rotor.inp:12:3: error: what is wrong, what was expected"
+  function rotid_message_text(message) result(string)
+    type(rotid_message), intent(in) :: message
+    character(len=:), allocatable :: string
+    character(len=7), parameter :: severity(0:2) = [character(len=7) :: "note", "warning", "error"]
+    character(len=40) :: place
+    string = ""
+    if (c_associated(message%file)) string = rotid_string(message%file) // ":"
+    if (message%line > 0) then
+      write (place, "(i0,':')") message%line
+      if (message%column > 0) write (place, "(i0,':',i0,':')") message%line, message%column
+      string = string // trim(place)
+    end if
+    if (len(string) > 0) string = string // " "
+    if (message%severity >= 0 .and. message%severity <= 2) string = string // trim(severity(message%severity)) // ": "
+    string = string // rotid_string(message%text)
+  end function rotid_message_text
+
+  ! ---- arrays behind members
+
+  function real_vector(member, n) result(array)
+    type(c_ptr), intent(in) :: member
+    integer(c_int), intent(in) :: n
+    real(c_double), pointer, contiguous :: array(:)
+    nullify (array)
+    if (c_associated(member)) call c_f_pointer(member, array, [n])
+  end function real_vector
+
+  function real_matrix(member, m, n) result(array)
+    type(c_ptr), intent(in) :: member
+    integer(c_int), intent(in) :: m, n
+    real(c_double), pointer, contiguous :: array(:, :)
+    nullify (array)
+    if (c_associated(member)) call c_f_pointer(member, array, [m, n])
+  end function real_matrix
+
+  function rotid_integers(member, n) result(array)
+    type(c_ptr), intent(in) :: member
+    integer(c_int), intent(in) :: n
+    integer(c_int), pointer, contiguous :: array(:)
+    nullify (array)
+    if (c_associated(member)) call c_f_pointer(member, array, [n])
+  end function rotid_integers
+
+  ! The messages of a deck or a result: rotid_messages(deck%message, deck%nmessage).
+  function rotid_messages(member, n) result(array)
+    type(c_ptr), intent(in) :: member
+    integer(c_int), intent(in) :: n
+    type(rotid_message), pointer, contiguous :: array(:)
+    nullify (array)
+    if (c_associated(member)) call c_f_pointer(member, array, [n])
+  end function rotid_messages
+
+  ! ---- matrices, indices from 1
+
+  ! Packed band [kd + 1, n] of the lower triangle as in LAPACK's 'L' storage: A(i, j) = band(1 + i - j, j), j <= i <= j + kd.
+  function rotid_band(matrix) result(band)
+    type(rotid_matrix), intent(in), target :: matrix
+    real(c_double), pointer, contiguous :: band(:, :)
+    band => real_matrix(matrix%band, matrix%kd + 1_c_int, matrix%n)
+  end function rotid_band
+
+  ! Dense block [nfar, nfar]; row i belongs to the i-th far degree of freedom.
+  function rotid_block(matrix) result(block)
+    type(rotid_matrix), intent(in), target :: matrix
+    real(c_double), pointer, contiguous :: block(:, :)
+    block => real_matrix(matrix%block, matrix%nfar, matrix%nfar)
+  end function rotid_block
+
+  ! A(i, j) += value and A(j, i) with it. Statuses as rotid_matrix_add.
+  function rotid_add(matrix, i, j, value) result(status)
+    type(rotid_matrix), intent(inout) :: matrix
+    integer, intent(in) :: i, j
+    real(c_double), intent(in) :: value
+    integer(c_int) :: status
+    status = rotid_matrix_add(matrix, int(i - 1, c_int), int(j - 1, c_int), value)
+  end function rotid_add
+
+  ! Adds the symmetric element matrix e(nd, nd) on the degrees of freedom dof(nd), from 1; one that is 0 or negative is left out
+  ! (held). Statuses as rotid_matrix_add_element; ROTID_ERROR_ARGUMENT also where the sizes of dof and e do not agree.
+  function rotid_add_element(matrix, dof, e) result(status)
+    type(rotid_matrix), intent(inout) :: matrix
+    integer, intent(in) :: dof(:)
+    real(c_double), intent(in) :: e(:, :)
+    integer(c_int) :: status
+    status = ROTID_ERROR_ARGUMENT
+    if (size(e, 1) /= size(dof) .or. size(e, 2) /= size(dof)) return
+    status = rotid_matrix_add_element(matrix, size(dof, kind=c_int), int(dof, c_int) - 1_c_int, e)
+  end function rotid_add_element
+
+  ! A := full(n, n), of which the lower triangle is read. Statuses as rotid_matrix_set_dense; ROTID_ERROR_ARGUMENT also where the
+  ! sizes do not agree.
+  function rotid_set_full(matrix, full) result(status)
+    type(rotid_matrix), intent(inout) :: matrix
+    real(c_double), intent(in) :: full(:, :)
+    integer(c_int) :: status
+    status = ROTID_ERROR_ARGUMENT
+    if (size(full, 1) /= matrix%n .or. size(full, 2) /= matrix%n) return
+    status = rotid_matrix_set_dense(matrix, full, matrix%n)
+  end function rotid_set_full
+
+  ! ---- run a deck
+
+  ! rotid_deck_read with a path and overrides "CARD.OPTION=VALUE" of any length; blanks at their ends do not count.
+  function rotid_read_deck(path, deck, override, environment) result(status)
+    character(len=*), intent(in) :: path
+    type(rotid_deck), pointer, intent(out) :: deck
+    character(len=*), intent(in), optional :: override(:)
+    type(rotid_environment), intent(in), optional, target :: environment
+    type(rotid_environment), target :: given
+    integer(c_int) :: status
+    character(kind=c_char), allocatable, target :: text(:, :)
+    type(c_ptr), allocatable, target :: pointers(:)
+    type(c_ptr) :: c_deck, list
+    integer(c_int) :: noverride
+    integer :: i
+    if (present(environment)) given = environment
+    nullify (deck)
+    noverride = 0
+    list = c_null_ptr
+    if (present(override)) then
+      noverride = size(override, kind=c_int)
+      allocate (text(len(override) + 1, max(1, size(override))), pointers(max(1, size(override))))
+      do i = 1, size(override)
+        text(1:len_trim(override(i)) + 1, i) = c_string(override(i))
+        pointers(i) = c_loc(text(1, i))
+      end do
+      list = c_loc(pointers)
+    end if
+    status = rotid_deck_read(c_string(path), noverride, list, c_loc(given), c_deck)
+    if (c_associated(c_deck)) call c_f_pointer(c_deck, deck)
+  end function rotid_read_deck
+
+  ! rotid_spectrum_compute; without x at the starts of the parameters.
+  function rotid_compute_spectrum(deck, nmode, spectrum, x, environment) result(status)
+    type(rotid_deck), intent(in), target :: deck
+    integer, intent(in) :: nmode
+    type(rotid_spectrum), pointer, intent(out) :: spectrum
+    real(c_double), intent(in), optional :: x(:)
+    type(rotid_environment), intent(in), optional, target :: environment
+    type(rotid_environment), target :: given
+    integer(c_int) :: status
+    real(c_double), allocatable, target :: values(:)
+    type(c_ptr) :: c_spectrum, c_x
+    if (present(environment)) given = environment
+    nullify (spectrum)
+    c_x = c_null_ptr
+    if (present(x)) then
+      status = ROTID_ERROR_ARGUMENT
+      if (size(x) /= deck%nparameter) return
+      allocate (values(max(1, size(x))))
+      values(1:size(x)) = x
+      c_x = c_loc(values)
+    end if
+    status = rotid_spectrum_compute(c_loc(deck), c_x, int(nmode, c_int), c_loc(given), c_spectrum)
+    if (c_associated(c_spectrum)) call c_f_pointer(c_spectrum, spectrum)
+  end function rotid_compute_spectrum
+
+  ! rotid_identify. An allocator in `environment` needs the attribute target and has to exist until the result is freed.
+  function rotid_identify_deck(deck, found, baseline, environment, failure) result(status)
+    type(rotid_deck), intent(in), target :: deck
+    type(rotid_identification), pointer, intent(out) :: found
+    logical, intent(in), optional :: baseline
+    type(rotid_environment), intent(in), optional, target :: environment
+    type(rotid_environment), target :: given
+    character(len=:), allocatable, intent(out), optional :: failure
+    integer(c_int) :: status, with_baseline
+    character(kind=c_char), target :: why(failure_length)
+    type(c_ptr) :: c_found
+    if (present(environment)) given = environment
+    nullify (found)
+    why = c_null_char
+    with_baseline = 0
+    if (present(baseline)) with_baseline = merge(1_c_int, 0_c_int, baseline)
+    status = rotid_identify(c_loc(deck), with_baseline, c_loc(given), c_loc(why), c_found)
+    if (present(failure)) failure = rotid_string(c_loc(why))
+    if (c_associated(c_found)) call c_f_pointer(c_found, found)
+  end function rotid_identify_deck
+
+  ! rotid_diagnose; environment as above.
+  function rotid_diagnose_deck(deck, found, options, environment, failure) result(status)
+    type(rotid_deck), intent(in), target :: deck
+    type(rotid_diagnosis), pointer, intent(out) :: found
+    type(rotid_diagnose_options), intent(in), optional :: options
+    type(rotid_environment), intent(in), optional, target :: environment
+    type(rotid_environment), target :: given
+    character(len=:), allocatable, intent(out), optional :: failure
+    integer(c_int) :: status
+    type(rotid_diagnose_options), target :: how
+    character(kind=c_char), target :: why(failure_length)
+    type(c_ptr) :: c_found
+    if (present(environment)) given = environment
+    nullify (found)
+    why = c_null_char
+    if (present(options)) how = options
+    status = rotid_diagnose(c_loc(deck), c_loc(how), c_loc(given), c_loc(why), c_found)
+    if (present(failure)) failure = rotid_string(c_loc(why))
+    if (c_associated(c_found)) call c_f_pointer(c_found, found)
+  end function rotid_diagnose_deck
+
+  ! ---- your own model
+
+  ! rotid_fit with arrays. Of `model` n, kd, nrigid, matrices, derivatives and user are used; the number of parameters is the size
+  ! of `parameter`, the masters are `master` and the far degrees of freedom `far`, increasing, from 1. Shapes are
+  ! shape(size(master), size(number)). ROTID_ERROR_ARGUMENT also where sizes do not agree.
+  function rotid_fit_model(model, parameter, number, frequency_hz, fit, frequency_std, shape, shape_std, holdout, master, far, &
+                           options, environment) result(status)
+    type(rotid_model), intent(in), target :: model
+    type(rotid_parameter), intent(in) :: parameter(:)
+    integer, intent(in) :: number(:)
+    real(c_double), intent(in) :: frequency_hz(:)
+    type(rotid_fit_result), pointer, intent(out) :: fit
+    real(c_double), intent(in), optional :: frequency_std(:), shape(:, :), shape_std(:, :)
+    logical, intent(in), optional :: holdout(:)
+    integer, intent(in), optional :: master(:), far(:)
+    type(rotid_fit_options), intent(in), optional :: options
+    type(rotid_environment), intent(in), optional, target :: environment
+    type(rotid_environment), target :: given
+    integer(c_int) :: status
+    type(rotid_model), target :: host
+    type(rotid_measured) :: measured
+    type(rotid_fit_options) :: how
+    integer(c_int), allocatable, target :: c_master(:), c_far(:), c_number(:), c_holdout(:)
+    real(c_double), allocatable, target :: c_hz(:), c_std(:), c_shape(:, :), c_shape_std(:, :)
+    type(c_ptr) :: c_fit
+    integer :: nmode, nmaster
+    if (present(environment)) given = environment
+    nullify (fit)
+    status = ROTID_ERROR_ARGUMENT
+    nmode = size(number)
+    nmaster = 0
+    if (present(master)) nmaster = size(master)
+    if (nmode < 1 .or. size(frequency_hz) /= nmode) return
+
+    host = model
+    host%nparam = size(parameter, kind=c_int)
+    host%nmaster = int(nmaster, c_int)
+    host%master = c_null_ptr
+    if (nmaster > 0) then
+      c_master = ones_to_zeros(master)
+      host%master = c_loc(c_master)
+    end if
+    host%nfar = 0
+    host%far = c_null_ptr
+    if (present(far)) then
+      if (size(far) > 0) then
+        c_far = ones_to_zeros(far)
+        host%nfar = size(far, kind=c_int)
+        host%far = c_loc(c_far)
+      end if
+    end if
+
+    measured%nmode = int(nmode, c_int)
+    c_number = int(number, c_int)
+    measured%number = c_loc(c_number)
+    c_hz = frequency_hz
+    measured%frequency_hz = c_loc(c_hz)
+    if (present(frequency_std)) then
+      if (size(frequency_std) /= nmode) return
+      c_std = frequency_std
+      measured%frequency_std = c_loc(c_std)
+    end if
+    if (present(shape)) then
+      if (nmaster < 1 .or. size(shape, 1) /= nmaster .or. size(shape, 2) /= nmode) return
+      c_shape = shape
+      measured%shape = c_loc(c_shape)
+    end if
+    if (present(shape_std)) then
+      if (nmaster < 1 .or. size(shape_std, 1) /= nmaster .or. size(shape_std, 2) /= nmode) return
+      c_shape_std = shape_std
+      measured%shape_std = c_loc(c_shape_std)
+    end if
+    if (present(holdout)) then
+      if (size(holdout) /= nmode) return
+      c_holdout = merge(1_c_int, 0_c_int, holdout)
+      measured%holdout = c_loc(c_holdout)
+    end if
+
+    if (present(options)) how = options
+    status = rotid_fit(host, parameter, measured, how, c_loc(given), c_fit)
+    if (c_associated(c_fit)) call c_f_pointer(c_fit, fit)
+  end function rotid_fit_model
+
+  ! ---- rotid_free
+
+  subroutine free_deck(deck)
+    type(rotid_deck), pointer, intent(inout) :: deck
+    if (associated(deck)) call rotid_deck_free(c_loc(deck))
+    nullify (deck)
+  end subroutine free_deck
+
+  subroutine free_spectrum(spectrum)
+    type(rotid_spectrum), pointer, intent(inout) :: spectrum
+    if (associated(spectrum)) call rotid_spectrum_free(c_loc(spectrum))
+    nullify (spectrum)
+  end subroutine free_spectrum
+
+  subroutine free_identification(found)
+    type(rotid_identification), pointer, intent(inout) :: found
+    if (associated(found)) call rotid_identification_free(c_loc(found))
+    nullify (found)
+  end subroutine free_identification
+
+  subroutine free_diagnosis(found)
+    type(rotid_diagnosis), pointer, intent(inout) :: found
+    if (associated(found)) call rotid_diagnosis_free(c_loc(found))
+    nullify (found)
+  end subroutine free_diagnosis
+
+  subroutine free_fit(fit)
+    type(rotid_fit_result), pointer, intent(inout) :: fit
+    if (associated(fit)) call rotid_fit_free(c_loc(fit))
+    nullify (fit)
+  end subroutine free_fit
+
+  ! ---- inside
+
+  pure function c_string(string) result(text)
+    character(len=*), intent(in) :: string
+    character(kind=c_char) :: text(len_trim(string) + 1)
+    integer :: i
+    do i = 1, len_trim(string)
+      text(i) = string(i:i)
+    end do
+    text(size(text)) = c_null_char
+  end function c_string
+
+  pure function ones_to_zeros(index) result(from_zero)
+    integer, intent(in) :: index(:)
+    integer(c_int) :: from_zero(size(index))
+    from_zero = int(index, c_int) - 1_c_int
+  end function ones_to_zeros
+
+end module rotid

@@ -1,0 +1,86 @@
+/* Condensation of a host's matrices. */
+#include <string.h>
+
+#include "linalg/matrix_check.h"
+#include "linalg/reduction.h"
+
+static int check(int count, const rotid_matrix *const *a, int nmaster, const int *master, int kind, const double *k_out,
+                 const double *m_out)
+{
+    int status = matrices_check(count, a);
+    if (status == ROTID_ERROR_ARGUMENT || !k_out || !m_out || nmaster < 1 || nmaster > a[0]->n ||
+        !indices_increase(nmaster, master, a[0]->n) || (kind != ROTID_GUYAN && kind != ROTID_IRS))
+        return ROTID_ERROR_ARGUMENT;
+    return status;
+}
+
+int rotid_condense(const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
+                   const rotid_environment *environment, double *kc, double *mc, double *t)
+{
+    const rotid_matrix *all[] = {k, m};
+    struct pool pool;
+    struct reduction r;
+    int status = check(2, all, nmaster, master, kind, kc, mc);
+    if (status)
+        return status;
+    pool_open(&pool, environment ? environment->allocator : NULL);
+    status = reduction_new(&pool, kind, k, nmaster, master, &r);
+    if (!status)
+        status = reduction_compute(&r, k, m);
+    if (!status) {
+        size_t square = (size_t)nmaster * (size_t)nmaster;
+        memcpy(kc, r.kc, square * sizeof *kc);
+        memcpy(mc, r.mc, square * sizeof *mc);
+        if (t)
+            memcpy(t, r.t, (size_t)k->n * (size_t)nmaster * sizeof *t);
+    }
+    pool_close(&pool);
+    return status;
+}
+
+/* Symmetric but for rounding */
+static void symmetrise(int n, double *a)
+{
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < j; i++)
+            a[i + (ptrdiff_t)j * n] = a[j + (ptrdiff_t)i * n] = (a[i + (ptrdiff_t)j * n] + a[j + (ptrdiff_t)i * n]) / 2;
+}
+
+static int differentiate(struct pool *pool, const rotid_matrix *const *a, int nmaster, const int *master, int kind, double *dkc,
+                         double *dmc)
+{
+    struct reduction r;
+    int status = reduction_new(pool, kind, a[0], nmaster, master, &r);
+    double *unit = POOL_ARRAY(pool, double, nmaster);
+    double *work = POOL_ARRAY(pool, double, 3 * (size_t)a[0]->n + (size_t)nmaster);
+    if (!status && (!unit || !work))
+        status = ROTID_ERROR_MEMORY;
+    if (!status)
+        status = reduction_compute(&r, a[0], a[1]);
+    for (int c = 0; c < nmaster && !status; c++) {
+        ptrdiff_t column = (ptrdiff_t)c * nmaster;
+        unit[c] = 1;
+        reduction_derivative_multiply(&r, a[2], a[3], unit, dkc + column, dmc + column, work);
+        unit[c] = 0;
+    }
+    return status;
+}
+
+int rotid_condense_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk, const rotid_matrix *dm,
+                              int nmaster, const int *master, int kind, const rotid_environment *environment, double *dkc,
+                              double *dmc)
+{
+    const rotid_matrix *all[] = {k, m, dk, dm};
+    struct pool pool;
+    int status = check(4, all, nmaster, master, kind, dkc, dmc);
+    if (status)
+        return status;
+    pool_open(&pool, environment ? environment->allocator : NULL);
+    status = differentiate(&pool, all, nmaster, master, kind, dkc, dmc);
+    if (!status) {
+        symmetrise(nmaster, dkc);
+        symmetrise(nmaster, dmc);
+    }
+    pool_close(&pool);
+    return status;
+}

@@ -1,0 +1,39 @@
+/* The figures of a page, each added to the current section of the document with its script, caption and numbers. Where a result
+ * has nothing to show in one, none is added. A worked example to follow is figures_convergence.c. */
+#ifndef ROTID_PAGE_FIGURES_H
+#define ROTID_PAGE_FIGURES_H
+
+#include "page/document.h"
+#include "page/result.h"
+
+/* The rotor to scale: materials, mesh, sensors, springs, tie rods, disks (Figures 1 and 4 of the paper). fit: what was identified
+ * is set off; may be NULL. */
+void figure_rotor(struct document *document, const struct result *result, const struct geometry *geometry,
+                  const struct fitted *fit);
+
+/* Functional, gradient, damping and step over the iterations (10); parameters over those, relative to the end (11); the iterates
+ * on the bijection that keeps them within their bounds (6). */
+void figure_convergence(struct document *document, const struct result *result, const struct fitted *fit);
+void figure_iterates(struct document *document, const struct result *result, const struct fitted *fit);
+void figure_bijection(struct document *document, const struct result *result, const struct fitted *fit);
+
+/* Errors of the frequencies beside those of NLopt's minimisers and of the references of the heading. */
+void figure_frequencies(struct document *document, const struct result *result, const struct fitted *fit);
+/* 95 % intervals of the parameters; from three on their correlation as well. */
+void figure_intervals(struct document *document, const struct result *result, const struct fitted *fit);
+void figure_correlation(struct document *document, const struct result *result, const struct fitted *fit);
+/* Measured and predicted shapes (16). */
+void figure_shapes(struct document *document, const struct result *result, const struct fitted *fit);
+/* NCO and MAC of every measured with every predicted shape (17). */
+void figure_matrices(struct document *document, const struct result *result, const struct fitted *fit);
+
+/* Shapes of the model alone. */
+void figure_modes(struct document *document, const struct result *result);
+/* Sensitivity of each mode (Table 1), how the functional grows with each parameter (5), and f(E) against f(F) (3). */
+void figure_sensitivity(struct document *document, const struct result *result);
+void figure_sensitivity_curves(struct document *document, const struct result *result);
+void figure_growth(struct document *document, const struct result *result);
+/* Synthesised and measured transfer functions (15), a figure each, the telling ones of many. */
+void figure_transfer(struct document *document, const struct result *result);
+
+#endif

@@ -1,0 +1,135 @@
+#include "page/json_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* The whole file with a zero byte behind it. */
+static int read_text(struct pool *pool, const char *file, struct message_list *messages, char **text, size_t *length)
+{
+    struct stat is = {.st_size = 0};
+    FILE *stream = fopen(file, "rb");
+    int status = ROTID_ERROR_IO;
+    const char *why = NULL;
+    if (!stream || fstat(fileno(stream), &is) != 0)
+        why = strerror(errno);
+    else if (S_ISDIR(is.st_mode))
+        why = "is a folder, expected a file that rotid wrote with --json";
+    else if (!S_ISREG(is.st_mode))
+        why = "is no regular file, expected one that rotid wrote with --json";
+    else if (is.st_size > JSON_FILE_MOST)
+        why = "is larger than 512 MiB, more than any result of rotid";
+    if (!why) {
+        *text = POOL_ARRAY(pool, char, is.st_size + 1);
+        status = *text ? ROTID_OK : ROTID_ERROR_MEMORY;
+        *length = *text ? fread(*text, 1, (size_t)is.st_size, stream) : 0;
+        if (*text && ferror(stream)) {
+            why = strerror(errno);
+            status = ROTID_ERROR_IO;
+        }
+    }
+    if (why)
+        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "%s: %s", file, why);
+    if (stream)
+        (void)fclose(stream);
+    return status;
+}
+
+static const char *skip_blanks(const char *c, const char *end)
+{
+    while (c < end && (*c == ' ' || *c == '\t' || *c == '\n' || *c == '\r'))
+        c++;
+    return c;
+}
+
+/* Whether a value begins here that the file does not end; begin: of all values. */
+static int is_cut_off(const char *begin, const char *at, const char *end)
+{
+    if (at < end && *at == '"') {
+        for (at++; at < end && *at != '"'; at++)
+            at += *at == '\\';
+        return at >= end;
+    }
+    return skip_blanks(at, end) >= end || (at > skip_blanks(begin, end) && at + strcspn(at, ",]}:\n") >= end);
+}
+
+static void say_where(const char *file, struct message_list *messages, const char *text, const char *at, int cut_off)
+{
+    int line = 1, column = 1;
+    for (const char *c = text; c < at; c++) {
+        column = *c == '\n' ? 1 : column + 1;
+        line += *c == '\n';
+    }
+    if (cut_off)
+        message_add(messages, SEVERITY_ERROR, file, line, column, "the file ends within a value, expected the rest of it");
+    else if (*at < 0x20 || *at > 0x7e)
+        message_add(messages, SEVERITY_ERROR, file, line, column, "byte %d is no JSON, expected a value, a comma or a bracket",
+                    (unsigned char)*at);
+    else
+        message_add(messages, SEVERITY_ERROR, file, line, column, "'%.*s' is no JSON, expected a value, a comma or a bracket",
+                    (int)strcspn(at, "\r\n \t,]}") + !strcspn(at, "\r\n \t,]}"), at);
+}
+
+/* What follows the first value, each value beginning on a line of its own. */
+static int read_lines(const char *file, struct message_list *messages, const char *text, const char *at, const char *end,
+                      cJSON **json)
+{
+    cJSON *list = cJSON_CreateArray(), *first = *json;
+    const char *next;
+    *json = list;
+    if (!list || !cJSON_AddItemToArray(list, first)) {
+        cJSON_Delete(first);
+        return ROTID_ERROR_MEMORY;
+    }
+    while ((at = skip_blanks(at, end)) < end) {
+        cJSON *value = cJSON_ParseWithLengthOpts(at, (size_t)(end - at), &next, 0);
+        if (value && cJSON_AddItemToArray(list, value)) {
+            at = next;
+            continue;
+        }
+        if (memchr(at, '\n', (size_t)(end - at))) {
+            say_where(file, messages, text, next, is_cut_off(at, next, end));
+            return ROTID_ERROR_SYNTAX;
+        }
+        message_add(messages, SEVERITY_WARNING, NULL, 0, 0, "%s: the last line is not complete and left out", file);
+        break;
+    }
+    return ROTID_OK;
+}
+
+int json_file_read(struct pool *pool, const char *file, struct message_list *messages, cJSON **json, int *is_lines)
+{
+    char *text;
+    size_t length;
+    const char *rest = NULL, *end;
+    *json = NULL;
+    *is_lines = 0;
+    int status = read_text(pool, file, messages, &text, &length);
+    if (status)
+        return status;
+    end = text + length;
+    if (skip_blanks(text, end) == end) {
+        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "%s: is empty, expected JSON that rotid wrote", file);
+        return ROTID_ERROR_SYNTAX;
+    }
+    *json = cJSON_ParseWithLengthOpts(text, length, &rest, 0);
+    if (!*json) {
+        rest = rest ? rest : text;
+        say_where(file, messages, text, rest, is_cut_off(text, rest, end));
+        return ROTID_ERROR_SYNTAX;
+    }
+    rest = skip_blanks(rest, end);
+    if (rest < end && *rest == '{' && cJSON_IsObject(*json) && memchr(text, '\n', (size_t)(rest - text))) {
+        *is_lines = 1;
+        status = read_lines(file, messages, text, rest, end, json);
+    } else if (rest < end) {
+        say_where(file, messages, text, rest, 0);
+        status = ROTID_ERROR_SYNTAX;
+    }
+    if (status) {
+        cJSON_Delete(*json);
+        *json = NULL;
+    }
+    return status;
+}

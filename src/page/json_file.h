@@ -1,0 +1,16 @@
+/* JSON out of a file: one value, or one a line. */
+#ifndef ROTID_PAGE_JSON_FILE_H
+#define ROTID_PAGE_JSON_FILE_H
+
+#include <cJSON.h>
+
+#include "base/message.h"
+
+#define JSON_FILE_MOST (512L << 20) /* bytes */
+
+/* *json (to be freed with cJSON_Delete) is the value, or an array of the values where the file has one a line; is_lines tells. Of
+ * such a file a last line that no line feed ends is left out, with a note: a program died while it wrote. ROTID_OK,
+ * ROTID_ERROR_IO, ROTID_ERROR_SYNTAX or ROTID_ERROR_MEMORY, with what is wrong in the messages, at file:line:column. */
+int json_file_read(struct pool *pool, const char *file, struct message_list *messages, cJSON **json, int *is_lines);
+
+#endif

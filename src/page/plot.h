@@ -1,0 +1,96 @@
+/* Scripts for gnuplot, from 5.2 on. A script is complete: data, styles, panels; it writes ID.svg and ID.pdf, and on the page's
+ * behalf ID-narrow.svg. Its layout is one of panels of equal size in rows, fewer a row where the page is narrow.
+ *
+ *     struct plot plot;
+ *     if (plot_open(&plot, pool, figure, "result.json"))    // no memory
+ *         return ROTID_ERROR_MEMORY;
+ *     plot_data(&plot, "curve", n, 2, (const double *const[]){x, y});
+ *     plot_begin(&plot, &(struct plot_layout){.panels = 1, .columns = {1, 1}, .height = 300, .left = 60, ...});
+ *     plot_panel(&plot, 0);
+ *     plot_axes(&plot, "iteration [1]", "objective [1]");
+ *     plot_line(&plot, "set yrange [0:1]");
+ *     plot_line(&plot, "plot $curve using 1:2 with linespoints ls 1 notitle");
+ *     return plot_close(&plot);                             // the script hangs on the figure
+ *
+ * Texts of a user (names of groups, parameters, files) go through plot_quote or plot_label alone: gnuplot runs what stands in
+ * backquotes in a text of double quotes, and reads _ and ^ as marks. */
+#ifndef ROTID_PAGE_PLOT_H
+#define ROTID_PAGE_PLOT_H
+
+#include <stdio.h>
+
+#include "page/figure.h"
+
+struct plot_layout {
+    int panels, columns[LAYOUTS];
+    double height;                   /* of a panel with its margins, px */
+    double narrow_height;            /* the same where the page is narrow; 0: no other */
+    double left, right, top, bottom; /* margins of a panel, px */
+    double head[LAYOUTS];            /* above all panels, px: plot_head for a legend */
+};
+
+/* An entry of a legend: a line in a line style, a mark in it, a face, hatched or not. */
+enum plot_key { KEY_LINE = 1, KEY_MARK = 2, KEY_FACE = 4, KEY_HATCH = 8 };
+struct plot_entry {
+    const char *text;
+    int style;        /* of the line, as ls in scripts */
+    int keys;         /* of enum plot_key */
+    const char *face; /* its colour; "" of none but hatching */
+};
+
+struct plot {
+    struct pool *pool;
+    struct figure *figure;
+    FILE *out;
+    char *text;
+    size_t length;
+    struct plot_layout layout;
+    int panel, labels; /* the current one; labels set so far in it */
+};
+
+/* Begins the script of a figure, which has its id. ROTID_OK or ROTID_ERROR_MEMORY, then there is nothing to close. */
+int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const char *source);
+/* $name: rows of columns; NaN for what is not finite. Before plot_begin. */
+void plot_data(struct plot *plot, const char *name, int rows, int columns, const double *const column[]);
+/* From here on everything is done once for each layout: W, H [px], COLUMNS and `narrow` are set in the script. */
+void plot_begin(struct plot *plot, const struct plot_layout *layout);
+/* Room of panel i; what was set for the one before is gone. */
+void plot_panel(struct plot *plot, int i);
+/* What the axes of the current panel show, with units; _ and ^ are marks. NULL where an axis has none. */
+void plot_axes(struct plot *plot, const char *x, const char *y);
+/* A line of the script. */
+void plot_line(struct plot *plot, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* A number as scripts read it, NaN where it is not finite. */
+const char *plot_number(struct plot *plot, double value);
+/* A text of a user as a script can hold it, with its quotes: 'text'. */
+const char *plot_quote(struct plot *plot, const char *text);
+/* set label TEXT at X, Y: `where` is "graph 0, graph 1" and the like; more: "right", "offset ...", or "". */
+void plot_label(struct plot *plot, const char *text, const char *where, const char *color, const char *more);
+/* Labels of lines at the right edge, at heights 0 ... 1 of the panel, moved apart where they would overlap. */
+void plot_end_labels(struct plot *plot, int count, const char *const *text, const double *height, const char *const *color);
+/* Height of a legend [px] for layout.head, and the legend, over the first panel; entries go on in a new row where one is full. */
+void plot_head(const struct plot_entry *entry, int count, double head[LAYOUTS]);
+void plot_legend(struct plot *plot, const struct plot_entry *entry, int count);
+/* Ends the script, which hangs on the figure. ROTID_OK or ROTID_ERROR_MEMORY. */
+int plot_close(struct plot *plot);
+
+/* Least and largest of what is finite, widened by `margin` of their distance at both ends; 0 ... 1 of nothing. */
+struct plot_range {
+    double from, to;
+};
+struct plot_range plot_range_of(int count, const double *value, double margin);
+void plot_range_join(struct plot_range *range, double value);
+double plot_share(const struct plot_range *range, double value); /* 0 ... 1 */
+/* Whole decades around what is above zero, as exponents; at most `most` decades, the upper ones. */
+struct plot_range plot_decades(int count, const double *value, int most);
+
+/* A round distance of ticks that puts about `count` of them on a length: 1, 2 or 5 times a power of ten. */
+double plot_tic(double length, int count);
+
+/* Left margin [px] for an axis with its name and the numbers of these ticks. */
+double plot_left(const struct plot_range *range, double tic);
+
+/* px of a text in the type of the figures, about. */
+double plot_width(const char *text);
+
+#endif

@@ -1,0 +1,110 @@
+#include <math.h>
+#include <string.h>
+
+#include "page/human.h"
+#include "page/sections.h"
+
+#define KEYS_SINCE "0.3.0" /* the version whose results hold what a page asks for beyond those of 0.2 */
+
+static const char *noise_of(struct pool *pool, const struct result *result)
+{
+    const char *frequency = isfinite(result->noise_frequency) ? pool_format(pool, "frequencies %s\xc2\xa0%%%s",
+                                                                            human_digits(pool, 100 * result->noise_frequency, 2),
+                                                                            result->frequency_assumed ? " (assumed)" : "")
+                                                              : "frequencies: not stated",
+               *shape = isfinite(result->noise_shape) ? pool_format(pool, "shapes %s\xc2\xa0%% of the largest component%s",
+                                                                    human_digits(pool, 100 * result->noise_shape, 2),
+                                                                    result->shape_assumed ? " (assumed)" : "")
+                                                      : "shapes: not stated";
+    if (!result->identify || !result->intervals_from)
+        return NULL;
+    return pool_format(pool, "%s; %s", frequency ? frequency : "", shape ? shape : "");
+}
+
+static const char *data_of(struct pool *pool, const struct result *result)
+{
+    const struct fitted *fit = result->identify;
+    int shapes = 0;
+    if (!fit || !fit->nmode)
+        return NULL;
+    for (int k = 0; fit->shapes && k < fit->shapes->nmode; k++)
+        shapes += fit->shapes->mode[k].measured != NULL;
+    double low = INFINITY, high = 0;
+    for (int k = 0; k < fit->nmode; k++) {
+        low = fmin(low, fit->mode[k].measured_hz);
+        high = fmax(high, fit->mode[k].measured_hz);
+    }
+    const char *text =
+        pool_format(pool, "%d measured %s from %s to %s\xc2\xa0Hz", fit->nmode, human_plural(fit->nmode, "mode", "modes"),
+                    human_trimmed(pool, low, 5), human_trimmed(pool, high, 5));
+    if (!fit->shapes || !text)
+        return text;
+    return shapes ? pool_format(pool, "%s, %d with a shape at %d sensors", text, shapes, fit->shapes->nsensor)
+                  : pool_format(pool, "%s, without shapes", text);
+}
+
+static const char *model_of(struct pool *pool, const struct result *result)
+{
+    const struct fitted *fit = result->identify;
+    const struct geometry *geometry = result->geometry;
+    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length, 4),
+                                              geometry_elements(geometry),
+                                              human_plural(geometry_elements(geometry), "element", "elements"))
+                                : "",
+               *how = fit ? pool_format(pool, "%s%s\xc2\xa0kg, centre of mass at %s\xc2\xa0m; functional %s, reduction %s",
+                                        *size ? ", " : "", human_trimmed(pool, fit->mass_kg, 4),
+                                        human_trimmed(pool, fit->center_m, 4), fit->functional, fit->reduction)
+                          : "";
+    return geometry || fit ? pool_format(pool, "%s%s", size ? size : "", how ? how : "") : NULL;
+}
+
+#define FACTS 8
+
+static void facts_of(struct pool *pool, const struct result *result, const char *value[FACTS])
+{
+    value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->command);
+    value[1] = result->deck;
+    value[2] = pool_format(pool, "rotid %s, commit %s", result->version, result->commit);
+    value[3] =
+        pool_format(pool, "seed %.0f, %d %s", result->seed, result->threads, human_plural(result->threads, "thread", "threads"));
+    value[4] = result->blas;
+    value[5] = data_of(pool, result);
+    value[6] = noise_of(pool, result);
+    value[7] = model_of(pool, result);
+}
+
+/* Facts of a result, and of a further one those that are not the same again. */
+static void add_facts(struct document *document, const struct result *result, const struct result *main_result)
+{
+    static const char *const name[FACTS] = {"Result",         "Deck", "Program", "Seed, threads",
+                                            "Linear algebra", "Data", "Noise",   "Model"};
+    const char *value[FACTS], *first[FACTS];
+    facts_of(document->pool, result, value);
+    facts_of(document->pool, main_result, first);
+    for (int i = 1; i < FACTS && result != main_result; i++) /* a model said in fewer words is no other one */
+        if (value[i] && first[i] && (!strcmp(value[i], first[i]) || !strncmp(value[i], first[i], strlen(value[i]))))
+            value[i] = NULL;
+    document_facts(document, FACTS, name, value);
+    for (int i = 1; i < result->nheading && result == main_result; i++)
+        document_paragraph(document, "%s", result->heading[i]);
+}
+
+void section_rests_on(struct document *document, int count, const struct result *result)
+{
+    document_section(document, "basis", "What it rests on");
+    for (int i = 0; i < count; i++)
+        add_facts(document, &result[i], result);
+    for (int i = 0; i < count; i++) {
+        if (result[i].nwarning) {
+            document_heading(document, "What rotid notes");
+            document_list(document, result[i].nwarning, result[i].warning);
+        }
+        for (int k = 0; k < result[i].nlacking; k++)
+            document_paragraph(
+                document,
+                "Not shown: %s. %s was made by rotid %s and has no key \"%s\", which results have from rotid %s on. rotid "
+                "%s %s --json %s makes a new one.",
+                result[i].lacking[k].shows, result[i].file, result[i].version, result[i].lacking[k].key, KEYS_SINCE,
+                result[i].command, result[i].deck ? result[i].deck : "DECK", result[i].file);
+    }
+}

@@ -1,0 +1,83 @@
+#include "page/sections.h"
+
+#include <math.h>
+
+#include "page/figures.h"
+#include "page/human.h"
+#include "page/tables.h"
+
+void section_rotor(struct document *document, const struct result *result, const struct fitted *fit)
+{
+    document_section(document, "model", "The rotor");
+    figure_rotor(document, result, result->geometry, fit);
+}
+
+void section_identify(struct document *document, const struct result *result)
+{
+    const struct fitted *fit = result->identify;
+    document_section(document, "agreement", "Model and measurement");
+    figure_frequencies(document, result, fit);
+    figure_shapes(document, result, fit);
+    figure_matrices(document, result, fit);
+    document_table(document, "Modes: errors are predicted over measured frequency, less one",
+                   tables_fitted_modes(document->pool, result, fit));
+    document_section(document, "parameters", "What was identified");
+    figure_intervals(document, result, fit);
+    figure_correlation(document, result, fit);
+    document_table(document, "Parameters", tables_parameters(document->pool, fit));
+    document_section(document, "fit", "How the fit got there");
+    figure_convergence(document, result, fit);
+    figure_iterates(document, result, fit);
+    figure_bijection(document, result, fit);
+    document_table(document, "Minimisers from the same start", tables_minimisers(document->pool, fit));
+}
+
+void section_modes(struct document *document, const struct result *result)
+{
+    document_section(document, "model-modes", "Modes of the model");
+    figure_modes(document, result);
+    document_table(document, "Modes of the full and of the condensed model", tables_modes(document->pool, result->modes));
+}
+
+void section_sensitivity(struct document *document, const struct result *result)
+{
+    struct pool *pool = document->pool;
+    const struct sensitivity_outcome *s = result->sensitivity;
+    const char *at = "";
+    document_section(document, "dependence", "Sensitivity");
+    for (int p = 0; p < s->nparameter && at; p++)
+        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameter[p].name,
+                         human_value(pool, s->parameter[p].reference, s->parameter[p].unit));
+    document_paragraph(document, "At %s, reduction %s.", at ? at : "", s->reduction);
+    figure_sensitivity(document, result);
+    figure_sensitivity_curves(document, result);
+    figure_growth(document, result);
+}
+
+void section_transfer(struct document *document, const struct result *result)
+{
+    const struct transfer_outcome *out = result->transfer;
+    struct pool *pool = document->pool;
+    const char *at = "";
+    document_section(document, "transfer", "Transfer functions");
+    document_paragraph(document, "%d synthesised %s from modes up to %s\xc2\xa0Hz with the damping below; %s%s.", out->nfunction,
+                       human_plural(out->nfunction, "function", "functions"), human_trimmed(pool, out->up_to_hz, 4),
+                       out->measured_file ? "measured ones from " : "none was measured",
+                       out->measured_file ? out->measured_file : "");
+    for (int p = 0; p < out->nparameter && at; p++)
+        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameter[p].name,
+                         human_value(pool, out->parameter[p].value, out->parameter[p].unit));
+    if (out->nparameter)
+        document_paragraph(document, "The model is the identified one: %s.", at ? at : "");
+    if (isfinite(out->frac))
+        document_paragraph(document,
+                           "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
+                           human_fixed(pool, out->frac, 3), human_fixed(pool, out->frac_moved, 3));
+    if (!out->with_curves)
+        document_paragraph(document, "The result has no curves, because there were too many lines: rotid frf -o writes them as a "
+                                     "universal file.");
+    if (!out->complete)
+        document_paragraph(document, "It was interrupted: %d functions were finished.", out->nfunction);
+    figure_transfer(document, result);
+    document_table(document, "Modes within the lines", tables_transfer_modes(pool, out));
+}

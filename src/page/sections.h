@@ -1,0 +1,23 @@
+/* Sections of a page, each of one result: text, tables and figures in the order in which they are read. The answer of the main
+ * result comes first, in document->answer and document->tone. */
+#ifndef ROTID_PAGE_SECTIONS_H
+#define ROTID_PAGE_SECTIONS_H
+
+#include "page/document.h"
+#include "page/result.h"
+
+/* What an identification says in a sentence, how far it is to be trusted, and why: the answer, and a section "trust". */
+void answer_identify(struct document *document, const struct result *result, const struct fitted *fit);
+/* Another result in a sentence, without a judgement. */
+void answer_plain(struct document *document, const struct result *result);
+
+/* Deck, version, commit, seed, noise and data of all results, what they note, and what older ones lack. */
+void section_rests_on(struct document *document, int count, const struct result *result);
+
+void section_rotor(struct document *document, const struct result *result, const struct fitted *fit);
+void section_identify(struct document *document, const struct result *result);
+void section_modes(struct document *document, const struct result *result);
+void section_sensitivity(struct document *document, const struct result *result);
+void section_transfer(struct document *document, const struct result *result);
+
+#endif

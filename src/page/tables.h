@@ -1,0 +1,16 @@
+/* Tables of a page that stand open, beside those that belong to a figure. All in the pool, NULL where memory is out. */
+#ifndef ROTID_PAGE_TABLES_H
+#define ROTID_PAGE_TABLES_H
+
+#include "page/figure.h"
+#include "page/result.h"
+
+struct number_table *tables_parameters(struct pool *pool, const struct fitted *fit);
+/* Measured and predicted frequencies with all that is known of each mode. */
+struct number_table *tables_fitted_modes(struct pool *pool, const struct result *result, const struct fitted *fit);
+/* Levenberg-Marquardt and NLopt side by side. */
+struct number_table *tables_minimisers(struct pool *pool, const struct fitted *fit);
+struct number_table *tables_modes(struct pool *pool, const struct modes_outcome *modes);
+struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_outcome *out);
+
+#endif

@@ -1,0 +1,285 @@
+#include "page_bench.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "support.h"
+
+static char directory[] = "/tmp/test_page_XXXXXX";
+char page_out[1 << 16], page_err[1 << 16];
+
+const char *page_path(const char *name)
+{
+    static char path[16][512];
+    static int next;
+    next = (next + 1) % 16;
+    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
+    return path[next];
+}
+
+int page_bench_open(void **state)
+{
+    (void)state;
+    return mkdtemp(directory) ? 0 : -1;
+}
+
+int page_bench_close(void **state)
+{
+    (void)state;
+    return page_run("chmod -R u+w %s; rm -r %s", directory, directory);
+}
+
+void page_write_file(const char *name, const char *text)
+{
+    FILE *stream = fopen(page_path(name), "wb");
+    assert_non_null(stream);
+    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
+}
+
+const char *page_read(const char *name)
+{
+    static char *kept[8];
+    static int next;
+    struct stat is;
+    FILE *stream = fopen(page_path(name), "rb");
+    if (!stream)
+        print_error("%s is not there\n", page_path(name));
+    assert_non_null(stream);
+    assert_int_equal(fstat(fileno(stream), &is), 0);
+    next = (next + 1) % 8;
+    free(kept[next]);
+    kept[next] = malloc((size_t)is.st_size + 1);
+    assert_non_null(kept[next]);
+    assert_int_equal(fread(kept[next], 1, (size_t)is.st_size, stream), is.st_size);
+    kept[next][is.st_size] = 0;
+    (void)fclose(stream);
+    return kept[next];
+}
+
+int page_exists(const char *name)
+{
+    struct stat is;
+    return lstat(page_path(name), &is) == 0;
+}
+
+int page_count(const char *folder, const char *prefix)
+{
+    DIR *list = opendir(page_path(folder));
+    struct dirent *entry;
+    int count = 0;
+    while (list && (entry = readdir(list)))
+        count += !strncmp(entry->d_name, prefix, strlen(prefix)) && strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..");
+    if (list)
+        (void)closedir(list);
+    return count;
+}
+
+static void read_into(const char *name, char *text, size_t size)
+{
+    FILE *stream = fopen(page_path(name), "rb");
+    size_t length = stream ? fread(text, 1, size - 1, stream) : 0;
+    text[length] = 0;
+    if (stream)
+        (void)fclose(stream);
+}
+
+int page_run(const char *format, ...)
+{
+    static char command[8192], whole[9000];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(command, sizeof command, format, arguments);
+    va_end(arguments);
+    (void)snprintf(whole, sizeof whole, "{ %s ; } > %s/.out 2> %s/.err", command, directory, directory);
+    int status = system(whole); /* NOLINT: a command of the test */
+    read_into(".out", page_out, sizeof page_out);
+    read_into(".err", page_err, sizeof page_err);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+const char *page_stand_in(const char *fails_on)
+{
+    static char setting[600];
+    char text[1200];
+    (void)snprintf(text, sizeof text,
+                   "#!/bin/sh\n"
+                   "[ \"$1\" = --version ] && { echo 'gnuplot 5.4 patchlevel 0'; exit 0; }\n"
+                   "folder=$(printf '%%s' \"$3\" | sed \"s/.*cd '//;s/'$//;s/''/'/g\")\n"
+                   "shift 3\ncd \"$folder\" || exit 9\n"
+                   "for script; do name=${script%%.gp}\n"
+                   "case $name in *%s*) echo \"line 7: stand-in fails on $name\" >&2; exit 1;; esac\n"
+                   "for picture in $name.svg $name-narrow.svg; do echo '<svg viewBox=\"0 0 9 9\"><g id=\"gnuplot_canvas\">"
+                   "<g fill=\"none\"><path stroke=\"black\" d=\"M0,0 L9,9\"/></g></g></svg>' > $picture; done\n"
+                   "echo pdf > $name.pdf\ndone\n",
+                   fails_on ? fails_on : "@nothing@");
+    page_write_file("stand-in", text);
+    assert_int_equal(chmod(page_path("stand-in"), 0755), 0);
+    (void)snprintf(setting, sizeof setting, "GNUPLOT=%s", page_path("stand-in"));
+    return setting;
+}
+
+/* ------------------------------------------------------------------------------------------------ what a page has to be */
+
+#define MOST_OPEN 64
+#define MOST_IDS  20000
+
+struct checker {
+    int problems, open, nid, nreference;
+    char stack[MOST_OPEN][24];
+    const char *id[MOST_IDS], *reference[MOST_IDS];
+    int id_length[MOST_IDS], reference_length[MOST_IDS];
+};
+
+static void problem(struct checker *checker, const char *what, const char *at)
+{
+    if (checker->problems++ < 10)
+        print_error("%s: %.80s\n", what, at);
+}
+
+static int is_void(const char *name)
+{
+    static const char *const names[] = {"meta", "br", "hr", "link", "img", "input"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(names[i], name))
+            return 1;
+    return 0;
+}
+
+static void note(const char **list, int *lengths, int *count, const char *at, int length)
+{
+    if (*count < MOST_IDS) {
+        list[*count] = at;
+        lengths[(*count)++] = length;
+    }
+}
+
+static void judge_attribute(struct checker *checker, const char *name, const char *value, int length)
+{
+    if (!strcmp(name, "id"))
+        note(checker->id, checker->id_length, &checker->nid, value, length);
+    if (!strcmp(name, "aria-labelledby"))
+        for (int from = 0, to; from < length; from = to + 1) {
+            for (to = from; to < length && value[to] != ' '; to++)
+                continue;
+            note(checker->reference, checker->reference_length, &checker->nreference, value + from, to - from);
+        }
+    if (!strcmp(name, "href") && *value == '#')
+        note(checker->reference, checker->reference_length, &checker->nreference, value + 1, length - 1);
+    else if (!strcmp(name, "href") && strncmp(value, "figures/", 8) != 0)
+        problem(checker, "refers elsewhere", value);
+    if (!strcmp(name, "src") || !strncmp(name, "on", 2) || !strcmp(name, "srcset") || !strcmp(name, "style"))
+        problem(checker, "attribute that loads or runs", name);
+    if (!strncmp(value, "url(#", 5))
+        note(checker->reference, checker->reference_length, &checker->nreference, value + 5, length - 6);
+    for (int i = 0; i < length; i++)
+        if (value[i] == '<')
+            problem(checker, "< in an attribute", value);
+}
+
+/* Attributes up to '>' : the place behind it. */
+static const char *judge_attributes(struct checker *checker, const char *at, int *is_empty)
+{
+    *is_empty = 0;
+    while (*at && *at != '>') {
+        char name[40];
+        int n = 0;
+        if (isspace((unsigned char)*at) || *at == '/') {
+            *is_empty = *at++ == '/';
+            continue;
+        }
+        while (isalnum((unsigned char)*at) || (*at && strchr("-:_", *at))) {
+            if (n < 39)
+                name[n++] = *at;
+            at++;
+        }
+        name[n] = 0;
+        if (!n || *at != '=' || at[1] != '"') {
+            problem(checker, "attribute without quoted value", at);
+            return at + strcspn(at, ">") + 1;
+        }
+        const char *value = at + 2, *end = strchr(value, '"');
+        if (!end) {
+            problem(checker, "quote that is not closed", value);
+            return value + strlen(value);
+        }
+        judge_attribute(checker, name, value, (int)(end - value));
+        at = end + 1;
+    }
+    return *at ? at + 1 : at;
+}
+
+static const char *judge_tag(struct checker *checker, const char *at)
+{
+    char name[24];
+    int n = 0, closes = at[1] == '/', is_empty;
+    const char *tag = at;
+    at += 1 + closes;
+    while (isalnum((unsigned char)*at) && n < 23)
+        name[n++] = *at++;
+    name[n] = 0;
+    if (!n)
+        problem(checker, "< that begins no element", tag);
+    if (!strcmp(name, "script") || !strcmp(name, "iframe") || !strcmp(name, "object") || !strcmp(name, "link"))
+        problem(checker, "element that loads or runs", tag);
+    at = judge_attributes(checker, at, &is_empty);
+    if (closes) {
+        if (!checker->open || strcmp(checker->stack[checker->open - 1], name) != 0)
+            problem(checker, "closes what is not open", tag);
+        checker->open -= checker->open > 0;
+    } else if (!is_empty && !is_void(name) && checker->open < MOST_OPEN) {
+        (void)strcpy(checker->stack[checker->open++], name);
+    }
+    if (!closes && !strcmp(name, "style"))
+        at = strstr(at, "</style>") ? strstr(at, "</style>") : at;
+    return at;
+}
+
+static void judge_references(struct checker *checker)
+{
+    for (int i = 0; i < checker->nid; i++)
+        for (int j = 0; j < i; j++)
+            if (checker->id_length[i] == checker->id_length[j] &&
+                !memcmp(checker->id[i], checker->id[j], (size_t)checker->id_length[i]))
+                problem(checker, "identifier that occurs twice", checker->id[i]);
+    for (int r = 0; r < checker->nreference; r++) {
+        int found = 0;
+        for (int i = 0; i < checker->nid && !found; i++)
+            found = checker->id_length[i] == checker->reference_length[r] &&
+                    !memcmp(checker->id[i], checker->reference[r], (size_t)checker->id_length[i]);
+        if (!found)
+            problem(checker, "refers to what is not there", checker->reference[r]);
+    }
+}
+
+int page_problems(const char *html)
+{
+    static struct checker checker;
+    memset(&checker, 0, sizeof checker);
+    static const char begin[] = "<!DOCTYPE html>\n<html lang=\"en\">";
+    if (strncmp(html, begin, sizeof begin - 1) != 0)
+        problem(&checker, "begins as no page", html);
+    for (const char *at = html + 15; *at;)
+        if (*at == '<')
+            at = judge_tag(&checker, at);
+        else if (*at == '&' && strncmp(at, "&amp;", 5) != 0 && strncmp(at, "&lt;", 4) != 0 && strncmp(at, "&gt;", 4) != 0 &&
+                 strncmp(at, "&quot;", 6) != 0 && strncmp(at, "&#39;", 5) != 0) {
+            problem(&checker, "& that begins no reference", at);
+            at++;
+        } else {
+            at++;
+        }
+    if (checker.open)
+        problem(&checker, "is not closed", checker.stack[checker.open - 1]);
+    judge_references(&checker);
+    static const char *const never[] = {"http:", "https:", "javascript:", "@import", "rgb(", "NaN", "nan "};
+    for (size_t i = 0; i < sizeof never / sizeof *never; i++)
+        if (strstr(html, never[i]))
+            problem(&checker, "has no place on a page", strstr(html, never[i]));
+    return checker.problems;
+}

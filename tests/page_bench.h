@@ -1,0 +1,32 @@
+/* `rotid report` run in a folder of its own, with a gnuplot that a test puts in its place, and what a page has to be. */
+#ifndef ROTID_TESTS_PAGE_BENCH_H
+#define ROTID_TESTS_PAGE_BENCH_H
+
+#include <stddef.h>
+
+/* Setup and teardown of a group: makes and removes the folder. */
+int page_bench_open(void **state);
+int page_bench_close(void **state);
+
+/* name in that folder; good for the next 16 calls. */
+const char *page_path(const char *name);
+void page_write_file(const char *name, const char *text);
+/* The whole file, kept until the next 8 calls; the test fails where it is not there. */
+const char *page_read(const char *name);
+int page_exists(const char *name);
+/* Entries of the folder whose names begin with `prefix`. */
+int page_count(const char *folder, const char *prefix);
+
+/* Exit code of a shell command; page_out and page_err hold what it wrote. */
+int page_run(const char *format, ...) __attribute__((format(printf, 1, 2)));
+extern char page_out[1 << 16], page_err[1 << 16];
+
+/* GNUPLOT= for page_run: a stand-in that draws an empty picture for each script but those whose name holds `fails_on` (NULL:
+ * none). */
+const char *page_stand_in(const char *fails_on);
+
+/* Problems of a page: elements that are not closed or in wrong order, attributes without quotes, identifiers that occur twice or
+ * are referred to and missing, anything that would be loaded or run. Each is printed; their number. */
+int page_problems(const char *html);
+
+#endif

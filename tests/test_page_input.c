@@ -1,0 +1,274 @@
+/* What `rotid report` makes of files that are no result, or a broken one: the place and what was expected, and no folder. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cJSON.h>
+
+#include "page/page.h"
+#include "page_bench.h"
+#include "support.h"
+
+#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+#define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
+
+static void make_results(void)
+{
+    if (page_exists("identify.json"))
+        return;
+    assert_int_equal(
+        page_run("cd %s; %s identify %s --quiet --json identify.json && %s sensitivity %s --quiet --json sensitivity.json && "
+                 "%s frf %s --quiet --set FRF.LINES=40 --json frf.json && %s modes %s --quiet --json modes.json",
+                 page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER),
+        0);
+}
+
+static void files_that_are_no_result_are_refused_with_their_place(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *says;
+    } wrong[] = {
+        {"", "is empty, expected JSON that rotid wrote"},
+        {" \n\t ", "is empty"},
+        {"{\"a\": [1, 2", ":1:11: the file ends within a value"},
+        {"{\"a\": 1,\n \"b\": NaN}", ":2:7: 'NaN' is no JSON"},
+        {"{\"a\": 1,\n \"b\": -Infinity}", ":2:7: '-Infinity' is no JSON"},
+        {"{\"a\": 1} x", ":1:10: 'x' is no JSON"},
+        {"{\"a\": 1}{\"b\": 2}", ":1:9: '{\"b\":' is no JSON"},
+        {"\x7f"
+         "ELF\x01\x02",
+         ":1:1: byte 127 is no JSON"},
+        {"*HEADING\nA deck\n", ":1:1: '*HEADING' is no JSON"},
+        {"[1, 2, 3]", "is no result of rotid, expected what a command writes with --json"},
+        {"\"rotid\"", "is no result of rotid"},
+        {"null", "is no result of rotid"},
+        {"{\"name\": \"other\", \"version\": 2}", "is no result of rotid"},
+        {"{\"rotid\": \"0.2.0\", \"command\": \"identify\"}", "schema: is missing"},
+        {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": 2}", "schema: is 2, expected 1"},
+        {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": \"1\"}", "schema: is a text, expected a number"},
+        {"{\"rotid\": \"0.2.0\", \"command\": \"uff\", \"schema\": 1}",
+         "command: is 'uff', of which no page is made, expected identify"},
+        {"{\"rotid\": \"0.2.0\", \"command\": 7, \"schema\": 1}", "command: is a number, expected a text"},
+        {"{\"rotid\": \"0.2.0\", \"command\": \"modes\", \"schema\": 1}", "modes: is missing"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        page_write_file("wrong.json", wrong[i].text);
+        int code = page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("wrong.json"), page_path("page"));
+        if (code != 2 || *page_out || !strstr(page_err, wrong[i].says) || !strstr(page_err, "wrong.json"))
+            print_error("'%s': exit code %d, '%s', '%s'\n", wrong[i].text, code, page_out, page_err);
+        assert_true(code == 2 && !*page_out && strstr(page_err, wrong[i].says) && strstr(page_err, "wrong.json"));
+        assert_false(page_exists("page"));
+    }
+    assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path(""), page_path("page")), 2);
+    assert_non_null(strstr(page_err, "is a folder, expected a file that rotid wrote with --json"));
+    assert_int_equal(page_run("%s report /nowhere/x.json -o %s", ROTID_PROGRAM, page_path("page")), 2);
+    assert_non_null(strstr(page_err, "/nowhere/x.json: No such file or directory"));
+    assert_int_equal(page_run("%s report /dev/null -o %s", ROTID_PROGRAM, page_path("page")), 2);
+    assert_non_null(strstr(page_err, "is no regular file"));
+    /* larger than any result: sparse, so that it takes no room */
+    assert_int_equal(page_run("truncate -s 600M %s", page_path("huge.json")), 0);
+    assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("huge.json"), page_path("page")), 2);
+    assert_non_null(strstr(page_err, "is larger than 512 MiB"));
+    assert_int_equal(page_run("rm %s", page_path("huge.json")), 0);
+    /* nested beyond measure, which must not exhaust the stack */
+    assert_int_equal(page_run("head -c 200000 /dev/zero | tr '\\0' '[' > %s", page_path("deep.json")), 0);
+    assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("deep.json"), page_path("page")), 2);
+    assert_false(page_exists("page"));
+}
+
+static void all_files_are_judged_and_one_bad_one_is_enough(void **state)
+{
+    (void)state;
+    make_results();
+    page_write_file("wrong.json", "{\"rotid\": \"0.2.0\", \"command\": \"modes\", \"schema\": 1, \"modes\": {\"a\": 1}}");
+    assert_int_equal(page_run("%s report %s %s /nowhere/x.json -o %s", ROTID_PROGRAM, page_path("identify.json"),
+                              page_path("wrong.json"), page_path("page")),
+                     2);
+    assert_non_null(strstr(page_err, "wrong.json: modes: is an object, expected a list"));
+    assert_non_null(strstr(page_err, "/nowhere/x.json: No such file"));
+    assert_false(page_exists("page"));
+}
+
+/* ------------------------------------------------------------------------------------------------ every key, wrong in every way
+ */
+
+/* Reads a file and composes its page, without writing it; everything is freed. The status of the reader. */
+static int compose(const char *name, int *wrong)
+{
+    struct pool pool;
+    struct message_list messages;
+    struct result result;
+    struct document document;
+    pool_open(&pool, NULL);
+    message_open(&messages, &pool);
+    int status = result_read(&pool, page_path(name), &messages, &result);
+    *wrong = messages.errors;
+    if (!status) {
+        document_open(&document, &pool);
+        page_compose(&document, 1, &result);
+        assert_false(document.failed);
+        struct figure **figure = document_figures(&document);
+        assert_non_null(figure);
+        for (int i = 0; i < document.nfigure; i++)
+            assert_true(figure[i]->script && figure[i]->caption && figure[i]->alt && *figure[i]->id);
+    }
+    pool_close(&pool);
+    return status;
+}
+
+static int try_it(const cJSON *root)
+{
+    int wrong;
+    char *text = cJSON_PrintUnformatted(root);
+    assert_non_null(text);
+    page_write_file("mutant.json", text);
+    cJSON_free(text);
+    int status = compose("mutant.json", &wrong);
+    assert_true(status == ROTID_OK ? !wrong : status == ROTID_ERROR_SYNTAX && wrong > 0);
+    return status != ROTID_OK;
+}
+
+/* Swaps what two items hold, links left alone. */
+static void swap_value(cJSON *a, cJSON *b)
+{
+    cJSON held = *a;
+    a->type = b->type;
+    a->child = b->child;
+    a->valuestring = b->valuestring;
+    a->valueint = b->valueint;
+    a->valuedouble = b->valuedouble;
+    b->type = held.type;
+    b->child = held.child;
+    b->valuestring = held.valuestring;
+    b->valueint = held.valueint;
+    b->valuedouble = held.valuedouble;
+}
+
+static int mutants, refused;
+
+/* In the place of this item: null, a text, a flag, numbers, a list, an object. */
+static void replace_in_turn(const cJSON *root, cJSON *item)
+{
+    cJSON *other[] = {cJSON_CreateNull(),     cJSON_CreateString("'\n\"<x>"), cJSON_CreateTrue(),
+                      cJSON_CreateNumber(-1), cJSON_CreateNumber(0),          cJSON_CreateNumber(1e308),
+                      cJSON_CreateArray(),    cJSON_CreateObject(),           cJSON_CreateNumber(2.5)};
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
+        swap_value(item, other[i]);
+        refused += try_it(root);
+        mutants++;
+        swap_value(item, other[i]);
+        cJSON_Delete(other[i]);
+    }
+}
+
+static void mutate(const cJSON *root, cJSON *at, int depth)
+{
+    int index = 0;
+    for (cJSON *item = at->child; item; item = item->next, index++) {
+        if (cJSON_IsArray(at) && index > 0) /* elements of a list are alike */
+            return;
+        replace_in_turn(root, item);
+        if (item->child && depth < 8)
+            mutate(root, item, depth + 1);
+        if (!cJSON_IsObject(at))
+            continue;
+        char *key = item->string; /* a key that nobody asks for: as if it were missing */
+        item->string = (char *)"another";
+        refused += try_it(root);
+        mutants++;
+        item->string = key;
+    }
+}
+
+/* Long lists are cut: what is judged by element is judged by few. */
+static void shorten(cJSON *at)
+{
+    for (cJSON *item = at->child; item; item = item->next) {
+        while (cJSON_IsArray(item) && cJSON_GetArraySize(item) > 8)
+            cJSON_DeleteItemFromArray(item, 8);
+        shorten(item);
+    }
+}
+
+static void every_value_that_is_wrong_is_refused_or_does_no_harm(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json", "modes.json"};
+    make_results();
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        cJSON *json = cJSON_Parse(page_read(names[i]));
+        assert_non_null(json);
+        shorten(json);
+        mutants = refused = 0;
+        mutate(json, json, 0);
+        print_message("%s: %d mutants, %d refused\n", names[i], mutants, refused);
+        assert_true(mutants > 200 && refused > mutants / 2);
+        cJSON_Delete(json);
+    }
+}
+
+static void a_file_cut_off_anywhere_is_refused(void **state)
+{
+    (void)state;
+    make_results();
+    const char *whole = page_read("identify.json");
+    size_t length = strlen(whole) - 1;
+    while (whole[length] != '}')
+        length--;
+    for (int i = 0; i < 150; i++) {
+        FILE *stream = fopen(page_path("cut.json"), "wb");
+        int wrong;
+        size_t cut = length * (size_t)i / 150;
+        assert_non_null(stream);
+        assert_int_equal(fwrite(whole, 1, cut, stream), cut);
+        assert_int_equal(fclose(stream), 0);
+        assert_status(compose("cut.json", &wrong), ROTID_ERROR_SYNTAX);
+        assert_int_equal(wrong, 1);
+    }
+}
+
+/* Memory of the pool that ends after n blocks: an error, or a page that lacks nothing but a text; never a crash, never a leak. */
+static void memory_that_runs_out_is_survived(void **state)
+{
+    (void)state;
+    make_results();
+    static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json", "modes.json"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        long served = 0;
+        for (long n = 0; n == 0 || n <= served; n += 1 + n / 9) { /* 0: counts */
+            struct failing_allocator failing;
+            struct pool pool;
+            struct message_list messages;
+            struct result result;
+            struct document document;
+            failing_allocator_open(&failing, n);
+            pool_open(&pool, &failing.allocator);
+            message_open(&messages, &pool);
+            int status = result_read(&pool, page_path(names[i]), &messages, &result);
+            if (!status) {
+                document_open(&document, &pool);
+                page_compose(&document, 1, &result);
+                assert_true(n > 0 || !document.failed);
+            } else {
+                assert_true(n > 0);
+            }
+            served = n ? served : failing.served;
+            pool_close(&pool);
+            assert_int_equal(failing.in_use, 0);
+        }
+        assert_true(served > 150);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_that_are_no_result_are_refused_with_their_place),
+        cmocka_unit_test(all_files_are_judged_and_one_bad_one_is_enough),
+        cmocka_unit_test(every_value_that_is_wrong_is_refused_or_does_no_harm),
+        cmocka_unit_test(a_file_cut_off_anywhere_is_refused),
+        cmocka_unit_test(memory_that_runs_out_is_survived),
+    };
+    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
+}

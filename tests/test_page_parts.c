@@ -1,0 +1,336 @@
+/* The parts of a page: numbers for people, colours that can be told apart, texts in scripts, pictures made ready, programs run.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "page/document.h"
+#include "page/html.h"
+#include "page/human.h"
+#include "page/palette.h"
+#include "page/place.h"
+#include "page/plot.h"
+#include "page/process.h"
+#include "page/svg.h"
+#include "page_bench.h"
+#include "support.h"
+
+#define MINUS "\xe2\x88\x92"
+#define SPACE "\xc2\xa0"
+
+static void numbers_are_written_for_people(void **state)
+{
+    (void)state;
+    struct pool *pool = &test_pool;
+    const double wide[2] = {55.1e9, 176.4e9}, narrow[2] = {209.978e9, 210.505e9}, none[2] = {NAN, NAN}, mass[2] = {-0.5, 2.5};
+    assert_string_equal(human_interval(pool, 115.75e9, wide, "Pa"), "115.8" SPACE "GPa (95" SPACE "%: 55.1 to 176.4)");
+    assert_string_equal(human_interval(pool, 210.2415e9, narrow, "Pa"), "210.242" SPACE "GPa (95" SPACE "%: 209.978 to 210.505)");
+    assert_string_equal(human_interval(pool, 1, mass, "kg"), "1.00" SPACE "kg (95" SPACE "%: " MINUS "0.50 to 2.50)");
+    assert_string_equal(human_interval(pool, 60e9, none, "Pa"), "60" SPACE "GPa");
+    assert_string_equal(human_value(pool, 9790, "N/m"), "9.79" SPACE "kN/m");
+    assert_string_equal(human_value(pool, 1e6, "Pa"), "1" SPACE "MPa");
+    assert_string_equal(human_value(pool, -999, "N/m"), MINUS "999" SPACE "N/m");
+    assert_string_equal(human_value(pool, 0, "Pa"), "0" SPACE "Pa");
+    assert_string_equal(human_value(pool, 0.3333333, "1"), "0.3333");
+    assert_string_equal(human_value(pool, 7850, "kg/m3"), "7850" SPACE "kg/m\xc2\xb3");
+    assert_string_equal(human_value(pool, 12, "furlong"), "12" SPACE "furlong");
+    assert_string_equal(human_signed(pool, 8.2149, 2), "+8.21");
+    assert_string_equal(human_signed(pool, -4.376, 2), MINUS "4.38");
+    assert_string_equal(human_signed(pool, -0.001, 2), "0.00");
+    assert_string_equal(human_fixed(pool, NAN, 2), "\xe2\x80\x93");
+    assert_string_equal(human_fixed(pool, -INFINITY, 2), "\xe2\x80\x93");
+    assert_string_equal(human_digits(pool, 9.145e-11, 2), "9.1" SPACE "\xc3\x97" SPACE "10\xe2\x81\xbb\xc2\xb9\xc2\xb9");
+    assert_string_equal(human_digits(pool, -1.5e120, 2), MINUS "1.5" SPACE "\xc3\x97" SPACE "10\xc2\xb9\xc2\xb2\xe2\x81\xb0");
+    assert_string_equal(human_digits(pool, 0.023053, 3), "0.0231");
+    assert_string_equal(human_digits(pool, 2314.4, 3), "2314");
+    assert_string_equal(human_digits(pool, 999.96, 4), "1000");
+    assert_string_equal(human_trimmed(pool, 80.470, 5), "80.47");
+    assert_string_equal(human_trimmed(pool, 100, 5), "100");
+    assert_string_equal(human_count(pool, 12), "twelve");
+    assert_string_equal(human_count(pool, 13), "13");
+    assert_string_equal(human_seconds(pool, 0.0301), "30" SPACE "ms");
+    assert_string_equal(human_seconds(pool, 600), "10" SPACE "min");
+    assert_close(human_half_width_percent(-2, (double[]){-3, -1}), 50, 1e-15, 0);
+}
+
+/* Relative luminance and contrast as WCAG 2.1 has them. */
+static double luminance(unsigned rgb)
+{
+    static const double weight[3] = {0.2126, 0.7152, 0.0722};
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double c = (double)(rgb >> (16 - 8 * i) & 255) / 255;
+        sum += weight[i] * (c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4));
+    }
+    return sum;
+}
+
+static double contrast(unsigned a, unsigned b)
+{
+    double x = luminance(a), y = luminance(b);
+    return x > y ? (x + 0.05) / (y + 0.05) : (y + 0.05) / (x + 0.05);
+}
+
+static const struct role *role_called(const char *name)
+{
+    const struct role *role = palette;
+    while (role->name && strcmp(role->name, name) != 0)
+        role++;
+    assert_non_null(role->name);
+    return role;
+}
+
+static void every_colour_reads_on_its_ground(void **state)
+{
+    (void)state;
+    static const char *const text[] = {"INK", "MUTED", "BLUE", "VERMILION", "GREEN", "PURPLE", "OCHRE"};
+    static const char *const grounds[] = {"PAPER", "BAND"};
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++)
+        for (size_t g = 0; g < 2; g++) {
+            const struct role *role = role_called(text[i]), *ground = role_called(grounds[g]);
+            assert_true(contrast(role->light, ground->light) >= 4.5);
+            assert_true(contrast(role->dark, ground->dark) >= 4.5);
+        }
+    static const char *const faces[] = {"STEEL", "SHEETS", "LEAF", "ROSE", "SAND", "SHADE"}; /* lines and words lie on them */
+    for (size_t i = 0; i < sizeof faces / sizeof *faces; i++) {
+        assert_true(contrast(role_called("INK")->light, role_called(faces[i])->light) >= 4.5);
+        assert_true(contrast(role_called("INK")->dark, role_called(faces[i])->dark) >= 4.5);
+    }
+    for (int step = 0; step <= 10; step++) { /* numbers in the cells of a matrix */
+        const struct role *cell = role_called(palette_ramp(step / 10.0)), *number = role_called(palette_on_ramp(step / 10.0));
+        assert_true(contrast(cell->light, number->light) >= 4.5);
+        assert_true(contrast(cell->dark, number->dark) >= 4.5);
+    }
+    /* a colour names one role: the page finds it again in a picture by that */
+    for (const struct role *role = palette; role->name; role++)
+        assert_ptr_equal(palette_role(role->light), role);
+    assert_string_equal(palette_ramp(NAN), "RAMP0");
+    assert_string_equal(palette_ramp(7), "RAMP10");
+}
+
+static void texts_are_escaped(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    assert_non_null(out);
+    html_text(out, "<a href='x'>\"&\" \xc3\xa9 \xf0\x9f\x98\x80 \xc3 \xed\xa0\x80 \x01\x7f \xc2\x85 \t");
+    (void)fclose(out);
+    assert_string_equal(text, "&lt;a href=&#39;x&#39;&gt;&quot;&amp;&quot; \xc3\xa9 \xf0\x9f\x98\x80 \xef\xbf\xbd "
+                              "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd \t");
+    free(text);
+    struct plot plot = {.pool = &test_pool};
+    assert_string_equal(plot_quote(&plot, "it's `rm` \"q\" \\"), "'it''s `rm` \"q\" \\'");
+    assert_string_equal(plot_quote(&plot, "a\nb\xff\r\xc3\xa9''"), "'a b? \xc3\xa9'''''");
+    assert_string_equal(plot_quote(&plot, ""), "''");
+    assert_string_equal(plot_number(&plot, NAN), "NaN");
+    assert_string_equal(plot_number(&plot, -1.5e-7), "-1.5e-07");
+}
+
+/* ------------------------------------------------------------------------------------------------ scripts */
+
+static void ranges_and_ticks_cover_what_is_drawn(void **state)
+{
+    (void)state;
+    const double value[] = {3, NAN, -1, INFINITY, 7}, same[] = {5, 5}, small[] = {2e-3, 0, 40, -1, NAN};
+    struct plot_range range = plot_range_of(5, value, 0.1);
+    assert_close(range.from, -1.8, 1e-15, 0);
+    assert_close(range.to, 7.8, 1e-15, 0);
+    range = plot_range_of(2, same, 0);
+    assert_true(range.from < 5 && range.to > 5);
+    range = plot_range_of(0, NULL, 0);
+    assert_true(range.from == 0 && range.to == 1);
+    range = plot_decades(5, small, 9);
+    assert_true(range.from == -3 && range.to == 2);
+    range = plot_decades(5, small, 3);
+    assert_true(range.from == -1 && range.to == 2);
+    range = plot_decades(1, (const double[]){1}, 3);
+    assert_true(range.to == range.from + 1);
+    assert_close(plot_tic(2.03, 6), 0.2, 1e-12, 0);
+    assert_close(plot_tic(1, 5), 0.2, 1e-12, 0);
+    assert_close(plot_tic(7e-7, 6), 1e-7, 1e-12, 0);
+    assert_true(plot_tic(0, 5) > 0 && plot_tic(INFINITY, 5) > 0 && plot_tic(NAN, 5) > 0);
+    assert_true(plot_left(&(struct plot_range){-0.02, 0.01}, 0.005) > plot_left(&(struct plot_range){0, 5}, 1) + 20);
+    assert_true(plot_left(&(struct plot_range){-1e308, 1e308}, 1) < 1000); /* ends, and within the page */
+}
+
+/* Heights of the labels "one", "two", ... of a script. */
+static void labels_at_the_end_of_lines_do_not_overlap(void **state)
+{
+    (void)state;
+    static const char *const text[] = {"one", "two", "three", "four", "five", "six"};
+    static const char *const color[] = {"BLUE", "BLUE", "BLUE", "BLUE", "BLUE", "BLUE"};
+    static const double heights[][6] = {
+        {0.5, 0.5, 0.5, 0.5, 0.5, 0.5}, {1, 1, 1, 1, 1, 1}, {0, 0, 0.01, 0.9, 2, -3}, {0.1, 0.9, 0.3, 0.5, NAN, 0.7}};
+    for (size_t c = 0; c < sizeof heights / sizeof *heights; c++) {
+        struct figure figure = {.id = "labels"};
+        struct plot plot;
+        double y[6];
+        assert_status(plot_open(&plot, &test_pool, &figure, "test"), ROTID_OK);
+        plot_begin(&plot, &(struct plot_layout){.panels = 1, .columns = {1, 1}, .height = 260, .top = 10, .bottom = 50});
+        plot_panel(&plot, 0);
+        plot_end_labels(&plot, 6, text, heights[c], color);
+        assert_status(plot_close(&plot), ROTID_OK);
+        for (int i = 0; i < 6; i++) {
+            char quoted[16];
+            (void)snprintf(quoted, sizeof quoted, "'%s' at", text[i]);
+            const char *at = strstr(figure.script, quoted);
+            assert_non_null(at);
+            assert_int_equal(sscanf(at + strlen(quoted), " graph 1, graph %lf", &y[i]), 1); /* NOLINT */
+            assert_true(y[i] >= -1e-9 && y[i] <= 1 + 1e-9);
+            for (int j = 0; j < i; j++) {
+                assert_true(fabs(y[i] - y[j]) * 200 > 14.5);
+                if (fmin(fmax(heights[c][i], 0), 1) < fmin(fmax(heights[c][j], 0), 1)) /* in the order of the lines */
+                    assert_true(y[i] < y[j]);
+            }
+        }
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------ pictures */
+
+static const char picture[] =
+    "<?xml version=\"1.0\"?>\n<svg \n viewBox=\"0 0 720 300\"\n xmlns=\"http://www.w3.org/2000/svg\"\n>\n<title>Gnuplot</title>\n"
+    "<desc>Produced</desc>\n<g id=\"gnuplot_canvas\">\n<rect x=\"0\" y=\"0\" width=\"720\" height=\"300\" "
+    "fill=\"#ffffff\"/>\n<defs>\n"
+    "<circle id='gpDot' r='0.5'/>\n<circle id='gpPt5' stroke='currentColor' cx='0' cy='0' r='1'/>\n"
+    "<use xlink:href='#gpPt5' id='gpPt6' fill='currentColor' stroke='none'/>\n<filter id='textbox'><feFlood "
+    "flood-color='white'/></filter>\n"
+    "</defs>\n<g fill=\"none\" color=\"white\" stroke=\"currentColor\" stroke-width=\"1.00\">\n</g>\n"
+    "<!-- a comment > -->\n<g fill=\"none\" color=\"black\" stroke=\"currentColor\" stroke-width=\"2.00\" "
+    "stroke-linecap=\"butt\">\n"
+    "<path stroke='rgb(  0, 114, 178)' stroke-dasharray=' 5,8' class=\"gridline\" d='M1,2 L3,4'/></g>\n"
+    "<g id=\"gnuplot_plot_1a\" ><title>a plot</title>\n<defs><pattern id='gpPat4' width='8' height='8'><path style='fill:none; "
+    "stroke:rgb(91,98,107)' d='M0,0 L8,8'/></pattern></defs>\n<polygon fill = 'url(#gpPat4)' points = '0,0 1,1'/>\n"
+    "<polygon fill = 'rgb(199, 214, 226)' fill-opacity = '0.3' points = '0,0 1,1'/>\n"
+    "<use xlink:href='#gpPt6' transform='translate(60.00,210.00) scale(2.25)' color='rgb(176,  74,   0)'/>\n</g>\n"
+    "<g transform=\"translate(1,2)\" stroke=\"none\" fill=\"black\" font-family=\"Arial\" font-size=\"12.00\" "
+    "text-anchor=\"end\">\n"
+    "<text><tspan font-family=\"Arial\" >x &lt; 1 &amp; y</tspan><tspan font-size=\"9.6\" "
+    "dy=\"-6px\">2</tspan></text>\n</g>\n</g>\n</svg>\n";
+
+static void a_picture_is_made_ready_for_a_page(void **state)
+{
+    (void)state;
+    struct figure figure = {.id = "test", .title = "A <title>", .alt = "What is \"there\"", .height = {300, 500}};
+    char *svg = svg_clean(&test_pool, picture, &figure, WIDE);
+    assert_non_null(svg);
+    static const char *const holds[] = {
+        "<svg viewBox=\"0 0 720 300\" role=\"img\" aria-labelledby=\"test-w-title test-w-desc\">",
+        "<title id=\"test-w-title\">A &lt;title&gt;</title>",
+        "<desc id=\"test-w-desc\">What is &quot;there&quot;</desc>",
+        "<circle id=\"test-w-gpPt5\"",
+        "href=\"#test-w-gpPt5\"",
+        "id=\"test-w-gpPt6\"",
+        "<use href=\"#test-w-gpPt6\" transform=\"translate(60.00,210.00) scale(2.25)\" class=\"k-vermilion\"/>",
+        "<pattern id=\"test-w-gpPat4\"",
+        "fill=\"url(#test-w-gpPat4)\"",
+        "class=\"s-muted\"",
+        "<g stroke-width=\"2.00\"><path stroke-dasharray=\"5,8\" d=\"M1,2 L3,4\" class=\"s-blue\"/></g>",
+        "fill=\"rgb(199, 214, 226)\"", /* one off the colour of steel: no role */
+        "class=\"f-ink\"",
+        "<text>x &lt; 1 &amp; y<tspan font-size=\"9.6\" dy=\"-6px\">2</tspan></text>"};
+    for (size_t i = 0; i < sizeof holds / sizeof *holds; i++) {
+        if (!strstr(svg, holds[i]))
+            print_error("not there: %s\nin: %s\n", holds[i], svg);
+        assert_non_null(strstr(svg, holds[i]));
+    }
+    static const char *const lacks[] = {"xmlns",    "xlink",   "gpDot", "filter", "textbox",  "Produced", "a plot",
+                                        "gnuplot_", "comment", "Arial", "<rect",  "gridline", "<?xml"};
+    for (size_t i = 0; i < sizeof lacks / sizeof *lacks; i++)
+        assert_null(strstr(svg, lacks[i]));
+    assert_true(strstr(svg_clean(&test_pool, picture, &figure, NARROW), "<svg viewBox=\"0 0 360 500\"") != NULL);
+    /* cut off anywhere, or with anything behind it, it is no picture */
+    for (size_t cut = 0; cut < sizeof picture - 8; cut += 7) {
+        char text[sizeof picture];
+        memcpy(text, picture, cut);
+        text[cut] = 0;
+        assert_null(svg_clean(&test_pool, text, &figure, WIDE));
+    }
+    assert_null(svg_clean(&test_pool, "<svg><g></svg>", &figure, WIDE));
+    assert_null(svg_clean(&test_pool, "<svg></g></svg>", &figure, WIDE));
+    assert_null(svg_clean(&test_pool, "<svg><path d=1/></svg>", &figure, WIDE));
+    assert_null(svg_clean(&test_pool, "<svg></svg>more", &figure, WIDE));
+    assert_null(svg_clean(&test_pool, "", &figure, WIDE));
+}
+
+static void identifiers_of_a_page_occur_once(void **state)
+{
+    (void)state;
+    struct document document;
+    document_open(&document, &test_pool);
+    document_section(&document, "shapes", "One");
+    struct figure *first = document_figure(&document, "shapes", "First"),
+                  *second = document_figure(&document, "shapes", "Second"),
+                  *other = document_figure(&document, "shapes-of-others", "Third");
+    document_section(&document, "shapes", "Two");
+    assert_string_equal(first->id, "shapes-2");
+    assert_string_equal(second->id, "shapes-3");
+    assert_string_equal(other->id, "shapes-of-others");
+    assert_string_equal(document.last->id, "shapes-4");
+    document_paragraph(&document, "%s is <not> %d %%", "this & that", 5);
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    assert_non_null(out);
+    document.title = "Title";
+    document_write(out, &document, "made", "how");
+    (void)fclose(out);
+    assert_non_null(strstr(text, "<p>this &amp; that is &lt;not&gt; 5 %</p>"));
+    assert_int_equal(page_problems(text), 0);
+    free(text);
+    assert_false(document.failed);
+}
+
+/* ------------------------------------------------------------------------------------------------ programs */
+
+static int cancel_now(void *context)
+{
+    (void)context;
+    return 1;
+}
+
+static void a_program_is_run_waited_for_and_ended(void **state)
+{
+    (void)state;
+    struct process_result run;
+    const char *const say[] = {"sh", "-c", "echo out; echo err >&2; read x || echo eof; exit 3", NULL};
+    assert_status(process_run(say, 10, NULL, &run), ROTID_OK);
+    assert_true(run.exit_code == 3 && !run.timed_out && !run.cancelled);
+    assert_string_equal(run.out, "out\neof\n");
+    assert_string_equal(run.err, "err\n");
+    /* more than is kept, on both streams: neither blocks */
+    const char *const flood[] = {"sh", "-c", "head -c 300000 /dev/zero | tr '\\0' a; head -c 300000 /dev/zero | tr '\\0' b >&2",
+                                 NULL};
+    assert_status(process_run(flood, 20, NULL, &run), ROTID_OK);
+    assert_true(run.exit_code == 0 && strlen(run.out) == PROCESS_TEXT - 1 && strlen(run.err) == PROCESS_TEXT - 1);
+    double begin = clock_seconds();
+    const char *const sleeper[] = {"sleep", "20", NULL};
+    assert_status(process_run(sleeper, 0.2, NULL, &run), ROTID_OK);
+    assert_true(run.timed_out && run.exit_code == -1);
+    const rotid_environment impatient = {.cancelled = cancel_now};
+    assert_status(process_run(sleeper, 20, &impatient, &run), ROTID_OK);
+    assert_true(run.cancelled && clock_seconds() - begin < 10);
+    const char *const nobody[] = {"/nowhere/at/all", NULL};
+    assert_status(process_run(nobody, 1, NULL, &run), ROTID_ERROR_IO);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(numbers_are_written_for_people),
+        TEST(every_colour_reads_on_its_ground),
+        TEST(texts_are_escaped),
+        TEST(ranges_and_ticks_cover_what_is_drawn),
+        TEST(labels_at_the_end_of_lines_do_not_overlap),
+        TEST(a_picture_is_made_ready_for_a_page),
+        TEST(identifiers_of_a_page_occur_once),
+        TEST(a_program_is_run_waited_for_and_ended),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
