@@ -127,7 +127,7 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(OBJECTS)
 # The same studies over MPI; nothing else depends on it.
 MPICC ?= mpicc
 STUDY_RUNS ?= 1000
-$(BUILD)/src/mpi/%.o: CC = $(MPICC)
+$(BUILD)/src/mpi/%.o: override CC = $(MPICC)
 $(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(OBJECTS)
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
