@@ -227,7 +227,7 @@ install: all
 uninstall:
 	@$(TELL_INSTALL) sh tools/install uninstall '$(BUILD)'
 TELL_INSTALL = $(foreach name,VERSION SONAME DESTDIR PREFIX BINDIR LIBDIR PKGCONFIGDIR INCLUDEDIR DATADIR MANDIR DOCDIR BASHDIR ZSHDIR \
-               FISHDIR,$(name)='$($(name))')
+               FISHDIR MPI,$(name)='$($(name))')
 
 clean:
 	rm -rf $(BUILD)
