@@ -1,7 +1,8 @@
 # rotid. The usual targets:
 #   make            builds the program build/rotid and the library: build/librotid.a, build/librotid.so; make MPI=1:
 #                   build/rotid-study as well
-#   make demo       identifies the paper's rotor from its measured frequencies and shows the result
+#   make demo       identifies the paper's rotor from its measured frequencies, diagnoses a beam, and makes a page of that
+#   make figures    the paper's figures and Table 1 for its rotor, beside the paper's numbers, as pages
 #   make test       builds and runs every test; ends with one line "N passed, N failed"
 #   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
@@ -76,7 +77,7 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all abi demo test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
+.PHONY: all abi demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
         coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -163,7 +164,10 @@ abi: $(BUILD)/tests/test_abi
 	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
 
 demo: all
-	@sh tools/demo $(BUILD)/rotid
+	@sh tools/demo $(BUILD)/rotid $(BUILD)/demo
+
+figures: all
+	@sh tools/figures $(BUILD)/rotid $(BUILD)/figures
 
 test: all $(TEST_PROGRAMS)
 	@sh tools/run-tests $(TEST_PROGRAMS)

@@ -48,7 +48,11 @@ void document_section(struct document *document, const char *id, const char *hea
         return;
     }
     section->id = free_id(document, id);
-    section->heading = heading;
+    section->heading = document->of ? pool_format(document->pool, "%s: %s", heading, document->of) : heading;
+    if (!section->heading) {
+        document->failed = 1;
+        section->heading = heading;
+    }
     if (document->last)
         document->last->next = section;
     else
@@ -219,9 +223,12 @@ static void write_answer(FILE *out, const struct document *document)
     if (!*document->answer)
         return;
     (void)fprintf(out, "<section class=\"answer %s\" aria-label=\"Answer\">\n", words[document->tone]);
-    if (says[document->tone])
-        html_element(out, "p class=\"tone\"", says[document->tone]);
+    const char *headline = document->headline ? document->headline : says[document->tone];
+    if (headline)
+        html_element(out, "p class=\"tone\"", headline);
     html_element(out, "p class=\"says\"", document->answer);
+    if (document->next)
+        html_element(out, "p class=\"next\"", document->next);
     (void)fputs("</section>\n", out);
 }
 

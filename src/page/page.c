@@ -21,24 +21,43 @@ static const char *title(const struct result *result)
     return result->deck && *result->deck ? result->deck : result->file;
 }
 
+/* The deck of a further result where it is another one than that of the page, NULL where it is not. */
+static const char *other_deck(const struct result *result, const struct result *main_result)
+{
+    const char *name;
+    if (!result->deck || !main_result->deck || !strcmp(result->deck, main_result->deck))
+        return NULL;
+    name = strrchr(result->deck, '/');
+    return name ? name + 1 : result->deck;
+}
+
 void page_compose(struct document *document, int count, const struct result *result)
 {
     document->title = title(result);
     document->subtitle = subtitle(document->pool, result);
     if (result->identify)
         answer_identify(document, result, result->identify);
+    else if (result->diagnosis)
+        answer_diagnose(document, result);
+    else if (result->study)
+        answer_study(document, result);
     else
         answer_plain(document, result);
     section_rests_on(document, count, result);
     for (int i = 0; i < count; i++) { /* one picture of the rotor does */
         if (!result[i].geometry)
             continue;
-        section_rotor(document, &result[i], result[i].identify);
+        section_rotor(document, &result[i], result_fit(&result[i]));
         break;
     }
     for (int i = 0; i < count; i++) {
+        document->of = other_deck(&result[i], result);
         if (result[i].identify)
             section_identify(document, &result[i]);
+        if (result[i].diagnosis)
+            section_diagnose(document, &result[i]);
+        if (result[i].study)
+            section_study(document, &result[i]);
         if (result[i].modes)
             section_modes(document, &result[i]);
         if (result[i].sensitivity)

@@ -5,23 +5,41 @@
 
 #include "page/json_file.h"
 
-static void read_identify(const struct json_place *root, struct result *result)
+static void read_noise(const struct json_place *root, struct result *result)
 {
     struct json_place noise;
+    if (!place_find(root, "noise", PLACE_OBJECT, &noise))
+        return;
+    result->noise_frequency = place_number(&noise, "frequency");
+    result->noise_shape = place_number(&noise, "shape");
+    result->frequency_assumed = place_flag(&noise, "frequency_assumed");
+    result->shape_assumed = place_flag(&noise, "shape_assumed");
+    result->intervals_from = place_string_if(&noise, "intervals_from");
+}
+
+static void read_identify(const struct json_place *root, struct result *result)
+{
     result->identify = fitted_read(root);
-    if (place_find(root, "noise", PLACE_OBJECT, &noise)) {
-        result->noise_frequency = place_number(&noise, "frequency");
-        result->noise_shape = place_number(&noise, "shape");
-        result->frequency_assumed = place_flag(&noise, "frequency_assumed");
-        result->shape_assumed = place_flag(&noise, "shape_assumed");
-        result->intervals_from = place_string_if(&noise, "intervals_from");
-    }
+    read_noise(root, result);
     if (!result->geometry)
         result_lacks(result, "geometry", "the drawing of the rotor");
     if (result->identify && !result->identify->shapes)
         result_lacks(result, "shapes", "the measured and predicted shapes");
     if (result->identify && !cJSON_HasObjectItem(root->json, "mac_matrix"))
         result_lacks(result, "mac_matrix", "the correlation of all measured with all predicted shapes");
+}
+
+static void read_diagnose(const struct json_place *root, struct result *result)
+{
+    result->diagnosis = diagnosis_read(root);
+    read_noise(root, result);
+    if (!result->geometry)
+        result_lacks(result, "geometry", "the drawing of the rotor and the places of the causes on it");
+}
+
+static void read_study(const struct json_place *root, struct result *result)
+{
+    result->study = study_read(root);
 }
 
 static void read_modes(const struct json_place *root, struct result *result)
@@ -55,11 +73,11 @@ static const struct {
     const char *command;
     void (*read)(const struct json_place *root, struct result *result);
 } readers[] = {
-    {"identify", read_identify}, {"modes", read_modes}, {"sensitivity", read_sensitivity},
-    {"frf", read_transfer},      {"check", read_check},
+    {"identify", read_identify}, {"diagnose", read_diagnose}, {"modes", read_modes}, {"sensitivity", read_sensitivity},
+    {"frf", read_transfer},      {"check", read_check},       {"study", read_study},
 };
 #define READERS       (sizeof readers / sizeof *readers)
-#define READERS_NAMES "identify, modes, sensitivity, frf or check"
+#define READERS_NAMES "identify, diagnose, modes, sensitivity, frf, check or study"
 
 void result_lacks(struct result *result, const char *key, const char *shows)
 {
@@ -73,6 +91,11 @@ const struct reference_values *result_reference(const struct result *result, con
         if (!strcmp(result->reference[i].quantity, quantity))
             return &result->reference[i];
     return NULL;
+}
+
+const struct fitted *result_fit(const struct result *result)
+{
+    return result->diagnosis ? result->diagnosis->base : result->identify;
 }
 
 static const char **read_texts(const struct json_place *root, const char *key, int *count)
@@ -137,6 +160,22 @@ static void read_root(const struct json_place *root, struct result *result)
     place_wrong(root, "command: is '%s', of which no page is made, expected " READERS_NAMES, command);
 }
 
+/* A file of results of a study: its first line says what it is. */
+static void read_lines(const struct json_place *lines, struct result *result)
+{
+    struct json_place head = place_first(lines, PLACE_OBJECT);
+    if (!head.json || !cJSON_HasObjectItem(head.json, "rotid") || !cJSON_HasObjectItem(head.json, "studies")) {
+        place_wrong(lines, "has a value a line and is no file of results, expected one of rotid study, or one result");
+        return;
+    }
+    result->command = "study";
+    result->version = place_string(&head, "rotid");
+    result->commit = place_string(&head, "commit");
+    result->seed = place_number(&head, "seed");
+    if (!lines->reader->status)
+        result->study = study_read_lines(lines);
+}
+
 int result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result)
 {
     struct reader reader = {.pool = pool, .messages = messages, .file = file};
@@ -148,7 +187,10 @@ int result_read(struct pool *pool, const char *file, struct message_list *messag
     if (status)
         return status;
     root.json = json;
-    read_root(&root, result);
+    if (is_lines)
+        read_lines(&root, result);
+    else
+        read_root(&root, result);
     cJSON_Delete(json);
     return reader.status;
 }

@@ -3,9 +3,11 @@
 #ifndef ROTID_PAGE_RESULT_H
 #define ROTID_PAGE_RESULT_H
 
+#include "page/diagnosis.h"
 #include "page/fitted.h"
 #include "page/geometry.h"
 #include "page/outcomes.h"
+#include "page/studied.h"
 
 /* What an older result does not hold, and what is left out for it. */
 struct lacking {
@@ -23,7 +25,7 @@ struct result {
     const char *file; /* as given */
     const char *command, *version, *commit, *blas, *deck;
     double seed;
-    int threads;
+    int threads; /* 0: not known */
     int nheading, nreference, nwarning, nlacking;
     const char **heading, **warning;
     struct reference_values *reference;
@@ -35,6 +37,8 @@ struct result {
     struct geometry *geometry; /* NULL where the result has none */
     /* of the command that made it, the others NULL */
     struct fitted *identify;
+    struct diagnosis_outcome *diagnosis;
+    struct study_outcome *study;
     struct modes_outcome *modes;
     struct sensitivity_outcome *sensitivity;
     struct transfer_outcome *transfer;
@@ -46,6 +50,9 @@ int result_read(struct pool *pool, const char *file, struct message_list *messag
 
 /* Notes that a key is lacking which newer versions write. */
 void result_lacks(struct result *result, const char *key, const char *shows);
+
+/* The identification that the result is about: its own, or the model that a diagnosis judged; NULL: there is none. */
+const struct fitted *result_fit(const struct result *result);
 
 /* The values of a reference, or NULL. */
 const struct reference_values *result_reference(const struct result *result, const char *quantity);

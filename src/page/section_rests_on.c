@@ -16,14 +16,14 @@ static const char *noise_of(struct pool *pool, const struct result *result)
                                                                     human_digits(pool, 100 * result->noise_shape, 2),
                                                                     result->shape_assumed ? " (assumed)" : "")
                                                       : "shapes: not stated";
-    if (!result->identify || !result->intervals_from)
+    if (!result_fit(result) || !(result->intervals_from || result->diagnosis))
         return NULL;
     return pool_format(pool, "%s; %s", frequency ? frequency : "", shape ? shape : "");
 }
 
 static const char *data_of(struct pool *pool, const struct result *result)
 {
-    const struct fitted *fit = result->identify;
+    const struct fitted *fit = result_fit(result);
     int shapes = 0;
     if (!fit || !fit->nmode)
         return NULL;
@@ -45,7 +45,7 @@ static const char *data_of(struct pool *pool, const struct result *result)
 
 static const char *model_of(struct pool *pool, const struct result *result)
 {
-    const struct fitted *fit = result->identify;
+    const struct fitted *fit = result_fit(result);
     const struct geometry *geometry = result->geometry;
     const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length, 4),
                                               geometry_elements(geometry),
@@ -65,8 +65,9 @@ static void facts_of(struct pool *pool, const struct result *result, const char 
     value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->command);
     value[1] = result->deck;
     value[2] = pool_format(pool, "rotid %s, commit %s", result->version, result->commit);
-    value[3] =
-        pool_format(pool, "seed %.0f, %d %s", result->seed, result->threads, human_plural(result->threads, "thread", "threads"));
+    value[3] = result->threads ? pool_format(pool, "seed %.0f, %d %s", result->seed, result->threads,
+                                             human_plural(result->threads, "thread", "threads"))
+                               : pool_format(pool, "seed %.0f", result->seed);
     value[4] = result->blas;
     value[5] = data_of(pool, result);
     value[6] = noise_of(pool, result);

@@ -8,6 +8,10 @@
 
 /* What an identification says in a sentence, how far it is to be trusted, and why: the answer, and a section "trust". */
 void answer_identify(struct document *document, const struct result *result, const struct fitted *fit);
+/* The verdict of a diagnosis, what to do next, and what it rests on: the answer, and a section "trust". */
+void answer_diagnose(struct document *document, const struct result *result);
+/* What a study says as a whole. */
+void answer_study(struct document *document, const struct result *result);
 /* Another result in a sentence, without a judgement. */
 void answer_plain(struct document *document, const struct result *result);
 
@@ -16,6 +20,8 @@ void section_rests_on(struct document *document, int count, const struct result 
 
 void section_rotor(struct document *document, const struct result *result, const struct fitted *fit);
 void section_identify(struct document *document, const struct result *result);
+void section_diagnose(struct document *document, const struct result *result);
+void section_study(struct document *document, const struct result *result);
 void section_modes(struct document *document, const struct result *result);
 void section_sensitivity(struct document *document, const struct result *result);
 void section_transfer(struct document *document, const struct result *result);

@@ -1,0 +1,167 @@
+/* Many decks beside each other, each identified once: a parameter with its interval in every deck. */
+#include <math.h>
+#include <string.h>
+
+#include "page/figures_study.h"
+#include "page/human.h"
+#include "page/plot.h"
+
+#define MOST_ROWS 40
+#define LEAST     3
+#define WIDE_ROW  22.0
+#define TALL_ROW  38.0
+#define NAMES_PX  200.0
+#define EDGE_PX   14.0
+
+struct deck_row {
+    const char *name;
+    double value, ci[2];
+};
+
+struct decks {
+    const struct cell_parameter *parameter;
+    struct human_unit unit;
+    int count, hidden;
+    struct deck_row row[MOST_ROWS];
+};
+
+/* The parameter that most decks have, -1 of cells that are no decks side by side. */
+static const char *commonest(const struct study_outcome *s)
+{
+    const char *best = NULL;
+    int most = 0;
+    for (int i = 0; i < s->ncell; i++) {
+        const struct told_cell *cell = &s->cell[i];
+        if (cell->variant || cell->modes || cell->sensors || cell->hide || cell->runs > 1)
+            return NULL;
+        for (int p = 0; p < cell->nparameter; p++) {
+            int count = 0;
+            for (int k = 0; k < s->ncell; k++)
+                for (int q = 0; q < s->cell[k].nparameter; q++)
+                    count += !strcmp(s->cell[k].parameter[q].name, cell->parameter[p].name);
+            if (count > most) {
+                most = count;
+                best = cell->parameter[p].name;
+            }
+        }
+    }
+    return most >= LEAST ? best : NULL;
+}
+
+static void collect(const struct study_outcome *s, const char *name, struct decks *decks)
+{
+    *decks = (struct decks){0};
+    for (int i = 0; i < s->nrun; i++) {
+        const struct told_run *run = &s->run[i];
+        const struct told_cell *cell = &s->cell[run->cell];
+        for (int p = 0; p < cell->nparameter && run->value; p++) {
+            if (strcmp(cell->parameter[p].name, name) != 0 || !isfinite(run->value[p].value))
+                continue;
+            if (!decks->parameter) {
+                decks->parameter = &cell->parameter[p];
+                decks->unit = human_unit(run->value[p].value, cell->parameter[p].unit);
+            }
+            double f = decks->unit.factor;
+            if (decks->count == MOST_ROWS)
+                decks->hidden++;
+            else
+                decks->row[decks->count++] = (struct deck_row){*cell->label ? cell->label : cell->deck,
+                                                               f * run->value[p].value,
+                                                               {f * run->value[p].ci[0], f * run->value[p].ci[1]}};
+        }
+    }
+}
+
+static int script(struct document *document, struct figure *figure, const struct result *result, const struct decks *decks)
+{
+    int n = decks->count;
+    struct plot_layout layout = {.panels = 1,
+                                 .columns = {1, 1},
+                                 .height = 60 + WIDE_ROW * n,
+                                 .narrow_height = 60 + TALL_ROW * n,
+                                 .left = NAMES_PX,
+                                 .right = 20,
+                                 .top = 8,
+                                 .bottom = 48};
+    struct plot_range range = {INFINITY, -INFINITY};
+    double *data = POOL_ARRAY(document->pool, double, 4 * (size_t)n);
+    struct plot plot;
+    if (!data || plot_open(&plot, document->pool, figure, result->file))
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n; i++) {
+        const struct deck_row *row = &decks->row[i];
+        const double line[] = {n - i, row->value, row->ci[0], row->ci[1]};
+        for (int c = 0; c < 4; c++)
+            data[i + (ptrdiff_t)c * n] = line[c];
+        for (int c = 1; c < 4; c++)
+            plot_range_join(&range, line[c]);
+    }
+    plot_line(&plot, "# columns: row from below, value, lower and upper end of the interval");
+    plot_data(&plot, "decks", n, 4, (const double *const[]){data, data + n, data + 2 * (ptrdiff_t)n, data + 3 * (ptrdiff_t)n});
+    plot_begin(&plot, &layout);
+    plot_panel(&plot, 0);
+    double pad = 0.05 * (range.to - range.from) + 1e-12;
+    plot_line(&plot,
+              "LIFT = narrow ? 0.2 : 0\nif (narrow) { set lmargin at screen %g/W }\nset xrange [%.8g:%.8g]\nset yrange [0.4:%g]\n"
+              "unset ytics\nset border 1\nset xtics %g",
+              EDGE_PX, range.from - pad, range.to + pad, n + 0.6, plot_tic(range.to - range.from + 2 * pad, 5));
+    const char *axis = pool_format(document->pool, "%s [%s]", decks->parameter->name, *decks->unit.text ? decks->unit.text : "1");
+    plot_label(&plot, axis ? axis : "", "graph 0.5, screen 1-(y_of(0)+HEIGHT-10)/H", "INK", "center");
+    for (int l = 0; l < LAYOUTS; l++) {
+        plot_line(&plot, l == WIDE ? "if (!narrow) {" : "} else {");
+        for (int i = 0; i < n; i++) {
+            char where[64];
+            (void)snprintf(where, sizeof where, l == WIDE ? "graph 0, first %d" : "graph 0, first %d+0.26", n - i);
+            plot_label(&plot, decks->row[i].name, where, "INK", l == WIDE ? "right offset char -0.7, 0" : "left");
+        }
+    }
+    plot_line(&plot, "}\nplot $decks using 3:($1-LIFT):($4-$3):(0) with vectors heads size screen 0.006,90 ls 1 lw 1.5 dt 1, \\\n"
+                     "    $decks using 2:($1-LIFT) with points ls 1 ps 0.8");
+    return plot_close(&plot);
+}
+
+static struct number_table *decks_table(struct pool *pool, const struct decks *decks)
+{
+    const char *unit = *decks->unit.text ? decks->unit.text : "1";
+    struct number_table *table = table_new(pool, decks->count, 4);
+    table_head(table, 0, "deck");
+    table_head(table, 1, pool_format(pool, "%s [%s]", decks->parameter->name, unit));
+    table_head(table, 2, pool_format(pool, "95 %% from [%s]", unit));
+    table_head(table, 3, pool_format(pool, "to [%s]", unit));
+    for (int i = 0; i < decks->count; i++) {
+        table_cell(table, i, 0, decks->row[i].name);
+        table_cell(table, i, 1, human_digits(pool, decks->row[i].value, 5));
+        table_cell(table, i, 2, human_digits(pool, decks->row[i].ci[0], 5));
+        table_cell(table, i, 3, human_digits(pool, decks->row[i].ci[1], 5));
+    }
+    return table;
+}
+
+void figure_decks(struct document *document, const struct result *result)
+{
+    struct pool *pool = document->pool;
+    struct decks *decks = POOL_NEW(pool, struct decks);
+    const char *name = commonest(result->study);
+    int least = 0, most = 0;
+    if (!decks) {
+        document->failed = 1;
+        return;
+    }
+    if (!name)
+        return;
+    collect(result->study, name, decks);
+    if (decks->count < LEAST)
+        return;
+    for (int i = 0; i < decks->count; i++) {
+        least = decks->row[i].value < decks->row[least].value ? i : least;
+        most = decks->row[i].value > decks->row[most].value ? i : most;
+    }
+    struct figure *figure = document_figure(document, "decks", pool_format(pool, "%s of the decks", name));
+    figure->caption = pool_format(pool, "From %s\xc2\xa0%s (%s) to %s\xc2\xa0%s (%s), each with its 95\xc2\xa0%% interval.%s",
+                                  human_digits(pool, decks->row[least].value, 4), decks->unit.text, decks->row[least].name,
+                                  human_digits(pool, decks->row[most].value, 4), decks->unit.text, decks->row[most].name,
+                                  decks->hidden ? " The first 40 are drawn." : "");
+    figure->alt = pool_format(pool, "A point with its interval for each of %d decks.", decks->count);
+    figure->table = decks_table(pool, decks);
+    document->failed |= !figure->title || !figure->caption || !figure->alt || script(document, figure, result, decks) != ROTID_OK;
+}

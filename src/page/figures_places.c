@@ -1,0 +1,216 @@
+/* Where along the axis the misfit acts, under the rotor, with the places of what may cause it between the two. */
+#include <math.h>
+
+#include "page/cause_words.h"
+#include "page/figures_diagnosis.h"
+#include "page/human.h"
+#include "page/plot.h"
+#include "page/rotor.h"
+
+#define LEFT_PX    54.0
+#define RIGHT_PX   14.0
+#define MOST_ROTOR 130.0 /* px; the diameters of a thicker one are not to scale */
+#define LANE_PX    32.0
+#define MOST_LANES 6
+#define MOST_TOLD  3 /* of them in the caption */
+#define CURVE_PX   140.0
+#define AXIS_PX    48.0
+
+struct lane {
+    const struct told_cause *cause;
+    struct told_place place;
+};
+
+struct places {
+    int count, others; /* with a place; without one, or no room */
+    struct lane lane[MOST_LANES];
+    int named; /* these were named; else they cannot be told apart */
+};
+
+static struct places find_places(const struct result *result)
+{
+    const struct diagnosis_outcome *d = result->diagnosis;
+    struct places places = {.named = d->ncause > 0};
+    int count = d->ncause ? d->ncause : d->nalternative;
+    const struct told_cause *cause = d->ncause ? d->cause : d->alternative;
+    for (int i = 0; i < count; i++) {
+        struct lane lane = {.cause = &cause[i]};
+        if (places.count < MOST_LANES && diagnosis_place(result->geometry, lane.cause, &lane.place))
+            places.lane[places.count++] = lane;
+        else
+            places.others++;
+    }
+    return places;
+}
+
+/* The longest text of a lane that fits, and where it begins [px from the left]. */
+static const char *lane_text(struct pool *pool, const struct lane *lane, double width, double middle, double *from)
+{
+    const char *label = cause_label(pool, lane->cause), *values = cause_values(pool, lane->cause);
+    const char *text = *values ? pool_format(pool, "%s: %s", label, values) : label;
+    if (!text || plot_width(text) > width - 12)
+        text = label;
+    *from = fmin(fmax(middle - plot_width(text) / 2, 6), fmax(width - plot_width(text) - 6, 6));
+    return text;
+}
+
+static void draw_lanes(struct plot *plot, const struct geometry *geometry, const struct places *places)
+{
+    static const double width[LAYOUTS] = {WIDE_PX, NARROW_PX};
+    const char *color = places->named ? "VERMILION" : "PURPLE";
+    for (int l = 0; l < LAYOUTS; l++) {
+        plot_line(plot, l == WIDE ? "if (!narrow) {" : "} else {");
+        for (int i = 0; i < places->count; i++) {
+            const struct told_place *place = &places->lane[i].place;
+            double scale = (width[l] - LEFT_PX - RIGHT_PX) / geometry->length, from;
+            const char *text =
+                lane_text(plot->pool, &places->lane[i], width[l], LEFT_PX + scale * (place->from + place->to) / 2, &from);
+            char where[80];
+            (void)snprintf(where, sizeof where, "screen %g/W, first %g", from, places->count - i - 0.3);
+            plot_label(plot, text, where, color, "left");
+        }
+    }
+    plot_line(plot, "}");
+    for (int i = 0; i < places->count; i++) {
+        const struct told_place *place = &places->lane[i].place;
+        double y = places->count - i - 0.76, middle = (place->from + place->to) / 2;
+        if (place->to > place->from)
+            plot_line(plot, "set object %d rectangle from %.6g,%g to %.6g,%g fs solid noborder fc rgb %s", 100 + i, place->from,
+                      y - 0.11, place->to, y + 0.11, color);
+        else
+            plot_line(plot, "set label %d '' at %.6g,%g point pt 7 ps 0.8 lc rgb %s", 200 + i, middle, y, color);
+        if (isfinite(place->ci[0]) && isfinite(place->ci[1]))
+            plot_line(plot, "set arrow %d from %.6g,%g to %.6g,%g heads size screen 0.006,90 front lc rgb %s lw 1.5", 100 + i,
+                      fmax(place->ci[0], 0), y, fmin(place->ci[1], geometry->length), y, place->to > place->from ? "INK" : color);
+    }
+    plot_line(plot, "plot NaN");
+}
+
+/* The ground behind the curve where a named cause acts. */
+static void draw_named(struct plot *plot, const struct geometry *geometry, const struct places *places)
+{
+    for (int i = 0; i < places->count && places->named; i++) {
+        const struct told_place *place = &places->lane[i].place;
+        double from = fmin(place->from, isfinite(place->ci[0]) ? fmax(place->ci[0], 0) : INFINITY),
+               to = fmax(place->to, isfinite(place->ci[1]) ? fmin(place->ci[1], geometry->length) : -INFINITY);
+        plot_line(plot, "set object %d rectangle from %.6g, graph 0 to %.6g, graph 1 behind fs solid noborder fc rgb SHADE",
+                  i + 1, from, to);
+        plot_line(plot, "set arrow %d from %.6g, graph 0 to %.6g, graph 1 nohead lc rgb VERMILION lw 1 dt (4,3)", i + 1,
+                  (place->from + place->to) / 2, (place->from + place->to) / 2);
+    }
+}
+
+static void margins(struct plot *plot, const char *top, const char *bottom)
+{
+    plot_line(plot, "set tmargin at screen 1-(HEAD+%s)/H; set bmargin at screen 1-(HEAD+%s)/H", top, bottom);
+}
+
+static int script(struct document *document, struct figure *figure, const struct result *result, const struct places *places)
+{
+    struct pool *pool = document->pool;
+    const struct diagnosis_outcome *d = result->diagnosis;
+    const struct geometry *geometry = result->geometry;
+    double rotor[LAYOUTS] = {0, 0}, lanes = LANE_PX * places->count, radius = geometry ? geometry_radius(geometry) : 1,
+           length = geometry ? geometry->length : d->local_z[d->nlocal - 1];
+    struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .left = LEFT_PX, .right = RIGHT_PX, .top = 0, .bottom = AXIS_PX};
+    struct plot plot;
+    for (int l = 0; l < LAYOUTS && geometry; l++)
+        rotor[l] = 12 + fmin(2 * radius * ((l == WIDE ? WIDE_PX : NARROW_PX) - LEFT_PX - RIGHT_PX) / length, MOST_ROTOR);
+    layout.height = 6 + rotor[WIDE] + lanes + CURVE_PX + AXIS_PX;
+    layout.narrow_height = 6 + rotor[NARROW] + lanes + CURVE_PX + AXIS_PX;
+    if (plot_open(&plot, pool, figure, result->file))
+        return ROTID_ERROR_MEMORY;
+    plot_line(&plot, "# columns: z [m], force that the model lacks there, largest 1 [1]");
+    plot_data(&plot, "indicator", d->nlocal, 2, (const double *const[]){d->local_z, d->local});
+    plot_begin(&plot, &layout);
+    plot_line(&plot,
+              "# heights [px] of the rotor, of the places under it and of the curve\nROTOR = narrow ? %g : %g; LANES = "
+              "%g; CURVE = %g",
+              rotor[NARROW], rotor[WIDE], lanes, CURVE_PX);
+    if (geometry) {
+        plot_panel(&plot, 0);
+        margins(&plot, "4", "ROTOR");
+        plot_line(&plot, "set xrange [0:%.6g]\nset yrange [%.6g:%.6g]\nset border 0; unset tics; unset grid", length,
+                  -1.02 * radius, 1.02 * radius);
+        (void)rotor_draw(&plot, geometry, NULL, 0);
+        plot_line(&plot, "plot NaN");
+    }
+    if (places->count) {
+        plot_panel(&plot, 0);
+        margins(&plot, "ROTOR", "ROTOR+LANES");
+        plot_line(&plot, "set xrange [0:%.6g]\nset yrange [0:%d]\nset border 0; unset tics; unset grid", length, places->count);
+        draw_lanes(&plot, geometry, places);
+    }
+    plot_panel(&plot, 0);
+    margins(&plot, "ROTOR+LANES+6", "ROTOR+LANES+6+CURVE");
+    plot_line(&plot,
+              "set xrange [0:%.6g]\nset yrange [0:1.05]\nset border 3; set grid ls 20\nset xtics 0,%g nomirror out scale 0.5 "
+              "offset 0,0.25 textcolor rgb INK; set ytics 0.5 nomirror out scale 0.5 offset 0.5,0 textcolor rgb INK",
+              length, plot_tic(length, 6));
+    if (geometry)
+        draw_named(&plot, geometry, places);
+    plot_axes(&plot, "z [m]", "indicator [1]");
+    plot_line(&plot, "plot $indicator using 1:2 with filledcurves y1=0 fc rgb BLUE fs transparent solid 0.25 noborder, \\\n"
+                     "    $indicator using 1:2 with lines ls 1");
+    return plot_close(&plot);
+}
+
+/* What the places are, in a sentence that begins with a blank. */
+static const char *which(struct pool *pool, const struct places *places)
+{
+    const char *text = "";
+    int left = places->others + (places->count > MOST_TOLD ? places->count - MOST_TOLD : 0);
+    for (int i = 0; i < places->count && i < MOST_TOLD && text; i++) {
+        const struct told_place *place = &places->lane[i].place;
+        const char *where = place->to > place->from
+                                ? pool_format(pool, "from %s to %s\xc2\xa0m", human_digits(pool, place->from, 3),
+                                              human_digits(pool, place->to, 3))
+                                : pool_format(pool, "at %s\xc2\xa0m", human_digits(pool, place->from, 3));
+        const char *sure = isfinite(place->ci[0]) && isfinite(place->ci[1])
+                               ? pool_format(pool, " (95\xc2\xa0%% of its place: %s to %s\xc2\xa0m)",
+                                             human_digits(pool, place->ci[0], 3), human_digits(pool, place->ci[1], 3))
+                               : "";
+        text = pool_format(pool, "%s%s%s %s%s", text, i ? "; " : "", cause_label(pool, places->lane[i].cause), where ? where : "",
+                           sure ? sure : "");
+    }
+    if (!places->count || !text)
+        return places->others ? " What was named has no single place along the axis." : "";
+    text = pool_format(pool, " %s: %s%s.", places->named ? "Named" : "Possible, and not to be told apart", text,
+                       left > 0 ? pool_format(pool, "; and %s more", human_count(pool, left)) : "");
+    return text ? text : "";
+}
+
+static struct number_table *places_table(struct pool *pool, const struct diagnosis_outcome *d)
+{
+    struct number_table *table = table_new(pool, d->nlocal, 2);
+    table_head(table, 0, "z [m]");
+    table_head(table, 1, "indicator [1]");
+    for (int i = 0; i < d->nlocal; i++) {
+        table_cell(table, i, 0, human_fixed(pool, d->local_z[i], 4));
+        table_cell(table, i, 1, human_fixed(pool, d->local[i], 3));
+    }
+    return table;
+}
+
+void figure_places(struct document *document, const struct result *result)
+{
+    const struct diagnosis_outcome *d = result->diagnosis;
+    struct pool *pool = document->pool;
+    int most = -1;
+    for (int i = 0; i < d->nlocal; i++)
+        if (isfinite(d->local[i]) && (most < 0 || d->local[i] > d->local[most]))
+            most = i;
+    if (most < 0 || d->nlocal < 2 || d->kind == TOLD_ADEQUATE)
+        return;
+    struct places places = find_places(result);
+    struct figure *figure = document_figure(document, "places", "Where the misfit acts");
+    figure->caption =
+        pool_format(pool,
+                    "The misfit is mended best by a force at %s\xc2\xa0m, where the indicator is 1.%s The curve is a hint "
+                    "where to look, no cause: an error anywhere smears over its neighbourhood.",
+                    human_digits(pool, d->local_z[most], 3), which(pool, &places));
+    figure->alt = pool_format(pool, "The rotor, %s places of causes under it, and a curve along its axis with its peak at %s m.",
+                              human_count(pool, places.count), human_digits(pool, d->local_z[most], 3));
+    figure->table = places_table(pool, d);
+    document->failed |= !figure->caption || !figure->alt || script(document, figure, result, &places) != ROTID_OK;
+}

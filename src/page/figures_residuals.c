@@ -1,0 +1,206 @@
+/* What the model misses, in units of the noise: modes in one panel, sensors in another. */
+#include <math.h>
+
+#include "fit/quantile.h"
+#include "page/figures_diagnosis.h"
+#include "page/human.h"
+#include "page/plot.h"
+
+#define OUTSIDE    0.05 /* what noise alone leaves beyond the thresholds */
+#define NORMAL_95  1.96
+#define MOST_TICKS 12 /* numbers of modes side by side in a panel of half the page */
+
+double chi_square_limit(double outside, int dof)
+{
+    double low = 0, high = 1;
+    while (chi_square_tail(high, dof) > outside)
+        high *= 2;
+    for (int i = 0; i < 60; i++) {
+        double middle = (low + high) / 2;
+        *(chi_square_tail(middle, dof) > outside ? &low : &high) = middle;
+    }
+    return (low + high) / 2;
+}
+
+struct told_misfit {
+    int worst, beyond, fitted; /* mode with the largest residual, -1: none; fitted ones beyond the threshold, and in all */
+    int shapes, sensors, loud, loudest; /* fitted shapes; sensors with a number, beyond the limit; the worst, -1: none */
+    double limit;                       /* of a sensor */
+};
+
+static struct told_misfit sum_up(const struct diagnosis_outcome *d)
+{
+    struct told_misfit m = {.worst = -1, .loudest = -1, .limit = NAN};
+    const struct fitted *base = d->base;
+    for (int k = 0; k < d->nmode; k++) {
+        if (!isfinite(d->mode_z[k]))
+            continue;
+        if (!base->mode[k].holdout) {
+            m.fitted++;
+            m.beyond += fabs(d->mode_z[k]) > NORMAL_95;
+        }
+        if (m.worst < 0 || fabs(d->mode_z[k]) > fabs(d->mode_z[m.worst]))
+            m.worst = k;
+    }
+    for (int k = 0; base->shapes && k < base->shapes->nmode && k < base->nmode; k++)
+        m.shapes += base->shapes->mode[k].measured && !base->mode[k].holdout;
+    if (m.shapes)
+        m.limit = sqrt(chi_square_limit(OUTSIDE, m.shapes) / m.shapes);
+    for (int s = 0; s < d->nsensor; s++) {
+        if (!isfinite(d->sensor[s].rms))
+            continue;
+        m.sensors++;
+        m.loud += d->sensor[s].rms > m.limit;
+        if (m.loudest < 0 || d->sensor[s].rms > d->sensor[m.loudest].rms)
+            m.loudest = s;
+    }
+    return m;
+}
+
+static void draw_modes(struct plot *plot, const struct diagnosis_outcome *d, const double *z)
+{
+    struct plot_range range = plot_range_of(d->nmode, z, 0);
+    plot_range_join(&range, NORMAL_95);
+    plot_range_join(&range, -NORMAL_95);
+    double pad = 0.1 * (range.to - range.from);
+    plot_line(plot, "set xrange [0.4:%g]\nset yrange [%.6g:%.6g]", d->nmode + 0.6, range.from - pad, range.to + pad);
+    (void)fputs("set xtics (", plot->out);
+    for (int k = 0; k < d->nmode; k += 1 + d->nmode / MOST_TICKS)
+        (void)fprintf(plot->out, "%s'%d%s' %d", k ? ", " : "", d->base->mode[k].mode, d->base->mode[k].holdout ? "*" : "", k + 1);
+    (void)fputs(")\n", plot->out);
+    plot_axes(plot, "mode of the model [1]", "residual over noise [1]");
+    plot_line(plot, "set style fill solid noborder\nset boxwidth 0.6");
+    plot_line(plot,
+              "plot $modes using 1:2 with boxes fc rgb BLUE, 0 with lines lc rgb INK lw 1 dt 1, \\\n"
+              "    %g with lines ls 2 lw 1, -%g with lines ls 2 lw 1",
+              NORMAL_95, NORMAL_95);
+}
+
+static void draw_sensors(struct plot *plot, const struct result *result, const double *rms, const struct told_misfit *m)
+{
+    const struct diagnosis_outcome *d = result->diagnosis;
+    struct plot_range range = plot_range_of(d->nsensor, rms, 0);
+    double length = result->geometry ? result->geometry->length : d->sensor[d->nsensor - 1].z;
+    length = length > 0 ? length : 1;
+    range.to = fmax(range.to, fmax(1, m->limit));
+    plot_line(plot, "set xrange [%.6g:%.6g]\nset yrange [0:%.6g]\nset xtics %g", -0.02 * length, 1.02 * length, 1.1 * range.to,
+              plot_tic(length, 4));
+    plot_axes(plot, "position of the sensor z [m]", "rms of its residuals over noise [1]");
+    plot_line(plot,
+              "plot $sensors using 1:2 with impulses lc rgb BLUE lw 2 dt 1, 1 with lines lc rgb INK lw 1 dt 1, \\\n"
+              "    %s with lines ls 2 lw 1",
+              plot_number(plot, m->limit));
+}
+
+static int script(struct document *document, struct figure *figure, const struct result *result, const struct told_misfit *m)
+{
+    struct pool *pool = document->pool;
+    const struct diagnosis_outcome *d = result->diagnosis;
+    int n = d->nmode, sensors = m->sensors ? d->nsensor : 0;
+    double *x = POOL_ARRAY(pool, double, n), *z = POOL_ARRAY(pool, double, sensors), *rms = POOL_ARRAY(pool, double, sensors);
+    const struct plot_entry entry[] = {
+        {.text = "residual", .keys = KEY_FACE, .face = "BLUE"},
+        {.text = "1 in 20 lies beyond by noise alone", .style = 2, .keys = KEY_LINE},
+    };
+    struct plot_layout layout = {.panels = 1 + (sensors > 0),
+                                 .columns = {1 + (sensors > 0), 1},
+                                 .height = 250,
+                                 .left = 54,
+                                 .right = 10,
+                                 .top = 8,
+                                 .bottom = 48};
+    struct plot plot;
+    plot_head(entry, 2, layout.head);
+    if (!x || !z || !rms || plot_open(&plot, pool, figure, result->file))
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < n; k++)
+        x[k] = k + 1;
+    for (int s = 0; s < sensors; s++) {
+        z[s] = d->sensor[s].z;
+        rms[s] = d->sensor[s].rms;
+    }
+    plot_line(&plot,
+              "# columns: place of the mode, error of its frequency over its noise; then: z of a sensor [m], rms over noise");
+    plot_data(&plot, "modes", n, 2, (const double *const[]){x, d->mode_z});
+    if (sensors)
+        plot_data(&plot, "sensors", sensors, 2, (const double *const[]){z, rms});
+    plot_begin(&plot, &layout);
+    plot_panel(&plot, 0);
+    plot_legend(&plot, entry, 2);
+    draw_modes(&plot, d, d->mode_z);
+    if (sensors) {
+        plot_panel(&plot, 1);
+        draw_sensors(&plot, result, rms, m);
+    }
+    return plot_close(&plot);
+}
+
+static const char *about(struct pool *pool, double count)
+{
+    const char *text = pool_format(pool, "about %s", human_count(pool, (int)floor(count + 0.5)));
+    return text ? text : "";
+}
+
+static const char *none_or(struct pool *pool, int count)
+{
+    return count ? human_count(pool, count) : "none";
+}
+
+static struct number_table *residuals_table(struct pool *pool, const struct diagnosis_outcome *d, int sensors)
+{
+    struct number_table *table = table_new(pool, d->nmode + (sensors ? d->nsensor : 0), 3);
+    table_head(table, 0, "mode, or sensor");
+    table_head(table, 1, "measured [Hz], or z [m]");
+    table_head(table, 2, "residual over noise [1]");
+    for (int k = 0; k < d->nmode; k++) {
+        const struct fitted_mode *mode = &d->base->mode[k];
+        table_cell(table, k, 0, pool_format(pool, "mode %d%s", mode->mode, mode->holdout ? ", held out" : ""));
+        table_cell(table, k, 1, human_fixed(pool, mode->measured_hz, 3));
+        table_cell(table, k, 2, human_signed(pool, d->mode_z[k], 2));
+    }
+    for (int s = 0; sensors && s < d->nsensor; s++) {
+        table_cell(table, d->nmode + s, 0, pool_format(pool, "sensor %.0f", d->sensor[s].id));
+        table_cell(table, d->nmode + s, 1, human_fixed(pool, d->sensor[s].z, 4));
+        table_cell(table, d->nmode + s, 2, human_fixed(pool, d->sensor[s].rms, 2));
+    }
+    return table;
+}
+
+void figure_residuals(struct document *document, const struct result *result)
+{
+    const struct diagnosis_outcome *d = result->diagnosis;
+    struct pool *pool = document->pool;
+    if (!d->base || !d->nmode)
+        return;
+    struct told_misfit m = sum_up(d);
+    int held = 0;
+    for (int k = 0; k < d->nmode; k++)
+        held |= d->base->mode[k].holdout;
+    if (m.worst < 0)
+        return;
+    const char *sensors =
+        m.loudest < 0
+            ? " No shape was fitted, so nothing can be said of single sensors."
+            : pool_format(pool,
+                          " Sensors: 1 is noise alone; %s of %d exceed %s, where noise alone lets %s. The worst is sensor "
+                          "%.0f at %s\xc2\xa0m with %s.",
+                          none_or(pool, m.loud), m.sensors, human_fixed(pool, m.limit, 2),
+                          m.sensors * OUTSIDE < 0.5 ? "hardly one" : about(pool, OUTSIDE * m.sensors), d->sensor[m.loudest].id,
+                          human_trimmed(pool, d->sensor[m.loudest].z, 4), human_fixed(pool, d->sensor[m.loudest].rms, 2));
+    struct figure *figure =
+        document_figure(document, "residuals",
+                        m.loudest < 0 ? "What the model misses, mode by mode" : "What the model misses, by modes and by sensors");
+    figure->caption =
+        pool_format(pool,
+                    "Modes: the error of each frequency over its noise; %s of %s fitted ones lie beyond \xc2\xb1%g, the "
+                    "largest is %s in mode %d%s.%s",
+                    m.beyond == m.fitted ? "all" : none_or(pool, m.beyond), human_count(pool, m.fitted), NORMAL_95,
+                    human_signed(pool, d->mode_z[m.worst], 1), d->base->mode[m.worst].mode,
+                    held ? "; modes with a star were held out of the fit" : "", sensors ? sensors : "");
+    figure->alt = pool_format(pool, "Bars for %d modes, from %s to %s times their noise%s.", d->nmode,
+                              human_signed(pool, plot_range_of(d->nmode, d->mode_z, 0).from, 1),
+                              human_signed(pool, plot_range_of(d->nmode, d->mode_z, 0).to, 1),
+                              m.sensors ? "; beside them one line for each sensor along the rotor" : "");
+    figure->table = residuals_table(pool, d, m.sensors);
+    document->failed |= !sensors || !figure->caption || !figure->alt || script(document, figure, result, &m) != ROTID_OK;
+}

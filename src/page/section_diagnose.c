@@ -1,0 +1,154 @@
+/* The sections of a diagnosis, in the order in which one asks: is the measurement sound, where does the model miss it, what could
+ * cause that, what is it worth, what could not have been seen. */
+#include <math.h>
+
+#include "page/cause_words.h"
+#include "page/figures.h"
+#include "page/figures_diagnosis.h"
+#include "page/human.h"
+#include "page/sections.h"
+#include "page/tables.h"
+#include "page/tables_diagnosis.h"
+
+/* How to look for what was named, or for what cannot be told apart, each check once. */
+static void section_next(struct document *document, const struct diagnosis_outcome *d, const char *deck)
+{
+    struct pool *pool = document->pool;
+    int count = d->kind == TOLD_NONE ? 0 : d->ncause + d->nalternative, n = 0;
+    const char **text = POOL_ARRAY(pool, const char *, count + 1);
+    if (!text) {
+        document->failed = 1;
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const struct told_cause *cause = i < d->ncause ? &d->cause[i] : &d->alternative[i - d->ncause];
+        const char *check = cause_check(cause->id);
+        int seen = !*check;
+        for (int j = 0; j < i; j++)
+            seen |= cause_check((j < d->ncause ? &d->cause[j] : &d->alternative[j - d->ncause])->id) == check;
+        if (!seen)
+            text[n++] = pool_format(pool, "%s: %s.", cause->id, check);
+    }
+    if (count && d->ncause)
+        text[n++] = pool_format(pool,
+                                "To go on with it in the model: rotid diagnose %s --extended better.inp writes the deck with the "
+                                "cause as a *CAUSE card, and rotid identify better.inp uses it.",
+                                deck);
+    if (!n)
+        return;
+    document_section(document, "look",
+                     d->ncause ? "Look at the rotor before you believe it" : "What would settle it at the rotor");
+    document_list(document, n, text);
+}
+
+static void section_findings(struct document *document, const struct diagnosis_outcome *d)
+{
+    struct pool *pool = document->pool;
+    if (!d->ndata && !d->nnumerical)
+        return;
+    document_section(document, "findings", "Measurement and numbers");
+    for (int i = 0; i < d->ndata; i++) {
+        const char *check = cause_check(d->data[i].id);
+        document_paragraph(document, "%s: %s. At the test: %s.", d->data[i].id, d->data[i].text ? d->data[i].text : "found",
+                           check);
+    }
+    for (int i = 0; i < d->nnumerical; i++) {
+        const struct told_finding *finding = &d->numerical[i];
+        document_paragraph(document, "%s: %s.", finding->id, finding->text ? finding->text : "found");
+        if (finding->nerror)
+            document_table(document, pool_format(pool, "%s: its error in each mode", finding->id),
+                           tables_numerical(pool, finding));
+    }
+}
+
+static void section_misfit(struct document *document, const struct result *result)
+{
+    const struct diagnosis_outcome *d = result->diagnosis;
+    if (!d->base)
+        return;
+    document_section(document, "misfit", d->kind == TOLD_ADEQUATE ? "Model and measurement" : "Where the model misses");
+    figure_residuals(document, result);
+    figure_places(document, result);
+    document_table(document,
+                   d->extended ? "Modes of the model without the cause"
+                               : "Modes: errors are predicted over measured frequency, less one",
+                   tables_fitted_modes(document->pool, result, d->base));
+}
+
+static const char *round_says(struct pool *pool, const struct evidence_round *round, int number, int fitted)
+{
+    static const char *const kinds[] = {"no verdict", "the model is adequate", "a cause is named", "the data cannot tell",
+                                        "nothing explains it"};
+    const char *text = pool_format(
+        pool,
+        "Round %d, %s: the misfit is %s for %d degrees of freedom. The largest drop that the linear scan expects is %s; %s.%s",
+        number + 1, kinds[round->kind], human_digits(pool, round->chi2, 4), round->dof, human_digits(pool, round->largest, 3),
+        isfinite(round->threshold)
+            ? pool_format(pool, "chance alone reaches %s in 3 of 100 tests", human_digits(pool, round->threshold, 3))
+            : "what chance alone reaches was not found out",
+        fitted ? "" : " Nothing promised enough to be fitted.");
+    return text ? text : "";
+}
+
+static void section_evidence(struct document *document, const struct result *result)
+{
+    const struct diagnosis_outcome *d = result->diagnosis;
+    struct pool *pool = document->pool;
+    if (!d->nround)
+        return;
+    document_section(document, "causes", d->kind == TOLD_ADEQUATE ? "What was looked for" : "What could cause it");
+    for (int i = 0; i < d->nround; i++) {
+        const struct evidence_round *round = &d->round[i];
+        int fitted = 0;
+        for (int k = 0; k < round->ncandidate; k++)
+            fitted += round->candidate[k].refitted;
+        document_paragraph(document, "%s", round_says(pool, round, i, fitted));
+        figure_evidence(document, result, i);
+        if (!fitted)
+            continue;
+        document_table(document, pool_format(pool, "Candidates of round %d, those that stay first", i + 1),
+                       tables_candidates(pool, round));
+        document_table(document, pool_format(pool, "What the fitted ones of round %d predict, and what they look like", i + 1),
+                       tables_candidate_quality(pool, round));
+        document_table(document, pool_format(pool, "Sizes and places of the candidates of round %d", i + 1),
+                       tables_candidate_sizes(pool, round));
+    }
+}
+
+static void section_gain(struct document *document, const struct result *result)
+{
+    const struct diagnosis_outcome *d = result->diagnosis;
+    if (!d->base || d->kind == TOLD_NONE)
+        return;
+    document_section(document, "worth", d->extended ? "What it is worth" : "Quality and parameters of the model");
+    figure_improvement(document, result);
+    figure_gain(document, result);
+    document_table(document, d->extended ? "Quality before and after" : "Quality of the model",
+                   tables_quality(document->pool, d));
+    figure_change(document, result);
+    if (!d->extended && !diagnosis_today(d))
+        figure_intervals(document, result, d->base);
+    figure_shapes(document, result, d->extended ? d->extended : d->base);
+}
+
+static void section_blind_spots(struct document *document, const struct diagnosis_outcome *d)
+{
+    if (!d->nsize)
+        return;
+    document_section(document, "blind", "Blind spots");
+    document_paragraph(
+        document, "What is smaller than this would not have shown in this measurement, and may be there. A size is told as the "
+                  "distance from no effect; it shows in 9 of 10 tests at 3 false alarms in 100.");
+    document_table(document, "The smallest size of each cause that would have shown", tables_blind_spots(document->pool, d));
+}
+
+void section_diagnose(struct document *document, const struct result *result)
+{
+    const struct diagnosis_outcome *d = result->diagnosis;
+    section_next(document, d, result->deck ? result->deck : "DECK");
+    section_findings(document, d);
+    section_misfit(document, result);
+    section_evidence(document, result);
+    section_gain(document, result);
+    section_blind_spots(document, d);
+}

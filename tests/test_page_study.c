@@ -1,0 +1,385 @@
+/* Pages of studies: what they count and draw is counted here anew, from the lines of the file of results. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cJSON.h>
+
+#include "json_value.h"
+#include "page/by_modes.h"
+#include "page/page.h"
+#include "page_bench.h"
+#include "study_bench.h"
+#include "support.h"
+
+#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+
+static void make_study(const char *name, const char *plan)
+{
+    char path[64];
+    (void)snprintf(path, sizeof path, "%s.plan", name);
+    if (page_exists(path))
+        return;
+    page_write_file("beam.inp", BENCH_DECK);
+    page_write_file(path, plan);
+    assert_int_equal(
+        page_run("cd %s; %s study %s.plan -o %s.jsonl --quiet --json %s.json", page_path(""), ROTID_PROGRAM, name, name, name),
+        0);
+}
+
+static const char *page_of(const char *file)
+{
+    static char folder[64];
+    (void)snprintf(folder, sizeof folder, "page-%s/index.html", file);
+    assert_int_equal(page_run("cd %s; %s %s report %s -o page-%s", page_path(""), page_stand_in(NULL), ROTID_PROGRAM, file, file),
+                     0);
+    assert_string_equal(page_err, "");
+    const char *html = page_read(folder);
+    assert_int_equal(page_problems(html), 0);
+    return html;
+}
+
+static void assert_says(const char *html, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void assert_says(const char *html, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (!strstr(html, text))
+        print_error("the page does not say '%s'\n", text);
+    assert_non_null(strstr(html, text));
+}
+
+static int count_of(const char *text, const char *what)
+{
+    int count = 0;
+    while ((text = strstr(text, what))) {
+        count++;
+        text++;
+    }
+    return count;
+}
+
+/* The runs of a file, without its header; to be deleted. */
+static cJSON *runs_of(const char *name)
+{
+    const char *text = strchr(page_read(name), '\n') + 1, *end;
+    cJSON *list = cJSON_CreateArray();
+    while (*text) {
+        cJSON *line = cJSON_ParseWithOpts(text, &end, 0);
+        assert_non_null(line);
+        cJSON_AddItemToArray(list, line);
+        text = end + 1;
+    }
+    return list;
+}
+
+static const cJSON *parameter(const cJSON *run, int p)
+{
+    const cJSON *item = cJSON_GetArrayItem(get(run, "parameters"), p);
+    assert_non_null(item);
+    return item;
+}
+
+static const char *const starts_plan = "*STUDY\n*DECKS\nbeam.inp\n*VARIANT, NAME=both\n*VARIANT, NAME=of "
+                                       "likelihood\nFIT.FUNCTIONAL=HYBRID_F\n*MODES\n1-3\n1-4\n1-6\n"
+                                       "*STARTS, SPREAD=0.5, GRID=3\n";
+
+static void starts_and_numbers_of_modes_are_drawn_with_their_ends(void **state)
+{
+    (void)state;
+    make_study("starts", starts_plan);
+    cJSON *runs = runs_of("starts.jsonl"), *run;
+    const char *html = page_of("starts.jsonl");
+    assert_int_equal(cJSON_GetArraySize(runs), 2 * 3 * 9);
+    assert_says(html, "<h1>Study starts.plan</h1>");
+    assert_says(html, "54 identifications: none failed, all converged. Every start leads to the same minimum in its cell.");
+    assert_says(html, "9 iterations (both, modes 1-6), started within \xc2\xb1"
+                      "50\xc2\xa0%% of core.E = 200\xc2\xa0GPa, left.E = 200\xc2\xa0GPa: all end at the same minimum, core.E = ");
+    /* mean functional over the square of the number of fitted modes */
+    double sum = 0;
+    int count = 0;
+    cJSON_ArrayForEach(run, runs)
+    {
+        const cJSON *cell = get(run, "cell");
+        if (strcmp(get(cell, "variant")->valuestring, "both") != 0 || strcmp(get(cell, "modes")->valuestring, "1-3") != 0)
+            continue;
+        sum += number_of(run, "objective");
+        count++;
+    }
+    assert_int_equal(count, 9);
+    double mean = sum / count / 9;
+    int power = (int)floor(log10(mean));
+    static const char *const raised[] = {"",
+                                         "",
+                                         "",
+                                         "",
+                                         "10\xe2\x81\xbb\xe2\x81\xb4",
+                                         "10\xe2\x81\xbb\xe2\x81\xb5",
+                                         "10\xe2\x81\xbb\xe2\x81\xb6",
+                                         "10\xe2\x81\xbb\xe2\x81\xb7"};
+    if (power < -3 && power > -8)
+        assert_says(html, "both %.2f\xc2\xa0\xc3\x97\xc2\xa0%s with 3 modes", mean / pow(10, power), raised[-power]);
+    else
+        assert_says(html, "both %.*f with 3 modes", 2 - power, mean);
+    static const char *const figures[] = {"starts", "functional-by-modes", "parameters-by-modes"};
+    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
+        assert_says(html, "<figure id=\"%s\">", figures[i]);
+    assert_null(strstr(html, "<figure id=\"coverage\">")); /* no truth */
+    assert_says(html, "of likelihood, modes 1-4");
+    /* one row of the table of the starts for each run, and each start of the file in it */
+    const char *table = strstr(html, "id=\"starts-numbers\"");
+    assert_non_null(table);
+    assert_says(table, "<td class=\"n\">100.0</td><td class=\"n\">300.0</td>");
+    cJSON_Delete(runs);
+}
+
+static const char *const truth_plan =
+    "*STUDY, REPLICATES=40\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1.8e11, 2.2e11\n"
+    "left.E, 2e11\n*NOISE\n0.001\n0.003\n";
+
+static void intervals_are_counted_against_the_truth(void **state)
+{
+    (void)state;
+    make_study("truth", truth_plan);
+    cJSON *runs = runs_of("truth.jsonl"), *run;
+    const char *html = page_of("truth.jsonl");
+    int held[2] = {0, 0}, all = 0, count = 0;
+    double sum = 0;
+    cJSON_ArrayForEach(run, runs)
+    {
+        int first = number_of(get(run, "cell"), "noise_frequency") < 0.002;
+        for (int p = 0; p < 2; p++) {
+            const cJSON *item = parameter(run, p), *ci = get(item, "ci95");
+            double truth = number_of(item, "truth");
+            int holds = cJSON_GetArrayItem(ci, 0)->valuedouble <= truth && truth <= cJSON_GetArrayItem(ci, 1)->valuedouble;
+            all += holds;
+            held[p] += first && holds;
+            if (first && p == 0) {
+                sum += (number_of(item, "value") - truth) / number_of(item, "std");
+                count++;
+            }
+        }
+    }
+    assert_int_equal(count, 40);
+    assert_says(html, "Of 160 95\xc2\xa0%% intervals %.1f\xc2\xa0%% hold the truth.", 100.0 * all / 160);
+    assert_says(html, "core.E: mean %s%.2f, deviation ", sum < 0 ? "\xe2\x88\x92" : "+", fabs(sum / count));
+    assert_says(html, "%d of 40 intervals hold the truth; left.E: mean ", held[0]);
+    assert_says(html, "%d of 40 intervals hold the truth. Where the fits", held[1]);
+    assert_says(html, "<figure id=\"coverage\">");
+    assert_says(html, "noise 0.003");
+    assert_null(strstr(html, "<figure id=\"starts\">"));
+    cJSON_Delete(runs);
+}
+
+static void a_summary_says_what_it_does_not_hold(void **state)
+{
+    (void)state;
+    make_study("truth", truth_plan);
+    const char *html = page_of("truth.json");
+    assert_says(html, "truth.json is a summary.");
+    assert_says(html, "<figure id=\"coverage\">");
+    assert_null(strstr(html, "<figure id=\"errors-of-runs\">"));
+    /* beside another result it adds its section, and the answer stays that of the first */
+    assert_int_equal(page_run("cd %s; %s identify beam.inp --quiet --json fit.json; %s %s report fit.json starts.jsonl -o both",
+                              page_path(""), ROTID_PROGRAM, page_stand_in(NULL), ROTID_PROGRAM),
+                     0);
+    html = page_read("both/index.html");
+    assert_int_equal(page_problems(html), 0);
+    assert_says(html, "<section id=\"study\">");
+    assert_says(html, "<figure id=\"starts\">");
+    assert_says(html, "<p class=\"says\">core.E = ");
+}
+
+static void verdicts_are_counted(void **state)
+{
+    (void)state;
+    static const char *const score[] = {"right", "quiet", "in_set", "silent", "wrong", "false_alarm"};
+    static const char *const says[] = {"right",  "rightly quiet", "in the set that cannot be told apart",
+                                       "silent", "wrong",         "false alarms"};
+    make_study("hidden",
+               "*STUDY, COMMAND=DIAGNOSE, REPLICATES=3, BOOTSTRAP=100\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*NOISE\n"
+               "0.001, 0.01\n*HIDE, TYPE=NONE, NAME=control\n*HIDE, TYPE=DENSITY, NAME=a <core>, GROUP=core\nfactor, 1.2\n");
+    cJSON *runs = runs_of("hidden.jsonl"), *run;
+    const char *html = page_of("hidden.jsonl");
+    int kinds = 0;
+    assert_says(html, "Of 6 diagnoses: ");
+    for (size_t k = 0; k < sizeof score / sizeof *score; k++) {
+        int count = 0;
+        cJSON_ArrayForEach(run, runs) count += !strcmp(get(run, "score")->valuestring, score[k]);
+        kinds += count > 0;
+        if (count)
+            assert_says(html, "%d %s", count, says[k]);
+    }
+    assert_true(kinds >= 1);
+    assert_says(html, "<figure id=\"verdicts\">");
+    assert_says(html, "a &lt;core&gt;");
+    assert_null(strstr(html, "<core>"));
+    cJSON_Delete(runs);
+}
+
+static void many_decks_stand_beside_each_other(void **state)
+{
+    (void)state;
+    char list[256] = "";
+    for (int i = 0; i < 5; i++) {
+        char name[32], text[2048];
+        (void)snprintf(name, sizeof name, "deck%d.inp", i);
+        (void)snprintf(text, sizeof text,
+                       BENCH_BEAM "*MODES\n1, %g\n2, 713.5\n3, 1722\n4, 2480\n5, 3970\n6, 5020\n" BENCH_SENSORS BENCH_WANTED,
+                       398.9 + i);
+        page_write_file(name, text);
+        (void)snprintf(list + strlen(list), sizeof list - strlen(list), " %s", name);
+    }
+    page_write_file("broken.inp", "*MATERIAL, NAME=a\n");
+    assert_int_equal(page_run("cd %s; %s study%s broken.inp -o decks.jsonl --quiet", page_path(""), ROTID_PROGRAM, list), 1);
+    const char *html = page_of("decks.jsonl");
+    assert_says(html, "class=\"answer care\"");
+    assert_says(html, "6 identifications: 1 failed, 0 did not converge.");
+    assert_says(html, "<p>One failed: ");
+    assert_says(html, "<figure id=\"decks\">");
+    assert_says(html, "deck3.inp");
+    assert_says(html, "A point with its interval for each of 5 decks.");
+}
+
+/* ------------------------------------------------------------------------------------------------------------ broken files */
+
+static void broken_lines_are_told_with_their_place(void **state)
+{
+    (void)state;
+    make_study("truth", truth_plan);
+    static const struct {
+        const char *from, *to, *says;
+    } wrong[] = {
+        {"\"status\":\"converged\"", "\"status\":\"perhaps\"", "line 2.status: is 'perhaps', expected converged, at_bound"},
+        {"\"objective\":", "\"objective\":\"x\",\"y\":", "line 2.objective: is a text, expected a number"},
+        {"\"parameters\":[{", "\"parameters\":[7,{", "line 2.parameters[0]: is a number, expected an object"},
+        {"\"modes\":[", "\"modes\":7,\"y\":[", "line 2.modes: is a number, expected a list"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        const char *whole = page_read("truth.jsonl"), *at = strstr(strchr(whole, '\n'), wrong[i].from);
+        assert_non_null(at);
+        char *broken = malloc(strlen(whole) + strlen(wrong[i].to) + 1);
+        assert_non_null(broken);
+        (void)sprintf(broken, "%.*s%s%s", (int)(at - whole), whole, wrong[i].to, at + strlen(wrong[i].from)); /* NOLINT: fits */
+        page_write_file("broken.jsonl", broken);
+        free(broken);
+        assert_int_equal(page_run("cd %s; %s report broken.jsonl -o broken", page_path(""), ROTID_PROGRAM), 2);
+        if (!strstr(page_err, wrong[i].says))
+            print_error("expected '%s', got '%s'\n", wrong[i].says, page_err);
+        assert_non_null(strstr(page_err, wrong[i].says));
+        assert_false(page_exists("broken"));
+    }
+    page_write_file("other.jsonl", "{\"a\": 1}\n{\"b\": 2}\n");
+    assert_int_equal(page_run("cd %s; %s report other.jsonl -o broken", page_path(""), ROTID_PROGRAM), 2);
+    assert_non_null(strstr(page_err, "other.jsonl: has a value a line and is no file of results"));
+    /* killed while it wrote: what is whole is shown, and that something is missing said */
+    const char *whole = page_read("truth.jsonl");
+    char *cut = strdup(whole);
+    assert_non_null(cut);
+    cut[strlen(cut) / 2] = 0;
+    page_write_file("cut.jsonl", cut);
+    free(cut);
+    assert_int_equal(page_run("cd %s; %s %s report cut.jsonl -o cut", page_path(""), page_stand_in(NULL), ROTID_PROGRAM), 0);
+    assert_non_null(strstr(page_err, "cut.jsonl: the last line is not complete and left out"));
+    assert_says(page_read("cut/index.html"), " of 80 runs</p>");
+    assert_says(page_read("cut/index.html"), "class=\"answer care\"");
+}
+
+/* --------------------------------------------------------------------------------------------------------------- routines */
+
+static void runs_are_sorted_into_series_by_their_modes(void **state)
+{
+    (void)state;
+    struct told_cell cell[] = {
+        {.deck = "a", .variant = "one", .modes = "1-4", .label = "one, modes 1-4", .noise_frequency = NAN, .noise_shape = NAN},
+        {.deck = "a", .variant = "one", .modes = "1-2", .label = "one, modes 1-2", .noise_frequency = NAN, .noise_shape = NAN},
+        {.deck = "a", .variant = "two", .modes = "1-2", .label = "two, modes 1-2", .noise_frequency = NAN, .noise_shape = NAN}};
+    struct told_run run[] = {{.cell = 0, .fitted = 4, .objective = 32},
+                             {.cell = 0, .fitted = 4, .objective = 16},
+                             {.cell = 1, .fitted = 2, .objective = 4},
+                             {.cell = 2, .fitted = 2, .objective = 8},
+                             {.cell = 2, .fitted = 2, .objective = 800, .status = TOLD_NOT_CONVERGED},
+                             {.cell = 2, .status = TOLD_FAILED, .objective = NAN}};
+    struct study_outcome study = {.ncell = 3, .nrun = 6, .cell = cell, .run = run};
+    struct by_modes by;
+    assert_status(by_modes_make(&test_pool, &study, &by), ROTID_OK);
+    assert_int_equal(by.nseries, 2);
+    assert_int_equal(by.series[0].count, 2);
+    assert_string_equal(by.series[0].name, "one");
+    assert_int_equal(by.series[0].point[0].fitted, 2); /* by rising number */
+    assert_close(by.series[0].point[0].functional, 1, 1e-15, 0);
+    assert_close(by.series[0].point[1].functional, 24 / 16.0, 1e-15, 0);
+    assert_close(by.series[1].point[0].functional, 2, 1e-15, 0);
+    study.nrun = 0; /* a summary */
+    assert_status(by_modes_make(&test_pool, &study, &by), ROTID_OK);
+    assert_int_equal(by.nseries, 0);
+}
+
+/* Memory of the pool that ends after n blocks, while the lines are read and composed. */
+static void memory_that_runs_out_is_survived(void **state)
+{
+    (void)state;
+    long served = 0;
+    make_study("starts", starts_plan);
+    for (long n = 0; n == 0 || n <= served; n += 1 + n / 9) { /* 0: counts */
+        struct failing_allocator failing;
+        struct pool pool;
+        struct message_list messages;
+        struct result result;
+        struct document document;
+        failing_allocator_open(&failing, n);
+        pool_open(&pool, &failing.allocator);
+        message_open(&messages, &pool);
+        int status = result_read(&pool, page_path("starts.jsonl"), &messages, &result);
+        if (!status) {
+            document_open(&document, &pool);
+            page_compose(&document, 1, &result);
+            assert_true(n > 0 || !document.failed);
+        } else {
+            assert_true(n > 0);
+        }
+        served = n ? served : failing.served;
+        pool_close(&pool);
+        assert_int_equal(failing.in_use, 0);
+    }
+    assert_true(served > 150);
+}
+
+static void the_real_gnuplot_draws_them(void **state)
+{
+    (void)state;
+    if (page_run("gnuplot --version") != 0) {
+        print_message("no gnuplot: its run over every script is left out\n");
+        skip();
+    }
+    static const char *const names[] = {"starts", "truth", "hidden", "decks"};
+    make_study("starts", starts_plan);
+    make_study("truth", truth_plan);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char path[64];
+        assert_int_equal(page_run("cd %s; %s report %s.jsonl -o real-%s", page_path(""), ROTID_PROGRAM, names[i], names[i]), 0);
+        assert_string_equal(page_err, "");
+        (void)snprintf(path, sizeof path, "real-%s/index.html", names[i]);
+        assert_int_equal(count_of(page_read(path), "<svg "), 2 * count_of(page_read(path), "<figure "));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(starts_and_numbers_of_modes_are_drawn_with_their_ends),
+        cmocka_unit_test(intervals_are_counted_against_the_truth),
+        cmocka_unit_test(a_summary_says_what_it_does_not_hold),
+        cmocka_unit_test(verdicts_are_counted),
+        cmocka_unit_test(many_decks_stand_beside_each_other),
+        cmocka_unit_test(broken_lines_are_told_with_their_place),
+        cmocka_unit_test_setup_teardown(runs_are_sorted_into_series_by_their_modes, open_test_pool, close_test_pool),
+        cmocka_unit_test(memory_that_runs_out_is_survived),
+        cmocka_unit_test(the_real_gnuplot_draws_them),
+    };
+    return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
+}
