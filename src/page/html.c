@@ -78,7 +78,7 @@ void html_table(FILE *out, const char *id, const char *caption, const struct num
 {
     judge_columns(table);
     (void)fprintf(
-        out, "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-labelledby=\"%s\">\n<table>\n<caption id=\"%s\"><span>",
+        out, "<div class=\"scroll\" role=\"group\" tabindex=\"0\" aria-labelledby=\"%s\">\n<table>\n<caption id=\"%s\"><span>",
         id, id);
     html_text(out, caption);
     (void)fputs("</span></caption>\n<thead>", out);
