@@ -12,7 +12,7 @@
 #   make check-embedding   the programs of docs/embedding.md with gcc, clang, flang, make, CMake, Python, as far as they are there
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
-#   make fuzz       the readers of decks and universal files on random input, FUZZ_SECONDS (600) each
+#   make fuzz       the readers of decks, universal files, plans and results on random input, FUZZ_SECONDS (600) each
 #   make coverage   share of the lines of src that the tests run
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
@@ -127,13 +127,14 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(OBJECTS)
 
 # The same studies over MPI; nothing else depends on it.
 MPICC ?= mpicc
-$(BUILD)/src/mpi/%.o: CC = $(MPICC)
+STUDY_RUNS ?= 1000
+$(BUILD)/src/mpi/%.o: override CC = $(MPICC)
 $(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(OBJECTS)
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 check-mpi:
 	@$(MAKE) --no-print-directory MPI=1 all
-	@sh tests/study/mpi $(BUILD)
+	@sh tests/study/mpi $(BUILD) $(STUDY_RUNS)
 
 # Effects hidden in simulated measurements: shares no code with the library.
 $(BUILD)/hide: $(call OBJECTS_OF,$(wildcard tools/hide/*.c tools/oracle/*.c))
@@ -202,7 +203,7 @@ check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 	@sh tests/embedding/check '$(BUILD)'
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
-FUZZERS := uff deck
+FUZZERS := uff deck plan results
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(IO_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 fuzzers: $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
@@ -230,7 +231,7 @@ install: all
 uninstall:
 	@$(TELL_INSTALL) sh tools/install uninstall '$(BUILD)'
 TELL_INSTALL = $(foreach name,VERSION SONAME DESTDIR PREFIX BINDIR LIBDIR PKGCONFIGDIR INCLUDEDIR DATADIR MANDIR DOCDIR BASHDIR ZSHDIR \
-               FISHDIR,$(name)='$($(name))')
+               FISHDIR MPI,$(name)='$($(name))')
 
 clean:
 	rm -rf $(BUILD)

@@ -25,7 +25,7 @@ _rotid_words() {
 
 _rotid() {
     local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command='' files=0 i
-    local commands='check modes sensitivity identify diagnose frf ema export uff study'
+    local commands='check modes sensitivity identify diagnose frf ema export uff study report'
     local common='--json --quiet --verbose --threads --seed --version --help'
     local of_deck='--set'
     local of_ema='--band --method --order --pick --per-point --no-refinement --reference --averages --estimator --exponential
@@ -55,6 +55,7 @@ _rotid() {
             case $command in
                 export) _rotid_files "$current" '*.@(mtx|dmig|bdf|py)' ;;
                 study) _rotid_files "$current" '*.jsonl' ;;
+                report) _rotid_files "$current" '' ;;
                 *) _rotid_files "$current" '*.@(unv|uff|uf)' ;;
             esac
             return
@@ -92,11 +93,14 @@ _rotid() {
             ema) common+=" $of_ema -o --output" ;;
             export) common+=" $of_deck -o --output --format --start --condensed" ;;
             uff) common+=' -o --output --format' ;;
+            report) common="${common#--json } -o --output" ;;
             study) common+=" $of_deck -o --output --shard --merge --timeout --retry-failed --summary" ;;
         esac
         _rotid_words "$current" "$common"
     elif [[ -z $command ]]; then
         _rotid_words "$current" "$commands"
+    elif [[ $command == report ]]; then
+        _rotid_files "$current" '*.@(json|jsonl)'
     elif [[ $command == study ]]; then
         _rotid_files "$current" '*.@(inp|jsonl)'
     elif ((files == 0)); then

@@ -1,6 +1,6 @@
 # Completion of rotid for fish: commands, the options of each, the files they read.
 
-set -l commands check modes sensitivity identify diagnose frf ema export uff study
+set -l commands check modes sensitivity identify diagnose frf ema export uff study report
 set -l decks check modes sensitivity identify diagnose frf export
 
 complete -c rotid -f
@@ -15,14 +15,16 @@ complete -c rotid -n $none -a frf -d 'Synthesised transfer functions beside meas
 complete -c rotid -n $none -a ema -d 'Hammer records or transfer functions to modes'
 complete -c rotid -n $none -a export -d 'The identified model for other programs'
 complete -c rotid -n $none -a study -d 'Many runs from one plan, or of many decks'
+complete -c rotid -n $none -a report -d 'Results of --json as a page with figures'
 complete -c rotid -n $none -a uff -d 'What a universal file holds; text to binary and back'
 
 complete -c rotid -n "__fish_seen_subcommand_from $decks" -k -a '(__fish_complete_suffix .inp)'
 complete -c rotid -n '__fish_seen_subcommand_from ema uff' -k -a '(__fish_complete_suffix .uff; __fish_complete_suffix .unv)'
 
+complete -c rotid -n '__fish_seen_subcommand_from report' -k -a '(__fish_complete_suffix .json; __fish_complete_suffix .jsonl)'
 complete -c rotid -n '__fish_seen_subcommand_from study' -k -a '(__fish_complete_suffix .inp; __fish_complete_suffix .jsonl)'
 
-complete -c rotid -l json -r -F -d 'The result as JSON, - for standard output'
+complete -c rotid -n 'not __fish_seen_subcommand_from report' -l json -r -F -d 'The result as JSON, - for standard output'
 complete -c rotid -l quiet -d 'No tables and no warnings'
 complete -c rotid -l verbose -d 'More in the tables'
 complete -c rotid -l threads -x -d 'Number of threads'
@@ -39,7 +41,7 @@ complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l points -x -d '
 complete -c rotid -n '__fish_seen_subcommand_from identify' -l no-baseline -d 'Without NLopt'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l extended -r -F -d 'A deck with what was found'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l replicates -x -d 'Of the bootstrap'
-complete -c rotid -n '__fish_seen_subcommand_from frf ema export uff study' -s o -l output -r -F -d 'The file that is written'
+complete -c rotid -n '__fish_seen_subcommand_from frf ema export uff study report' -s o -l output -r -F -d 'The file that is written'
 complete -c rotid -n '__fish_seen_subcommand_from uff' -l format -x -a 'ascii binary' -d 'Of its functions'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l format -x -a 'matrix-market dmig ross' -d 'Of the model'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l start -d 'The model as the deck states it'

@@ -373,7 +373,7 @@ module rotid
       import :: c_ptr, c_int, c_double, rotid_matrix
       type(c_ptr), value :: user
       real(c_double), intent(in) :: x(*)
-      type(rotid_matrix), intent(inout) :: stiffness, mass
+      type(rotid_matrix), intent(inout), target :: stiffness, mass
       integer(c_int) :: failure
     end function rotid_model_matrices
 
@@ -383,7 +383,7 @@ module rotid
       type(c_ptr), value :: user
       real(c_double), intent(in) :: x(*)
       integer(c_int), value :: p
-      type(rotid_matrix), intent(inout) :: stiffness, mass
+      type(rotid_matrix), intent(inout), target :: stiffness, mass
       integer(c_int) :: failure
     end function rotid_model_derivatives
 
@@ -972,7 +972,7 @@ contains
     type(rotid_environment), intent(in), optional, target :: environment
     type(rotid_environment), target :: given
     integer(c_int) :: status
-    type(rotid_model) :: host
+    type(rotid_model), target :: host
     type(rotid_measured) :: measured
     type(rotid_fit_options) :: how
     integer(c_int), allocatable, target :: c_master(:), c_far(:), c_number(:), c_holdout(:)

@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include "deck/deck.h"
+#include "study/plan.h"
+#include "study/summary.h"
 #include "uff/uff.h"
 #include "uff/uff_read.h"
 
@@ -141,6 +143,48 @@ void fuzz_one_deck(const uint8_t *bytes, size_t count)
     message_open(&messages, &pool);
     int status = deck_read(&pool, path, 0, NULL, &messages, &job);
     require((status != ROTID_OK) == (messages.errors > 0));
+    pool_close(&pool);
+    (void)close(descriptor);
+}
+
+void fuzz_one_plan(const uint8_t *bytes, size_t count)
+{
+    struct pool pool;
+    struct message_list messages;
+    struct plan plan;
+    char path[32];
+    int descriptor = hold(bytes, count, path);
+    pool_open(&pool, NULL);
+    message_open(&messages, &pool);
+    int status = plan_read(&pool, path, &messages, &plan);
+    require((status == ROTID_OK) == (messages.errors == 0));
+    require(status != ROTID_OK || (plan.ndeck > 0 && plan.nvariant > 0 && plan.nmodes > 0 && plan.nsensors > 0 &&
+                                   plan.nnoise > 0 && plan.nhide > 0 && plan.replicates > 0));
+    (void)plan_is(path);
+    pool_close(&pool);
+    (void)close(descriptor);
+}
+
+void fuzz_one_results(const uint8_t *bytes, size_t count)
+{
+    struct pool pool;
+    struct message_list messages;
+    struct summary summary;
+    char path[32];
+    int descriptor = hold(bytes, count, path);
+    pool_open(&pool, NULL);
+    message_open(&messages, &pool);
+    int status = summary_read(&pool, path, &messages, &summary);
+    require((status == ROTID_OK) == (messages.errors == 0));
+    if (status == ROTID_OK) {
+        const struct provenance provenance = {"study", "0", "0", "", 1, 1};
+        char *text = summary_json(&provenance, &summary);
+        FILE *nowhere = fopen("/dev/null", "wb");
+        require(text && nowhere);
+        summary_table(nowhere, &summary);
+        (void)fclose(nowhere);
+        json_free(text);
+    }
     pool_close(&pool);
     (void)close(descriptor);
 }

@@ -45,8 +45,15 @@ static void decks(void **state)
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/deck", fuzz_one_deck) > 3);
 }
 
+static void studies(void **state)
+{
+    (void)state;
+    assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/plan", fuzz_one_plan) > 2);
+    assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/results", fuzz_one_results) > 2);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(universal_files), cmocka_unit_test(decks)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(universal_files), cmocka_unit_test(decks), cmocka_unit_test(studies)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

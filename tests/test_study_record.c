@@ -203,9 +203,9 @@ static void other_files_are_left_alone(void **state)
     char *first = header_text(&header), text[3000];
     (void)snprintf(text, sizeof text, "%shello\n", first);
     refuses(text, ROTID_ERROR_ARGUMENT, "this line is no result");
-    (void)snprintf(text, sizeof text, "%s{\"run\":6,\"status\":\"converged\"}\n", first);
+    (void)snprintf(text, sizeof text, "%s{\"run\":6,\"cell\":{},\"status\":\"converged\"}\n", first);
     refuses(text, ROTID_ERROR_ARGUMENT, "of a run that the study");
-    (void)snprintf(text, sizeof text, "%s{\"run\":1.5,\"status\":\"converged\"}\n", first);
+    (void)snprintf(text, sizeof text, "%s{\"run\":1.5,\"cell\":{},\"status\":\"converged\"}\n", first);
     refuses(text, ROTID_ERROR_ARGUMENT, "of a run that the study");
     json_free(first);
 }

@@ -44,7 +44,7 @@ contains
   function matrices(user, x, stiffness, mass) result(failure) bind(C)
     type(c_ptr), value :: user
     real(dp), intent(in) :: x(*)
-    type(rotid_matrix), intent(inout) :: stiffness, mass
+    type(rotid_matrix), intent(inout), target :: stiffness, mass
     integer(c_int) :: failure
     type(shaft), pointer :: rotor
     real(dp), pointer :: band(:, :)
@@ -76,7 +76,7 @@ contains
     type(c_ptr), value :: user
     real(dp), intent(in) :: x(*)
     integer(c_int), value :: p
-    type(rotid_matrix), intent(inout) :: stiffness, mass
+    type(rotid_matrix), intent(inout), target :: stiffness, mass
     integer(c_int) :: failure
     type(shaft), pointer :: rotor
     real(dp) :: k(4, 4), m(4, 4)

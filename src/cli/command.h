@@ -68,6 +68,8 @@ void command_show_progress(void *context, const char *stage, int step);
 /* Whether somebody would see it. */
 int command_wants_progress(const struct command *command);
 
+/* From now on SIGINT and SIGTERM end nothing but make command_cancelled say so. */
+void command_watch_signals(void);
 /* Polled by long computations: nonzero after SIGINT or SIGTERM. */
 int command_cancelled(void *unused);
 

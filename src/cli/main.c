@@ -1,24 +1,9 @@
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "cli/arguments.h"
-
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int signal_number)
-{
-    (void)signal_number;
-    interrupted = 1;
-}
-
-int command_cancelled(void *unused)
-{
-    (void)unused;
-    return interrupted;
-}
 
 const struct command_entry command_table[] = {
     {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", command_check, READS_DECK},
@@ -72,9 +57,7 @@ static int run(struct command *command)
 int main(int argc, char **argv)
 {
     struct command command = {.seed = 1, .step = 0.01, .range = 0.5, .points = 11, .baseline = 1};
-    struct sigaction action = {.sa_handler = interrupt};
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
+    command_watch_signals();
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
     int code = arguments_parse(&command, argc, argv);

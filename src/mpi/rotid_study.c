@@ -6,7 +6,6 @@
 #include <errno.h>
 #include <math.h>
 #include <mpi.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,20 +22,6 @@
 #define GRACE           5.0 /* s for the others to answer once the job has been told to end */
 
 enum { TAG_RUN = 1, TAG_LINE };
-
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int signal_number)
-{
-    (void)signal_number;
-    interrupted = 1;
-}
-
-int command_cancelled(void *unused)
-{
-    (void)unused;
-    return interrupted;
-}
 
 const struct command_entry command_table[] = {
     {"study", "many runs from one plan over MPI: mpirun -n N rotid-study PLAN -o RESULTS", command_study,
@@ -62,7 +47,7 @@ struct office {
 
 static int is_over(const struct office *office)
 {
-    return office->status || interrupted;
+    return office->status || command_cancelled(NULL);
 }
 
 static void give(struct office *office, int rank)
@@ -175,7 +160,7 @@ static int hand_out(void *context, struct command *command, const struct study *
         office->reason = errno;
     }
     errno = office->reason;
-    return office->status ? office->status : interrupted ? ROTID_STOP_CANCELLED : ROTID_OK;
+    return office->status ? office->status : command_cancelled(NULL) ? ROTID_STOP_CANCELLED : ROTID_OK;
 }
 
 static int lead(struct command *command, const struct study *study, int size)
@@ -285,10 +270,8 @@ static int run(struct command *command, int argc, char **argv)
 int main(int argc, char **argv)
 {
     struct command command = {.seed = 1, .baseline = 1};
-    struct sigaction action = {.sa_handler = interrupt};
     MPI_Init(&argc, &argv);
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
+    command_watch_signals();
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
     char **words = POOL_ARRAY(&command.pool, char *, argc + 2); /* rotid-study PLAN is rotid study PLAN */

@@ -101,8 +101,8 @@ int results_next(struct results *r, struct result_line *line)
     line->json = cJSON_ParseWithLength(line->text, line->length);
     const cJSON *run = cJSON_GetObjectItemCaseSensitive(line->json, "run"),
                 *state = cJSON_GetObjectItemCaseSensitive(line->json, "status");
-    if (!cJSON_IsNumber(run) || !cJSON_IsString(state))
-        return malformed(r, r->number, "this line is no result, expected an object of JSON with run and status");
+    if (!cJSON_IsNumber(run) || !cJSON_IsString(state) || !cJSON_IsObject(cJSON_GetObjectItemCaseSensitive(line->json, "cell")))
+        return malformed(r, r->number, "this line is no result, expected an object of JSON with run, cell and status");
     double number = run->valuedouble;
     if (!(number >= 0 && number < (double)r->header.runs && number == floor(number)) ||
         (long)number % r->header.shards != r->header.shard - 1)

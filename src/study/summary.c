@@ -18,6 +18,13 @@ static double number_of(const cJSON *object, const char *key)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
+/* 0 where it is not from 0 to the number of runs there may be. */
+static long count_of(const cJSON *object, const char *key)
+{
+    double value = number_of(object, key);
+    return value >= 0 && value <= STUDY_MOST_RUNS ? (long)value : 0;
+}
+
 static const char *text_of(const cJSON *object, const char *key)
 {
     return cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, key));
@@ -51,7 +58,7 @@ static struct summary_cell *find_cell(struct pool *pool, struct summary *s, cons
                                       .hide = keep(pool, text_of(object, "hide"), &failed),
                                       .noise_frequency = number_of(object, "noise_frequency"),
                                       .noise_shape = number_of(object, "noise_shape"),
-                                      .first = (long)number_of(line, "run")};
+                                      .first = count_of(line, "run")};
     }
     cJSON_free(key);
     return failed ? NULL : cell;
@@ -70,7 +77,7 @@ static int add_error(struct pool *pool, struct summary *s, const cJSON *line)
     if (!grown)
         return ROTID_ERROR_MEMORY;
     s->error = grown;
-    s->error[s->nerror++] = (struct summary_error){keep(pool, text ? text : "", &failed), 1, (long)number_of(line, "run")};
+    s->error[s->nerror++] = (struct summary_error){keep(pool, text ? text : "", &failed), 1, count_of(line, "run")};
     return failed ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
@@ -155,7 +162,7 @@ static int add_objective(struct pool *pool, struct summary_cell *cell, const cJS
         return ROTID_ERROR_MEMORY;
     cell->objective = grown;
     grown[cell->nobjective++] =
-        (struct summary_objective){(long)number_of(line, "replicate"), usable ? number_of(line, "objective") : NAN};
+        (struct summary_objective){count_of(line, "replicate"), usable ? number_of(line, "objective") : NAN};
     return ROTID_OK;
 }
 
@@ -179,14 +186,13 @@ static int add_diagnosis(struct pool *pool, struct summary_cell *cell, const cJS
 {
     const cJSON *verdict = cJSON_GetObjectItemCaseSensitive(line, "verdict"), *item;
     const char *kind = text_of(verdict, "kind"), *score = text_of(line, "score");
-    double faults = number_of(line, "false_findings");
     int status = ROTID_OK;
     if (!kind)
         return ROTID_OK;
     cell->judged++;
     for (int k = VERDICT_ADEQUATE; k <= VERDICT_UNEXPLAINED; k++)
         cell->verdict[k] += !strcmp(kind, verdict_name((enum verdict_kind)k));
-    cell->false_faults += isfinite(faults) ? (long)faults : 0;
+    cell->false_faults += count_of(line, "false_findings");
     if (score && score_find(score) < SCORE_COUNT) {
         cell->scored++;
         cell->score[score_find(score)]++;
@@ -208,7 +214,8 @@ static int add_line(struct pool *pool, struct summary *s, const cJSON *line)
 {
     struct summary_cell *cell = find_cell(pool, s, line);
     const char *state = text_of(line, "status");
-    double start = number_of(line, "start"), chi2 = number_of(line, "chi2_per_dof"), evaluations = number_of(line, "evaluations"),
+    long start = count_of(line, "start");
+    double chi2 = number_of(line, "chi2_per_dof"), evaluations = number_of(line, "evaluations"),
            seconds = number_of(line, "seconds");
     if (!cell || !state)
         return ROTID_ERROR_MEMORY;
@@ -218,7 +225,7 @@ static int add_line(struct pool *pool, struct summary *s, const cJSON *line)
     cell->at_bound += at_bound;
     cell->failed += failed;
     cell->not_converged += !converged && !at_bound && !failed;
-    cell->last_start = start > (double)cell->last_start ? (long)start : cell->last_start;
+    cell->last_start = start > cell->last_start ? start : cell->last_start;
     cell->seconds += isfinite(seconds) ? seconds : 0;
     s->seconds += isfinite(seconds) ? seconds : 0;
     s->there++;

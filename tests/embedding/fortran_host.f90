@@ -49,7 +49,7 @@ contains
   function bridge(user, x, stiffness, mass) result(failure) bind(C)
     type(c_ptr), value :: user
     real(dp), intent(in) :: x(*)
-    type(rotid_matrix), intent(inout) :: stiffness, mass
+    type(rotid_matrix), intent(inout), target :: stiffness, mass
     integer(c_int) :: failure
     integer :: i
     real(dp), pointer :: band(:, :), block(:, :)

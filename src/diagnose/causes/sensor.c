@@ -90,16 +90,14 @@ int corrections_keep_raw(struct pool *pool, struct job *job)
     struct job_raw *raw = POOL_NEW(pool, struct job_raw);
     if (!raw)
         return ROTID_ERROR_MEMORY;
-    *raw = (struct job_raw){.nsensor = n,
-                            .sensor = copy(pool, job->rotor.sensor, (size_t)n, sizeof *raw->sensor, &failed),
-                            .shape = copy(pool, job->shape, components, sizeof *raw->shape, &failed),
-                            .shape_std = copy(pool, job->shape_std, components, sizeof *raw->shape_std, &failed),
-                            .frequency_std =
-                                copy(pool, job->frequency_std, (size_t)job->nmode, sizeof *raw->frequency_std, &failed),
-                            .point_frequency_hz =
-                                copy(pool, job->point_frequency_hz, components, sizeof *raw->point_frequency_hz, &failed),
-                            .point_frequency_std =
-                                copy(pool, job->point_frequency_std, components, sizeof *raw->point_frequency_std, &failed)};
+    *raw = (struct job_raw){
+        .nsensor = n,
+        .sensor = copy(pool, job->rotor.sensor, (size_t)n, sizeof *raw->sensor, &failed),
+        .shape = copy(pool, job->shape, components, sizeof *raw->shape, &failed),
+        .shape_std = copy(pool, job->shape_std, components, sizeof *raw->shape_std, &failed),
+        .frequency_std = copy(pool, job->frequency_std, (size_t)job->nmode, sizeof *raw->frequency_std, &failed),
+        .point_frequency_hz = copy(pool, job->point_frequency_hz, components, sizeof *raw->point_frequency_hz, &failed),
+        .point_frequency_std = copy(pool, job->point_frequency_std, components, sizeof *raw->point_frequency_std, &failed)};
     if (failed)
         return ROTID_ERROR_MEMORY;
     job->raw = raw;
