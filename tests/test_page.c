@@ -466,8 +466,8 @@ static void the_real_gnuplot_draws_every_figure(void **state)
         assert_int_equal(count_of(html, "<svg "), 2 * count_of(html, "<figure "));
         assert_true(page_count("real/figures", "") == 3 * count_of(html, "<figure ") || i > 0); /* the same folder four times */
     }
-    /* a script is complete: a user runs it alone, where it stands */
-    assert_int_equal(page_run("cd %s && rm *.svg *.pdf && gnuplot shapes.gp", page_path("real/figures")), 0);
+    /* a script is complete: a user runs it alone, where it stands; in the locale C gnuplot warns that it knows no degree sign */
+    assert_int_equal(page_run("cd %s && rm *.svg *.pdf && LC_ALL=C.UTF-8 gnuplot shapes.gp", page_path("real/figures")), 0);
     assert_string_equal(page_err, "");
     assert_true(page_exists("real/figures/shapes.svg"));
     assert_false(page_exists("real/figures/shapes-narrow.svg"));
