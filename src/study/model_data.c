@@ -8,6 +8,8 @@
 #include "study/draw.h"
 #include "study/experiment.h"
 
+#define FINER 4 /* cuts of each element: leaves a sixteenth of the error of the mesh */
+
 static double draw(const struct study *study, enum draw_purpose purpose, long replicate, const char *name, double lower,
                    double upper)
 {
@@ -77,8 +79,8 @@ static int modes_new(struct pool *pool, int count, int nsensor, struct modes *mo
     return modes->hz && modes->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* Of the full model. */
-static int solve(const struct rotor *rotor, struct modes *modes)
+/* Of the full model. refine: cuts of each element. */
+static int solve(const struct rotor *rotor, int refine, struct modes *modes)
 {
     const double none = 0;
     struct pool scratch;
@@ -87,7 +89,7 @@ static int solve(const struct rotor *rotor, struct modes *modes)
     pool_open(&scratch, NULL);
     struct client *client = POOL_NEW(&scratch, struct client);
     if (client)
-        status = client_open(&scratch, rotor, 0, NULL, 1, client, &failed);
+        status = client_open(&scratch, rotor, 0, NULL, refine, client, &failed);
     if (!status && client->model.nrigid + modes->count > client->model.n)
         status = ROTID_ERROR_ARGUMENT;
     if (!status)
@@ -106,7 +108,7 @@ static int solve(const struct rotor *rotor, struct modes *modes)
 
 /* With an accelerometer that goes from sensor to sensor each records its own component as it is with the mass there, and the
  * frequency is the mean of all. The scale of a loaded mode is the one that brings it nearest to the one without that mass. */
-static int solve_moving(struct pool *pool, const struct rotor *rotor, int effect, struct modes *modes)
+static int solve_moving(struct pool *pool, const struct rotor *rotor, int refine, int effect, struct modes *modes)
 {
     int n = modes->nsensor, status;
     struct rotor with = *rotor;
@@ -120,12 +122,12 @@ static int solve_moving(struct pool *pool, const struct rotor *rotor, int effect
     memcpy(with.effect, rotor->effect, (size_t)rotor->neffect * sizeof *with.effect);
     with.effect[effect].variant = 1; /* FIXED */
     with.effect[effect].target = -1; /* nowhere */
-    status = solve(&with, &bare);
+    status = solve(&with, refine, &bare);
     for (int k = 0; k < modes->count; k++)
         modes->hz[k] = 0;
     for (int s = 0; s < n && !status; s++) {
         with.effect[effect].target = s;
-        status = solve(&with, &loaded);
+        status = solve(&with, refine, &loaded);
         for (int k = 0; k < modes->count && !status; k++) {
             const double *a = loaded.shape + (ptrdiff_t)k * n, *b = bare.shape + (ptrdiff_t)k * n;
             double across = 0, square = 0;
@@ -173,9 +175,11 @@ int experiment_model(struct pool *pool, const struct study *study, long replicat
         highest = job->number[k] > highest ? job->number[k] : highest;
     if (!status)
         status = modes_new(pool, highest, source.rotor.nsensor, &modes);
+    /* a diagnosis refines its mesh until the error is below the noise, and would find what a coarse one leaves in the data */
+    int refine = study->plan->command == PLAN_DIAGNOSE ? FINER : 1;
     int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;
     if (!status)
-        status = moving ? solve_moving(pool, &source.rotor, last, &modes) : solve(&source.rotor, &modes);
+        status = moving ? solve_moving(pool, &source.rotor, refine, last, &modes) : solve(&source.rotor, refine, &modes);
     for (int k = 0; k < job->nmode && !status; k++)
         take_mode(&source.rotor, &modes, k, job);
     /* what else was measured is not that of this model */
