@@ -131,6 +131,7 @@ static void starts_and_numbers_of_modes_are_drawn_with_their_ends(void **state)
     assert_null(strstr(html, "<figure id=\"coverage\">")); /* no truth */
     assert_says(html, "of likelihood, modes 1-4");
     /* one row of the table of the starts for each run, and each start of the file in it */
+    assert_says(html, "Small dots are the iterates between.");
     const char *table = strstr(html, "id=\"starts-numbers\"");
     assert_non_null(table);
     assert_says(table, "<td class=\"n\">100.0</td><td class=\"n\">300.0</td>");

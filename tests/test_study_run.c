@@ -122,6 +122,15 @@ static void every_start_of_the_paper_reaches_the_minimum(void **state)
         json_free(line);
         assert_close(number_of(result, "objective"), 0.02305273403, 1e-8, 0);
         assert_close(bench_number(result, "parameters", 0, "value"), 1.15706e11, 1e-5, 0);
+        /* the way there: from the start to the end, both parameters after each iteration */
+        const cJSON *way = get(result, "iterates");
+        int count = cJSON_GetArraySize(way);
+        assert_close(count, 2 * (number_of(result, "iterations") + 1), 0, 0);
+        for (int p = 0; p < 2; p++) {
+            assert_close(cJSON_GetArrayItem(way, p)->valuedouble, bench_number(result, "parameters", p, "start"), 1e-8, 0);
+            assert_close(cJSON_GetArrayItem(way, count - 2 + p)->valuedouble, bench_number(result, "parameters", p, "value"),
+                         1e-8, 0);
+        }
         cJSON_Delete(result);
     }
     jobs_close(&jobs);

@@ -12,10 +12,13 @@
 struct way { /* of a run */
     double from[2], to[2];
     int reached; /* the best objective of its cell */
+    const struct told_run *run;
 };
 
 struct starts {
     int cell, count, drawn, reached, converged;
+    int corners;            /* of all ways that are drawn, two each where the iterates are not known, and what ends each */
+    int whole;              /* all iterates are known */
     double low[2], high[2]; /* of the starts, in their units */
     struct human_unit unit[2];
     struct way *way; /* [drawn] in those units */
@@ -49,13 +52,14 @@ static double best_of(const struct study_outcome *s, int cell)
 static int collect(struct pool *pool, const struct study_outcome *s, int cell, struct starts *starts)
 {
     double best = best_of(s, cell);
-    *starts = (struct starts){.cell = cell, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+    *starts = (struct starts){.cell = cell, .whole = 1, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
     for (int p = 0; p < 2; p++)
         starts->unit[p] = human_unit(s->cell[cell].parameter[p].mean, s->cell[cell].parameter[p].unit);
     starts->way = POOL_ARRAY(pool, struct way, MOST_RUNS);
     for (int i = 0; i < s->nrun && starts->way; i++) {
         const struct told_run *run = &s->run[i];
-        struct way way = {.reached = run->status <= TOLD_AT_BOUND && run->objective <= best * (1 + SAME_BEST) + ROUNDING};
+        struct way way = {.run = run,
+                          .reached = run->status <= TOLD_AT_BOUND && run->objective <= best * (1 + SAME_BEST) + ROUNDING};
         if (run->cell != cell || !run->value)
             continue;
         for (int p = 0; p < 2; p++) {
@@ -67,8 +71,11 @@ static int collect(struct pool *pool, const struct study_outcome *s, int cell, s
         starts->count++;
         starts->converged += run->status <= TOLD_AT_BOUND;
         starts->reached += way.reached;
-        if (starts->drawn < MOST_RUNS)
-            starts->way[starts->drawn++] = way;
+        if (starts->drawn == MOST_RUNS)
+            continue;
+        starts->way[starts->drawn++] = way;
+        starts->whole &= run->niterate >= 1;
+        starts->corners += (run->niterate >= 1 ? run->niterate : 2) + 1;
     }
     return starts->way ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
@@ -80,12 +87,32 @@ static const char *axis_of(struct pool *pool, const struct told_cell *cell, cons
     return text ? text : "";
 }
 
+/* The ways as lines: x and y [corners] of each, and a gap behind it; range [2] is widened to hold them. */
+static void lines(const struct told_cell *cell, const struct starts *starts, struct plot_range *range, double *x, double *y)
+{
+    int row = 0;
+    for (int i = 0; i < starts->drawn; i++) {
+        const struct way *way = &starts->way[i];
+        int known = way->run->niterate;
+        for (int k = 0; k < (known >= 1 ? known : 2); k++, row++) {
+            const double *at = known >= 1 ? way->run->iterate + (ptrdiff_t)k * cell->nparameter : NULL;
+            x[row] = at ? starts->unit[0].factor * at[0] : k ? way->to[0] : way->from[0];
+            y[row] = at ? starts->unit[1].factor * at[1] : k ? way->to[1] : way->from[1];
+            plot_range_join(&range[0], x[row]);
+            plot_range_join(&range[1], y[row]);
+        }
+        x[row] = y[row] = NAN;
+        row++;
+    }
+}
+
 static int script(struct document *document, struct figure *figure, const struct result *result, const struct starts *starts)
 {
     struct pool *pool = document->pool;
     const struct told_cell *cell = &result->study->cell[starts->cell];
     int n = starts->drawn, elsewhere = starts->reached < starts->count;
-    double *data = POOL_ARRAY(pool, double, 5 * (size_t)n);
+    double *data = POOL_ARRAY(pool, double, 5 * (size_t)n), *x = POOL_ARRAY(pool, double, starts->corners),
+           *y = POOL_ARRAY(pool, double, starts->corners);
     const struct plot_entry entry[] = {{.text = "start", .style = 12, .keys = KEY_MARK},
                                        {.text = "end at the least functional of all", .style = 1, .keys = KEY_MARK},
                                        {.text = "end elsewhere", .style = 2, .keys = KEY_MARK}};
@@ -93,7 +120,7 @@ static int script(struct document *document, struct figure *figure, const struct
         .panels = 1, .columns = {1, 1}, .height = 400, .narrow_height = 330, .left = 62, .right = 16, .top = 10, .bottom = 48};
     struct plot_range range[2];
     struct plot plot;
-    if (!data)
+    if (!data || !x || !y)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < 2; p++)
         range[p] = (struct plot_range){starts->low[p], starts->high[p]};
@@ -105,13 +132,16 @@ static int script(struct document *document, struct figure *figure, const struct
         for (int p = 0; p < 2; p++)
             plot_range_join(&range[p], way->to[p]);
     }
+    lines(cell, starts, range, x, y);
     plot_head(entry, 2 + elsewhere, layout.head);
     if (plot_open(&plot, pool, figure, result->file))
         return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "set style line 11 lc rgb MUTED lw 0.5 dt 1\nset style line 12 lc rgb MUTED pt 6 ps 0.7 lw 1");
+    plot_line(&plot, "set style line 11 lc rgb MUTED lw 0.5 dt 1 pt 7 ps 0.2\nset style line 12 lc rgb MUTED pt 6 ps 0.7 lw 1");
     plot_line(&plot, "# columns: start, end, both parameters each; 1: the end has the least functional of all");
     plot_data(&plot, "runs", n, 5,
               (const double *const[]){data, data + n, data + 2 * (ptrdiff_t)n, data + 3 * (ptrdiff_t)n, data + 4 * (ptrdiff_t)n});
+    plot_line(&plot, "# columns: both parameters along each way");
+    plot_data(&plot, "ways", starts->corners, 2, (const double *const[]){x, y});
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
     plot_legend(&plot, entry, 2 + elsewhere);
@@ -123,7 +153,7 @@ static int script(struct document *document, struct figure *figure, const struct
     plot_label(&plot, axis_of(pool, cell, starts, 0), "graph 0.5, screen 1-(y_of(0)+HEIGHT-10)/H", "INK", "center");
     plot_label(&plot, axis_of(pool, cell, starts, 1), "screen 12.0/W, graph 0.5", "INK", "center rotate");
     plot_line(&plot,
-              "plot $runs using 1:2:($3-$1):($4-$2) with vectors nohead ls 11, $runs using 1:2 with points ls 12, \\\n"
+              "plot $ways using 1:2 with linespoints ls 11, $runs using 1:2 with points ls 12, \\\n"
               "    $runs using ($5 > 0 ? NaN : $3):4 with points ls 2 ps 0.9, $runs using ($5 > 0 ? $3 : NaN):4 with points "
               "ls 1 ps 1.1");
     return plot_close(&plot);
@@ -199,12 +229,10 @@ void figure_starts(struct document *document, const struct result *result)
                           ? pool_format(pool, "all end at the same minimum, %s", where ? where : "")
                           : pool_format(pool, "%d end at the least functional, %d elsewhere, %d did not converge", starts.reached,
                                         starts.converged - starts.reached, starts.count - starts.converged);
-    figure->caption =
-        pool_format(pool,
-                    "%d iterations%s%s%s, started %s: %s.%s Lines join start and end; the results of a study hold no "
-                    "iterates between.",
-                    starts.count, *cell->label ? " (" : "", cell->label, *cell->label ? ")" : "", span ? span : "",
-                    end ? end : "", starts.drawn < starts.count ? " The first 400 are drawn." : "");
+    figure->caption = pool_format(pool, "%d iterations%s%s%s, started %s: %s.%s %s", starts.count, *cell->label ? " (" : "",
+                                  cell->label, *cell->label ? ")" : "", span ? span : "", end ? end : "",
+                                  starts.drawn < starts.count ? " The first 400 are drawn." : "",
+                                  starts.whole ? "Small dots are the iterates between." : "Lines join start and end.");
     figure->alt =
         pool_format(pool, "%d points of departure over the plane of %s and %s, joined by lines to where the runs ended: %s.",
                     starts.drawn, cell->parameter[0].name, cell->parameter[1].name, end ? end : "");

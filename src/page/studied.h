@@ -37,6 +37,8 @@ struct told_run {
     enum told_status status;
     double objective;
     struct run_value *value; /* [nparameter of its cell], NULL of a run that failed */
+    int niterate;
+    double *iterate; /* [nparameter of its cell * niterate], NULL where the plan had no starts */
 };
 
 struct told_failure {

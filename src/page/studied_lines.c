@@ -101,6 +101,8 @@ static void read_run(const struct json_place *line, const struct study_outcome *
         return;
     run->objective = place_number(line, "objective");
     read_values(line, &out->cell[run->cell], run);
+    int parameters = out->cell[run->cell].nparameter, numbers = place_list(line, "iterates", 0, -1, &run->iterate);
+    run->niterate = parameters > 0 && numbers % parameters == 0 ? numbers / parameters : 0;
     (void)place_need(line, "modes", PLACE_LIST, &list);
     for (struct json_place item = place_first(&list, PLACE_OBJECT); item.json; item = place_next(&item, PLACE_OBJECT))
         run->fitted += !place_flag(&item, "holdout");

@@ -135,6 +135,8 @@ char *line_identified(const struct line *line, const struct experiment *experime
     begin(&tree, line);
     add_fit(&tree, &experiment->job, &result->compared, result->fit, experiment->truth);
     add_hidden(&tree, experiment);
+    if (line->study->plan->spread > 0) /* the way from each start is what such a plan is about */
+        json_digits(&tree, tree.root, "iterates", result->fit->n * result->fit->nhistory, result->fit->history_x);
     if (line->study->plan->baseline)
         add_baseline(&tree, result->fit);
     json_notes(&tree, notes);
