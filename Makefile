@@ -169,15 +169,19 @@ demo: all
 figures: all
 	@sh tools/figures $(BUILD)/rotid $(BUILD)/figures
 
-test: all $(TEST_PROGRAMS)
-	@sh tools/run-tests $(TEST_PROGRAMS)
+# WITHOUT: names of programs that are left out
+TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT)),$(TEST_PROGRAMS))
+test: all $(TESTED)
+	@sh tools/run-tests $(TESTED)
 
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
+# without the programs that diagnose dozens of rotors: what they call is in the others
+DIAGNOSE_MANY := hidden_effects paper_variants diagnose_cases
 check-asan:
 	@ROTID_CHAIN_RUNS=2 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
-	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' test
+	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' WITHOUT='$(DIAGNOSE_MANY)' test
 
 # Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
 # not start on kernels that randomise more bits than it knows of.
@@ -186,10 +190,10 @@ check-tsan:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan LDFLAGS=-fsanitize=thread CFLAGS='-O1 -g -fsanitize=thread' $(BUILD)/tsan/tests/test_threads
 	@OPENBLAS_NUM_THREADS=1 TSAN_OPTIONS=halt_on_error=1 $$(setarch -R true 2>/dev/null && echo setarch -R) $(BUILD)/tsan/tests/test_threads
 
-# without the programs that diagnose dozens of rotors: what they call is in the others
+# without those and other long ones
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,hidden_effects paper_variants diagnose_cases chain ema_statistics api_cancel host threads study_run),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) chain ema_statistics api_cancel host threads study_run),$(TEST_PROGRAMS))
 
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
