@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <dirent.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -282,4 +283,53 @@ int page_problems(const char *html)
         if (strstr(html, never[i]))
             problem(&checker, "has no place on a page", strstr(html, never[i]));
     return checker.problems;
+}
+
+cJSON *page_json(const char *name)
+{
+    cJSON *json = cJSON_Parse(page_read(name));
+    assert_non_null(json);
+    return json;
+}
+
+void page_write_json(const char *name, const cJSON *json)
+{
+    char *text = cJSON_Print(json);
+    assert_non_null(text);
+    page_write_file(name, text);
+    cJSON_free(text);
+}
+
+const char *page_made(const char *name)
+{
+    static char folder[64];
+    (void)snprintf(folder, sizeof folder, "page-%s/index.html", name);
+    assert_int_equal(page_run("cd %s; %s %s report %s -o page-%s", page_path(""), page_stand_in(NULL), ROTID_PROGRAM, name, name),
+                     0);
+    assert_string_equal(page_err, "");
+    const char *html = page_read(folder);
+    assert_int_equal(page_problems(html), 0);
+    return html;
+}
+
+void page_says(const char *html, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (!strstr(html, text))
+        print_error("the page does not say '%s'\n", text);
+    assert_non_null(strstr(html, text));
+}
+
+int page_times(const char *text, const char *what)
+{
+    int count = 0;
+    while ((text = strstr(text, what))) {
+        count++;
+        text++;
+    }
+    return count;
 }

@@ -2,6 +2,7 @@
 #ifndef ROTID_TESTS_PAGE_BENCH_H
 #define ROTID_TESTS_PAGE_BENCH_H
 
+#include <cJSON.h>
 #include <stddef.h>
 
 /* Setup and teardown of a group: makes and removes the folder. */
@@ -14,6 +15,9 @@ void page_write_file(const char *name, const char *text);
 /* The whole file, kept until the next 8 calls; the test fails where it is not there. */
 const char *page_read(const char *name);
 int page_exists(const char *name);
+/* The same as JSON; what page_json gives is to be deleted. */
+cJSON *page_json(const char *name);
+void page_write_json(const char *name, const cJSON *json);
 /* Entries of the folder whose names begin with `prefix`. */
 int page_count(const char *folder, const char *prefix);
 
@@ -28,5 +32,12 @@ const char *page_stand_in(const char *fails_on);
 /* Problems of a page: elements that are not closed or in wrong order, attributes without quotes, identifiers that occur twice or
  * are referred to and missing, anything that would be loaded or run. Each is printed; their number. */
 int page_problems(const char *html);
+
+/* The page that `rotid report` makes of a result in the folder, with a stand-in for gnuplot; nothing is wrong with it. */
+const char *page_made(const char *name);
+/* The test fails where the page does not hold this text. */
+void page_says(const char *html, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* How often `what` stands in the text. */
+int page_times(const char *text, const char *what);
 
 #endif

@@ -21,31 +21,6 @@ static void make_result(const char *command, const char *deck, const char *name)
         assert_int_equal(page_run("%s %s %s --quiet --json %s", ROTID_PROGRAM, command, deck, page_path(name)), 0);
 }
 
-static cJSON *json_of(const char *name)
-{
-    cJSON *json = cJSON_Parse(page_read(name));
-    assert_non_null(json);
-    return json;
-}
-
-static void write_json(const char *name, const cJSON *json)
-{
-    char *text = cJSON_Print(json);
-    assert_non_null(text);
-    page_write_file(name, text);
-    cJSON_free(text);
-}
-
-static int count_of(const char *text, const char *what)
-{
-    int count = 0;
-    while ((text = strstr(text, what))) {
-        count++;
-        text++;
-    }
-    return count;
-}
-
 static void assert_says(const char *html, const char *text)
 {
     if (!strstr(html, text))
@@ -77,7 +52,7 @@ static void a_page_is_whole_and_says_what_the_result_holds(void **state)
     assert_string_equal(page_err, "");
     const char *html = page_read("one/index.html");
     assert_int_equal(page_problems(html), 0);
-    cJSON *json = json_of("paper.json");
+    cJSON *json = page_json("paper.json");
     const cJSON *e = cJSON_GetArrayItem(get(json, "parameters"), 0), *ci = get(e, "ci95");
     (void)snprintf(text, sizeof text, "core.E = %s\xc2\xa0GPa (95\xc2\xa0%%: %s to %s)", shown(number_of(e, "value") / 1e9, 1),
                    shown(cJSON_GetArrayItem(ci, 0)->valuedouble / 1e9, 1),
@@ -98,9 +73,9 @@ static void a_page_is_whole_and_says_what_the_result_holds(void **state)
     assert_says(html, get(json, "commit")->valuestring);
     assert_says(html, "input/paper_rotor.inp");
     assert_says(html, "seed 1");
-    assert_int_equal(count_of(html, "<figure "), 7);
-    assert_int_equal(count_of(html, "<svg "), 14);
-    assert_int_equal(count_of(html, "<h1>"), 1);
+    assert_int_equal(page_times(html, "<figure "), 7);
+    assert_int_equal(page_times(html, "<svg "), 14);
+    assert_int_equal(page_times(html, "<h1>"), 1);
     assert_int_equal(page_count("one/figures", ""), 21); /* script, SVG and PDF of each */
     assert_int_equal(page_count("", "one"), 1);
     cJSON_Delete(json);
@@ -131,7 +106,7 @@ static void further_results_add_their_sections(void **state)
         (void)snprintf(text, sizeof text, "all/figures/%s.gp", ids[i]);
         assert_true(page_exists(text));
     }
-    assert_int_equal(count_of(html, "<figure "), (int)(sizeof ids / sizeof *ids));
+    assert_int_equal(page_times(html, "<figure "), (int)(sizeof ids / sizeof *ids));
     assert_says(html, "core.E does most (0.5"); /* the paper's Table 1 has 0.669 of a rotor that it does not print */
     assert_says(html, "Point 19 (0.4457\xc2\xa0m) over a force at point 1 (0\xc2\xa0m), acceleration per newton.");
     /* each alone is a page as well */
@@ -152,7 +127,7 @@ static void a_model_that_is_not_adequate_is_called_that(void **state)
     assert_int_equal(
         page_run("%s %s report %s -o %s", page_stand_in(NULL), ROTID_PROGRAM, page_path("solid.json"), page_path("solid")), 0);
     const char *html = page_read("solid/index.html");
-    cJSON *json = json_of("solid.json");
+    cJSON *json = page_json("solid.json");
     assert_int_equal(page_problems(html), 0);
     assert_says(html, "Not to be relied on as it stands");
     (void)snprintf(text, sizeof text, "\xcf\x87\xc2\xb2 = %.0f with %.0f degrees of freedom", number_of(json, "chi2"),
@@ -172,7 +147,7 @@ static void an_older_result_says_what_it_lacks(void **state)
 {
     (void)state;
     make_result("identify", SOLID, "solid.json");
-    cJSON *json = json_of("solid.json");
+    cJSON *json = page_json("solid.json");
     static const char *const newer[] = {"geometry",       "shapes", "nco_matrix", "mac_matrix",    "matrix_rows",
                                         "matrix_columns", "noise",  "references", "shapes_fitted", "bijection_chi"};
     for (size_t i = 0; i < sizeof newer / sizeof *newer; i++)
@@ -180,7 +155,7 @@ static void an_older_result_says_what_it_lacks(void **state)
     cJSON *item;
     cJSON_ArrayForEach(item, get(json, "history")) cJSON_DeleteItemFromObject(item, "seconds");
     cJSON_ArrayForEach(item, get(json, "baseline")) cJSON_DeleteItemFromObject(item, "predicted_hz");
-    write_json("old.json", json);
+    page_write_json("old.json", json);
     cJSON_Delete(json);
     assert_int_equal(
         page_run("%s %s report %s -o %s", page_stand_in(NULL), ROTID_PROGRAM, page_path("old.json"), page_path("old")), 0);
@@ -209,8 +184,8 @@ static void without_gnuplot_the_numbers_stand_in_tables(void **state)
     assert_says(html, "apt-get install gnuplot-nox");
     assert_null(strstr(html, "<svg"));
     assert_null(strstr(html, "<details"));
-    assert_int_equal(count_of(html, "<figure "), 7);
-    assert_true(count_of(html, "<table>") >= 9);
+    assert_int_equal(page_times(html, "<figure "), 7);
+    assert_true(page_times(html, "<table>") >= 9);
     assert_says(html, "iteration</th>");
     assert_int_equal(page_count("bare/figures", ""), 7); /* the scripts */
     /* PATH without it */
@@ -238,14 +213,14 @@ static void a_figure_that_fails_costs_no_other(void **state)
     assert_non_null(strstr(page_err, "figure iterates is not drawn: line 7: stand-in fails on iterates"));
     const char *html = page_read("some/index.html");
     assert_int_equal(page_problems(html), 0);
-    assert_int_equal(count_of(html, "<svg "), 12);
+    assert_int_equal(page_times(html, "<svg "), 12);
     assert_says(html, "Some figures are missing");
     assert_true(page_exists("some/figures/iterates.gp") && !page_exists("some/figures/iterates.svg"));
     assert_true(page_exists("some/figures/bijection.pdf"));
     /* one that fails on everything, and one that draws nothing and says so to nobody */
     assert_int_equal(
         page_run("%s %s report %s -o %s", page_stand_in(""), ROTID_PROGRAM, page_path("paper.json"), page_path("none")), 1);
-    assert_int_equal(count_of(page_err, "is not drawn"), 7);
+    assert_int_equal(page_times(page_err, "is not drawn"), 7);
     assert_int_equal(page_problems(page_read("none/index.html")), 0);
     page_write_file("idle", "#!/bin/sh\n[ \"$1\" = --version ] && echo gnuplot 6.0 patchlevel 1\nexit 0\n");
     assert_int_equal(page_run("chmod 755 %s; GNUPLOT=%s %s report %s -o %s", page_path("idle"), page_path("idle"), ROTID_PROGRAM,
@@ -328,7 +303,7 @@ static void a_folder_that_cannot_be_written_is_said(void **state)
                               page_path("it's a page")),
                      0);
     assert_int_equal(page_problems(page_read("it's a page/index.html")), 0);
-    assert_int_equal(count_of(page_read("it's a page/index.html"), "<svg "), 14);
+    assert_int_equal(page_times(page_read("it's a page/index.html"), "<svg "), 14);
 }
 
 /* ------------------------------------------------------------------------------------------------ texts of others */
@@ -344,7 +319,7 @@ static void a_text_in_a_deck_stays_a_text(void **state)
     static const char hostile[] =
         "<script>alert(1)</script> & \"q\" it's \xc3\xa9\xe2\x82\xac\n`touch pwned` @name $x } { # \xff\xfe \x01 ]]> -->";
     make_result("identify", PAPER, "paper.json");
-    cJSON *json = json_of("paper.json"), *geometry = cJSON_GetObjectItem(json, "geometry");
+    cJSON *json = page_json("paper.json"), *geometry = cJSON_GetObjectItem(json, "geometry");
     cJSON_ReplaceItemInArray(cJSON_GetObjectItem(json, "heading"), 0, cJSON_CreateString(hostile));
     replace_text(json, "deck", hostile);
     replace_text(json, "commit", hostile);
@@ -357,7 +332,7 @@ static void a_text_in_a_deck_stays_a_text(void **state)
     cJSON *group = cJSON_GetArrayItem(cJSON_GetObjectItem(geometry, "groups"), 1);
     replace_text(group, "name", hostile);
     replace_text(cJSON_GetObjectItem(group, "material"), "name", hostile);
-    write_json("hostile.json", json);
+    page_write_json("hostile.json", json);
     cJSON_Delete(json);
     for (int real = 0; real < 2; real++) {
         if (real && page_run("gnuplot --version") != 0)
@@ -378,9 +353,9 @@ static void a_text_in_a_deck_stays_a_text(void **state)
     }
     /* a unit that would end a text of a script */
     make_result("frf", PAPER, "frf.json");
-    json = json_of("frf.json");
+    json = page_json("frf.json");
     replace_text(json, "unit", "'\nsystem('touch pwned')\n#");
-    write_json("unit.json", json);
+    page_write_json("unit.json", json);
     cJSON_Delete(json);
     assert_int_equal(page_run("cd %s; %s %s report unit.json -o unit", page_path(""), page_stand_in(NULL), ROTID_PROGRAM), 0);
     assert_null(strstr(page_read("unit/figures/transfer-19-1.gp"), "\nsystem"));
@@ -404,7 +379,7 @@ static void a_large_result_makes_a_page_of_less_than_five_megabytes(void **state
 {
     (void)state;
     make_result("identify", SOLID, "solid.json");
-    cJSON *json = json_of("solid.json"), *geometry = cJSON_GetObjectItem(json, "geometry"),
+    cJSON *json = page_json("solid.json"), *geometry = cJSON_GetObjectItem(json, "geometry"),
           *shapes = cJSON_GetObjectItem(json, "shapes");
     double length = number_of(geometry, "length_m");
     cJSON_DeleteItemFromObject(geometry, "nodes_z_m");
@@ -432,7 +407,7 @@ static void a_large_result_makes_a_page_of_less_than_five_megabytes(void **state
             add_list(mode, lists[i], i < 3 ? SENSORS : ELEMENTS + 1, 0.01, 0, i == 1 ? 0 : 20);
         }
     }
-    write_json("large.json", json);
+    page_write_json("large.json", json);
     cJSON_Delete(json);
     int real = page_run("gnuplot --version") == 0;
     double begin = clock_seconds();
@@ -463,8 +438,8 @@ static void the_real_gnuplot_draws_every_figure(void **state)
         const char *html = page_read("real/index.html");
         assert_string_equal(page_err, "");
         assert_int_equal(page_problems(html), 0);
-        assert_int_equal(count_of(html, "<svg "), 2 * count_of(html, "<figure "));
-        assert_true(page_count("real/figures", "") == 3 * count_of(html, "<figure ") || i > 0); /* the same folder four times */
+        assert_int_equal(page_times(html, "<svg "), 2 * page_times(html, "<figure "));
+        assert_true(page_count("real/figures", "") == 3 * page_times(html, "<figure ") || i > 0); /* the same folder four times */
     }
     /* a script is complete: a user runs it alone, where it stands; in the locale C gnuplot warns that it knows no degree sign */
     assert_int_equal(page_run("cd %s && rm *.svg *.pdf && LC_ALL=C.UTF-8 gnuplot shapes.gp", page_path("real/figures")), 0);

@@ -26,56 +26,6 @@ static void diagnose(const char *arguments, const char *name)
         page_run("cd %s; %s diagnose %s --replicates 200 --quiet --json %s", page_path(""), ROTID_PROGRAM, arguments, name), 0);
 }
 
-static cJSON *json_of(const char *name)
-{
-    cJSON *json = cJSON_Parse(page_read(name));
-    assert_non_null(json);
-    return json;
-}
-
-static void write_json(const char *name, const cJSON *json)
-{
-    char *text = cJSON_Print(json);
-    assert_non_null(text);
-    page_write_file(name, text);
-    cJSON_free(text);
-}
-
-static const char *page_of(const char *name)
-{
-    static char folder[64];
-    (void)snprintf(folder, sizeof folder, "page-%s/index.html", name);
-    assert_int_equal(page_run("cd %s; %s %s report %s -o page-%s", page_path(""), page_stand_in(NULL), ROTID_PROGRAM, name, name),
-                     0);
-    assert_string_equal(page_err, "");
-    const char *html = page_read(folder);
-    assert_int_equal(page_problems(html), 0);
-    return html;
-}
-
-static void assert_says(const char *html, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void assert_says(const char *html, const char *format, ...)
-{
-    char text[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    (void)vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    if (!strstr(html, text))
-        print_error("the page does not say '%s'\n", text);
-    assert_non_null(strstr(html, text));
-}
-
-static int count_of(const char *text, const char *what)
-{
-    int count = 0;
-    while ((text = strstr(text, what))) {
-        count++;
-        text++;
-    }
-    return count;
-}
-
 static const cJSON *element(const cJSON *json, const char *list, int i)
 {
     const cJSON *item = cJSON_GetArrayItem(get(json, list), i);
@@ -113,39 +63,39 @@ static void a_named_cause_is_told_with_its_evidence_and_its_worth(void **state)
 {
     (void)state;
     diagnose(RINGED, "mass.json");
-    cJSON *json = json_of("mass.json");
+    cJSON *json = page_json("mass.json");
     const cJSON *verdict = get(json, "verdict"), *cause = element(verdict, "causes", 0);
-    const char *html = page_of("mass.json");
+    const char *html = page_made("mass.json");
     assert_string_equal(text_of(verdict, "kind"), "named");
-    assert_says(html, "<p class=\"tone\">Named: ");
-    assert_says(html, "The model lacks ");
-    assert_says(html, "%s: ", text_of(cause, "id"));
-    assert_says(html, "Next: ");
+    page_says(html, "<p class=\"tone\">Named: ");
+    page_says(html, "The model lacks ");
+    page_says(html, "%s: ", text_of(cause, "id"));
+    page_says(html, "Next: ");
 
     /* the lead over the runner-up, as the diagnosis itself has put it into words */
     const cJSON *first = element(json, "candidates", 0), *second = element(json, "candidates", 1);
     const char *loses = strstr(text_of(second, "rejected_because"), " by ");
     assert_non_null(loses);
-    assert_says(html, "leads the runner-up, %s", text_of(second, "id"));
-    assert_says(html, ",%s, with 3 charged for each parameter", loses);
-    assert_says(html, "lowers the misfit of ");
-    assert_says(html, " by %s and leads", digits(number_of(first, "chi2_drop"), 3));
-    assert_says(html, "Chance alone reaches %s in 3 of 100 tests", digits(number_of(element(json, "rounds", 0), "threshold"), 3));
+    page_says(html, "leads the runner-up, %s", text_of(second, "id"));
+    page_says(html, ",%s, with 3 charged for each parameter", loses);
+    page_says(html, "lowers the misfit of ");
+    page_says(html, " by %s and leads", digits(number_of(first, "chi2_drop"), 3));
+    page_says(html, "Chance alone reaches %s in 3 of 100 tests", digits(number_of(element(json, "rounds", 0), "threshold"), 3));
 
     /* fitted and left out, before and after */
     const cJSON *gain = get(json, "gain"), *out = get(gain, "mode_out_frequency_rms_percent");
     assert_true(number_of(out, "before") > number_of(out, "after"));
-    assert_says(html, "requencies of modes left out in turn go from %s to %s\xc2\xa0%%", digits(number_of(out, "before"), 2),
-                digits(number_of(out, "after"), 2));
+    page_says(html, "requencies of modes left out in turn go from %s to %s\xc2\xa0%%", digits(number_of(out, "before"), 2),
+              digits(number_of(out, "after"), 2));
     const cJSON *e = element(gain, "parameters", 0);
-    assert_says(html, "%s moves by %+.1f\xc2\xa0%%", text_of(e, "name"),
-                100 * (number_of(e, "after") / number_of(e, "before") - 1));
+    page_says(html, "%s moves by %+.1f\xc2\xa0%%", text_of(e, "name"),
+              100 * (number_of(e, "after") / number_of(e, "before") - 1));
     static const char *const figures[] = {"rotor", "residuals", "places", "evidence", "improvement", "gain", "change", "shapes"};
     for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
-        assert_says(html, "<figure id=\"%s\">", figures[i]);
+        page_says(html, "<figure id=\"%s\">", figures[i]);
     static const char *const sections[] = {"trust", "basis", "look", "misfit", "causes", "worth", "blind"};
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++)
-        assert_says(html, "<section id=\"%s\">", sections[i]);
+        page_says(html, "<section id=\"%s\">", sections[i]);
     cJSON_Delete(json);
 }
 
@@ -153,8 +103,8 @@ static void residuals_are_counted_against_their_thresholds(void **state)
 {
     (void)state;
     diagnose(RINGED, "mass.json");
-    cJSON *json = json_of("mass.json");
-    const char *html = page_of("mass.json");
+    cJSON *json = page_json("mass.json");
+    const char *html = page_made("mass.json");
     const cJSON *z = get(json, "modes_standardised"), *modes = get(get(json, "base"), "modes");
     int beyond = 0, worst = 0, count = cJSON_GetArraySize(z), loud = 0, sensors = 0;
     for (int k = 0; k < count; k++) {
@@ -162,11 +112,11 @@ static void residuals_are_counted_against_their_thresholds(void **state)
         beyond += value > 1.96;
         worst = value > fabs(cJSON_GetArrayItem(z, worst)->valuedouble) ? k : worst;
     }
-    assert_says(html,
-                "; %s of %s fitted ones lie beyond \xc2\xb1"
-                "1.96",
-                words(beyond), words(count));
-    assert_says(html, "in mode %.0f", number_of(cJSON_GetArrayItem(modes, worst), "mode"));
+    page_says(html,
+              "; %s of %s fitted ones lie beyond \xc2\xb1"
+              "1.96",
+              words(beyond), words(count));
+    page_says(html, "in mode %.0f", number_of(cJSON_GetArrayItem(modes, worst), "mode"));
     /* 95 % of chi-square with six degrees of freedom, a table of the distribution: 12.592 */
     double limit = sqrt(12.5916 / 6);
     const cJSON *sensor;
@@ -178,7 +128,7 @@ static void residuals_are_counted_against_their_thresholds(void **state)
     assert_int_equal(cJSON_GetArraySize(modes), 6);
     char many[16];
     (void)snprintf(many, sizeof many, "%d", loud);
-    assert_says(html, "1 is noise alone; %s of %d exceed %.2f", loud <= 10 ? words(loud) : many, sensors, limit);
+    page_says(html, "1 is noise alone; %s of %d exceed %.2f", loud <= 10 ? words(loud) : many, sensors, limit);
     cJSON_Delete(json);
 }
 
@@ -186,27 +136,27 @@ static void what_cannot_be_told_apart_is_listed_with_what_would_settle_it(void *
 {
     (void)state;
     diagnose(PAPER, "paper.json");
-    cJSON *json = json_of("paper.json");
+    cJSON *json = page_json("paper.json");
     const cJSON *verdict = get(json, "verdict");
-    const char *html = page_of("paper.json");
+    const char *html = page_made("paper.json");
     int count = cJSON_GetArraySize(get(verdict, "alternatives"));
     assert_string_equal(text_of(verdict, "kind"), "ambiguous");
     assert_int_equal(count, 16);
-    assert_says(html, "Ambiguous: one of %d causes", count);
-    assert_says(html, "these data cannot tell which of %d causes it is, nor surely that it is one of them", count);
-    assert_says(html, "%d more.", count - 3);
-    assert_says(html, "Next: measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); measure mode ");
-    assert_says(html, "a name asks for a lead of %.0f", number_of(element(json, "rounds", 0), "required_margin"));
-    assert_says(html, "The deck does not state all of the noise");
-    assert_says(html, "frequencies 0.30\xc2\xa0%% (assumed)");
-    assert_says(html, "No shape was fitted, so nothing can be said of single sensors.");
-    assert_says(html, "guyan_reduction: the condensation onto 68 masters moves mode 5 by +3.30 %%");
+    page_says(html, "Ambiguous: one of %d causes", count);
+    page_says(html, "these data cannot tell which of %d causes it is, nor surely that it is one of them", count);
+    page_says(html, "%d more.", count - 3);
+    page_says(html, "Next: measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); measure mode ");
+    page_says(html, "a name asks for a lead of %.0f", number_of(element(json, "rounds", 0), "required_margin"));
+    page_says(html, "The deck does not state all of the noise");
+    page_says(html, "frequencies 0.30\xc2\xa0%% (assumed)");
+    page_says(html, "No shape was fitted, so nothing can be said of single sensors.");
+    page_says(html, "guyan_reduction: the condensation onto 68 masters moves mode 5 by +3.30 %%");
     /* the paper's choice of a functional beside the full model */
-    assert_says(html, "The fit as the deck states it (HYBRID, reduction GUYAN) gives core.E = 115.7\xc2\xa0GPa");
+    page_says(html, "The fit as the deck states it (HYBRID, reduction GUYAN) gives core.E = 115.7\xc2\xa0GPa");
     assert_null(strstr(html, "<figure id=\"improvement\">"));
     assert_null(strstr(html, "<figure id=\"gain\">"));
-    assert_says(html, "<figure id=\"change\">");
-    assert_says(html, "looks like"); /* of the table */
+    page_says(html, "<figure id=\"change\">");
+    page_says(html, "looks like"); /* of the table */
     cJSON_Delete(json);
 }
 
@@ -214,15 +164,15 @@ static void what_nothing_explains_says_what_was_refused(void **state)
 {
     (void)state;
     diagnose(BEAM, "beam.json");
-    cJSON *json = json_of("beam.json");
-    const char *html = page_of("beam.json");
+    cJSON *json = page_json("beam.json");
+    const char *html = page_made("beam.json");
     assert_string_equal(text_of(get(json, "verdict"), "kind"), "unexplained");
-    assert_says(html, "class=\"answer bad\"");
-    assert_says(html, "<p class=\"tone\">Unexplained</p>");
-    assert_says(html, "nothing in the catalogue of causes explains it");
-    assert_says(html, "Nothing is left to name: the longest bar, %s, was refused because %s",
-                text_of(element(json, "candidates", 0), "id"), text_of(element(json, "candidates", 0), "rejected_because"));
-    assert_says(html, "modes with a star were held out of the fit");
+    page_says(html, "class=\"answer bad\"");
+    page_says(html, "<p class=\"tone\">Unexplained</p>");
+    page_says(html, "nothing in the catalogue of causes explains it");
+    page_says(html, "Nothing is left to name: the longest bar, %s, was refused because %s",
+              text_of(element(json, "candidates", 0), "id"), text_of(element(json, "candidates", 0), "rejected_because"));
+    page_says(html, "modes with a star were held out of the fit");
     cJSON_Delete(json);
 }
 
@@ -234,52 +184,52 @@ static void an_adequate_model_and_a_fault_of_the_data_are_told_apart(void **stat
         page_run("cd %s; %s diagnose %s --replicates 200 --quiet --extended better.inp", page_path(""), ROTID_PROGRAM, SOLID), 0);
     page_write_file("swapped.inp", "*INCLUDE, FILE=better.inp\n*CAUSE, NAME=cables, TYPE=sensor_swap, SENSOR=\"23,30\"\n");
     diagnose("better.inp", "adequate.json");
-    cJSON *json = json_of("adequate.json");
-    const char *html = page_of("adequate.json");
+    cJSON *json = page_json("adequate.json");
+    const char *html = page_made("adequate.json");
     assert_string_equal(text_of(get(json, "verdict"), "kind"), "adequate");
-    assert_says(html, "class=\"answer good\"");
-    assert_says(html, "The model explains the measurement within its noise");
-    assert_says(html, "Next: read the blind spots");
-    assert_says(html, "Nothing promised enough to be fitted.");
+    page_says(html, "class=\"answer good\"");
+    page_says(html, "The model explains the measurement within its noise");
+    page_says(html, "Next: read the blind spots");
+    page_says(html, "Nothing promised enough to be fitted.");
     assert_null(strstr(html, "<figure id=\"places\">")); /* the most of mere noise is no place to look at */
     assert_null(strstr(html, "<figure id=\"evidence\">"));
     assert_null(strstr(html, "<section id=\"findings\">"));
     const cJSON *size = element(json, "detectable", 0);
-    assert_says(html, "<section id=\"blind\">");
-    assert_says(html, "%s", text_of(size, "parameter"));
+    page_says(html, "<section id=\"blind\">");
+    page_says(html, "%s", text_of(size, "parameter"));
     cJSON_Delete(json);
 
     /* the same with a fault, as the result would hold it */
-    json = json_of("adequate.json");
+    json = page_json("adequate.json");
     cJSON *fault =
         cJSON_Parse("{\"id\": \"sensor_swap\", \"sensors\": [23, 30], \"modes\": [], \"block\": null, \"value\": null, "
                     "\"unit\": null, \"std\": null, \"chi2_drop\": 942.8, \"text\": \"sensors 23 and 30 are exchanged; they "
                     "are put back\"}");
     assert_non_null(fault);
     cJSON_AddItemToArray(cJSON_GetObjectItem(json, "data_findings"), fault);
-    write_json("swap.json", json);
+    page_write_json("swap.json", json);
     cJSON_Delete(json);
-    html = page_of("swap.json");
-    assert_says(html, "One fault of the measurement was taken into account: sensors 23 and 30 are exchanged; they are put back.");
-    assert_says(html, "<section id=\"findings\">");
-    assert_says(html, "At the test: follow the cables of both channels");
+    html = page_made("swap.json");
+    page_says(html, "One fault of the measurement was taken into account: sensors 23 and 30 are exchanged; they are put back.");
+    page_says(html, "<section id=\"findings\">");
+    page_says(html, "At the test: follow the cables of both channels");
 }
 
 static void an_interrupted_diagnosis_says_so_and_shows_what_is_there(void **state)
 {
     (void)state;
     diagnose(RINGED, "mass.json");
-    cJSON *json = json_of("mass.json"), *verdict = cJSON_GetObjectItem(json, "verdict");
+    cJSON *json = page_json("mass.json"), *verdict = cJSON_GetObjectItem(json, "verdict");
     static const char *const nulls[] = {"kind", "sentence", "next_measurement"};
     static const char *const empty[] = {"rounds", "candidates", "detectable", "localisation"};
     cJSON_ReplaceItemInObject(json, "interrupted", cJSON_CreateTrue());
     for (size_t i = 0; i < sizeof nulls / sizeof *nulls; i++)
         cJSON_ReplaceItemInObject(verdict, nulls[i], cJSON_CreateNull());
-    write_json("late.json", json); /* a round was finished, and names a cause */
-    const char *html = page_of("late.json");
-    assert_says(html, "<p class=\"tone\">Interrupted: no verdict</p>");
-    assert_says(html, "class=\"answer bad\"");
-    assert_says(html, "A round that was finished would name ");
+    page_write_json("late.json", json); /* a round was finished, and names a cause */
+    const char *html = page_made("late.json");
+    page_says(html, "<p class=\"tone\">Interrupted: no verdict</p>");
+    page_says(html, "class=\"answer bad\"");
+    page_says(html, "A round that was finished would name ");
     assert_null(strstr(html, "before you believe it"));
     assert_null(strstr(html, "<section id=\"worth\">"));
 
@@ -287,24 +237,24 @@ static void an_interrupted_diagnosis_says_so_and_shows_what_is_there(void **stat
     cJSON_ReplaceItemInObject(json, "extended", cJSON_CreateNull());
     for (size_t i = 0; i < sizeof empty / sizeof *empty; i++)
         cJSON_ReplaceItemInObject(json, empty[i], cJSON_CreateArray());
-    write_json("early.json", json); /* after the base model */
-    html = page_of("early.json");
-    assert_says(html, "Below stands what was finished");
-    assert_says(html, "<figure id=\"residuals\">");
+    page_write_json("early.json", json); /* after the base model */
+    html = page_made("early.json");
+    page_says(html, "Below stands what was finished");
+    page_says(html, "<figure id=\"residuals\">");
     assert_null(strstr(html, "<figure id=\"evidence\">"));
 
     cJSON_ReplaceItemInObject(json, "base", cJSON_CreateNull());
     cJSON_ReplaceItemInObject(json, "today", cJSON_CreateNull());
     cJSON_ReplaceItemInObject(json, "modes_standardised", cJSON_CreateArray());
-    write_json("first.json", json); /* before it */
-    html = page_of("first.json");
-    assert_says(html, "there is nothing to judge yet");
+    page_write_json("first.json", json); /* before it */
+    html = page_made("first.json");
+    page_says(html, "there is nothing to judge yet");
     cJSON_Delete(json);
 
     /* a real one, wherever the signal happens to arrive */
     (void)page_run("cd %s; timeout -s INT 0.2 %s diagnose %s --quiet --json cut.json", page_path(""), ROTID_PROGRAM, RINGED);
     if (page_exists("cut.json"))
-        (void)page_of("cut.json");
+        (void)page_made("cut.json");
 }
 
 /* A verdict that rotid gives rarely, as its result would hold it. */
@@ -313,25 +263,25 @@ static void rare_verdicts_are_told_as_well(void **state)
     (void)state;
     diagnose(RINGED, "mass.json");
     diagnose(PAPER, "paper.json");
-    cJSON *json = json_of("mass.json"), *paper = json_of("paper.json"), *verdict = cJSON_GetObjectItem(json, "verdict");
+    cJSON *json = page_json("mass.json"), *paper = page_json("paper.json"), *verdict = cJSON_GetObjectItem(json, "verdict");
     cJSON_ReplaceItemInObject(verdict, "adequate_after", cJSON_CreateFalse());
-    write_json("more.json", json);
-    assert_says(page_of("more.json"), "still leaves more than noise, and nothing in the catalogue explains that");
+    page_write_json("more.json", json);
+    page_says(page_made("more.json"), "still leaves more than noise, and nothing in the catalogue explains that");
     cJSON *one = cJSON_CreateArray();
     cJSON_AddItemToArray(one, cJSON_Duplicate(element(get(paper, "verdict"), "alternative_causes", 1), 1));
     cJSON_ReplaceItemInObject(verdict, "alternative_causes", one);
-    write_json("second.json", json);
-    assert_says(page_of("second.json"), "What is left then, these data cannot tell: it may be ");
+    page_write_json("second.json", json);
+    page_says(page_made("second.json"), "What is left then, these data cannot tell: it may be ");
     cJSON_ReplaceItemInObject(verdict, "causes", cJSON_CreateArray());
     cJSON_ReplaceItemInObject(verdict, "kind", cJSON_CreateString("ambiguous"));
     cJSON_ReplaceItemInObject(json, "extended", cJSON_CreateNull());
-    write_json("single.json", json);
-    const char *html = page_of("single.json");
-    assert_says(html, "Ambiguous: no name can be given");
-    assert_says(html, "these data cannot carry its name: ");
+    page_write_json("single.json", json);
+    const char *html = page_made("single.json");
+    page_says(html, "Ambiguous: no name can be given");
+    page_says(html, "these data cannot carry its name: ");
     cJSON_ReplaceItemInObject(cJSON_GetArrayItem(one, 0), "id", cJSON_CreateString("<another>")); /* of a newer catalogue */
-    write_json("newer.json", json);
-    assert_says(page_of("newer.json"), "cannot carry its name: &lt;another&gt; of right");
+    page_write_json("newer.json", json);
+    page_says(page_made("newer.json"), "cannot carry its name: &lt;another&gt; of right");
     cJSON_Delete(json);
     cJSON_Delete(paper);
 }
@@ -342,13 +292,13 @@ static void a_result_that_lacks_something_says_what(void **state)
 {
     (void)state;
     diagnose(RINGED, "mass.json");
-    cJSON *json = json_of("mass.json");
+    cJSON *json = page_json("mass.json");
     cJSON_DeleteItemFromObject(json, "geometry");
-    write_json("old.json", json);
-    const char *html = page_of("old.json");
-    assert_says(html, "Not shown: the drawing of the rotor and the places of the causes on it.");
-    assert_says(html, "has no key &quot;geometry&quot;");
-    assert_says(html, "<figure id=\"places\">"); /* the curve alone */
+    page_write_json("old.json", json);
+    const char *html = page_made("old.json");
+    page_says(html, "Not shown: the drawing of the rotor and the places of the causes on it.");
+    page_says(html, "has no key &quot;geometry&quot;");
+    page_says(html, "<figure id=\"places\">"); /* the curve alone */
     assert_null(strstr(html, "<figure id=\"rotor\">"));
     static const char *const needed[] = {"verdict", "rounds",       "candidates",  "gain",
                                          "sensors", "localisation", "detectable",  "modes_standardised",
@@ -356,7 +306,7 @@ static void a_result_that_lacks_something_says_what(void **state)
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++) {
         cJSON *item = cJSON_DetachItemFromObject(json, needed[i]);
         char says[64];
-        write_json("lacks.json", json);
+        page_write_json("lacks.json", json);
         assert_int_equal(page_run("cd %s; %s report lacks.json -o lacks", page_path(""), ROTID_PROGRAM), 2);
         (void)snprintf(says, sizeof says, "lacks.json: %s: is missing", needed[i]);
         assert_non_null(strstr(page_err, says));
@@ -365,7 +315,7 @@ static void a_result_that_lacks_something_says_what(void **state)
     }
     cJSON *round = cJSON_GetArrayItem(cJSON_GetObjectItem(json, "rounds"), 0);
     cJSON_ReplaceItemInObject(round, "set", cJSON_CreateNumber(1000));
-    write_json("lacks.json", json);
+    page_write_json("lacks.json", json);
     assert_int_equal(page_run("cd %s; %s report lacks.json -o lacks", page_path(""), ROTID_PROGRAM), 2);
     assert_non_null(strstr(page_err, "rounds[0].set: is 1000, expected no more than its "));
     cJSON_Delete(json);
@@ -380,7 +330,7 @@ static struct diagnosis_outcome *outcome_of(const char *name, cJSON **json)
     struct json_place root = {.reader = &reader};
     message_open(&messages, &test_pool);
     reader = (struct reader){.pool = &test_pool, .messages = &messages, .file = name};
-    *json = json_of(name);
+    *json = page_json(name);
     root.json = *json;
     struct diagnosis_outcome *d = diagnosis_read(&root);
     assert_non_null(d);
@@ -475,7 +425,7 @@ static void the_real_gnuplot_draws_them(void **state)
         (void)snprintf(path, sizeof path, "real-%s/index.html", names[i]);
         const char *html = page_read(path);
         assert_int_equal(page_problems(html), 0);
-        assert_int_equal(count_of(html, "<svg "), 2 * count_of(html, "<figure "));
+        assert_int_equal(page_times(html, "<svg "), 2 * page_times(html, "<figure "));
     }
 }
 

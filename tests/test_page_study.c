@@ -28,41 +28,6 @@ static void make_study(const char *name, const char *plan)
         0);
 }
 
-static const char *page_of(const char *file)
-{
-    static char folder[64];
-    (void)snprintf(folder, sizeof folder, "page-%s/index.html", file);
-    assert_int_equal(page_run("cd %s; %s %s report %s -o page-%s", page_path(""), page_stand_in(NULL), ROTID_PROGRAM, file, file),
-                     0);
-    assert_string_equal(page_err, "");
-    const char *html = page_read(folder);
-    assert_int_equal(page_problems(html), 0);
-    return html;
-}
-
-static void assert_says(const char *html, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void assert_says(const char *html, const char *format, ...)
-{
-    char text[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    (void)vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    if (!strstr(html, text))
-        print_error("the page does not say '%s'\n", text);
-    assert_non_null(strstr(html, text));
-}
-
-static int count_of(const char *text, const char *what)
-{
-    int count = 0;
-    while ((text = strstr(text, what))) {
-        count++;
-        text++;
-    }
-    return count;
-}
-
 /* The runs of a file, without its header; to be deleted. */
 static cJSON *runs_of(const char *name)
 {
@@ -93,12 +58,12 @@ static void starts_and_numbers_of_modes_are_drawn_with_their_ends(void **state)
     (void)state;
     make_study("starts", starts_plan);
     cJSON *runs = runs_of("starts.jsonl"), *run;
-    const char *html = page_of("starts.jsonl");
+    const char *html = page_made("starts.jsonl");
     assert_int_equal(cJSON_GetArraySize(runs), 2 * 3 * 9);
-    assert_says(html, "<h1>Study starts.plan</h1>");
-    assert_says(html, "54 identifications: none failed, all converged. Every start leads to the same minimum in its cell.");
-    assert_says(html, "9 iterations (both, modes 1-6), started within \xc2\xb1"
-                      "50\xc2\xa0%% of core.E = 200\xc2\xa0GPa, left.E = 200\xc2\xa0GPa: all end at the same minimum, core.E = ");
+    page_says(html, "<h1>Study starts.plan</h1>");
+    page_says(html, "54 identifications: none failed, all converged. Every start leads to the same minimum in its cell.");
+    page_says(html, "9 iterations (both, modes 1-6), started within \xc2\xb1"
+                    "50\xc2\xa0%% of core.E = 200\xc2\xa0GPa, left.E = 200\xc2\xa0GPa: all end at the same minimum, core.E = ");
     /* mean functional over the square of the number of fitted modes */
     double sum = 0;
     int count = 0;
@@ -122,19 +87,19 @@ static void starts_and_numbers_of_modes_are_drawn_with_their_ends(void **state)
                                          "10\xe2\x81\xbb\xe2\x81\xb6",
                                          "10\xe2\x81\xbb\xe2\x81\xb7"};
     if (power < -3 && power > -8)
-        assert_says(html, "both %.2f\xc2\xa0\xc3\x97\xc2\xa0%s with 3 modes", mean / pow(10, power), raised[-power]);
+        page_says(html, "both %.2f\xc2\xa0\xc3\x97\xc2\xa0%s with 3 modes", mean / pow(10, power), raised[-power]);
     else
-        assert_says(html, "both %.*f with 3 modes", 2 - power, mean);
+        page_says(html, "both %.*f with 3 modes", 2 - power, mean);
     static const char *const figures[] = {"starts", "functional-by-modes", "parameters-by-modes"};
     for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
-        assert_says(html, "<figure id=\"%s\">", figures[i]);
+        page_says(html, "<figure id=\"%s\">", figures[i]);
     assert_null(strstr(html, "<figure id=\"coverage\">")); /* no truth */
-    assert_says(html, "of likelihood, modes 1-4");
+    page_says(html, "of likelihood, modes 1-4");
     /* one row of the table of the starts for each run, and each start of the file in it */
-    assert_says(html, "Small dots are the iterates between.");
+    page_says(html, "Small dots are the iterates between.");
     const char *table = strstr(html, "id=\"starts-numbers\"");
     assert_non_null(table);
-    assert_says(table, "<td class=\"n\">100.0</td><td class=\"n\">300.0</td>");
+    page_says(table, "<td class=\"n\">100.0</td><td class=\"n\">300.0</td>");
     cJSON_Delete(runs);
 }
 
@@ -147,7 +112,7 @@ static void intervals_are_counted_against_the_truth(void **state)
     (void)state;
     make_study("truth", truth_plan);
     cJSON *runs = runs_of("truth.jsonl"), *run;
-    const char *html = page_of("truth.jsonl");
+    const char *html = page_made("truth.jsonl");
     int held[2] = {0, 0}, all = 0, count = 0;
     double sum = 0;
     cJSON_ArrayForEach(run, runs)
@@ -166,12 +131,12 @@ static void intervals_are_counted_against_the_truth(void **state)
         }
     }
     assert_int_equal(count, 40);
-    assert_says(html, "Of 160 95\xc2\xa0%% intervals %.1f\xc2\xa0%% hold the truth.", 100.0 * all / 160);
-    assert_says(html, "core.E: mean %s%.2f, deviation ", sum < 0 ? "\xe2\x88\x92" : "+", fabs(sum / count));
-    assert_says(html, "%d of 40 intervals hold the truth; left.E: mean ", held[0]);
-    assert_says(html, "%d of 40 intervals hold the truth. Where the fits", held[1]);
-    assert_says(html, "<figure id=\"coverage\">");
-    assert_says(html, "noise 0.003");
+    page_says(html, "Of 160 95\xc2\xa0%% intervals %.1f\xc2\xa0%% hold the truth.", 100.0 * all / 160);
+    page_says(html, "core.E: mean %s%.2f, deviation ", sum < 0 ? "\xe2\x88\x92" : "+", fabs(sum / count));
+    page_says(html, "%d of 40 intervals hold the truth; left.E: mean ", held[0]);
+    page_says(html, "%d of 40 intervals hold the truth. Where the fits", held[1]);
+    page_says(html, "<figure id=\"coverage\">");
+    page_says(html, "noise 0.003");
     assert_null(strstr(html, "<figure id=\"starts\">"));
     cJSON_Delete(runs);
 }
@@ -180,9 +145,9 @@ static void a_summary_says_what_it_does_not_hold(void **state)
 {
     (void)state;
     make_study("truth", truth_plan);
-    const char *html = page_of("truth.json");
-    assert_says(html, "truth.json is a summary.");
-    assert_says(html, "<figure id=\"coverage\">");
+    const char *html = page_made("truth.json");
+    page_says(html, "truth.json is a summary.");
+    page_says(html, "<figure id=\"coverage\">");
     assert_null(strstr(html, "<figure id=\"errors-of-runs\">"));
     /* beside another result it adds its section, and the answer stays that of the first */
     assert_int_equal(page_run("cd %s; %s identify beam.inp --quiet --json fit.json; %s %s report fit.json starts.jsonl -o both",
@@ -190,9 +155,9 @@ static void a_summary_says_what_it_does_not_hold(void **state)
                      0);
     html = page_read("both/index.html");
     assert_int_equal(page_problems(html), 0);
-    assert_says(html, "<section id=\"study\">");
-    assert_says(html, "<figure id=\"starts\">");
-    assert_says(html, "<p class=\"says\">core.E = ");
+    page_says(html, "<section id=\"study\">");
+    page_says(html, "<figure id=\"starts\">");
+    page_says(html, "<p class=\"says\">core.E = ");
 }
 
 static void verdicts_are_counted(void **state)
@@ -205,19 +170,19 @@ static void verdicts_are_counted(void **state)
                "*STUDY, COMMAND=DIAGNOSE, REPLICATES=3, BOOTSTRAP=100\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*NOISE\n"
                "0.001, 0.01\n*HIDE, TYPE=NONE, NAME=control\n*HIDE, TYPE=DENSITY, NAME=a <core>, GROUP=core\nfactor, 1.2\n");
     cJSON *runs = runs_of("hidden.jsonl"), *run;
-    const char *html = page_of("hidden.jsonl");
+    const char *html = page_made("hidden.jsonl");
     int kinds = 0;
-    assert_says(html, "Of 6 diagnoses: ");
+    page_says(html, "Of 6 diagnoses: ");
     for (size_t k = 0; k < sizeof score / sizeof *score; k++) {
         int count = 0;
         cJSON_ArrayForEach(run, runs) count += !strcmp(get(run, "score")->valuestring, score[k]);
         kinds += count > 0;
         if (count)
-            assert_says(html, "%d %s", count, says[k]);
+            page_says(html, "%d %s", count, says[k]);
     }
     assert_true(kinds >= 1);
-    assert_says(html, "<figure id=\"verdicts\">");
-    assert_says(html, "a &lt;core&gt;");
+    page_says(html, "<figure id=\"verdicts\">");
+    page_says(html, "a &lt;core&gt;");
     assert_null(strstr(html, "<core>"));
     cJSON_Delete(runs);
 }
@@ -237,13 +202,13 @@ static void many_decks_stand_beside_each_other(void **state)
     }
     page_write_file("broken.inp", "*MATERIAL, NAME=a\n");
     assert_int_equal(page_run("cd %s; %s study%s broken.inp -o decks.jsonl --quiet", page_path(""), ROTID_PROGRAM, list), 1);
-    const char *html = page_of("decks.jsonl");
-    assert_says(html, "class=\"answer care\"");
-    assert_says(html, "6 identifications: 1 failed, 0 did not converge.");
-    assert_says(html, "<p>One failed: ");
-    assert_says(html, "<figure id=\"decks\">");
-    assert_says(html, "deck3.inp");
-    assert_says(html, "A point with its interval for each of 5 decks.");
+    const char *html = page_made("decks.jsonl");
+    page_says(html, "class=\"answer care\"");
+    page_says(html, "6 identifications: 1 failed, 0 did not converge.");
+    page_says(html, "<p>One failed: ");
+    page_says(html, "<figure id=\"decks\">");
+    page_says(html, "deck3.inp");
+    page_says(html, "A point with its interval for each of 5 decks.");
 }
 
 /* ------------------------------------------------------------------------------------------------------------ broken files */
@@ -286,8 +251,8 @@ static void broken_lines_are_told_with_their_place(void **state)
     free(cut);
     assert_int_equal(page_run("cd %s; %s %s report cut.jsonl -o cut", page_path(""), page_stand_in(NULL), ROTID_PROGRAM), 0);
     assert_non_null(strstr(page_err, "cut.jsonl: the last line is not complete and left out"));
-    assert_says(page_read("cut/index.html"), " of 80 runs</p>");
-    assert_says(page_read("cut/index.html"), "class=\"answer care\"");
+    page_says(page_read("cut/index.html"), " of 80 runs</p>");
+    page_says(page_read("cut/index.html"), "class=\"answer care\"");
 }
 
 /* --------------------------------------------------------------------------------------------------------------- routines */
@@ -365,7 +330,7 @@ static void the_real_gnuplot_draws_them(void **state)
         assert_int_equal(page_run("cd %s; %s report %s.jsonl -o real-%s", page_path(""), ROTID_PROGRAM, names[i], names[i]), 0);
         assert_string_equal(page_err, "");
         (void)snprintf(path, sizeof path, "real-%s/index.html", names[i]);
-        assert_int_equal(count_of(page_read(path), "<svg "), 2 * count_of(page_read(path), "<figure "));
+        assert_int_equal(page_times(page_read(path), "<svg "), 2 * page_times(page_read(path), "<figure "));
     }
 }
 

@@ -18,7 +18,7 @@ static void progress(void *context, const char *stage, int step)
         call->given->progress(call->given->context, stage, step);
 }
 
-void call_open(struct call *call, const rotid_environment *given)
+int call_open(struct call *call, const rotid_environment *given, const void *result)
 {
     const rotid_allocator *allocator = given ? given->allocator : NULL;
     call->given = given;
@@ -29,11 +29,16 @@ void call_open(struct call *call, const rotid_environment *given)
                                             .context = call};
     pool_open(&call->scratch, allocator);
     message_open(&call->notes, &call->scratch);
+    int status = result ? host_enter(&call->host) : ROTID_ERROR_ARGUMENT;
+    call->entered = status == ROTID_OK;
+    return status;
 }
 
 void call_close(struct call *call)
 {
     pool_close(&call->scratch);
+    if (call->entered)
+        host_leave(&call->host);
 }
 
 /* As much of the text as fits; returns the length then, and that of a full buffer once something was cut off. */

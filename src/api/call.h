@@ -4,6 +4,7 @@
 
 #include <stdatomic.h>
 
+#include "base/host.h"
 #include "base/message.h"
 #include "base/pool.h"
 #include "rotid.h"
@@ -16,9 +17,13 @@ struct call {
     rotid_environment environment; /* of the run: once the host has said stop it is not asked, and told of nothing, again */
     struct pool scratch;           /* gone when the call returns */
     struct message_list notes;
+    struct host host; /* as it was, while `entered` */
+    int entered;
 };
 
-void call_open(struct call *call, const rotid_environment *given);
+/* `result`: what the call is to set. ROTID_OK, with exceptions masked and the locale "C" until call_close; ROTID_ERROR_ARGUMENT
+ * where it is NULL, ROTID_ERROR_MEMORY. To be closed in any case. */
+int call_open(struct call *call, const rotid_environment *given, const void *result);
 void call_close(struct call *call);
 
 /* Writes into failure [FAILURE_LENGTH] (may be NULL) the errors among the notes, joined and cut off, the text of the status where

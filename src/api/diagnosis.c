@@ -4,7 +4,6 @@
 #include "api/deck_handle.h"
 #include "api/diagnosis_parts.h"
 #include "api/identification.h"
-#include "base/host.h"
 #include "base/parallel.h"
 #include "deck/deck_extended.h"
 #include "diagnose/diagnose.h"
@@ -111,18 +110,12 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
 int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options, const rotid_environment *environment,
                    char *failure, rotid_diagnosis **result)
 {
-    struct host host;
     struct call call;
-    call_open(&call, environment);
-    int status = result ? ROTID_OK : ROTID_ERROR_ARGUMENT;
+    int status = call_open(&call, environment, result);
     if (result)
         *result = NULL;
     if (!status)
-        status = host_enter(&host);
-    if (!status) {
         status = diagnose(&call, deck, options, result);
-        host_leave(&host);
-    }
     call_explain(&call, status, failure);
     call_close(&call);
     return status;

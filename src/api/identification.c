@@ -4,7 +4,6 @@
 
 #include "api/call.h"
 #include "api/deck_handle.h"
-#include "base/host.h"
 
 /* Of the partner of each measured mode; the spectrum may end below it. */
 static const double *of_partners(struct holding *holding, const struct identification *found, int nmode, const double *percent)
@@ -77,18 +76,12 @@ static int identify(struct call *call, const rotid_deck *deck, int baseline, rot
 int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,
                    rotid_identification **result)
 {
-    struct host host;
     struct call call;
-    call_open(&call, environment);
-    int status = result ? ROTID_OK : ROTID_ERROR_ARGUMENT;
+    int status = call_open(&call, environment, result);
     if (result)
         *result = NULL;
     if (!status)
-        status = host_enter(&host);
-    if (!status) {
         status = identify(&call, deck, baseline, result);
-        host_leave(&host);
-    }
     call_explain(&call, status, failure);
     call_close(&call);
     return status;

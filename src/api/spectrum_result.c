@@ -3,7 +3,6 @@
 
 #include "api/deck_handle.h"
 #include "api/holding.h"
-#include "base/host.h"
 #include "run/spectrum.h"
 
 static int make_result(struct holding *holding, const struct spectrum *s, rotid_spectrum **result)
@@ -45,18 +44,14 @@ static int compute(const struct job *job, const double *x, int nmode, struct poo
 int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
                            rotid_spectrum **spectrum)
 {
-    struct host host;
     struct call call;
     struct spectrum found;
-    if (!spectrum)
-        return ROTID_ERROR_ARGUMENT;
-    *spectrum = NULL;
-    int status = host_enter(&host);
-    if (status)
-        return status;
-    call_open(&call, environment);
-    const struct job *job = deck_job(deck, &call);
-    status = job && nmode >= 1 ? compute(job, x, nmode, &call.scratch, &found) : ROTID_ERROR_ARGUMENT;
+    int status = call_open(&call, environment, spectrum);
+    if (spectrum)
+        *spectrum = NULL;
+    const struct job *job = status ? NULL : deck_job(deck, &call);
+    if (!status)
+        status = job && nmode >= 1 ? compute(job, x, nmode, &call.scratch, &found) : ROTID_ERROR_ARGUMENT;
     if (!status) {
         struct holding *holding = holding_new(environment);
         status = make_result(holding, &found, spectrum);
@@ -66,7 +61,6 @@ int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, c
         }
     }
     call_close(&call);
-    host_leave(&host);
     return status;
 }
 
