@@ -108,6 +108,13 @@ typedef struct rotid_message {
     const char *text; /* what is wrong, what was expected */
 } rotid_message;
 
+/* A line "paper QUANTITY = ..." of the heading of a deck: values to compare with. */
+typedef struct rotid_reference {
+    const char *quantity; /* such as predicted_hz, error_percent or sensitivity core.E */
+    int nvalues;
+    double *values; /* in the units of the quantity, by mode */
+} rotid_reference;
+
 /* What a deck says. All arrays belong to it and are not to be changed. A deck is only read by the routines below: several threads
  * may work on one, and it may be freed before their results. */
 typedef struct rotid_deck {
@@ -127,7 +134,11 @@ typedef struct rotid_deck {
     const int *holdout;               /* [nmode] */
     int nparameter;                   /* of *IDENTIFY */
     const rotid_parameter *parameter; /* [nparameter] */
-    void *memory;                     /* internal */
+    const double *stated;             /* [nparameter] values of the parameters in the model as the deck states it */
+    int nheading, nreferences;
+    const char **heading;        /* [nheading] lines of *HEADING without the references */
+    rotid_reference *references; /* [nreferences] */
+    void *memory;                /* internal */
 } rotid_deck;
 
 /* Reads the deck `path`, what it includes and the measured data it names. override [noverride]: texts "CARD.OPTION=VALUE" that
@@ -139,42 +150,574 @@ ROTID_API int rotid_deck_read(const char *path, int noverride, const char *const
 /* NULL is allowed. */
 ROTID_API void rotid_deck_free(rotid_deck *deck);
 
-/* The modes of the model of a deck. */
-typedef struct rotid_spectrum {
-    int nrigid;         /* rigid-body and suspension modes below the elastic ones */
-    int nmode;          /* elastic ones; fewer than asked for where the model has fewer */
-    int nmaster;        /* sensors, or without sensors the nodes of the axis */
-    double rigid_hz[2]; /* NaN where there is none */
-    double *hz;         /* [nmode] full model */
-    double *reduced_hz; /* [nmode] condensed as FIT says, by Guyan where it says nothing; NaN with too few or over 1000 masters */
-    double *reduction_error_percent, *mesh_error_percent; /* [nmode] of the frequencies */
-    double *shape;                                        /* [nmaster * nmode] full model at the masters, largest component 1 */
-    double *master_z;                                     /* [nmaster] m */
-    double *master_mass; /* [nmaster * nmaster] condensed by Guyan, for rotid_nco; NULL where it cannot be had */
-    void *memory;        /* internal */
-} rotid_spectrum;
+/* ---- results */
 
-/* At the values x [nparameter] of the parameters of the deck, at their starts where x is NULL; the lowest nmode >= 1 elastic
- * modes. Statuses: every ROTID_ERROR_ but UNPAIRED, RANK, SYNTAX and IO. *spectrum is NULL on an error. */
-ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
-                                     rotid_spectrum **spectrum);
-ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
+/* What the routines of the first layer return, and what the program writes with --json: each member is the key of that name in
+ * docs/schema, and the comment is its description there. A list X has nX elements. What is not known or cannot be stated is NaN or
+ * NULL, and null in JSON. Units stand in brackets, [1] for a pure number; where a name ends in a unit that is the unit. Results are
+ * not to be changed, and go as a whole with the routine that is named `rotid_..._free`. */
+
+#define ROTID_NONE (-2147483647 - 1) /* an integer that is not known */
+
+/* A material at the values of the model. */
+typedef struct rotid_material {
+    const char *name; /* of the *MATERIAL, or NULL */
+    double e_pa;      /* Young's modulus [Pa] */
+    double g_pa;      /* shear modulus, E/2(1+nu) where the material is isotropic [Pa] */
+    double nu;        /* Poisson ratio [1] */
+    double rho_kg_m3; /* density [kg/m3] */
+} rotid_material;
+
+/* A section of constant diameter: round (outer_m, inner_m, stiff_outer_m) or rectangular (height_m, width_m), the others NaN. */
+typedef struct rotid_segment {
+    double from_m;        /* left end [m] */
+    double to_m;          /* right end [m] */
+    int elements;         /* of the mesh, before nodes are added at sensors and the like */
+    double outer_m;       /* outer diameter [m] */
+    double inner_m;       /* inner diameter [m] */
+    double stiff_outer_m; /* outer diameter that carries stiffness [m]; NaN where it is outer_m */
+    double height_m;      /* in the bending plane [m] */
+    double width_m;       /* across it [m] */
+} rotid_segment;
+
+/* Evenly spaced axial holes along a group. */
+typedef struct rotid_perforation {
+    int number;             /* of holes */
+    double hole_diameter_m; /* [m] */
+    double pitch_radius_m;  /* from the axis to the middle of a hole [m] */
+} rotid_perforation;
+
+/* A group of sections of one material. */
+typedef struct rotid_group {
+    const char *name; /* of the card */
+    double from_m;    /* left end [m] */
+    double to_m;      /* right end [m] */
+    rotid_material material;
+    int nsegments;
+    rotid_segment *segments;        /* from left to right */
+    rotid_perforation *perforation; /* NULL without *PERFORATION */
+    double preload_n;               /* axial force of *PRELOAD, tension positive [N] */
+} rotid_group;
+
+/* A bundle of tie rods. */
+typedef struct rotid_tierods {
+    const char *name; /* of the card */
+    double from_m;    /* left end [m] */
+    double to_m;      /* right end [m] */
+    rotid_material material;
+    int number;            /* of rods */
+    double diameter_m;     /* of a rod [m] */
+    double pitch_radius_m; /* from the axis to the middle of a rod [m] */
+    const char *model;     /* RODS: each bends about itself; TUBE: the cylinder of equal area and inertia */
+    int elements;          /* of the deck */
+    double tension_n;      /* of a rod [N] */
+    int self_equilibrated; /* the tension compresses what is clamped */
+} rotid_tierods;
+
+/* Short-circuit bars. */
+typedef struct rotid_bars {
+    const char *name; /* of the card */
+    double from_m;    /* left end [m] */
+    double to_m;      /* right end [m] */
+    double center_m;  /* where they are fixed to the axis [m] */
+    rotid_material material;
+    int number;            /* of bars */
+    double diameter_m;     /* of a bar [m] */
+    double pitch_radius_m; /* from the axis to the middle of a bar [m] */
+    const char *model;     /* RODS: each bends about itself; TUBE: the cylinder of equal area and inertia */
+    int elements;          /* of the deck */
+} rotid_bars;
+
+/* A disk. */
+typedef struct rotid_disk {
+    const char *name;       /* NULL where the card gives none */
+    double z_m;             /* [m] */
+    double mass_kg;         /* [kg] */
+    double diametral_kg_m2; /* inertia about a diameter [kg.m2] */
+    double polar_kg_m2;     /* inertia about the axis, which plane bending at rest does not use [kg.m2] */
+} rotid_disk;
+
+/* A spring to the ground. */
+typedef struct rotid_spring {
+    const char *name;         /* NULL where the card gives none; sling and sling end for those of *SLING */
+    double z_m;               /* [m] */
+    double lateral_n_m;       /* [N/m] */
+    double rotational_nm_rad; /* [N.m/rad] */
+} rotid_spring;
+
+/* A sensor. */
+typedef struct rotid_sensor {
+    int id;     /* as in the deck or the universal file */
+    double z_m; /* position from the left end [m] */
+} rotid_sensor;
+
+/* A parameter of a cause that is part of the model. */
+typedef struct rotid_cause_parameter {
+    const char *name; /* such as depth or z */
+    const char *unit; /* 1 for a pure number */
+    double value;     /* in its unit */
+} rotid_cause_parameter;
+
+/* A CAUSE card that is part of the model, or the accelerometer that a diagnosis weighed. Its factors are not in the values of the
+ * other members of the geometry. */
+typedef struct rotid_model_cause {
+    const char *name;    /* of the card, or NULL */
+    const char *id;      /* of the catalogue, such as joint */
+    const char *target;  /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
+    int sensor;          /* id of the sensor that it acts at; ROTID_NONE where it acts at none */
+    const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
+    int nparameters;
+    rotid_cause_parameter *parameters; /* places are metres from the left end */
+} rotid_model_cause;
+
+/* A model as it is drawn and meshed. Positions count from the left end; in JSON lengths have nine significant digits. */
+typedef struct rotid_geometry {
+    double length_m; /* of the axis [m] */
+    int ngroups;
+    rotid_group *groups; /* *SHAFT and *BEAM from left to right */
+    int ntierods;
+    rotid_tierods *tierods; /* *TIEROD */
+    int nbars;
+    rotid_bars *bars; /* *BARS */
+    int ndisks;
+    rotid_disk *disks; /* *DISK */
+    int nsprings;
+    rotid_spring *springs; /* *SPRING, and the two end springs that *SLING stands for */
+    double sling_m;        /* length of *SLING [m]; NaN without */
+    int nsensors;
+    rotid_sensor *sensors; /* by increasing position */
+    int ncauses;
+    rotid_model_cause *causes; /* *CAUSE, and in a diagnosis the accelerometer that was weighed */
+    int nnodes_z_m;
+    double *nodes_z_m; /* nodes of the mesh on the axis: elements lie between neighbours [m]; empty where there is no mesh */
+} rotid_geometry;
+
+/* What was identified; value, start, lower, upper, std and ci95 in its unit. */
+typedef struct rotid_fitted_parameter {
+    const char *name; /* such as core.E */
+    const char *unit; /* 1 for a pure number */
+    double value;     /* identified value */
+    double start;     /* of the iteration */
+    double lower;     /* bound */
+    double upper;     /* bound */
+    double std;       /* standard deviation; NaN where it cannot be stated */
+    double ci95[2];   /* 95 % interval; NaN where it cannot be stated */
+    int at_bound;     /* pressed against a bound */
+    int identifiable; /* 0: at a bound, or part of a combination that the data do not determine */
+} rotid_fitted_parameter;
+
+/* A measured mode beside the mode of the model that it is paired with. */
+typedef struct rotid_compared_mode {
+    int mode;              /* of the model that it is paired with, from 1 */
+    int measured_mode;     /* number of the measured mode in the deck, which its shape may contradict; ROTID_NONE in old results */
+    double measured_hz;    /* measured frequency of the mode paired with it [Hz] */
+    double frequency_std;  /* relative standard deviation of the measured frequency [1]; NaN where it is not known */
+    double predicted_hz;   /* frequency of the model that error_percent is taken of, condensed or not [Hz] */
+    double error_percent;  /* predicted over measured frequency, less one [%] */
+    double mac;            /* modal assurance criterion [1]; NaN without a measured shape */
+    double nco;            /* normalised cross orthogonality with the mass matrix condensed by Guyan [1]; NaN without a measured shape */
+    const char *paired_by; /* what decided the pairing: shape or number */
+    int holdout;           /* held out of the fit */
+    double residual;       /* frequency residual of the functional, of held-out modes too [1] */
+} rotid_compared_mode;
+
+/* How tie rods or bars move in one mode. */
+typedef struct rotid_member_shape {
+    const char *name; /* of the card */
+    int nz_m;
+    double *z_m;   /* [m] */
+    double *shape; /* per entry of z_m, at the scale of predicted, between nodes by the static shapes of the elements [1] */
+} rotid_member_shape;
+
+/* The shapes of a measured mode. */
+typedef struct rotid_mode_shapes {
+    int mode;          /* of the model that it is paired with, from 1 */
+    int measured_mode; /* its number in the deck; ROTID_NONE in old results */
+    int nmeasured, nmeasured_std, npredicted, npredicted_axis;
+    double *measured;     /* at the sensors, largest component 1, NaN where it was not measured [1]; NULL without a shape */
+    double *measured_std; /* standard deviations at the same scale [1]; NULL where they are not known */
+    double *predicted; /* at the sensors, times its best scale to the measured one: least squares, weighted with measured_std where it
+                          is known of all. Without a measured shape the largest deflection of the axis is 1 [1] */
+    double *predicted_axis; /* at axis_z_m at the same scale [1] */
+    int ntierods;
+    rotid_member_shape *tierods; /* in the order of the deck */
+    int nbars;
+    rotid_member_shape *bars; /* in the order of the deck */
+} rotid_mode_shapes;
+
+/* Measured shapes beside those of the full model that was fitted, for pictures: in JSON with nine significant digits. */
+typedef struct rotid_shapes {
+    int nsensor_id;
+    int *sensor_id; /* of each sensor; empty without sensors */
+    double *z_m;    /* per entry of sensor_id: its position [m] */
+    int naxis_z_m;
+    double *axis_z_m; /* nodes of the axis [m]; evenly thinned to 401 where there are more, both ends among them */
+    int nmodes;
+    rotid_mode_shapes *modes; /* per measured mode */
+} rotid_shapes;
+
+/* An accepted point of the iteration. */
+typedef struct rotid_history_entry {
+    int iteration;     /* 0 is the start */
+    double objective;  /* half the sum of squared residuals [1] */
+    double gradient;   /* largest component of its gradient with respect to value/start [1] */
+    double mu;         /* damping in use [1] */
+    double gain_ratio; /* actual over predicted decrease of the step that led here [1]; NaN at iteration 0 */
+    double step;       /* norm of that step in value/start [1] */
+    double seconds;    /* since the iteration began [s] */
+    int nx;
+    double *x; /* values of the parameters in their units */
+} rotid_history_entry;
+
+/* The same problem minimised by NLopt. */
+typedef struct rotid_minimiser {
+    const char *algorithm; /* NLopt's name */
+    const char *result;    /* NLopt's name of the result */
+    int usable;            /* converged, or stopped by rounding at a minimum */
+    double objective;      /* recomputed at x [1] */
+    double gradient;       /* recomputed at x [1] */
+    int evaluations;       /* of the model */
+    double seconds;        /* [s] */
+    int nx, npredicted_hz;
+    double *x;            /* values of the parameters in their units */
+    double *predicted_hz; /* per measured mode: frequency of the model there [Hz]; NaN where it has none */
+} rotid_minimiser;
+
+/* Typical noise of the measured data in use. */
+typedef struct rotid_noise {
+    double frequency;           /* relative standard deviation, median of the modes [1]; NaN where none is stated */
+    double shape;               /* relative to the largest component, median of all components [1]; NaN where none is stated */
+    int frequency_assumed;      /* by the diagnosis: the deck states none */
+    int shape_assumed;          /* by the diagnosis: the deck states none */
+    const char *intervals_from; /* what std and ci95 rest on: noise, the stated one, or residuals, their scatter; NULL in a diagnosis */
+} rotid_noise;
+
+/* A component of a direction: the parameter that it belongs to, and its size. */
+typedef struct rotid_component {
+    const char *name;
+    double value;
+} rotid_component;
 
 /* A model fitted to measured modes. */
 typedef struct rotid_identification {
-    const rotid_fit_result *fit; /* belongs to this result */
-    int nparameter;
-    const rotid_parameter *parameter; /* [nparameter] */
-    int nmode;                        /* measured */
-    const int *number;                /* [nmode] mode of the model that each was paired with, by shape where shapes tell */
-    const double *measured_hz;        /* [nmode]; fit->predicted_hz stands beside it */
-    const double *nco;                /* [nmode] (45), NaN without a shape */
-    const double *reduction_error_percent, *mesh_error_percent; /* [nmode] of the predicted frequency, NaN where not known */
-    double mass, centre;                                        /* kg, m; of the fitted model */
+    const char *status;     /* converged, not_converged, or at_bound: converged with at least one parameter pressed against a bound.
+                               Undetermined parameters are flagged below */
+    const char *functional; /* that was minimised */
+    const char *reduction;  /* of the model that was fitted */
+    const char *derivative; /* method of the eigenvector derivatives, where they are needed */
+    int shapes_fitted;      /* measured shapes took part in the residuals, or in the quotient of HYBRID */
+    double bijection_chi;   /* chi of the bijection (30), value = lower + (upper - lower)/(1 + exp(chi y)), in whose y the steps are
+                               made [1] */
+    double objective;       /* half the sum of squared residuals [1] */
+    double gradient;        /* largest component of its gradient with respect to value/start [1] */
+    double chi2;            /* sum of squared residuals over the squared stated noise [1]; NaN where no noise is stated */
+    double chi2_per_dof;    /* chi2 over dof [1]; NaN without noise or degrees of freedom */
+    int dof;                /* degrees of freedom: residuals less free parameters less scales of shapes */
+    int iterations;         /* accepted steps */
+    int evaluations;        /* of the residual */
+    int jacobians;          /* evaluations of the Jacobian */
+    const char *stop_reason; /* why the iteration ended: the text of a status ROTID_STOP_ of rotid.h */
+    int nparameters;
+    rotid_fitted_parameter *parameters; /* in the order of *IDENTIFY, then those of the causes in the model */
+    double *correlation;     /* of the parameters, by rows, symmetric [1]; NaN where it cannot be stated */
+    double condition_number; /* of the Jacobian with respect to relative parameters [1]; NaN where it is singular or nothing is
+                                identified */
+    int nundetermined_directions;
+    rotid_component *undetermined_directions; /* unit vectors of relative parameter changes that the data do not determine, one after
+                                                 the other, each with the component of every parameter [1] */
+    double intervals_widened_by; /* factor on std and ci95 because the misfit exceeds the stated noise [1] */
+    int nmodes;
+    rotid_compared_mode *modes;      /* measured modes in the order of the deck or by rising frequency */
+    double *reduction_error_percent; /* per entry of modes: condensed over full frequency at the fitted model, less one [%]; NaN where
+                                        the masters are too few or more than 1,000 */
+    double *mesh_error_percent;      /* per entry of modes: frequency over its Richardson limit, less one [%] */
+    double mass_kg;                  /* of the fitted model [kg] */
+    double center_of_mass_m;         /* of the fitted model, from the left end [m] */
+    rotid_shapes *shapes;            /* NULL in old results */
+    int nmatrix_rows, nmatrix_columns;
+    double *nco_matrix; /* normalised cross orthogonality (45) with the mass matrix condensed by Guyan, measured modes by rows, modes of
+                           the model by columns [1]; NULL without measured shapes or with more than 1,000 sensors; a row of NaN for a
+                           mode without a shape */
+    double *mac_matrix; /* modal assurance criterion, measured modes by rows, modes of the model by columns [1]; NULL without measured
+                           shapes; a row of NaN for a mode without a shape */
+    int *matrix_rows;   /* measured_mode of the rows; empty without measured shapes */
+    int *matrix_columns; /* mode of the columns; empty without measured shapes */
+    int nhistory;
+    rotid_history_entry *history; /* accepted points, the start first */
+    int nbaseline;
+    rotid_minimiser *baseline;   /* the same problem minimised by NLopt; empty where that was not asked for, or without NLopt */
+    double seconds;              /* of Levenberg-Marquardt [s] */
+    rotid_noise *noise;          /* of the data; NULL in the fits of a diagnosis */
+    rotid_geometry *geometry;    /* the model at the values of the fit; NULL in the fits of a diagnosis, and in old results */
+    int nmessage;
+    const rotid_message *message; /* of the pairing and the fit */
+    const rotid_fit_result *fit; /* where the above comes from, with the Jacobian; NULL in a result that was read from a file */
+    void *memory;                /* internal */
+} rotid_identification;
+
+/* A mode of the model, and the measured mode that is paired with it. */
+typedef struct rotid_model_mode {
+    int mode;                       /* number, from 1 */
+    double full_hz;                 /* frequency of the model that is not condensed [Hz] */
+    double reduced_hz;              /* frequency of the condensed model [Hz]; NaN where the masters are too few or more than 1,000 */
+    double reduction_error_percent; /* reduced over full frequency, less one [%] */
+    double mesh_error_percent;      /* frequency over its Richardson limit from this mesh and one twice as fine, less one [%] */
+    int nshape;
+    double *shape;                 /* deflection of the full model at sensor_z_m, largest component 1 [1] */
+    rotid_compared_mode *measured; /* NULL where no measured mode is paired with it; residual is NaN */
+} rotid_model_mode;
+
+/* The modes of the model of a deck. */
+typedef struct rotid_spectrum {
+    const char *reduction; /* of reduced_hz: as FIT says, GUYAN where it says nothing */
+    int nrigid_hz;
+    double *rigid_hz; /* modes of the rotor on its supports, or of free motion, below the first bending mode [Hz] */
+    int nsensor_z_m;
+    double *sensor_z_m; /* positions of the components of every shape, from the left end [m]: the sensors, without sensors all nodes of
+                           the axis */
+    int nmodes;
+    rotid_model_mode *modes;  /* bending modes by rising frequency; fewer than asked for where the model has fewer */
+    rotid_geometry *geometry; /* the model at the values of its parameters; NULL in old results */
+    double *master_mass; /* [nsensor_z_m * nsensor_z_m] condensed by Guyan onto the components of the shapes, for rotid_nco; NULL where
+                            it cannot be had */
+    int nmessage;
+    const rotid_message *message; /* of the pairing; with an error among them no measured mode is paired */
+    void *memory;                 /* internal */
+} rotid_spectrum;
+
+/* The model of a deck as the deck states it. */
+typedef struct rotid_check {
+    double length_m;         /* length of the rotor [m] */
+    double mass_kg;          /* mass, disks and rods included [kg] */
+    double center_of_mass_m; /* from the left end [m] */
+    double inertia_kg_m2;    /* about a diameter through the centre of mass [kg.m2] */
+    int nodes;               /* nodes on the axis */
+    int elements;            /* elements on the axis */
+    int rigid_modes;         /* number of modes that are not counted as bending modes */
+    int nrigid_hz;
+    double *rigid_hz;       /* modes of the rotor on its supports, or of free motion, below the first bending mode [Hz] */
+    int measured_modes;     /* number of measured modes */
+    const char *functional; /* that identify would minimise */
+    const char *reduction;  /* that identify would use */
+    int nsensors;
+    rotid_sensor *sensors; /* by increasing position */
+    int nparameters;
+    const char **parameters;  /* names of the parameters of *IDENTIFY */
+    rotid_geometry *geometry; /* NULL in old results */
+    void *memory;             /* internal */
+} rotid_check;
+
+/* ---- diagnosis */
+
+enum { ROTID_ADEQUATE, ROTID_NAMED, ROTID_AMBIGUOUS, ROTID_UNEXPLAINED }; /* verdict */
+
+/* A parameter of a cause. */
+typedef struct rotid_cause_value {
+    const char *name; /* such as depth or z */
+    const char *unit; /* 1 for a pure number */
+    double value;
+    double std;     /* standard deviation; NaN where it cannot be stated */
+    double ci95[2]; /* 95 % interval; NaN where it cannot be stated */
+    int fixed;      /* by the user: not searched */
+} rotid_cause_value;
+
+/* A physical cause at one target, by the ids of docs/diagnosis.md. */
+typedef struct rotid_cause {
+    const char *id;      /* of the catalogue, such as joint */
+    const char *target;  /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
+    const char *name;    /* of the CAUSE card that it would get, or NULL */
+    const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
+    int nparameters;
+    rotid_cause_value *parameters; /* at the best values found */
+} rotid_cause;
+
+/* What a diagnosis says of physical causes: faults of the data and of the numbers are removed before. */
+typedef struct rotid_verdict {
+    int kind;           /* ROTID_ADEQUATE ... ROTID_UNEXPLAINED; -1: interrupted before a verdict */
+    int adequate_after; /* the model with the causes that were named is adequate for these data */
+    double p_value;     /* of the base model: the smallest of the tests */
+    int ncauses;
+    rotid_cause *causes; /* named, as they stand in the extended model */
+    int nalternatives;
+    const char **alternatives; /* ids of the candidates that cannot be told apart, best first */
+    int nalternative_causes;
+    rotid_cause *alternative_causes; /* the same with targets and values */
+    const char *next_measurement;    /* what would settle it; NULL where nothing is open */
+    const char *sentence;            /* the verdict for a person; NULL where there is none */
+    int undetermined_parameters;     /* parameters of the base model that the data leave open */
+} rotid_verdict;
+
+/* A fault of the measurement chain, taken out of the data. */
+typedef struct rotid_data_finding {
+    const char *id; /* of the catalogue */
+    int nsensors;
+    int *sensors; /* their ids */
+    int nmodes;
+    int *modes;        /* their numbers */
+    const char *block; /* what noise_level speaks of: SHAPE or FREQUENCY; NULL for the others */
+    double value;      /* gain, shift, factor, mass; NaN where there is none */
+    const char *unit;  /* of value, or NULL */
+    double std;        /* standard deviation of value */
+    double chi2_drop;  /* drop of chi2 by the correction [1] */
+    const char *text;  /* what was found and done */
+} rotid_data_finding;
+
+/* An error of the model's own numbers, removed. */
+typedef struct rotid_numerical_finding {
+    const char *id; /* of the catalogue: mesh or guyan_reduction */
+    int nmodes;
+    int *modes;            /* numbers */
+    double *error_percent; /* per entry of modes: error of the frequency [%] */
+    const char *text;      /* what was found and done */
+} rotid_numerical_finding;
+
+/* One cause is named a round; the last round names nothing more. */
+typedef struct rotid_round {
+    int round;              /* from 1 */
+    int kind;               /* verdict of the round: ROTID_ADEQUATE ... ROTID_UNEXPLAINED */
+    double chi2;            /* of the model before the round [1] */
+    double chi2_frequency;  /* the part of the frequencies [1] */
+    int dof;                /* degrees of freedom */
+    int frequencies;        /* number of frequencies that were fitted */
+    double largest;         /* predicted drop of chi2 in the scan [1] */
+    double threshold;       /* that noise alone exceeds in 3 % of tests [1] */
+    double p_scan;          /* of the largest drop */
+    double p_frequency;     /* of the frequencies */
+    double p_total;         /* of chi2 */
+    double required_margin; /* by which a cause has to lead to be named alone [1] */
+    int set;                /* candidates of the round that stay: 1 named, more cannot be told apart */
+} rotid_round;
+
+/* A cause at one target, tried in one round. */
+typedef struct rotid_candidate {
+    int round; /* from 1 */
+    rotid_cause cause;
+    int suspect;              /* asked for by a CAUSE card with SUSPECT */
+    int refitted;             /* judged by a nonlinear fit; else the numbers of that fit are NaN */
+    double predicted_drop;    /* of chi2, from the linear scan [1] */
+    double chi2;              /* with the cause in the model [1] */
+    double chi2_frequency;    /* the part of the frequencies [1] */
+    double chi2_drop;         /* against the model of the round [1] */
+    double bic;               /* chi2 + ln(number of residuals) times number of parameters [1] */
+    double holdout_rms;       /* error of the frequencies that the deck holds out [%] */
+    double mode_out_rms;      /* error of the frequencies of modes left out in turn [%] */
+    double sensor_out_rms;    /* standardised shape residual of sensors left out in turn [1] */
+    double p_value;           /* that the best of the whole family is this good by chance */
+    int at_bound;             /* a parameter is pressed against a physical bound */
+    const char *collinear_with;   /* id of the refitted candidate that looks most like it, or NULL */
+    const char *collinear_target; /* its target */
+    double cosine;                /* between the two after what is identified has been projected out [1] */
+    const char *rejected_because; /* NULL: named, or one of those that cannot be told apart, or not needed */
+} rotid_candidate;
+
+/* Of the base and of the extended model. */
+typedef struct rotid_pair {
+    double before, after; /* of the base and of the extended model */
+} rotid_pair;
+
+/* A parameter of the base or of the extended model; NaN where the model has no such parameter. */
+typedef struct rotid_changed_parameter {
+    const char *name;      /* such as core.E */
+    const char *unit;      /* 1 for a pure number */
+    double before;         /* base model */
+    double after;          /* extended model */
+    double before_ci95[2]; /* 95 % interval; NaN where it cannot be stated */
+    double after_ci95[2];  /* 95 % interval; NaN where it cannot be stated */
+} rotid_changed_parameter;
+
+/* Before and after; NaN where there is nothing to compare. */
+typedef struct rotid_gain {
+    rotid_pair frequency_rms_percent;          /* error of the frequencies that were fitted, rms [%] */
+    rotid_pair frequency_max_percent;          /* the largest of them [%] */
+    rotid_pair shape_rms;                      /* of the difference relative to the largest component [1] */
+    rotid_pair chi2_per_dof;                   /* [1] */
+    rotid_pair nco_min;                        /* smallest of the fitted modes [1] */
+    rotid_pair holdout_frequency_rms_percent;  /* modes held out by the deck [%] */
+    rotid_pair holdout_shape_rms;              /* modes held out by the deck [1] */
+    rotid_pair mode_out_frequency_rms_percent; /* modes left out in turn [%] */
+    rotid_pair mode_out_shape_rms;             /* modes left out in turn [1] */
+    rotid_pair sensor_out_shape_rms;           /* sensors left out in turn [1] */
+    int nparameters;
+    rotid_changed_parameter *parameters; /* of either model */
+} rotid_gain;
+
+/* What the base model leaves at a sensor. */
+typedef struct rotid_sensor_residual {
+    int id;     /* as in the deck or the universal file */
+    double z_m; /* position [m] */
+    double rms; /* of its shape residuals over their noise [1]; NaN where nothing was measured */
+} rotid_sensor_residual;
+
+/* A place on the axis. */
+typedef struct rotid_localisation {
+    double z_m;       /* [m] */
+    double indicator; /* force that the base model lacks there, largest 1 [1] */
+} rotid_localisation;
+
+/* The smallest deviation of a cause from its neutral value that these data show 9 times in 10, with 3 % of false alarms. */
+typedef struct rotid_detectable {
+    const char *id;        /* of the catalogue */
+    const char *target;    /* as in candidates */
+    const char *parameter; /* its size */
+    double smallest;       /* deviation from neutral, at the best place */
+    const char *unit;      /* of smallest and worst */
+    double z_m;            /* the best place [m]; NaN where there is none */
+    double worst;          /* smallest size at the worst place */
+    int beyond;            /* no size within physical bounds would show */
+} rotid_detectable;
+
+/* A step of the diagnosis. */
+typedef struct rotid_step {
+    const char *name; /* of the step */
+    double seconds;   /* [s] */
+} rotid_step;
+
+/* What the model gets wrong, and why. */
+typedef struct rotid_diagnosis {
+    int interrupted; /* stopped by a signal or by the host: what was finished is there */
+    rotid_verdict verdict;
+    int ndata_findings;
+    rotid_data_finding *data_findings; /* faults of the measurement chain, taken out of the data */
+    int nnumerical_findings;
+    rotid_numerical_finding *numerical_findings; /* errors of the model's own numbers, removed */
+    int nrounds;
+    rotid_round *rounds; /* one cause a round; the last names nothing more */
+    int ncandidates;
+    rotid_candidate *candidates; /* of all rounds, best first within a round */
+    rotid_gain gain;
+    int nmodes_standardised;
+    double *modes_standardised; /* frequency residual of the base model over its noise, per entry of base.modes [1] */
+    int nsensors;
+    rotid_sensor_residual *sensors; /* by increasing position */
+    int nlocalisation;
+    rotid_localisation *localisation; /* along the axis */
+    int ndetectable;
+    rotid_detectable *detectable; /* what would have shown with 90 % power at 3 % false alarm */
+    rotid_noise noise;            /* typical, in use */
+    rotid_geometry *geometry;     /* the base model at the values of its fit, faults of the data taken out, on the mesh that was judged;
+                                     that of the deck where a signal came first. NULL in old results */
+    rotid_identification *today;    /* the fit by the FIT of the deck; NULL where it is that of base or could not be made */
+    rotid_identification *base;     /* the full model by the likelihood, faults of the data taken out */
+    rotid_identification *extended; /* with the causes that were named; NULL where nothing was named */
+    int nsteps;
+    rotid_step *steps; /* where the time went */
     int nmessage;
     const rotid_message *message;
-    void *memory; /* internal */
-} rotid_identification;
+    const char *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
+    void *memory;              /* internal */
+} rotid_diagnosis;
+
+/* ---- the runs */
+
+/* What `rotid check` says of a deck, of which the model is taken as the deck states it. Statuses as for rotid_spectrum_compute. */
+ROTID_API int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, rotid_check **check);
+ROTID_API void rotid_check_free(rotid_check *check);
+
+/* The lowest nmode elastic modes at the values x [nparameter] of the parameters of the deck, at their starts where x is NULL, and the
+ * measured modes beside them; nmode 0: as many as the pairing looks through, at least six. Statuses: every ROTID_ERROR_ but UNPAIRED, RANK, SYNTAX and IO. *spectrum is NULL on an error. */
+ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
+                                     rotid_spectrum **spectrum);
+ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
 /* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again. With nothing to identify the model is
  * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
@@ -187,82 +730,6 @@ ROTID_API int rotid_identify(const rotid_deck *deck, int baseline, const rotid_e
 ROTID_API void rotid_identification_free(rotid_identification *result);
 
 /* ---- diagnosis: what the model gets wrong, and why */
-
-enum { ROTID_ADEQUATE, ROTID_NAMED, ROTID_AMBIGUOUS, ROTID_UNEXPLAINED }; /* verdict */
-
-typedef struct rotid_cause_value {
-    const char *name, *unit;
-    double value, std, ci_lower, ci_upper;
-    int fixed; /* by the user: not searched */
-} rotid_cause_value;
-
-/* A physical cause at one target, by the ids of docs/diagnosis.md. */
-typedef struct rotid_cause {
-    const char *id, *target, *name; /* "step_stiffness"; what it acts on, "" where nothing; of its CAUSE card */
-    const char *variant;            /* of its shape or mount, or NULL */
-    int nvalue;
-    const rotid_cause_value *value; /* [nvalue] */
-    int round;                      /* in which it was a candidate, from 1 */
-    int refitted;                   /* the six below come from a nonlinear fit, else they are NaN */
-    double chi2, chi2_drop, bic, holdout_rms, mode_out_rms, sensor_out_rms;
-    double predicted_drop, p_value; /* of chi2, by the linear scan; that the best of its family is this good by chance */
-    int at_bound;
-    const char *collinear_with; /* id of the candidate that looks most like it, or NULL */
-    double cosine;
-    const char *rejected_because; /* NULL: named, or one of those that cannot be told apart */
-} rotid_cause;
-
-/* A fault of the measurement chain (taken out of the data before the physics is judged) or of the numbers themselves. */
-typedef struct rotid_finding {
-    const char *id;
-    int nsensor, nmode;
-    const int *sensor, *mode;     /* [nsensor] ids, [nmode] numbers */
-    const double *error_percent;  /* [nmode] of the frequencies; NULL for faults of the data */
-    const char *block;            /* of noise_level: "SHAPE" or "FREQUENCY", else NULL */
-    double value, std, chi2_drop; /* NaN where there is none */
-    const char *text;
-} rotid_finding;
-
-/* One state of the model beside the data: frequencies in percent, shapes relative to the largest component. */
-typedef struct rotid_quality {
-    double frequency_rms_percent, frequency_max_percent, shape_rms, chi2_per_dof, nco_min;
-    double holdout_frequency_rms_percent, holdout_shape_rms;   /* modes that the deck holds out */
-    double mode_out_frequency_rms_percent, mode_out_shape_rms; /* modes left out in turn */
-    double sensor_out_shape_rms;                               /* sensors left out in turn */
-} rotid_quality;
-
-/* The smallest deviation of a cause from its neutral value that these data show 9 times in 10. */
-typedef struct rotid_detectable {
-    const char *id, *target, *parameter, *unit;
-    double smallest, z, worst; /* at its best place, that place [m], at the worst place */
-    int beyond;                /* no size within physical bounds would show */
-} rotid_detectable;
-
-typedef struct rotid_diagnosis {
-    int kind;           /* ROTID_ADEQUATE ... of physical causes only; -1 where there is no verdict yet */
-    int adequate_after; /* the model with what was named explains the data within their noise */
-    int interrupted;    /* cancelled: what was finished is there; sentence may be NULL */
-    double p_value;
-    const char *sentence, *next_measurement; /* the verdict for a person; what would settle it, NULL where nothing is open */
-    int ncause, nalternative, ncandidate;
-    const rotid_cause *cause;       /* [ncause] named, at their values in the extended model */
-    const rotid_cause *alternative; /* [nalternative] that cannot be told apart, best first */
-    const rotid_cause *candidate;   /* [ncandidate] of all rounds */
-    int ndata_finding, nnumerical_finding;
-    const rotid_finding *data_finding, *numerical_finding;
-    /* base: NULL where interrupted before it; extended: NULL where nothing was named. Messages are in `message` below */
-    const rotid_identification *base, *extended;
-    rotid_quality before, after;
-    int nlocal; /* along the axis: where the base model's misfit acts, largest 1 */
-    const double *local_z, *local;
-    int ndetectable;
-    const rotid_detectable *detectable;
-    const char
-        *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
-    int nmessage;
-    const rotid_message *message;
-    void *memory; /* internal */
-} rotid_diagnosis;
 
 /* Zero takes the default in brackets. */
 typedef struct rotid_diagnose_options {

@@ -10,7 +10,7 @@
 #include "page/html.h"
 #include "page/human.h"
 #include "page/palette.h"
-#include "page/place.h"
+#include "result/place.h"
 #include "page/plot.h"
 #include "page/process.h"
 #include "page/svg.h"

@@ -3,25 +3,25 @@
 
 #include <math.h>
 
-#include "api/holding.h"
+#include "api/result_memory.h"
 #include "base/host.h"
 #include "beam/effects.h"
 #include "deck/deck.h"
 
 struct deck_handle {
-    struct holding *holding;
+    struct result_memory *memory;
     int usable; /* without errors */
     struct job job;
 };
 
-static int parse_overrides(struct holding *holding, int count, const char *const *text, struct message_list *messages,
+static int parse_overrides(struct result_memory *memory, int count, const char *const *text, struct message_list *messages,
                            struct override *override)
 {
     for (int i = 0; i < count; i++) {
         if (!text[i])
             return ROTID_ERROR_ARGUMENT;
-        const char *copy = holding_text(holding, text[i]); /* parts of it become part of the job */
-        int status = copy ? override_parse(&holding->pool, copy, &override[i]) : ROTID_ERROR_MEMORY;
+        const char *copy = result_text(memory, text[i]); /* parts of it become part of the job */
+        int status = copy ? override_parse(&memory->pool, copy, &override[i]) : ROTID_ERROR_MEMORY;
         if (status == ROTID_ERROR_SYNTAX)
             message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "override %s: expected CARD.OPTION=VALUE", copy);
         if (status)
@@ -54,15 +54,20 @@ static int weigh(const struct job *job, const rotid_environment *environment, ro
 }
 
 /* The job lives as long as the deck: what it holds as arrays is not copied. */
-static void show(const struct job *job, struct holding *holding, rotid_deck *deck)
+static void show(struct job *job, struct result_memory *memory, rotid_deck *deck)
 {
-    int nsensor = job->rotor.nsensor, *id = POOL_ARRAY(&holding->pool, int, nsensor);
-    double *z = POOL_ARRAY(&holding->pool, double, nsensor);
-    holding->missing |= !id || !z;
+    int nsensor = job->rotor.nsensor, *id = result_room(memory, nsensor, sizeof *id);
+    double *z = result_room(memory, nsensor, sizeof *z), *stated = result_room(memory, job->nparameter, sizeof *stated);
     for (int s = 0; s < nsensor && id && z; s++) {
         id[s] = job->rotor.sensor[s].id;
         z[s] = job->rotor.sensor[s].position;
     }
+    for (int p = 0; p < job->nparameter && stated; p++)
+        stated[p] = *parameter_value(&job->rotor, job->parameter[p]);
+    deck->nreferences = RESULT_LIST(memory, deck->references, job->nreference);
+    for (int i = 0; i < deck->nreferences; i++)
+        deck->references[i] =
+            (rotid_reference){job->reference[i].quantity, job->reference[i].count, job->reference[i].value};
     deck->nsensor = nsensor;
     deck->sensor_id = id;
     deck->sensor_z = z;
@@ -75,34 +80,37 @@ static void show(const struct job *job, struct holding *holding, rotid_deck *dec
     deck->holdout = job->holdout;
     deck->nparameter = job->nparameter;
     deck->parameter = job->bounds;
+    deck->stated = stated;
+    deck->nheading = job->nheading;
+    deck->heading = job->heading;
 }
 
-static int read_deck(struct holding *holding, const char *path, int noverride, const char *const *text,
+static int read_deck(struct result_memory *memory, const char *path, int noverride, const char *const *text,
                      const rotid_environment *environment, rotid_deck *deck)
 {
-    struct pool *pool = &holding->pool;
+    struct pool *pool = &memory->pool;
     struct deck_handle *handle = POOL_NEW(pool, struct deck_handle);
     struct override *override = POOL_ARRAY(pool, struct override, noverride);
     struct message_list messages;
     message_open(&messages, pool);
     if (!handle || !override)
         return ROTID_ERROR_MEMORY;
-    *handle = (struct deck_handle){.holding = holding};
+    *handle = (struct deck_handle){.memory = memory};
     deck->memory = handle;
-    deck->path = holding_text(holding, path);
+    deck->path = result_text(memory, path);
     deck->length = deck->mass = deck->centre = NAN;
-    int status = parse_overrides(holding, noverride, text, &messages, override);
+    int status = parse_overrides(memory, noverride, text, &messages, override);
     if (!status)
         status = deck_read(pool, path, noverride, override, &messages, &handle->job);
     if (!status)
         status = weigh(&handle->job, environment, deck);
     if (!status)
-        show(&handle->job, holding, deck);
+        show(&handle->job, memory, deck);
     handle->usable = status == ROTID_OK;
     deck->nmessage = (int)messages.count;
     deck->nerror = messages.errors;
-    deck->message = holding_messages(holding, &messages);
-    return holding->missing ? ROTID_ERROR_MEMORY : status;
+    deck->message = result_messages(memory, &messages);
+    return memory->missing ? ROTID_ERROR_MEMORY : status;
 }
 
 int rotid_deck_read(const char *path, int noverride, const char *const *override, const rotid_environment *environment,
@@ -117,11 +125,11 @@ int rotid_deck_read(const char *path, int noverride, const char *const *override
     int status = host_enter(&host);
     if (status)
         return status;
-    struct holding *holding = holding_new(environment);
-    rotid_deck *made = holding ? POOL_NEW(&holding->pool, rotid_deck) : NULL;
-    status = made ? read_deck(holding, path, noverride, override, environment, made) : ROTID_ERROR_MEMORY;
+    struct result_memory *memory = result_memory_new(environment);
+    rotid_deck *made = memory ? POOL_NEW(&memory->pool, rotid_deck) : NULL;
+    status = made ? read_deck(memory, path, noverride, override, environment, made) : ROTID_ERROR_MEMORY;
     if (status == ROTID_ERROR_MEMORY || status == ROTID_ERROR_ARGUMENT)
-        holding_free(holding);
+        result_memory_free(memory);
     else
         *deck = made;
     host_leave(&host);
@@ -131,7 +139,13 @@ int rotid_deck_read(const char *path, int noverride, const char *const *override
 void rotid_deck_free(rotid_deck *deck)
 {
     if (deck)
-        holding_free(((struct deck_handle *)deck->memory)->holding);
+        result_memory_free(((struct deck_handle *)deck->memory)->memory);
+}
+
+const struct job *deck_job_of(const rotid_deck *deck)
+{
+    const struct deck_handle *handle = deck ? deck->memory : NULL;
+    return handle && handle->usable ? &handle->job : NULL;
 }
 
 const struct job *deck_job(const rotid_deck *deck, struct call *call)

@@ -9,4 +9,7 @@
  * call say why then. */
 const struct job *deck_job(const rotid_deck *deck, struct call *call);
 
+/* The same without a call that has to be explained. */
+const struct job *deck_job_of(const rotid_deck *deck);
+
 #endif

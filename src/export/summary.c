@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 #include "report/layout.h"
 #include "report/table.h"
 

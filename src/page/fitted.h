@@ -2,7 +2,7 @@
 #ifndef ROTID_PAGE_FITTED_H
 #define ROTID_PAGE_FITTED_H
 
-#include "page/place.h"
+#include "result/place.h"
 
 struct fitted_parameter {
     const char *name, *unit;

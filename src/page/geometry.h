@@ -2,7 +2,7 @@
 #ifndef ROTID_PAGE_GEOMETRY_H
 #define ROTID_PAGE_GEOMETRY_H
 
-#include "page/place.h"
+#include "result/place.h"
 
 struct drawn_material {
     const char *name;

@@ -3,7 +3,7 @@
 #ifndef ROTID_PAGE_OUTCOMES_H
 #define ROTID_PAGE_OUTCOMES_H
 
-#include "page/place.h"
+#include "result/place.h"
 
 struct modes_entry {
     int mode;

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "page/json_file.h"
+#include "result/json_file.h"
 
 static void read_noise(const struct json_place *root, struct result *result)
 {

@@ -2,7 +2,7 @@
 #ifndef ROTID_PAGE_STUDIED_H
 #define ROTID_PAGE_STUDIED_H
 
-#include "page/place.h"
+#include "result/place.h"
 
 enum told_status { TOLD_CONVERGED, TOLD_AT_BOUND, TOLD_NOT_CONVERGED, TOLD_FAILED, TOLD_STATUSES };
 

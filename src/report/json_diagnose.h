@@ -3,7 +3,7 @@
 #define ROTID_REPORT_JSON_DIAGNOSE_H
 
 #include "diagnose/diagnose.h"
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 
 /* deck: the job as the user states it, whose FIT `today` was fitted with. A text to be freed with json_free, or NULL where memory
  * is out. */

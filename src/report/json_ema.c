@@ -1,7 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 #include "report/report_ema.h"
 
 static void add_doubts(struct json_tree *tree, cJSON *parent, int doubts, const char *(*text)(int))

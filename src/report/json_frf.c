@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 #include "report/report_frf.h"
 
 static const char *source_word(enum frf_damping damping)

@@ -2,7 +2,7 @@
 #ifndef ROTID_REPORT_JSON_GEOMETRY_H
 #define ROTID_REPORT_JSON_GEOMETRY_H
 
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 
 /* "geometry" of the root: of the model of the spectrum, with the values of the parameters and the end springs that it has; of the
  * job as it stands, without nodes, where there is no spectrum (spectrum->beam NULL). */

@@ -2,7 +2,7 @@
 #ifndef ROTID_REPORT_JSON_IDENTIFY_H
 #define ROTID_REPORT_JSON_IDENTIFY_H
 
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 
 /* What measured mode k says beside the frequency predicted for it. */
 void json_measured_mode(struct json_tree *tree, cJSON *item, const struct job *job, const struct comparison *compared, int k,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "import/names.h"
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 
 static void add_text_or_null(struct json_tree *tree, cJSON *parent, const char *key, const char *text)
 {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 
 struct header header_of(const struct study *study, const char *version, const char *commit, int shard, int shards)
 {

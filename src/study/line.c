@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "diagnose/items.h"
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 #include "study/score.h"
 
 /* Which run it is. */

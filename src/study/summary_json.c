@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 #include "study/summary.h"
 
 static double share(double sum, long count)

@@ -1,4 +1,4 @@
-#include "page/json_file.h"
+#include "result/json_file.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* JSON out of a file: one value, or one a line. */
-#ifndef ROTID_PAGE_JSON_FILE_H
-#define ROTID_PAGE_JSON_FILE_H
+#ifndef ROTID_RESULT_JSON_FILE_H
+#define ROTID_RESULT_JSON_FILE_H
 
 #include <cJSON.h>
 

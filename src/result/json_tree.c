@@ -1,4 +1,4 @@
-#include "report/json_tree.h"
+#include "result/json_tree.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -70,14 +70,16 @@ void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count
         json_number(tree, array, NULL, value[i]);
 }
 
-void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value)
+/* Numbers that are `stride` apart. */
+static void put_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value, ptrdiff_t stride)
 {
     size_t length = 1, room = (size_t)(count > 0 ? count : 0) * (WIDEST + 1) + 3;
     char *text = malloc(room);
     for (int i = 0; i < count && text; i++) {
         const char *comma = i ? "," : "";
-        int more = isfinite(value[i]) ? snprintf(text + length, room - length, "%s%.*g", comma, DIGITS, value[i])
-                                      : snprintf(text + length, room - length, "%snull", comma);
+        double number = value[i * stride];
+        int more = isfinite(number) ? snprintf(text + length, room - length, "%s%.*g", comma, DIGITS, number)
+                                    : snprintf(text + length, room - length, "%snull", comma);
         length += (size_t)more;
     }
     if (text) {
@@ -86,6 +88,18 @@ void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int cou
     }
     (void)put(tree, parent, key, text ? cJSON_CreateRaw(text) : NULL);
     free(text);
+}
+
+void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value)
+{
+    put_digits(tree, parent, key, count, value, 1);
+}
+
+void json_digit_rows(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value)
+{
+    cJSON *array = json_array(tree, parent, key);
+    for (int i = 0; i < rows; i++)
+        put_digits(tree, array, NULL, columns, value + i, rows);
 }
 
 void json_rounded(struct json_tree *tree, cJSON *parent, const char *key, double value)

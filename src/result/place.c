@@ -1,4 +1,4 @@
-#include "page/place.h"
+#include "result/place.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -67,8 +67,7 @@ static int is_kind(const cJSON *json, enum place_kind kind)
     }
 }
 
-/* 1 where it is of the kind; null is let pass. */
-static int check_kind(const struct json_place *at, enum place_kind kind)
+int place_is(const struct json_place *at, enum place_kind kind)
 {
     static const char *const expected[] = {"a number", "a text", "true or false", "a list", "an object"};
     if (is_kind(at->json, kind))
@@ -78,6 +77,11 @@ static int check_kind(const struct json_place *at, enum place_kind kind)
     else if (!cJSON_IsNull(at->json))
         place_wrong(at, "is %s, expected %s", kind_of(at->json), expected[kind]);
     return 0;
+}
+
+int place_has(const struct json_place *above, const char *key)
+{
+    return above->json && cJSON_GetObjectItemCaseSensitive(above->json, key);
 }
 
 static int look_up(const struct json_place *above, const char *key, enum place_kind kind, int need, struct json_place *at)
@@ -91,7 +95,7 @@ static int look_up(const struct json_place *above, const char *key, enum place_k
             place_wrong(at, "is missing");
         return 0;
     }
-    if (check_kind(at, kind))
+    if (place_is(at, kind))
         return 1;
     if (need && cJSON_IsNull(at->json) && kind >= PLACE_LIST)
         place_wrong(at, "is null, expected %s", kind == PLACE_LIST ? "a list" : "an object");
@@ -162,7 +166,7 @@ int place_whole(const struct json_place *above, const char *key, int least, int 
 /* This element, or the next one of the kind. */
 static struct json_place settle(struct json_place item, enum place_kind kind)
 {
-    while (item.json && !check_kind(&item, kind)) {
+    while (item.json && !place_is(&item, kind)) {
         if (cJSON_IsNull(item.json))
             place_wrong(&item, "is null, expected a value");
         item.json = item.json->next;
@@ -204,7 +208,7 @@ static int copy_numbers(const struct json_place *list, double *value, int stride
 {
     struct json_place item = {.reader = list->reader, .above = list};
     for (item.json = list->json->child; item.json; item.json = item.json->next, item.index++)
-        value[(ptrdiff_t)item.index * stride] = check_kind(&item, PLACE_NUMBER) ? item.json->valuedouble : (double)NAN;
+        value[(ptrdiff_t)item.index * stride] = place_is(&item, PLACE_NUMBER) ? item.json->valuedouble : (double)NAN;
     return item.index;
 }
 

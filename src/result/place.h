@@ -2,8 +2,8 @@
  * "result.json: modes[2].measured_hz: is a text, expected a number". What is wrong is collected in the messages; the routines
  * then return a neutral value, so that a reader goes on and all mistakes of a file are told at once. reader.status tells at the
  * end. */
-#ifndef ROTID_PAGE_PLACE_H
-#define ROTID_PAGE_PLACE_H
+#ifndef ROTID_RESULT_PLACE_H
+#define ROTID_RESULT_PLACE_H
 
 #include <cJSON.h>
 
@@ -30,6 +30,11 @@ enum place_kind { PLACE_NUMBER, PLACE_TEXT, PLACE_FLAG, PLACE_LIST, PLACE_OBJECT
 
 /* What is wrong at this place: the text goes on behind the path. */
 void place_wrong(const struct json_place *at, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Whether the value is of the kind. If it is of another one that is told; null is let pass. */
+int place_is(const struct json_place *at, enum place_kind kind);
+/* Whether an object has the key at all. */
+int place_has(const struct json_place *above, const char *key);
 
 /* The value under a key of the object `above`, which stays alive as long as *at. 1, or 0 where it is not there: `find` takes a
  * missing key or null for that, `need` says that it is missing. A value of another kind is wrong for both. Of an object that is

@@ -1,6 +1,6 @@
 /* A JSON object under construction. A failed allocation anywhere is remembered, so that a result is whole or not there. */
-#ifndef ROTID_REPORT_JSON_TREE_H
-#define ROTID_REPORT_JSON_TREE_H
+#ifndef ROTID_RESULT_JSON_TREE_H
+#define ROTID_RESULT_JSON_TREE_H
 
 #include <cJSON.h>
 
@@ -36,7 +36,8 @@ void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count
 void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
 /* A number rounded to that. */
 void json_rounded(struct json_tree *tree, cJSON *parent, const char *key, double value);
-/* rows of a column-major matrix */
+/* Rows of a column-major matrix, in full or with nine significant digits. */
+void json_digit_rows(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value);
 void json_matrix(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value);
 /* "warnings" of the list */
 void json_notes(struct json_tree *tree, const struct message_list *notes);

@@ -1,0 +1,63 @@
+/* What a deck says, for hosts. */
+#include "api/deck_handle.h"
+#include "api/result_geometry.h"
+#include "run/spectrum.h"
+
+static int make_result(struct result_memory *memory, const struct job *job, const struct spectrum *s, rotid_check **result)
+{
+    struct mass_properties mass;
+    rotid_check *r = memory ? RESULT_NEW(memory, rotid_check) : NULL;
+    if (!r)
+        return ROTID_ERROR_MEMORY;
+    beam_mass_properties(s->beam, &mass);
+    *r = (rotid_check){.length_m = rotor_length(&job->rotor),
+                       .mass_kg = mass.mass,
+                       .center_of_mass_m = mass.center,
+                       .inertia_kg_m2 = mass.inertia,
+                       .nodes = s->nnode,
+                       .elements = s->nnode - 1,
+                       .rigid_modes = s->nrigid,
+                       .nrigid_hz = s->nrigid,
+                       .rigid_hz = RESULT_COPY(memory, s->rigid_hz, s->nrigid),
+                       .measured_modes = job->nmode,
+                       .functional = functional_name(job->fit.functional),
+                       .reduction = reduction_name(job->fit.reduction),
+                       .geometry = result_geometry(memory, &job->rotor, s->beam),
+                       .memory = memory};
+    r->nsensors = RESULT_LIST(memory, r->sensors, job->rotor.nsensor);
+    for (int i = 0; i < r->nsensors; i++)
+        r->sensors[i] = (rotid_sensor){job->rotor.sensor[i].id, job->rotor.sensor[i].position};
+    r->nparameters = RESULT_LIST(memory, r->parameters, job->nparameter);
+    for (int p = 0; p < r->nparameters; p++)
+        r->parameters[p] = result_text(memory, job->bounds[p].name);
+    *result = r;
+    return memory->missing ? ROTID_ERROR_MEMORY : ROTID_OK;
+}
+
+int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, rotid_check **check)
+{
+    struct call call;
+    struct spectrum found;
+    int status = call_open(&call, environment, check);
+    if (check)
+        *check = NULL;
+    const struct job *job = status ? NULL : deck_job(deck, &call);
+    if (!status)
+        status = job ? spectrum_compute(&call.scratch, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &found) : ROTID_ERROR_ARGUMENT;
+    if (!status) {
+        struct result_memory *memory = result_memory_new(environment);
+        status = make_result(memory, job, &found, check);
+        if (status) {
+            result_memory_free(memory);
+            *check = NULL;
+        }
+    }
+    call_close(&call);
+    return status;
+}
+
+void rotid_check_free(rotid_check *check)
+{
+    if (check)
+        result_memory_free(check->memory);
+}

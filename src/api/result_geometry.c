@@ -1,0 +1,142 @@
+#include "api/result_geometry.h"
+
+#include <math.h>
+
+#include "diagnose/causes/catalogue.h"
+
+static rotid_material material_of(struct result_memory *memory, const struct material *material)
+{
+    return (rotid_material){.name = result_text(memory, material->name),
+                            .e_pa = material->e,
+                            .g_pa = material_shear_modulus(material),
+                            .nu = material->nu,
+                            .rho_kg_m3 = material->rho};
+}
+
+static rotid_segment segment_of(const struct segment *segment, double from)
+{
+    int round = !segment->rectangular;
+    return (rotid_segment){.from_m = from,
+                           .to_m = from + segment->length,
+                           .elements = segment->elements,
+                           .outer_m = round ? segment->outer : (double)NAN,
+                           .inner_m = round ? segment->inner : (double)NAN,
+                           .stiff_outer_m = round && segment->stiff_outer != segment->outer ? segment->stiff_outer : (double)NAN,
+                           .height_m = round ? (double)NAN : segment->height,
+                           .width_m = round ? (double)NAN : segment->width};
+}
+
+static void fill_group(struct result_memory *memory, const struct rotor *rotor, int g, rotid_group *out)
+{
+    const struct group *group = &rotor->group[g];
+    double z = 0;
+    int count = 0, next = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        count += rotor->segment[s].group == g;
+    *out = (rotid_group){.name = result_text(memory, group->name), .material = material_of(memory, &group->material)};
+    out->preload_n = group->preload;
+    rotor_group_span(rotor, g, &out->from_m, &out->to_m);
+    out->nsegments = RESULT_LIST(memory, out->segments, count);
+    for (int s = 0; s < rotor->nsegment && out->nsegments; z += rotor->segment[s++].length)
+        if (rotor->segment[s].group == g)
+            out->segments[next++] = segment_of(&rotor->segment[s], z);
+    out->perforation = group->holes ? RESULT_NEW(memory, rotid_perforation) : NULL;
+    if (out->perforation)
+        *out->perforation = (rotid_perforation){group->holes, group->hole_diameter, group->hole_pitch};
+}
+
+static const char *bundle_name(enum bundle_model model)
+{
+    return model == BUNDLE_RODS ? "RODS" : "TUBE";
+}
+
+static void fill_members(struct result_memory *memory, const struct rotor *rotor, rotid_geometry *out)
+{
+    out->ntierods = RESULT_LIST(memory, out->tierods, rotor->ntierod);
+    for (int i = 0; i < out->ntierods; i++) {
+        const struct tierod *rod = &rotor->tierod[i];
+        out->tierods[i] = (rotid_tierods){.name = result_text(memory, rod->name),
+                                          .from_m = rod->from,
+                                          .to_m = rod->to,
+                                          .material = material_of(memory, &rod->material),
+                                          .number = rod->number,
+                                          .diameter_m = rod->diameter,
+                                          .pitch_radius_m = rod->pitch,
+                                          .model = bundle_name(rod->model),
+                                          .elements = rod->elements,
+                                          .tension_n = rod->tension,
+                                          .self_equilibrated = rod->self_equilibrated};
+    }
+    out->nbars = RESULT_LIST(memory, out->bars, rotor->nbars);
+    for (int i = 0; i < out->nbars; i++) {
+        const struct bars *bars = &rotor->bars[i];
+        out->bars[i] = (rotid_bars){.name = result_text(memory, bars->name),
+                                    .from_m = bars->center - bars->length / 2,
+                                    .to_m = bars->center + bars->length / 2,
+                                    .center_m = bars->center,
+                                    .material = material_of(memory, &bars->material),
+                                    .number = bars->number,
+                                    .diameter_m = bars->diameter,
+                                    .pitch_radius_m = bars->pitch,
+                                    .model = bundle_name(bars->model),
+                                    .elements = bars->elements};
+    }
+}
+
+static void fill_attached(struct result_memory *memory, const struct rotor *rotor, rotid_geometry *out)
+{
+    out->ndisks = RESULT_LIST(memory, out->disks, rotor->ndisk);
+    for (int i = 0; i < out->ndisks; i++) {
+        const struct disk *disk = &rotor->disk[i];
+        out->disks[i] = (rotid_disk){result_text(memory, disk->name), disk->position, disk->mass, disk->diametral, disk->polar};
+    }
+    out->nsprings = RESULT_LIST(memory, out->springs, rotor->nspring);
+    for (int i = 0; i < out->nsprings; i++) {
+        const struct spring *spring = &rotor->spring[i];
+        out->springs[i] =
+            (rotid_spring){result_text(memory, spring->name), spring->position, spring->lateral, spring->rotational};
+    }
+    out->sling_m = rotor->sling > 0 ? rotor->sling : (double)NAN;
+    out->nsensors = RESULT_LIST(memory, out->sensors, rotor->nsensor);
+    for (int s = 0; s < out->nsensors; s++)
+        out->sensors[s] = (rotid_sensor){rotor->sensor[s].id, rotor->sensor[s].position};
+}
+
+static void fill_cause(struct result_memory *memory, const struct rotor *rotor, const struct effect *effect,
+                       rotid_model_cause *out)
+{
+    const struct cause_kind *cause = catalogue_of(effect);
+    const char *target = cause ? cause_target_name(&memory->pool, rotor, cause, effect->target) : "";
+    int at_sensor = cause && cause->target == TARGET_SENSOR && effect->target >= 0;
+    memory->missing |= !target;
+    *out = (rotid_model_cause){.name = result_text(memory, effect->name),
+                               .id = effect->kind->id,
+                               .target = result_text(memory, target),
+                               .sensor = at_sensor ? rotor->sensor[effect->target].id : ROTID_NONE,
+                               .variant = cause && cause->variant_option ? cause->variant[effect->variant] : NULL};
+    out->nparameters = RESULT_LIST(memory, out->parameters, effect_parameters(effect));
+    for (int p = 0; p < out->nparameters; p++)
+        out->parameters[p] =
+            (rotid_cause_parameter){effect->kind->parameter[p].name, effect->kind->parameter[p].unit, effect->value[p]};
+}
+
+rotid_geometry *result_geometry(struct result_memory *memory, const struct rotor *rotor, const struct beam *beam)
+{
+    rotid_geometry *out = RESULT_NEW(memory, rotid_geometry);
+    if (!out)
+        return NULL;
+    if (beam)
+        rotor = &beam->rotor;
+    out->length_m = rotor_length(rotor);
+    out->ngroups = RESULT_LIST(memory, out->groups, rotor->ngroup);
+    for (int g = 0; g < out->ngroups; g++)
+        fill_group(memory, rotor, g, &out->groups[g]);
+    fill_members(memory, rotor, out);
+    fill_attached(memory, rotor, out);
+    out->ncauses = RESULT_LIST(memory, out->causes, rotor->neffect);
+    for (int i = 0; i < out->ncauses; i++)
+        fill_cause(memory, rotor, &rotor->effect[i], &out->causes[i]);
+    out->nodes_z_m = beam ? RESULT_COPY(memory, beam->mesh.z, beam->mesh.naxis) : NULL;
+    out->nnodes_z_m = out->nodes_z_m ? beam->mesh.naxis : 0;
+    return out;
+}

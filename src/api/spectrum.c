@@ -1,0 +1,107 @@
+/* The modes of the model of a deck, for hosts. */
+#include <math.h>
+
+#include "api/deck_handle.h"
+#include "api/result_geometry.h"
+#include "api/result_identification.h"
+#include "run/compare.h"
+
+#define MODES_SHOWN 6 /* at least, where the caller does not say how many */
+
+static int compute(const struct job *job, const double *x, int nmode, struct pool *scratch, struct spectrum *spectrum)
+{
+    int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
+    double *at = POOL_ARRAY(scratch, double, job->nparameter);
+    if (!at)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < job->nparameter; p++) {
+        at[p] = x ? x[p] : job->bounds[p].start;
+        if (!isfinite(at[p]))
+            return ROTID_ERROR_ARGUMENT;
+    }
+    return spectrum_compute(scratch, &job->rotor, job->nparameter, job->parameter, at, reduction, nmode, spectrum);
+}
+
+/* compared NULL: the measured modes could not be paired */
+static void fill_modes(struct result_memory *memory, const struct job *job, const struct spectrum *s,
+                       const struct comparison *compared, rotid_spectrum *out)
+{
+    out->nmodes = RESULT_LIST(memory, out->modes, s->count);
+    for (int j = 0; j < out->nmodes; j++) {
+        rotid_model_mode *mode = &out->modes[j];
+        *mode = (rotid_model_mode){.mode = j + 1,
+                                   .full_hz = s->full_hz[j],
+                                   .reduced_hz = s->reduced_hz[j],
+                                   .reduction_error_percent = s->reduction_error_percent[j],
+                                   .mesh_error_percent = s->mesh_error_percent[j],
+                                   .nshape = s->nmaster};
+        mode->shape = RESULT_COPY(memory, s->shape + (ptrdiff_t)j * s->nmaster, s->nmaster);
+        for (int k = 0; compared && k < compared->nmode; k++)
+            if (compared->number[k] == j + 1 && (mode->measured = RESULT_NEW(memory, rotid_compared_mode)))
+                *mode->measured = result_compared_mode(job, compared, k, s->full_hz[j]);
+    }
+}
+
+static int make_result(struct result_memory *memory, struct call *call, const struct job *job, const struct spectrum *s,
+                       const struct comparison *compared, rotid_spectrum **result)
+{
+    rotid_spectrum *r = memory ? RESULT_NEW(memory, rotid_spectrum) : NULL;
+    if (!r)
+        return ROTID_ERROR_MEMORY;
+    ptrdiff_t masters = s->nmaster;
+    *r = (rotid_spectrum){.reduction = job->fit.reduction == ROTID_IRS ? "IRS" : "GUYAN",
+                          .nrigid_hz = s->nrigid,
+                          .rigid_hz = RESULT_COPY(memory, s->rigid_hz, s->nrigid),
+                          .nsensor_z_m = s->nmaster,
+                          .sensor_z_m = RESULT_COPY(memory, s->master_z, masters),
+                          .geometry = result_geometry(memory, &job->rotor, s->beam),
+                          .master_mass = RESULT_COPY(memory, s->mass, masters * masters),
+                          .nmessage = (int)call->notes.count,
+                          .message = result_messages(memory, &call->notes),
+                          .memory = memory};
+    fill_modes(memory, job, s, compared, r);
+    *result = r;
+    return memory->missing ? ROTID_ERROR_MEMORY : ROTID_OK;
+}
+
+static int run(struct call *call, const struct job *job, const double *x, int nmode, rotid_spectrum **result)
+{
+    struct spectrum found;
+    struct comparison compared;
+    int count = comparison_candidates(job);
+    if (!nmode)
+        nmode = count > MODES_SHOWN ? count : MODES_SHOWN;
+    int status = compute(job, x, nmode, &call->scratch, &found), paired;
+    if (status)
+        return status;
+    paired = comparison_make(&call->scratch, job, &found, &call->notes, &compared);
+    if (paired && paired != ROTID_ERROR_UNPAIRED)
+        return paired;
+    struct result_memory *memory = result_memory_new(&call->environment);
+    status = make_result(memory, call, job, &found, paired ? NULL : &compared, result);
+    if (status) {
+        result_memory_free(memory);
+        *result = NULL;
+    }
+    return status;
+}
+
+int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
+                           rotid_spectrum **spectrum)
+{
+    struct call call;
+    int status = call_open(&call, environment, spectrum);
+    if (spectrum)
+        *spectrum = NULL;
+    const struct job *job = status ? NULL : deck_job(deck, &call);
+    if (!status)
+        status = job && nmode >= 0 ? run(&call, job, x, nmode, spectrum) : ROTID_ERROR_ARGUMENT;
+    call_close(&call);
+    return status;
+}
+
+void rotid_spectrum_free(rotid_spectrum *spectrum)
+{
+    if (spectrum)
+        result_memory_free(spectrum->memory);
+}

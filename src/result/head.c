@@ -1,0 +1,23 @@
+#include "result/head.h"
+
+static const struct field reference_fields[] = {
+    TEXT(rotid_reference, quantity, 0),
+    NUMBERS(rotid_reference, values, ELEMENTS_MAY_BE_NULL),
+    {0},
+};
+static const struct record reference_record = RECORD(rotid_reference, reference_fields);
+
+static const struct field head_fields[] = {
+    INTEGER(struct result_head, schema, FROM_1),
+    TEXT(struct result_head, rotid, 0),
+    TEXT(struct result_head, commit, 0),
+    TEXT(struct result_head, blas, 0),
+    NUMBER(struct result_head, seed, FROM_0),
+    INTEGER(struct result_head, threads, FROM_1),
+    TEXT(struct result_head, command, 0),
+    TEXT(struct result_head, deck, IF_KNOWN),
+    TEXTS(struct result_head, heading, SINCE_LATER),
+    STRUCTS(struct result_head, references, SINCE_LATER, reference_record),
+    {0},
+};
+const struct record head_record = RECORD(struct result_head, head_fields);

@@ -1,0 +1,25 @@
+/* What stands at the head of every result: who made it, of what. */
+#ifndef ROTID_RESULT_HEAD_H
+#define ROTID_RESULT_HEAD_H
+
+#include "result/record.h"
+#include "rotid.h"
+
+struct result_head {
+    int schema;          /* version of this schema */
+    const char *rotid;   /* version of the program */
+    const char *commit;  /* commit it was built from, or unknown */
+    const char *blas;    /* what the BLAS library says of itself */
+    double seed;         /* of random numbers, as given by --seed */
+    int threads;         /* of the computation */
+    const char *command; /* command that made the result */
+    const char *deck;    /* path of the deck as given; NULL where the command reads none */
+    int nheading;
+    const char **heading; /* lines of *HEADING without the references */
+    int nreferences;
+    rotid_reference *references; /* values that the heading of the deck gives to compare with */
+};
+
+extern const struct record head_record;
+
+#endif

@@ -1,0 +1,111 @@
+/* One description of a result: a table of fields for each struct, one row a key of the JSON. From the table follow the JSON that is
+ * written, the JSON that is read, with the place of every mistake, and docs/schema.
+ *
+ * A key is the name of the member, and its description in the schema is the comment of the member. A list X has its length in the
+ * member nX beside it, unless its row names another one. What is not known is NaN, NULL, ROTID_NONE or a word below 0 in the struct
+ * and null in the JSON. */
+#ifndef ROTID_RESULT_RECORD_H
+#define ROTID_RESULT_RECORD_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/pool.h"
+#include "result/json_tree.h"
+#include "result/place.h"
+#include "rotid.h"
+
+enum field_kind {
+    FIELD_NUMBER,  /* double */
+    FIELD_INTEGER, /* int */
+    FIELD_FLAG,    /* int, 0 or 1 */
+    FIELD_TEXT,    /* const char *; with words: one of them */
+    FIELD_WORD,    /* int, the index of one of the words; below 0: null */
+    FIELD_RECORD,  /* a struct, in place or behind a pointer */
+    FIELD_INLINE,  /* the same, its keys beside those of this struct; behind a pointer that is NULL they are left out */
+    FIELD_MAP,     /* lists of rotid_component, each an object that has the names as its keys */
+};
+
+enum field_shape {
+    SHAPE_ONE,    /* the value itself */
+    SHAPE_FIXED,  /* `fixed` of them, in place */
+    SHAPE_LIST,   /* behind a pointer, as many as the int at `count` says */
+    SHAPE_MATRIX, /* numbers behind a pointer, rows at `count`, columns at `columns`, column-major */
+};
+
+/* Bits of a row. Of the ranges no more than one. */
+enum {
+    MAY_BE_NULL = 1,    /* not known: null. Of a list: NULL; of its elements: ELEMENTS_MAY_BE_NULL */
+    ELEMENTS_MAY_BE_NULL = 2,
+    IF_KNOWN = 4,       /* not known: the key is left out; of FIELD_INLINE all of them, which the first one tells */
+    SINCE_LATER = 8,    /* older results do not have the key */
+    ROUNDED = 16,       /* nine significant digits: for what is drawn */
+    BEHIND_POINTER = 32,
+    NOT_EMPTY = 64,
+    ABOVE_0 = 256,      /* ranges, of the elements of a list too */
+    FROM_0 = 512,
+    FROM_1 = 1024,
+    PROBABILITY = 2048, /* 0 to 1 */
+    CORRELATION = 4096, /* 0 to 1 and rounding */
+};
+
+struct record;
+
+struct field {
+    const char *key;
+    enum field_kind kind;
+    enum field_shape shape;
+    unsigned bits;
+    size_t offset, count, columns; /* of members of the struct */
+    int fixed;
+    const char *counted_by;      /* SHAPE_LIST: key of the list whose length this one has, NULL: its own */
+    const struct record *record; /* of FIELD_RECORD and FIELD_INLINE */
+    const char *const *words;   /* ends with NULL */
+};
+
+struct record {
+    const char *name; /* of the struct */
+    size_t size;
+    const struct field *field; /* ends with key NULL */
+};
+
+#define RECORD_ROW(S, M, KIND, SHAPE, BITS, ...)                                                                                \
+    {                                                                                                                            \
+        .key = #M, .kind = (KIND), .shape = (SHAPE), .bits = (BITS), .offset = offsetof(S, M), __VA_ARGS__                       \
+    }
+#define COUNTED(S, COUNT, BY)            .count = offsetof(S, COUNT), .counted_by = (BY)
+#define NUMBER(S, M, BITS)               RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_ONE, BITS, .fixed = 0)
+#define INTEGER(S, M, BITS)              RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_ONE, BITS, .fixed = 0)
+#define FLAG(S, M, BITS)                 RECORD_ROW(S, M, FIELD_FLAG, SHAPE_ONE, BITS, .fixed = 0)
+#define TEXT(S, M, BITS)                 RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .fixed = 0)
+#define TEXT_OF(S, M, BITS, WORDS)       RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .words = (WORDS))
+#define WORD(S, M, BITS, WORDS)          RECORD_ROW(S, M, FIELD_WORD, SHAPE_ONE, BITS, .words = (WORDS))
+#define STRUCT(S, M, BITS, RECORD)       RECORD_ROW(S, M, FIELD_RECORD, SHAPE_ONE, BITS, .record = &(RECORD))
+#define INLINE(S, M, BITS, RECORD)       RECORD_ROW(S, M, FIELD_INLINE, SHAPE_ONE, BITS, .record = &(RECORD))
+#define INTERVAL(S, M, BITS)             RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, BITS, .fixed = 2)
+#define NUMBERS(S, M, BITS)              RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define INTEGERS(S, M, BITS)             RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define TEXTS(S, M, BITS)                RECORD_ROW(S, M, FIELD_TEXT, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define STRUCTS(S, M, BITS, RECORD)      RECORD_ROW(S, M, FIELD_RECORD, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL), .record = &(RECORD))
+/* As many as the member COUNT says, which an earlier row, of key BY, has set. */
+#define NUMBERS_BY(S, M, BITS, COUNT, BY)  RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, COUNT, BY))
+#define INTEGERS_BY(S, M, BITS, COUNT, BY) RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, COUNT, BY))
+/* Members with the numbers of rows and columns; where they are known already the matrix has to be of that size. */
+#define MATRIX(S, M, BITS, ROWS, COLUMNS)                                                                                        \
+    RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_MATRIX, BITS, .count = offsetof(S, ROWS), .columns = offsetof(S, COLUMNS))
+/* EACH: member with the number of components of each */
+#define MAPS(S, M, BITS, EACH)                                                                                                   \
+    RECORD_ROW(S, M, FIELD_MAP, SHAPE_LIST, BITS, .count = offsetof(S, n##M), .columns = offsetof(S, EACH))
+#define RECORD(S, FIELDS) {.name = #S, .size = sizeof(S), .field = (FIELDS)}
+
+/* Bytes of one element of a list of this kind. */
+size_t record_element_size(const struct field *field);
+
+/* Writes the keys of `from`, a struct that `record` describes, into `object` of the tree. */
+void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from);
+
+/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with its
+ * place, reader->status tells at the end. */
+void record_read(const struct json_place *at, const struct record *record, void *to);
+
+#endif

@@ -1,0 +1,194 @@
+#include "result/records.h"
+
+static const char *const verdicts[] = {"adequate", "named", "ambiguous", "unexplained", NULL}; /* ROTID_ADEQUATE ... */
+static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};
+
+static const struct field value_fields[] = {
+    TEXT(rotid_cause_value, name, 0),
+    TEXT(rotid_cause_value, unit, MAY_BE_NULL),
+    NUMBER(rotid_cause_value, value, 0),
+    NUMBER(rotid_cause_value, std, MAY_BE_NULL | FROM_0),
+    INTERVAL(rotid_cause_value, ci95, 0),
+    FLAG(rotid_cause_value, fixed, 0),
+    {0},
+};
+static const struct record value_record = RECORD(rotid_cause_value, value_fields);
+
+static const struct field cause_fields[] = {
+    TEXT(rotid_cause, id, 0),
+    TEXT(rotid_cause, target, 0),
+    TEXT(rotid_cause, name, MAY_BE_NULL),
+    TEXT(rotid_cause, variant, MAY_BE_NULL | SINCE_LATER),
+    STRUCTS(rotid_cause, parameters, 0, value_record),
+    {0},
+};
+static const struct record cause_record = RECORD(rotid_cause, cause_fields);
+
+static const struct field verdict_fields[] = {
+    WORD(rotid_verdict, kind, MAY_BE_NULL, verdicts),
+    FLAG(rotid_verdict, adequate_after, 0),
+    NUMBER(rotid_verdict, p_value, MAY_BE_NULL | PROBABILITY),
+    STRUCTS(rotid_verdict, causes, 0, cause_record),
+    TEXTS(rotid_verdict, alternatives, 0),
+    STRUCTS(rotid_verdict, alternative_causes, 0, cause_record),
+    TEXT(rotid_verdict, next_measurement, MAY_BE_NULL),
+    TEXT(rotid_verdict, sentence, MAY_BE_NULL),
+    INTEGER(rotid_verdict, undetermined_parameters, FROM_0),
+    {0},
+};
+static const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);
+
+static const struct field data_finding_fields[] = {
+    TEXT(rotid_data_finding, id, 0),
+    INTEGERS(rotid_data_finding, sensors, 0),
+    INTEGERS(rotid_data_finding, modes, 0),
+    TEXT_OF(rotid_data_finding, block, MAY_BE_NULL, blocks),
+    NUMBER(rotid_data_finding, value, MAY_BE_NULL),
+    TEXT(rotid_data_finding, unit, MAY_BE_NULL),
+    NUMBER(rotid_data_finding, std, MAY_BE_NULL),
+    NUMBER(rotid_data_finding, chi2_drop, MAY_BE_NULL),
+    TEXT(rotid_data_finding, text, MAY_BE_NULL),
+    {0},
+};
+static const struct record data_finding_record = RECORD(rotid_data_finding, data_finding_fields);
+
+static const struct field numerical_finding_fields[] = {
+    TEXT(rotid_numerical_finding, id, 0),
+    INTEGERS(rotid_numerical_finding, modes, 0),
+    NUMBERS_BY(rotid_numerical_finding, error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
+    TEXT(rotid_numerical_finding, text, MAY_BE_NULL),
+    {0},
+};
+static const struct record numerical_finding_record = RECORD(rotid_numerical_finding, numerical_finding_fields);
+
+static const struct field round_fields[] = {
+    INTEGER(rotid_round, round, FROM_1),
+    WORD(rotid_round, kind, 0, verdicts),
+    NUMBER(rotid_round, chi2, MAY_BE_NULL),
+    NUMBER(rotid_round, chi2_frequency, MAY_BE_NULL),
+    INTEGER(rotid_round, dof, 0),
+    INTEGER(rotid_round, frequencies, FROM_0),
+    NUMBER(rotid_round, largest, MAY_BE_NULL),
+    NUMBER(rotid_round, threshold, MAY_BE_NULL),
+    NUMBER(rotid_round, p_scan, MAY_BE_NULL),
+    NUMBER(rotid_round, p_frequency, MAY_BE_NULL),
+    NUMBER(rotid_round, p_total, MAY_BE_NULL),
+    NUMBER(rotid_round, required_margin, MAY_BE_NULL),
+    INTEGER(rotid_round, set, FROM_0),
+    {0},
+};
+static const struct record round_record = RECORD(rotid_round, round_fields);
+
+static const struct field candidate_fields[] = {
+    INTEGER(rotid_candidate, round, FROM_1),
+    INLINE(rotid_candidate, cause, 0, cause_record),
+    FLAG(rotid_candidate, suspect, 0),
+    FLAG(rotid_candidate, refitted, 0),
+    NUMBER(rotid_candidate, predicted_drop, MAY_BE_NULL),
+    NUMBER(rotid_candidate, chi2, MAY_BE_NULL),
+    NUMBER(rotid_candidate, chi2_frequency, MAY_BE_NULL),
+    NUMBER(rotid_candidate, chi2_drop, MAY_BE_NULL),
+    NUMBER(rotid_candidate, bic, MAY_BE_NULL),
+    NUMBER(rotid_candidate, holdout_rms, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_candidate, mode_out_rms, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_candidate, sensor_out_rms, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_candidate, p_value, MAY_BE_NULL | PROBABILITY),
+    FLAG(rotid_candidate, at_bound, 0),
+    TEXT(rotid_candidate, collinear_with, MAY_BE_NULL),
+    TEXT(rotid_candidate, collinear_target, MAY_BE_NULL),
+    NUMBER(rotid_candidate, cosine, MAY_BE_NULL),
+    TEXT(rotid_candidate, rejected_because, MAY_BE_NULL),
+    {0},
+};
+static const struct record candidate_record = RECORD(rotid_candidate, candidate_fields);
+
+static const struct field pair_fields[] = {
+    NUMBER(rotid_pair, before, MAY_BE_NULL),
+    NUMBER(rotid_pair, after, MAY_BE_NULL),
+    {0},
+};
+static const struct record pair_record = RECORD(rotid_pair, pair_fields);
+
+static const struct field changed_parameter_fields[] = {
+    TEXT(rotid_changed_parameter, name, 0),
+    TEXT(rotid_changed_parameter, unit, 0),
+    NUMBER(rotid_changed_parameter, before, MAY_BE_NULL),
+    NUMBER(rotid_changed_parameter, after, MAY_BE_NULL),
+    INTERVAL(rotid_changed_parameter, before_ci95, 0),
+    INTERVAL(rotid_changed_parameter, after_ci95, 0),
+    {0},
+};
+static const struct record changed_parameter_record = RECORD(rotid_changed_parameter, changed_parameter_fields);
+
+static const struct field gain_fields[] = {
+    STRUCT(rotid_gain, frequency_rms_percent, 0, pair_record),
+    STRUCT(rotid_gain, frequency_max_percent, 0, pair_record),
+    STRUCT(rotid_gain, shape_rms, 0, pair_record),
+    STRUCT(rotid_gain, chi2_per_dof, 0, pair_record),
+    STRUCT(rotid_gain, nco_min, 0, pair_record),
+    STRUCT(rotid_gain, holdout_frequency_rms_percent, 0, pair_record),
+    STRUCT(rotid_gain, holdout_shape_rms, 0, pair_record),
+    STRUCT(rotid_gain, mode_out_frequency_rms_percent, 0, pair_record),
+    STRUCT(rotid_gain, mode_out_shape_rms, 0, pair_record),
+    STRUCT(rotid_gain, sensor_out_shape_rms, 0, pair_record),
+    STRUCTS(rotid_gain, parameters, 0, changed_parameter_record),
+    {0},
+};
+static const struct record gain_record = RECORD(rotid_gain, gain_fields);
+
+static const struct field sensor_residual_fields[] = {
+    INTEGER(rotid_sensor_residual, id, 0),
+    NUMBER(rotid_sensor_residual, z_m, 0),
+    NUMBER(rotid_sensor_residual, rms, MAY_BE_NULL | FROM_0),
+    {0},
+};
+static const struct record sensor_residual_record = RECORD(rotid_sensor_residual, sensor_residual_fields);
+
+static const struct field localisation_fields[] = {
+    NUMBER(rotid_localisation, z_m, 0),
+    NUMBER(rotid_localisation, indicator, MAY_BE_NULL),
+    {0},
+};
+static const struct record localisation_record = RECORD(rotid_localisation, localisation_fields);
+
+static const struct field detectable_fields[] = {
+    TEXT(rotid_detectable, id, 0),
+    TEXT(rotid_detectable, target, 0),
+    TEXT(rotid_detectable, parameter, 0),
+    NUMBER(rotid_detectable, smallest, MAY_BE_NULL),
+    TEXT(rotid_detectable, unit, MAY_BE_NULL),
+    NUMBER(rotid_detectable, z_m, MAY_BE_NULL),
+    NUMBER(rotid_detectable, worst, MAY_BE_NULL),
+    FLAG(rotid_detectable, beyond, 0),
+    {0},
+};
+static const struct record detectable_record = RECORD(rotid_detectable, detectable_fields);
+
+static const struct field step_fields[] = {
+    TEXT(rotid_step, name, 0),
+    NUMBER(rotid_step, seconds, FROM_0),
+    {0},
+};
+static const struct record step_record = RECORD(rotid_step, step_fields);
+
+static const struct field diagnosis_fields[] = {
+    FLAG(rotid_diagnosis, interrupted, 0),
+    STRUCT(rotid_diagnosis, verdict, 0, verdict_record),
+    STRUCTS(rotid_diagnosis, data_findings, 0, data_finding_record),
+    STRUCTS(rotid_diagnosis, numerical_findings, 0, numerical_finding_record),
+    STRUCTS(rotid_diagnosis, rounds, 0, round_record),
+    STRUCTS(rotid_diagnosis, candidates, 0, candidate_record),
+    STRUCT(rotid_diagnosis, gain, 0, gain_record),
+    NUMBERS(rotid_diagnosis, modes_standardised, ELEMENTS_MAY_BE_NULL),
+    STRUCTS(rotid_diagnosis, sensors, 0, sensor_residual_record),
+    STRUCTS(rotid_diagnosis, localisation, 0, localisation_record),
+    STRUCTS(rotid_diagnosis, detectable, 0, detectable_record),
+    STRUCT(rotid_diagnosis, noise, SINCE_LATER, noise_record),
+    STRUCT(rotid_diagnosis, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
+    STRUCT(rotid_diagnosis, today, MAY_BE_NULL | BEHIND_POINTER, identification_record),
+    STRUCT(rotid_diagnosis, base, MAY_BE_NULL | BEHIND_POINTER, identification_record),
+    STRUCT(rotid_diagnosis, extended, MAY_BE_NULL | BEHIND_POINTER, identification_record),
+    STRUCTS(rotid_diagnosis, steps, SINCE_LATER, step_record),
+    {0},
+};
+const struct record diagnosis_record = RECORD(rotid_diagnosis, diagnosis_fields);

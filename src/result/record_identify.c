@@ -1,0 +1,154 @@
+#include "result/records.h"
+
+static const char *const statuses[] = {"converged", "not_converged", "at_bound", NULL};
+const char *const functional_words[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL};
+const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
+static const char *const derivatives[] = {"NELSON", "MODAL", NULL};
+const char *const pairing_words[] = {"shape", "number", NULL};
+static const char *const algorithms[] = {"LN_BOBYQA", "LN_SBPLX", "LD_SLSQP", NULL};
+static const char *const grounds[] = {"noise", "residuals", NULL};
+
+static const struct field parameter_fields[] = {
+    TEXT(rotid_fitted_parameter, name, 0),
+    TEXT(rotid_fitted_parameter, unit, 0),
+    NUMBER(rotid_fitted_parameter, value, 0),
+    NUMBER(rotid_fitted_parameter, start, 0),
+    NUMBER(rotid_fitted_parameter, lower, 0),
+    NUMBER(rotid_fitted_parameter, upper, 0),
+    NUMBER(rotid_fitted_parameter, std, MAY_BE_NULL | FROM_0),
+    INTERVAL(rotid_fitted_parameter, ci95, 0),
+    FLAG(rotid_fitted_parameter, at_bound, 0),
+    FLAG(rotid_fitted_parameter, identifiable, 0),
+    {0},
+};
+static const struct record parameter_record = RECORD(rotid_fitted_parameter, parameter_fields);
+
+static const struct field mode_fields[] = {
+    INTEGER(rotid_compared_mode, mode, FROM_1),
+    INTEGER(rotid_compared_mode, measured_mode, FROM_1 | SINCE_LATER),
+    NUMBER(rotid_compared_mode, measured_hz, ABOVE_0),
+    NUMBER(rotid_compared_mode, frequency_std, MAY_BE_NULL | ABOVE_0 | SINCE_LATER),
+    NUMBER(rotid_compared_mode, predicted_hz, FROM_0),
+    NUMBER(rotid_compared_mode, error_percent, 0),
+    NUMBER(rotid_compared_mode, mac, MAY_BE_NULL | CORRELATION),
+    NUMBER(rotid_compared_mode, nco, MAY_BE_NULL | CORRELATION),
+    TEXT_OF(rotid_compared_mode, paired_by, 0, pairing_words),
+    FLAG(rotid_compared_mode, holdout, 0),
+    NUMBER(rotid_compared_mode, residual, 0),
+    {0},
+};
+static const struct record mode_record = RECORD(rotid_compared_mode, mode_fields);
+
+static const struct field member_fields[] = {
+    TEXT(rotid_member_shape, name, MAY_BE_NULL),
+    NUMBERS(rotid_member_shape, z_m, ROUNDED),
+    NUMBERS_BY(rotid_member_shape, shape, ELEMENTS_MAY_BE_NULL | ROUNDED, nz_m, "z_m"),
+    {0},
+};
+static const struct record member_record = RECORD(rotid_member_shape, member_fields);
+
+static const struct field mode_shapes_fields[] = {
+    INTEGER(rotid_mode_shapes, mode, FROM_1),
+    INTEGER(rotid_mode_shapes, measured_mode, FROM_1 | SINCE_LATER),
+    NUMBERS(rotid_mode_shapes, measured, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | ROUNDED),
+    NUMBERS(rotid_mode_shapes, measured_std, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | FROM_0 | ROUNDED),
+    NUMBERS(rotid_mode_shapes, predicted, ELEMENTS_MAY_BE_NULL | ROUNDED),
+    NUMBERS(rotid_mode_shapes, predicted_axis, ELEMENTS_MAY_BE_NULL | ROUNDED),
+    STRUCTS(rotid_mode_shapes, tierods, 0, member_record),
+    STRUCTS(rotid_mode_shapes, bars, 0, member_record),
+    {0},
+};
+static const struct record mode_shapes_record = RECORD(rotid_mode_shapes, mode_shapes_fields);
+
+static const struct field shapes_fields[] = {
+    INTEGERS(rotid_shapes, sensor_id, 0),
+    NUMBERS_BY(rotid_shapes, z_m, FROM_0 | ROUNDED, nsensor_id, "sensor_id"),
+    NUMBERS(rotid_shapes, axis_z_m, FROM_0 | ROUNDED),
+    STRUCTS(rotid_shapes, modes, 0, mode_shapes_record),
+    {0},
+};
+static const struct record shapes_record = RECORD(rotid_shapes, shapes_fields);
+
+static const struct field history_fields[] = {
+    INTEGER(rotid_history_entry, iteration, FROM_0),
+    NUMBER(rotid_history_entry, objective, FROM_0),
+    NUMBER(rotid_history_entry, gradient, FROM_0),
+    NUMBER(rotid_history_entry, mu, FROM_0),
+    NUMBER(rotid_history_entry, gain_ratio, MAY_BE_NULL),
+    NUMBER(rotid_history_entry, step, FROM_0),
+    NUMBER(rotid_history_entry, seconds, FROM_0 | SINCE_LATER),
+    NUMBERS(rotid_history_entry, x, 0),
+    {0},
+};
+static const struct record history_record = RECORD(rotid_history_entry, history_fields);
+
+static const struct field minimiser_fields[] = {
+    TEXT_OF(rotid_minimiser, algorithm, 0, algorithms),
+    TEXT(rotid_minimiser, result, 0),
+    FLAG(rotid_minimiser, usable, 0),
+    NUMBER(rotid_minimiser, objective, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_minimiser, gradient, MAY_BE_NULL | FROM_0),
+    INTEGER(rotid_minimiser, evaluations, FROM_0),
+    NUMBER(rotid_minimiser, seconds, FROM_0),
+    NUMBERS(rotid_minimiser, x, 0),
+    NUMBERS(rotid_minimiser, predicted_hz, ELEMENTS_MAY_BE_NULL | FROM_0 | SINCE_LATER),
+    {0},
+};
+static const struct record minimiser_record = RECORD(rotid_minimiser, minimiser_fields);
+
+static const struct field noise_fields[] = {
+    NUMBER(rotid_noise, frequency, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_noise, shape, MAY_BE_NULL | ABOVE_0),
+    FLAG(rotid_noise, frequency_assumed, 0),
+    FLAG(rotid_noise, shape_assumed, 0),
+    TEXT_OF(rotid_noise, intervals_from, IF_KNOWN, grounds),
+    {0},
+};
+const struct record noise_record = RECORD(rotid_noise, noise_fields);
+
+static const struct field identification_fields[] = {
+    TEXT_OF(rotid_identification, status, 0, statuses),
+    TEXT_OF(rotid_identification, functional, 0, functional_words),
+    TEXT_OF(rotid_identification, reduction, 0, reduction_words),
+    TEXT_OF(rotid_identification, derivative, 0, derivatives),
+    FLAG(rotid_identification, shapes_fitted, SINCE_LATER),
+    NUMBER(rotid_identification, bijection_chi, ABOVE_0 | SINCE_LATER),
+    NUMBER(rotid_identification, objective, FROM_0),
+    NUMBER(rotid_identification, gradient, FROM_0),
+    NUMBER(rotid_identification, chi2, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_identification, chi2_per_dof, MAY_BE_NULL | FROM_0),
+    INTEGER(rotid_identification, dof, 0),
+    INTEGER(rotid_identification, iterations, FROM_0),
+    INTEGER(rotid_identification, evaluations, FROM_1),
+    INTEGER(rotid_identification, jacobians, FROM_1),
+    TEXT(rotid_identification, stop_reason, 0),
+    STRUCTS(rotid_identification, parameters, 0, parameter_record),
+    MATRIX(rotid_identification, correlation, ELEMENTS_MAY_BE_NULL, nparameters, nparameters),
+    NUMBER(rotid_identification, condition_number, MAY_BE_NULL | FROM_0),
+    MAPS(rotid_identification, undetermined_directions, 0, nparameters),
+    NUMBER(rotid_identification, intervals_widened_by, FROM_1),
+    STRUCTS(rotid_identification, modes, NOT_EMPTY, mode_record),
+    NUMBERS_BY(rotid_identification, reduction_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
+    NUMBERS_BY(rotid_identification, mesh_error_percent, 0, nmodes, "modes"),
+    NUMBER(rotid_identification, mass_kg, ABOVE_0),
+    NUMBER(rotid_identification, center_of_mass_m, 0),
+    STRUCT(rotid_identification, shapes, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, shapes_record),
+    MATRIX(rotid_identification, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE_LATER, nmatrix_rows,
+           nmatrix_columns),
+    MATRIX(rotid_identification, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE_LATER, nmatrix_rows,
+           nmatrix_columns),
+    INTEGERS_BY(rotid_identification, matrix_rows, FROM_1 | SINCE_LATER, nmatrix_rows, "rows of mac_matrix"),
+    INTEGERS_BY(rotid_identification, matrix_columns, FROM_1 | SINCE_LATER, nmatrix_columns, "columns of mac_matrix"),
+    STRUCTS(rotid_identification, history, NOT_EMPTY, history_record),
+    STRUCTS(rotid_identification, baseline, 0, minimiser_record),
+    NUMBER(rotid_identification, seconds, FROM_0),
+    {0},
+};
+const struct record identification_record = RECORD(rotid_identification, identification_fields);
+
+static const struct field identification_alone_fields[] = {
+    STRUCT(rotid_identification, noise, SINCE_LATER | BEHIND_POINTER, noise_record),
+    STRUCT(rotid_identification, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
+    {0},
+};
+const struct record identification_alone_record = RECORD(rotid_identification, identification_alone_fields);

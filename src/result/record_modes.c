@@ -1,0 +1,56 @@
+#include "result/records.h"
+
+static const struct field measured_fields[] = {
+    INTEGER(rotid_compared_mode, measured_mode, FROM_1),
+    NUMBER(rotid_compared_mode, measured_hz, ABOVE_0),
+    NUMBER(rotid_compared_mode, frequency_std, ABOVE_0 | MAY_BE_NULL | SINCE_LATER),
+    NUMBER(rotid_compared_mode, predicted_hz, FROM_0),
+    NUMBER(rotid_compared_mode, error_percent, 0),
+    NUMBER(rotid_compared_mode, mac, CORRELATION | MAY_BE_NULL),
+    NUMBER(rotid_compared_mode, nco, CORRELATION | MAY_BE_NULL),
+    TEXT_OF(rotid_compared_mode, paired_by, 0, pairing_words),
+    FLAG(rotid_compared_mode, holdout, 0),
+    {0},
+};
+static const struct record measured_record = RECORD(rotid_compared_mode, measured_fields);
+
+static const struct field mode_fields[] = {
+    INTEGER(rotid_model_mode, mode, FROM_1),
+    NUMBER(rotid_model_mode, full_hz, FROM_0),
+    NUMBER(rotid_model_mode, reduced_hz, FROM_0 | MAY_BE_NULL),
+    NUMBER(rotid_model_mode, reduction_error_percent, MAY_BE_NULL),
+    NUMBER(rotid_model_mode, mesh_error_percent, 0),
+    NUMBERS(rotid_model_mode, shape, 0),
+    INLINE(rotid_model_mode, measured, IF_KNOWN | BEHIND_POINTER, measured_record),
+    {0},
+};
+static const struct record mode_record = RECORD(rotid_model_mode, mode_fields);
+
+static const struct field spectrum_fields[] = {
+    TEXT_OF(rotid_spectrum, reduction, 0, reduction_words),
+    NUMBERS(rotid_spectrum, rigid_hz, FROM_0),
+    NUMBERS(rotid_spectrum, sensor_z_m, 0),
+    STRUCTS(rotid_spectrum, modes, 0, mode_record),
+    STRUCT(rotid_spectrum, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
+    {0},
+};
+const struct record spectrum_record = RECORD(rotid_spectrum, spectrum_fields);
+
+static const struct field check_fields[] = {
+    NUMBER(rotid_check, length_m, ABOVE_0),
+    NUMBER(rotid_check, mass_kg, ABOVE_0),
+    NUMBER(rotid_check, center_of_mass_m, 0),
+    NUMBER(rotid_check, inertia_kg_m2, ABOVE_0),
+    INTEGER(rotid_check, nodes, FROM_1),
+    INTEGER(rotid_check, elements, FROM_1),
+    INTEGER(rotid_check, rigid_modes, FROM_0),
+    NUMBERS(rotid_check, rigid_hz, FROM_0),
+    INTEGER(rotid_check, measured_modes, FROM_0),
+    TEXT_OF(rotid_check, functional, 0, functional_words),
+    TEXT_OF(rotid_check, reduction, 0, reduction_words),
+    STRUCTS(rotid_check, sensors, 0, sensor_record),
+    TEXTS(rotid_check, parameters, 0),
+    STRUCT(rotid_check, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
+    {0},
+};
+const struct record check_record = RECORD(rotid_check, check_fields);

@@ -1,0 +1,275 @@
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+#include "result/record.h"
+
+#define WORDS_MOST 512
+
+static void *member(void *to, size_t offset)
+{
+    return (char *)to + offset;
+}
+
+static void *room_for(const struct json_place *at, size_t count, size_t size)
+{
+    void *room = pool_get(at->reader->pool, count, size);
+    if (!room)
+        at->reader->status = ROTID_ERROR_MEMORY;
+    return room;
+}
+
+static void check_range(const struct json_place *at, unsigned bits, double value)
+{
+    static const struct {
+        unsigned bit;
+        double least, most;
+        const char *expected;
+    } ranges[] = {
+        {ABOVE_0, 0, INFINITY, "a number above 0"},          {FROM_0, 0, INFINITY, "no number below 0"},
+        {FROM_1, 1, INFINITY, "no number below 1"},          {PROBABILITY, 0, 1, "a number from 0 to 1"},
+        {CORRELATION, 0, 1.0000001, "a number from 0 to 1"},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)
+        if (bits & ranges[i].bit && (value < ranges[i].least || value > ranges[i].most || (bits & ABOVE_0 && value == 0)))
+            place_wrong(at, "is %g, expected %s", value, ranges[i].expected);
+}
+
+static void read_integer(const struct json_place *at, const struct field *field, int *to)
+{
+    double value = at->json->valuedouble;
+    if (value == floor(value) && fabs(value) < INT_MAX) {
+        check_range(at, field->bits, value);
+        *to = (int)value;
+        return;
+    }
+    place_wrong(at, "is %g, expected a whole number", value);
+}
+
+/* "a, b or c" */
+static const char *list_words(const char *const *word, char text[WORDS_MOST])
+{
+    size_t used = 0;
+    for (int i = 0; word[i] && used < WORDS_MOST; i++)
+        used += (size_t)snprintf(text + used, WORDS_MOST - used, "%s%s", !i ? "" : word[i + 1] ? ", " : " or ", word[i]);
+    return text;
+}
+
+/* The index of the text among the words, -1 with a mistake told where it is none. */
+static int read_word(const struct json_place *at, const char *const *word)
+{
+    char text[WORDS_MOST];
+    for (int i = 0; word[i]; i++)
+        if (!strcmp(word[i], at->json->valuestring))
+            return i;
+    place_wrong(at, "is '%s', expected %s", at->json->valuestring, list_words(word, text));
+    return -1;
+}
+
+static void read_text(const struct json_place *at, const struct field *field, const char **to)
+{
+    const char *text = pool_copy_text(at->reader->pool, at->json->valuestring);
+    if (!text)
+        at->reader->status = ROTID_ERROR_MEMORY;
+    else
+        *to = text;
+    if (field->words)
+        (void)read_word(at, field->words);
+}
+
+static enum place_kind kind_of(const struct field *field)
+{
+    switch (field->kind) {
+    case FIELD_NUMBER:
+    case FIELD_INTEGER:
+        return PLACE_NUMBER;
+    case FIELD_FLAG:
+        return PLACE_FLAG;
+    case FIELD_TEXT:
+    case FIELD_WORD:
+        return PLACE_TEXT;
+    default:
+        return PLACE_OBJECT;
+    }
+}
+
+/* What stands for a value that is not known. A text that has to be there is "" then, so that nobody meets NULL. */
+static void set_unknown(const struct field *field, void *to)
+{
+    if (field->kind == FIELD_NUMBER)
+        *(double *)to = NAN;
+    else if (field->kind == FIELD_INTEGER)
+        *(int *)to = field->bits & (MAY_BE_NULL | IF_KNOWN | SINCE_LATER) ? ROTID_NONE : 0;
+    else if (field->kind == FIELD_WORD || (field->kind == FIELD_FLAG && field->bits & SINCE_LATER))
+        *(int *)to = -1;
+    else if (field->kind == FIELD_TEXT)
+        *(const char **)to = field->bits & (MAY_BE_NULL | IF_KNOWN | SINCE_LATER) ? NULL : "";
+}
+
+/* at->json is of the kind, or NULL or null where there is none. */
+static void read_value(const struct json_place *at, const struct field *field, void *to)
+{
+    int is_there = at->json && !cJSON_IsNull(at->json);
+    if (field->kind == FIELD_RECORD) {
+        record_read(at, field->record, to);
+        return;
+    }
+    set_unknown(field, to);
+    if (!is_there)
+        return;
+    switch (field->kind) {
+    case FIELD_NUMBER:
+        *(double *)to = at->json->valuedouble;
+        check_range(at, field->bits, at->json->valuedouble);
+        break;
+    case FIELD_INTEGER:
+        read_integer(at, field, to);
+        break;
+    case FIELD_FLAG:
+        *(int *)to = cJSON_IsTrue(at->json);
+        break;
+    case FIELD_TEXT:
+        read_text(at, field, to);
+        break;
+    default:
+        *(int *)to = read_word(at, field->words);
+    }
+}
+
+/* Whether the value of a field is there, and of the kind. A list or struct that may not be null has to be. */
+static int find(const struct json_place *above, const struct field *field, enum place_kind kind, struct json_place *at)
+{
+    if (field->bits & (IF_KNOWN | SINCE_LATER) || (field->bits & MAY_BE_NULL && place_has(above, field->key)))
+        return place_find(above, field->key, kind, at);
+    return place_need(above, field->key, kind, at);
+}
+
+/* A value of another kind is told, and becomes an unknown one. */
+static void read_elements(const struct json_place *list, const struct field *field, int count, char *to)
+{
+    size_t size = record_element_size(field);
+    struct json_place item = {.reader = list->reader, .above = list, .json = list->json->child};
+    for (int i = 0; i < count && item.json; i++, item.json = item.json->next, item.index++) {
+        struct json_place value = item;
+        if (!place_is(&item, kind_of(field))) {
+            if (cJSON_IsNull(item.json) && !(field->bits & ELEMENTS_MAY_BE_NULL) && field->kind != FIELD_NUMBER)
+                place_wrong(&item, "is null, expected a value");
+            value.json = NULL;
+        }
+        read_value(&value, field, to + (size_t)i * size);
+    }
+}
+
+static void read_fixed(const struct json_place *above, const struct field *field, void *to)
+{
+    struct json_place list;
+    for (int i = 0; i < field->fixed; i++)
+        set_unknown(field, (char *)to + (size_t)i * record_element_size(field));
+    if (!find(above, field, PLACE_LIST, &list))
+        return;
+    if (place_count(&list) == field->fixed)
+        read_elements(&list, field, field->fixed, to);
+    else
+        place_wrong(&list, "has %d values, expected %d", place_count(&list), field->fixed);
+}
+
+static void read_list(const struct json_place *above, const struct field *field, void *record)
+{
+    struct json_place list;
+    int *count = member(record, field->count), length;
+    void **to = member(record, field->offset);
+    if (!field->counted_by)
+        *count = 0;
+    if (!find(above, field, PLACE_LIST, &list))
+        return;
+    length = place_count(&list);
+    if (field->counted_by && length != *count) {
+        place_wrong(&list, "has %d values, expected %d as %s", length, *count, field->counted_by);
+        return;
+    }
+    if (!length && field->bits & NOT_EMPTY)
+        place_wrong(&list, "is empty, expected at least one value");
+    *to = room_for(above, (size_t)length, record_element_size(field));
+    if (!*to)
+        return;
+    *count = length;
+    read_elements(&list, field, length, *to);
+}
+
+static void read_maps(const struct json_place *above, const struct field *field, void *record)
+{
+    struct json_place list;
+    int *count = member(record, field->count), width = *(int *)member(record, field->columns), length;
+    rotid_component **to = member(record, field->offset), *next;
+    *count = 0;
+    if (!find(above, field, PLACE_LIST, &list) || !(length = place_count(&list)))
+        return;
+    next = *to = room_for(above, (size_t)length * (size_t)width, sizeof **to);
+    for (struct json_place map = place_first(&list, PLACE_OBJECT); map.json && next; map = place_next(&map, PLACE_OBJECT)) {
+        if (cJSON_GetArraySize(map.json) != width) {
+            place_wrong(&map, "has %d components, expected %d", cJSON_GetArraySize(map.json), width);
+            return;
+        }
+        for (const cJSON *json = map.json->child; json; json = json->next, next++) {
+            struct json_place component = {.reader = map.reader, .above = &map, .key = json->string, .json = json};
+            next->name = pool_copy_text(map.reader->pool, json->string);
+            next->value = place_is(&component, PLACE_NUMBER) ? json->valuedouble : (double)NAN;
+            if (!next->name)
+                map.reader->status = ROTID_ERROR_MEMORY;
+        }
+    }
+    *count = length;
+}
+
+static void read_matrix(const struct json_place *above, const struct field *field, void *record)
+{
+    int *rows = member(record, field->count), *columns = member(record, field->columns), size[2] = {*rows, *columns}, found[2];
+    struct json_place list;
+    if (find(above, field, PLACE_LIST, &list) &&
+        place_matrix(above, field->key, 0, size[0] || size[1] ? size : NULL, &found[0], &found[1], member(record, field->offset))) {
+        *rows = found[0];
+        *columns = found[1];
+    }
+}
+
+static void read_one(const struct json_place *above, const struct field *field, void *record)
+{
+    struct json_place at;
+    void *to = member(record, field->offset);
+    int is_there = find(above, field, kind_of(field), &at);
+    if (field->bits & BEHIND_POINTER) {
+        void *room = is_there ? room_for(above, 1, field->record->size) : NULL;
+        *(void **)to = room;
+        if (room)
+            record_read(&at, field->record, room);
+        return;
+    }
+    read_value(&at, field, to);
+}
+
+void record_read(const struct json_place *at, const struct record *record, void *to)
+{
+    for (const struct field *field = record->field; field->key; field++) {
+        void *inside = member(to, field->offset);
+        if (field->kind == FIELD_INLINE) {
+            if (field->bits & IF_KNOWN && !place_has(at, field->record->field->key))
+                continue;
+            if (field->bits & BEHIND_POINTER) { /* the keys of one struct may stand in two places */
+                void **pointer = inside;
+                inside = *pointer = *pointer ? *pointer : room_for(at, 1, field->record->size);
+            }
+            if (inside)
+                record_read(at, field->record, inside);
+        } else if (field->kind == FIELD_MAP) {
+            read_maps(at, field, to);
+        } else if (field->shape == SHAPE_MATRIX) {
+            read_matrix(at, field, to);
+        } else if (field->shape == SHAPE_LIST) {
+            read_list(at, field, to);
+        } else if (field->shape == SHAPE_FIXED) {
+            read_fixed(at, field, inside);
+        } else {
+            read_one(at, field, to);
+        }
+    }
+}

@@ -1,0 +1,57 @@
+#include "result/result.h"
+
+#include <string.h>
+
+#include "result/records.h"
+
+#define HEAD     INLINE(struct result, head, 0, head_record)
+#define WARNINGS TEXTS(struct result, warnings, SINCE_LATER)
+
+static const struct field check_fields[] = {
+    HEAD,
+    INLINE(struct result, check, BEHIND_POINTER, check_record),
+    WARNINGS,
+    {0},
+};
+static const struct field modes_fields[] = {
+    HEAD,
+    INLINE(struct result, modes, BEHIND_POINTER, spectrum_record),
+    WARNINGS,
+    {0},
+};
+static const struct field identify_fields[] = {
+    HEAD,
+    INLINE(struct result, identify, BEHIND_POINTER, identification_record),
+    INLINE(struct result, identify, BEHIND_POINTER, identification_alone_record),
+    WARNINGS,
+    {0},
+};
+static const struct field diagnose_fields[] = {
+    HEAD,
+    INLINE(struct result, diagnose, BEHIND_POINTER, diagnosis_record),
+    WARNINGS,
+    {0},
+};
+
+static const struct record commands[] = {
+    {"check", sizeof(struct result), check_fields},
+    {"modes", sizeof(struct result), modes_fields},
+    {"identify", sizeof(struct result), identify_fields},
+    {"diagnose", sizeof(struct result), diagnose_fields},
+};
+
+const struct record *result_record(const char *command)
+{
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+        if (!strcmp(commands[i].name, command))
+            return &commands[i];
+    return NULL;
+}
+
+char *result_json(const struct result *result)
+{
+    struct json_tree tree;
+    json_open(&tree);
+    record_write(&tree, tree.root, result_record(result->head.command), result);
+    return json_close(&tree);
+}
