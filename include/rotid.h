@@ -515,7 +515,7 @@ enum { ROTID_ADEQUATE, ROTID_NAMED, ROTID_AMBIGUOUS, ROTID_UNEXPLAINED }; /* ver
 typedef struct rotid_cause_value {
     const char *name; /* such as depth or z */
     const char *unit; /* 1 for a pure number */
-    double value;
+    double value;   /* in its unit */
     double std;     /* standard deviation; NaN where it cannot be stated */
     double ci95[2]; /* 95 % interval; NaN where it cannot be stated */
     int fixed;      /* by the user: not searched */

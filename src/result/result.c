@@ -33,18 +33,27 @@ static const struct field diagnose_fields[] = {
     {0},
 };
 
-static const struct record commands[] = {
-    {"check", sizeof(struct result), check_fields},
-    {"modes", sizeof(struct result), modes_fields},
-    {"identify", sizeof(struct result), identify_fields},
-    {"diagnose", sizeof(struct result), diagnose_fields},
+static const struct {
+    const char *command;
+    struct record record;
+} commands[] = {
+    {"check", RECORD(struct result, check_fields)},
+    {"modes", RECORD(struct result, modes_fields)},
+    {"identify", RECORD(struct result, identify_fields)},
+    {"diagnose", RECORD(struct result, diagnose_fields)},
 };
+#define COMMANDS (sizeof commands / sizeof *commands)
+
+const char *result_command(int i)
+{
+    return (size_t)i < COMMANDS ? commands[i].command : NULL;
+}
 
 const struct record *result_record(const char *command)
 {
-    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
-        if (!strcmp(commands[i].name, command))
-            return &commands[i];
+    for (size_t i = 0; i < COMMANDS; i++)
+        if (!strcmp(commands[i].command, command))
+            return &commands[i].record;
     return NULL;
 }
 

@@ -1,0 +1,174 @@
+#include "schema.h"
+
+#include <string.h>
+
+#define RECORDS_MOST 64
+
+struct schema {
+    FILE *out;
+    const char *command;
+    const struct comments *comments;
+    int nrecord; /* that are referred to */
+    const struct record *record[RECORDS_MOST];
+    int missing;
+};
+
+/* The name of a struct without what all of them begin with. */
+static const char *short_name(const char *name)
+{
+    name = strncmp(name, "struct ", 7) ? name : name + 7;
+    return strncmp(name, "rotid_", 6) ? name : name + 6;
+}
+
+static void put_text(FILE *out, const char *text)
+{
+    (void)fputc('"', out);
+    for (; *text; text++)
+        (void)fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+    (void)fputc('"', out);
+}
+
+static void refer(struct schema *schema, const struct record *record)
+{
+    for (int i = 0; i < schema->nrecord; i++)
+        if (schema->record[i] == record)
+            return;
+    if (schema->nrecord < RECORDS_MOST)
+        schema->record[schema->nrecord++] = record;
+}
+
+static void put_range(FILE *out, unsigned bits)
+{
+    static const struct {
+        unsigned bit;
+        const char *text;
+    } ranges[] = {
+        {ABOVE_0, ", \"exclusiveMinimum\": 0"},
+        {FROM_0, ", \"minimum\": 0"},
+        {FROM_1, ", \"minimum\": 1"},
+        {PROBABILITY, ", \"minimum\": 0, \"maximum\": 1"},
+        {CORRELATION, ", \"minimum\": 0, \"maximum\": 1.0000001"},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)
+        if (bits & ranges[i].bit)
+            (void)fputs(ranges[i].text, out);
+}
+
+/* What one value is; null: it may be that. */
+static void put_value(struct schema *schema, const struct field *field, int null)
+{
+    static const char *const types[] = {[FIELD_NUMBER] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
+                                        [FIELD_TEXT] = "string",   [FIELD_WORD] = "string",     [FIELD_MAP] = "object"};
+    FILE *out = schema->out;
+    if (field->kind == FIELD_RECORD) {
+        refer(schema, field->record);
+        (void)fprintf(out, null ? "\"anyOf\": [{\"$ref\": \"#/$defs/%s\"}, {\"type\": \"null\"}]" : "\"$ref\": \"#/$defs/%s\"",
+                      short_name(field->record->name));
+    } else if (field->words) {
+        (void)fputs("\"enum\": [", out);
+        for (int i = 0; field->words[i]; i++) {
+            (void)fputs(i ? ", " : "", out);
+            put_text(out, field->words[i]);
+        }
+        (void)fputs(null ? ", null]" : "]", out);
+    } else {
+        (void)fprintf(out, null ? "\"type\": [\"%s\", \"null\"]" : "\"type\": \"%s\"", types[field->kind]);
+        put_range(out, field->bits);
+    }
+    if (field->kind == FIELD_MAP)
+        (void)fputs(", \"additionalProperties\": {\"type\": \"number\"}", out);
+}
+
+static void put_list(struct schema *schema, const struct field *field)
+{
+    FILE *out = schema->out;
+    int null = field->bits & ELEMENTS_MAY_BE_NULL || field->shape == SHAPE_FIXED;
+    (void)fputs(field->bits & MAY_BE_NULL ? "\"type\": [\"array\", \"null\"]" : "\"type\": \"array\"", out);
+    (void)fputs(field->shape == SHAPE_MATRIX ? ", \"items\": {\"type\": \"array\", \"items\": {" : ", \"items\": {", out);
+    put_value(schema, field, null);
+    (void)fputs(field->shape == SHAPE_MATRIX ? "}}" : "}", out);
+    if (field->bits & NOT_EMPTY)
+        (void)fputs(", \"minItems\": 1", out);
+    if (field->shape == SHAPE_FIXED)
+        (void)fprintf(out, ", \"minItems\": %d, \"maxItems\": %d", field->fixed, field->fixed);
+}
+
+static void put_field(struct schema *schema, const struct record *record, const struct field *field, int *count)
+{
+    const char *about = comments_find(schema->comments, strncmp(record->name, "struct ", 7) ? record->name : record->name + 7,
+                                      field->key);
+    FILE *out = schema->out;
+    (void)fprintf(out, "%s\n    ", (*count)++ ? "," : "");
+    put_text(out, field->key);
+    (void)fputs(": {", out);
+    if (!strcmp(field->key, "command"))
+        (void)fprintf(out, "\"const\": \"%s\"", schema->command);
+    else if (field->shape == SHAPE_ONE)
+        put_value(schema, field, field->bits & MAY_BE_NULL);
+    else
+        put_list(schema, field);
+    if (about) {
+        (void)fputs(", \"description\": ", out);
+        put_text(out, about);
+    } else if (field->kind != FIELD_RECORD) {
+        (void)fprintf(stderr, "%s.%s has no comment\n", record->name, field->key);
+        schema->missing++;
+    }
+    (void)fputc('}', out);
+}
+
+static void put_fields(struct schema *schema, const struct record *record, int *count)
+{
+    for (const struct field *field = record->field; field->key; field++)
+        if (field->kind == FIELD_INLINE)
+            put_fields(schema, field->record, count);
+        else
+            put_field(schema, record, field, count);
+}
+
+static void put_required(FILE *out, const struct record *record, int *count, int optional)
+{
+    for (const struct field *field = record->field; field->key; field++)
+        if (field->kind == FIELD_INLINE) {
+            put_required(out, field->record, count, optional || field->bits & IF_KNOWN);
+        } else if (!optional && !(field->bits & IF_KNOWN)) {
+            (void)fputs((*count)++ ? ", " : "", out);
+            put_text(out, field->key);
+        }
+}
+
+static void put_object(struct schema *schema, const struct record *record)
+{
+    int fields = 0, required = 0;
+    (void)fputs("\"properties\": {", schema->out);
+    put_fields(schema, record, &fields);
+    (void)fputs("\n  }, \"required\": [", schema->out);
+    put_required(schema->out, record, &required, 0);
+    (void)fputs("], \"additionalProperties\": false", schema->out);
+}
+
+int schema_write(FILE *out, const char *command, const struct record *record, const struct comments *comments)
+{
+    struct schema schema = {.out = out, .command = command, .comments = comments};
+    (void)fprintf(out,
+                  "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"rotid %s\",\n"
+                  "  \"description\": \"Result of rotid %s. Units are SI; a key ends in its unit where it has one.\",\n"
+                  "  \"type\": \"object\",\n  ",
+                  command, command);
+    put_object(&schema, record);
+    (void)fputs(",\n  \"$defs\": {", out);
+    for (int i = 0; i < schema.nrecord; i++) { /* grows */
+        const char *name = schema.record[i]->name,
+                   *about = comments_find(comments, strncmp(name, "struct ", 7) ? name : name + 7, NULL);
+        (void)fprintf(out, "%s\n  \"%s\": {\"type\": \"object\", ", i ? "," : "", short_name(name));
+        if (about) {
+            (void)fputs("\"description\": ", out);
+            put_text(out, about);
+            (void)fputs(", ", out);
+        }
+        put_object(&schema, schema.record[i]);
+        (void)fputc('}', out);
+    }
+    (void)fputs("}\n}\n", out);
+    return schema.missing;
+}
