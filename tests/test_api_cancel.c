@@ -58,7 +58,8 @@ static void progress(void *context, const char *stage, int step)
 
 static rotid_environment environment_of(struct host *host, const rotid_allocator *allocator)
 {
-    return (rotid_environment){.allocator = allocator, .cancelled = cancelled, .progress = progress, .context = host};
+    return (rotid_environment){
+        .size = sizeof(rotid_environment), .allocator = allocator, .cancelled = cancelled, .progress = progress, .context = host};
 }
 
 /* ------------------------------------------------------------------------------------------------ a host's own model */
@@ -92,7 +93,7 @@ static void a_fit_evaluates_nothing_more(void **state)
         model.matrices = matrices;
         model.derivatives = derivatives;
         model.user = &host;
-        assert_status(rotid_fit(&model, fit.parameter, &fit.measured, &fit.options, &environment, &result), ROTID_OK);
+        assert_status(rotid_fit(&model, fit.parameter, &fit.measured, &fit.options, &environment, NULL, &result), ROTID_OK);
         ended = !host.said;
         assert_int_equal(host.polls_after, 0);
         assert_int_equal(host.told_after, 0);
@@ -164,7 +165,7 @@ static void a_diagnosis_shows_what_was_finished(void **state)
     (void)state;
     rotid_deck *deck = bench_deck(deck_path);
     for (int threads = 1; threads <= 2; threads++) {
-        const rotid_diagnose_options options = {.replicates = 100, .threads = threads};
+        const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100, .threads = threads};
         struct host whole = {.stop_at = INT_MAX};
         const rotid_environment undisturbed = environment_of(&whole, NULL);
         rotid_diagnosis *r;
@@ -214,7 +215,7 @@ static void a_diagnosis_shows_what_was_finished(void **state)
 static void a_broken_off_model_is_no_result(void **state)
 {
     (void)state;
-    const rotid_diagnose_options options = {.replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
     rotid_deck *deck = bench_deck(deck_path);
     rotid_diagnosis *r;
     int with = 0, without = 0, ended = 0;

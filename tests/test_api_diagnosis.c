@@ -191,7 +191,7 @@ static void what_was_hidden_is_named(void **state)
 {
     (void)state;
     rotid_diagnosis *d;
-    const rotid_diagnose_options options = {.replicates = 200, .threads = 2, .seed = 4};
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2, .seed = 4};
     bench_hidden_deck(deck_path, 0.4, 3);
     rotid_deck *deck = bench_deck(deck_path);
     assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);

@@ -24,14 +24,14 @@ static void assemble(struct host *host, const double *x, rotid_matrix *k, rotid_
         rotid_element_stiffness(ei, 1e3 * ei, l, ke);
         rotid_element_mass(20, 0.01, 12 / (1e3 * l * l), l, me);
         if (ei > 0)
-            host->failed |= rotid_matrix_add_element(k, 4, dof, ke) != ROTID_OK;
-        host->failed |= rotid_matrix_add_element(m, 4, dof, me) != ROTID_OK;
+            host->failed |= rotid_matrix_add_element(k, 4, dof, ke, NULL) != ROTID_OK;
+        host->failed |= rotid_matrix_add_element(m, 4, dof, me, NULL) != ROTID_OK;
     }
-    host->failed |= rotid_matrix_add(k, 0, 0, 1e4) != ROTID_OK;
-    host->failed |= rotid_matrix_add(k, last, last, 1e4) != ROTID_OK;
+    host->failed |= rotid_matrix_add(k, 0, 0, 1e4, NULL) != ROTID_OK;
+    host->failed |= rotid_matrix_add(k, last, last, 1e4, NULL) != ROTID_OK;
     if (host->tied) {
         const double tie[4] = {1e5 * x[2], -1e5 * x[2], -1e5 * x[2], 1e5 * x[2]};
-        host->failed |= rotid_matrix_add_element(k, 2, host->far, tie) != ROTID_OK;
+        host->failed |= rotid_matrix_add_element(k, 2, host->far, tie, NULL) != ROTID_OK;
     }
 }
 
@@ -74,6 +74,7 @@ static void open_host(struct host *host, int elements, int kd, int tied, int eve
 {
     *host = (struct host){.elements = elements, .tied = tied, .far = {0, 2 * elements}};
     rotid_model *model = &host->model;
+    model->size = sizeof *model;
     model->n = 2 * (elements + 1);
     model->kd = kd ? kd : 3;
     model->nfar = tied && !kd ? 2 : 0;
@@ -112,7 +113,7 @@ static void measure(struct pool *pool, struct host *host, int reduction, struct 
     m.block = numbers(pool, 4);
     assemble(host, truth, &k, &m);
     double *lambda = numbers(pool, count), *phi = numbers(pool, (ptrdiff_t)n * count);
-    assert_status(rotid_eigenpairs(&k, &m, count, NULL, lambda, phi), ROTID_OK);
+    assert_status(rotid_eigenpairs(&k, &m, count, NULL, NULL, lambda, phi), ROTID_OK);
     data->shape = numbers(pool, (ptrdiff_t)nmaster * MODES);
     data->shape_std = numbers(pool, (ptrdiff_t)nmaster * MODES);
     for (int j = 0; j < MODES; j++) {
@@ -123,8 +124,11 @@ static void measure(struct pool *pool, struct host *host, int reduction, struct 
             data->shape_std[s + j * nmaster] = 0.02;
         }
     }
-    data->measured =
-        (rotid_measured){.nmode = MODES, .number = numbers_of, .frequency_hz = data->hz, .frequency_std = data->hz_std};
+    data->measured = (rotid_measured){.size = sizeof(rotid_measured),
+                                      .nmode = MODES,
+                                      .number = numbers_of,
+                                      .frequency_hz = data->hz,
+                                      .frequency_std = data->hz_std};
     if (reduction == ROTID_REDUCTION_NONE || nmaster < 50) {
         data->measured.shape = data->shape;
         data->measured.shape_std = data->shape_std;
@@ -133,9 +137,9 @@ static void measure(struct pool *pool, struct host *host, int reduction, struct 
 
 static rotid_fit_result *fit(struct host *host, const struct data *data, int functional, int reduction)
 {
-    rotid_fit_options options = {.functional = functional, .reduction = reduction};
+    rotid_fit_options options = {.size = sizeof options, .functional = functional, .reduction = reduction};
     rotid_fit_result *result;
-    assert_status(rotid_fit(&host->model, parameters, &data->measured, &options, NULL, &result), ROTID_OK);
+    assert_status(rotid_fit(&host->model, parameters, &data->measured, &options, NULL, NULL, &result), ROTID_OK);
     assert_int_equal(host->failed, 0);
     assert_true(result->converged);
     return result;

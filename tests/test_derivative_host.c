@@ -62,7 +62,8 @@ static const rotid_model *open_host(struct pool *pool, struct host *host)
     }
     host->fail_matrices = host->fail_derivatives = 0;
     host->poison_matrices = host->poison_derivatives = 0;
-    host->model = (rotid_model){.n = host_n,
+    host->model = (rotid_model){.size = sizeof(rotid_model),
+                                .n = host_n,
                                 .kd = host_n - 1,
                                 .nparam = 2,
                                 .nmaster = 6,
@@ -152,7 +153,8 @@ static int twin_matrices(void *user, const double *x, rotid_matrix *stiffness, r
 }
 
 static const int twin_master[5] = {0, 1, 2, 3, 5};
-static const rotid_model twins = {.n = 6, .kd = 1, .nparam = 2, .nmaster = 5, .master = twin_master, .matrices = twin_matrices};
+static const rotid_model twins = {
+    .size = sizeof twins, .n = 6, .kd = 1, .nparam = 2, .nmaster = 5, .master = twin_master, .matrices = twin_matrices};
 
 static void vectors_of_repeated_eigenvalues_are_not_differentiated(void **state)
 {
@@ -201,9 +203,17 @@ static void a_far_block_at_the_nodes_of_a_mode_costs_no_digits(void **state)
 {
     static const int far[2] = {19, 39}, master[3] = {5, 20, 50};
     const double x[2] = {1, 1};
-    const rotid_model bordered = {
-        .n = 59, .kd = 1, .nfar = 2, .far = far, .nparam = 2, .nmaster = 3, .master = master, .matrices = string_matrices};
-    const rotid_model full = {.n = 59, .kd = 58, .nparam = 2, .nmaster = 3, .master = master, .matrices = string_matrices};
+    const rotid_model bordered = {.size = sizeof bordered,
+                                  .n = 59,
+                                  .kd = 1,
+                                  .nfar = 2,
+                                  .far = far,
+                                  .nparam = 2,
+                                  .nmaster = 3,
+                                  .master = master,
+                                  .matrices = string_matrices};
+    const rotid_model full = {
+        .size = sizeof full, .n = 59, .kd = 58, .nparam = 2, .nmaster = 3, .master = master, .matrices = string_matrices};
     const int wanted[7] = {1, 1, 1, 1, 1, 1, 0};
     struct prediction a, b;
     assert_status(prediction_new(*state, &bordered, ROTID_REDUCTION_NONE, ROTID_NELSON, 6, 1, &a), ROTID_OK);

@@ -311,7 +311,7 @@ static void a_program_is_run_waited_for_and_ended(void **state)
     const char *const sleeper[] = {"sleep", "20", NULL};
     assert_status(process_run(sleeper, 0.2, NULL, &run), ROTID_OK);
     assert_true(run.timed_out && run.exit_code == -1);
-    const rotid_environment impatient = {.cancelled = cancel_now};
+    const rotid_environment impatient = {.size = sizeof impatient, .cancelled = cancel_now};
     assert_status(process_run(sleeper, 20, &impatient, &run), ROTID_OK);
     assert_true(run.cancelled && clock_seconds() - begin < 10);
     const char *const nobody[] = {"/nowhere/at/all", NULL};

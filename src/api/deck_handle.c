@@ -18,8 +18,6 @@ static int parse_overrides(struct holding *holding, int count, const char *const
                            struct override *override)
 {
     for (int i = 0; i < count; i++) {
-        if (!text[i])
-            return ROTID_ERROR_ARGUMENT;
         const char *copy = holding_text(holding, text[i]); /* parts of it become part of the job */
         int status = copy ? override_parse(&holding->pool, copy, &override[i]) : ROTID_ERROR_MEMORY;
         if (status == ROTID_ERROR_SYNTAX)
@@ -77,55 +75,81 @@ static void show(const struct job *job, struct holding *holding, rotid_deck *dec
     deck->parameter = job->bounds;
 }
 
-static int read_deck(struct holding *holding, const char *path, int noverride, const char *const *text,
-                     const rotid_environment *environment, rotid_deck *deck)
+static int read_deck(struct holding *holding, const struct deck_memory *memory, const char *path, int noverride,
+                     const char *const *text, struct call *call, rotid_deck *deck)
 {
     struct pool *pool = &holding->pool;
+    struct message_list *messages = &call->notes;
     struct deck_handle *handle = POOL_NEW(pool, struct deck_handle);
     struct override *override = POOL_ARRAY(pool, struct override, noverride);
-    struct message_list messages;
-    message_open(&messages, pool);
     if (!handle || !override)
         return ROTID_ERROR_MEMORY;
     *handle = (struct deck_handle){.holding = holding};
     deck->memory = handle;
     deck->path = holding_text(holding, path);
     deck->length = deck->mass = deck->centre = NAN;
-    int status = parse_overrides(holding, noverride, text, &messages, override);
+    int status = parse_overrides(holding, noverride, text, messages, override);
     if (!status)
-        status = deck_read(pool, path, noverride, override, &messages, &handle->job);
+        status = memory ? deck_read_memory(pool, memory, noverride, override, messages, &handle->job)
+                        : deck_read(pool, path, noverride, override, messages, &handle->job);
     if (!status)
-        status = weigh(&handle->job, environment, deck);
+        status = weigh(&handle->job, &call->environment, deck);
     if (!status)
         show(&handle->job, holding, deck);
     handle->usable = status == ROTID_OK;
-    deck->nmessage = (int)messages.count;
-    deck->nerror = messages.errors;
-    deck->message = holding_messages(holding, &messages);
+    deck->nmessage = (int)messages->count;
+    deck->nerror = messages->errors;
+    deck->message = holding_messages(holding, messages);
     return holding->missing ? ROTID_ERROR_MEMORY : status;
 }
 
-int rotid_deck_read(const char *path, int noverride, const char *const *override, const rotid_environment *environment,
-                    rotid_deck **deck)
+static int make_deck(struct call *call, const struct deck_memory *memory, const char *path, int noverride,
+                     const char *const *override, rotid_deck **deck)
 {
-    struct host host;
-    if (!deck)
-        return ROTID_ERROR_ARGUMENT;
-    *deck = NULL;
-    if (!path || noverride < 0 || (noverride && !override))
-        return ROTID_ERROR_ARGUMENT;
-    int status = host_enter(&host);
-    if (status)
-        return status;
-    struct holding *holding = holding_new(environment);
+    if (noverride < 0)
+        return refuse(call->entry.failure, "noverride is %d, expected 0 or more", noverride);
+    if (noverride && !override)
+        return refuse(call->entry.failure, "override is NULL, expected noverride = %d texts", noverride);
+    for (int i = 0; i < noverride; i++)
+        if (!override[i])
+            return refuse(call->entry.failure, "override[%d] is NULL, expected CARD.OPTION=VALUE", i);
+    struct holding *holding = holding_new(&call->environment);
     rotid_deck *made = holding ? POOL_NEW(&holding->pool, rotid_deck) : NULL;
-    status = made ? read_deck(holding, path, noverride, override, environment, made) : ROTID_ERROR_MEMORY;
-    if (status == ROTID_ERROR_MEMORY || status == ROTID_ERROR_ARGUMENT)
+    int status = made ? read_deck(holding, memory, path, noverride, override, call, made) : ROTID_ERROR_MEMORY;
+    if (status == ROTID_ERROR_MEMORY)
         holding_free(holding);
     else
         *deck = made;
-    host_leave(&host);
     return status;
+}
+
+int rotid_deck_read(const char *path, int noverride, const char *const *override, const rotid_environment *environment,
+                    char *failure, rotid_deck **deck)
+{
+    struct call call;
+    int status = call_open(&call, environment, failure, deck, "deck");
+    if (deck)
+        *deck = NULL;
+    if (!status && !path)
+        status = refuse(failure, "path is NULL, expected that of a deck");
+    if (!status)
+        status = make_deck(&call, NULL, path, noverride, override, deck);
+    return call_close(&call, status);
+}
+
+int rotid_deck_read_text(size_t length, const char *text, const char *name, const char *directory, int noverride,
+                         const char *const *override, const rotid_environment *environment, char *failure, rotid_deck **deck)
+{
+    struct call call;
+    const struct deck_memory memory = {name ? name : "deck", length, text, directory};
+    int status = call_open(&call, environment, failure, deck, "deck");
+    if (deck)
+        *deck = NULL;
+    if (!status && length && !text)
+        status = refuse(failure, "text is NULL, expected %zu characters", length);
+    if (!status)
+        status = make_deck(&call, &memory, memory.name, noverride, override, deck);
+    return call_close(&call, status);
 }
 
 void rotid_deck_free(rotid_deck *deck)

@@ -27,8 +27,11 @@ static int make_result(struct holding *holding, const struct spectrum *s, rotid_
     return holding->missing ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
-static int compute(const struct job *job, const double *x, int nmode, struct pool *scratch, struct spectrum *spectrum)
+static int compute(const struct job *job, const double *x, int nmode, struct entry *entry, struct spectrum *spectrum)
 {
+    struct pool *scratch = &entry->scratch;
+    if (nmode < 1)
+        return refuse(entry->failure, "nmode is %d, expected 1 or more", nmode);
     int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
     double *at = POOL_ARRAY(scratch, double, job->nparameter);
     if (!at)
@@ -36,32 +39,31 @@ static int compute(const struct job *job, const double *x, int nmode, struct poo
     for (int p = 0; p < job->nparameter; p++) {
         at[p] = x ? x[p] : job->bounds[p].start;
         if (!isfinite(at[p]))
-            return ROTID_ERROR_ARGUMENT;
+            return refuse(entry->failure, "x[%d], the value of %s, is %g, expected a number", p, job->bounds[p].name, at[p]);
     }
     return spectrum_compute(scratch, &job->rotor, job->nparameter, job->parameter, at, reduction, nmode, spectrum);
 }
 
 int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
-                           rotid_spectrum **spectrum)
+                           char *failure, rotid_spectrum **spectrum)
 {
     struct call call;
     struct spectrum found;
-    int status = call_open(&call, environment, spectrum);
+    int status = call_open(&call, environment, failure, spectrum, "spectrum");
     if (spectrum)
         *spectrum = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
-        status = job && nmode >= 1 ? compute(job, x, nmode, &call.scratch, &found) : ROTID_ERROR_ARGUMENT;
+        status = job ? compute(job, x, nmode, &call.entry, &found) : ROTID_ERROR_ARGUMENT;
     if (!status) {
-        struct holding *holding = holding_new(environment);
+        struct holding *holding = holding_new(&call.environment);
         status = make_result(holding, &found, spectrum);
         if (status) {
             holding_free(holding);
             *spectrum = NULL;
         }
     }
-    call_close(&call);
-    return status;
+    return call_close(&call, status);
 }
 
 void rotid_spectrum_free(rotid_spectrum *spectrum)

@@ -33,8 +33,10 @@ int command_diagnose(struct command *command)
     int terminal = command_wants_progress(command), code = EXIT_DONE, written;
     const struct diagnose_options options = {
         .threads = command->threads, .seed = command->seed, .replicates = command->replicates};
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     struct diagnosis diagnosis;
     int status = diagnose_run(&command->pool, &command->job, &options, &environment, &command->messages, &diagnosis);
     if (terminal)

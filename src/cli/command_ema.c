@@ -42,8 +42,10 @@ int command_ema(struct command *command)
     struct ema ema;
     double last = 0, started = clock_seconds();
     int terminal = command_wants_progress(command);
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     struct measurement_options from = command->ema.measurement;
     struct ema_options options = command->ema.options;
     from.threads = options.threads = command->threads;

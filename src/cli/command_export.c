@@ -23,8 +23,10 @@ static int identify(struct command *command, struct identification *identified)
     struct job *job = &command->job;
     double last = 0;
     int terminal = command_wants_progress(command);
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     if (!job->nparameter || command->start)
         return ROTID_OK;
     if (!job->nmode) {

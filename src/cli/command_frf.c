@@ -72,8 +72,10 @@ int command_frf(struct command *command)
     struct job *job = &command->job;
     double last = 0;
     int terminal = command_wants_progress(command), status = ROTID_OK, code = EXIT_DONE;
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     struct identification identified = {0};
     struct measurement measurement;
     struct frf_measured measured;

@@ -6,8 +6,10 @@ int command_identify(struct command *command)
     struct job *job = &command->job;
     double last = 0;
     int terminal = command_wants_progress(command);
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     struct identification result;
     if (!job->nparameter) {
         message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,

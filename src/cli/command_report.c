@@ -16,7 +16,7 @@ int command_report(struct command *command)
 {
     struct pool *pool = &command->pool;
     struct result *result = POOL_ARRAY(pool, struct result, command->nfile);
-    const rotid_environment environment = {.cancelled = command_cancelled};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = command_cancelled};
     struct document document;
     struct page_written written;
     int status = result ? ROTID_OK : ROTID_ERROR_MEMORY;

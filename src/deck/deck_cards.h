@@ -57,8 +57,7 @@ int deck_option_word(struct deck_reader *reader, const struct card_option *optio
  * `most`. */
 int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout);
 
-/* A path that an option names, as seen from where the program runs: relative ones are relative to the deck that names them, those
- * of --set to where the user stands. NULL where memory is out. */
+/* deck_text_path of an option of this deck. NULL after an error or where memory is out. */
 const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option);
 
 /* Index of a material, -1 where there is none of that name. */

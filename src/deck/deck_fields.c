@@ -156,9 +156,10 @@ const char *deck_option(struct deck_reader *reader, const struct card *card, con
 
 const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option)
 {
-    const char *deck = card->place.file, *slash = option->overridden ? NULL : strrchr(deck, '/');
-    return *option->value == '/' || !slash ? option->value
-                                           : pool_format(reader->pool, "%.*s/%s", (int)(slash - deck), deck, option->value);
+    int errors = reader->messages->errors;
+    const char *path = deck_text_path(reader->pool, &reader->text, card, option, reader->messages);
+    reader->out_of_memory |= !path && reader->messages->errors == errors;
+    return path;
 }
 
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value)

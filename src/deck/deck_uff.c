@@ -314,9 +314,11 @@ void deck_measured(struct deck_reader *reader, const struct card *card)
     if (read_options(&import) || !file)
         return;
     import.path = deck_path(reader, card, card_option(card, "FILE"));
+    if (!import.path)
+        return;
     struct message_list found;
     message_open(&found, reader->pool);
-    int status = import.path ? uff_read(reader->pool, import.path, &found, &import.file) : ROTID_ERROR_MEMORY;
+    int status = uff_read(reader->pool, import.path, &found, &import.file);
     if (status == ROTID_ERROR_MEMORY)
         reader->out_of_memory = 1;
     for (size_t i = 0; i < found.count; i++) {

@@ -83,7 +83,8 @@ int refit_job(struct pool *pool, const struct job *job, const int *number, const
               const rotid_environment *environment, rotid_fit_result **fit)
 {
     rotid_fit_options options = job->fit;
-    const rotid_environment quiet = {.cancelled = environment ? environment->cancelled : NULL,
+    const rotid_environment quiet = {.size = sizeof quiet,
+                                     .cancelled = environment ? environment->cancelled : NULL,
                                      .context = environment ? environment->context : NULL,
                                      .allocator = environment ? environment->allocator : NULL};
     options.baseline = 0;

@@ -1,7 +1,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/host.h"
+#include "base/entry.h"
+#include "base/sized.h"
 #include "linalg/least_squares.h"
 #include "rotid.h"
 
@@ -281,15 +282,36 @@ static double or_default(double value, double standard)
     return value > 0 ? value : standard;
 }
 
-static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
-               double *jacobian, double *work, rotid_lm_result *result)
+static int check_arguments(int m, int n, rotid_residual residual, const double *x, const double *r, const double *jacobian,
+                           const double *work, const rotid_lm_result *result, char *failure)
 {
-    if (m < 1 || n < 1 || !residual || !x || !r || !jacobian || !work || !result || !all_finite(n, x))
-        return ROTID_ERROR_ARGUMENT;
-    *result = (rotid_lm_result){0};
+    if (m < 1 || n < 1)
+        return refuse(failure, "m is %d and n is %d, expected 1 or more", m, n);
+    const char *missing = !residual   ? "residual"
+                          : !x        ? "x"
+                          : !r        ? "r"
+                          : !jacobian ? "jacobian"
+                          : !work     ? "work"
+                          : !result   ? "result"
+                                      : NULL;
+    if (missing)
+        return refuse(failure, "%s is NULL, expected one", missing);
+    for (int j = 0; j < n; j++)
+        if (!isfinite(x[j]))
+            return refuse(failure, "x[%d] is %g, expected a number to start from", j, x[j]);
+    return ROTID_OK;
+}
+
+static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure, double *x,
+               double *r, double *jacobian, double *work, rotid_lm_result *result)
+{
     struct lm lm = {.m = m, .n = n, .residual = residual, .user = user, .x = x, .r = r, .jacobian = jacobian, .result = result};
-    if (options)
-        lm.options = *options;
+    int status = check_arguments(m, n, residual, x, r, jacobian, work, result, failure);
+    if (!status && options)
+        status = sized_take(SIZED_LM_OPTIONS, options, failure, &lm.options);
+    if (status)
+        return status;
+    *result = (rotid_lm_result){0};
     if (lm.options.max_iterations <= 0)
         lm.options.max_iterations = 100;
     lm.options.gradient_tolerance = or_default(lm.options.gradient_tolerance, 1e-10);
@@ -313,12 +335,12 @@ static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm
     return result->status;
 }
 
-int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
-             double *jacobian, double *work, rotid_lm_result *result)
+int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure, double *x,
+             double *r, double *jacobian, double *work, rotid_lm_result *result)
 {
-    struct host host;
-    host_enter_floating(&host);
-    int status = run(m, n, residual, user, options, x, r, jacobian, work, result);
-    host_leave_floating(&host);
-    return status;
+    struct entry entry;
+    int status = entry_open(&entry, NULL, failure);
+    if (!status)
+        status = run(m, n, residual, user, options, failure, x, r, jacobian, work, result);
+    return entry_close(&entry, status);
 }

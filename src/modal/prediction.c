@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/failure.h"
 #include "linalg/matrix.h"
+#include "linalg/matrix_check.h"
 #include "linalg/product.h"
 
 static int new_matrices(struct pool *pool, const rotid_model *model, struct prediction *p)
@@ -70,18 +72,21 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     return status ? status : new_solvers(pool, model, with_vectors, p);
 }
 
-static int evaluate(const rotid_model *model, const double *x, rotid_matrix *k, rotid_matrix *m)
+static int evaluate(struct prediction *p, const double *x, rotid_matrix *k, rotid_matrix *m)
 {
+    const rotid_model *model = p->model;
     matrix_zero(k);
     matrix_zero(m);
-    if (model->matrices(model->user, x, k, m))
-        return ROTID_ERROR_CALLBACK;
-    return matrix_is_finite(k) && matrix_is_finite(m) ? ROTID_OK : ROTID_ERROR_FINITE;
+    int failed = model->matrices(model->user, x, k, m);
+    if (failed)
+        return failure_say(p->failure, ROTID_ERROR_CALLBACK, "model->matrices returned %d", failed);
+    int status = matrix_check_entries("the stiffness of model->matrices", k, p->failure);
+    return status ? status : matrix_check_entries("the mass of model->matrices", m, p->failure);
 }
 
 int prediction_compute(struct prediction *p, const double *x)
 {
-    int status = evaluate(p->model, x, &p->k, &p->m);
+    int status = evaluate(p, x, &p->k, &p->m);
     if (status)
         return status;
     if (p->reduction == ROTID_REDUCTION_NONE)
@@ -101,7 +106,7 @@ static int difference(struct prediction *p, const double *x, int q)
     matrix_zero(&p->dm);
     for (int i = 0; i < 4; i++) {
         p->x[q] = x[q] + at[i] * h;
-        int status = evaluate(p->model, p->x, &p->other_k, &p->other_m);
+        int status = evaluate(p, p->x, &p->other_k, &p->other_m);
         if (status)
             return status;
         matrix_combine(1, &p->dk, weight[i] / h, &p->other_k, &p->dk);
@@ -116,9 +121,11 @@ static int matrix_derivatives(struct prediction *p, const double *x, int q)
         return difference(p, x, q);
     matrix_zero(&p->dk);
     matrix_zero(&p->dm);
-    if (p->model->derivatives(p->model->user, x, q, &p->dk, &p->dm))
-        return ROTID_ERROR_CALLBACK;
-    return matrix_is_finite(&p->dk) && matrix_is_finite(&p->dm) ? ROTID_OK : ROTID_ERROR_FINITE;
+    int failed = p->model->derivatives(p->model->user, x, q, &p->dk, &p->dm);
+    if (failed)
+        return failure_say(p->failure, ROTID_ERROR_CALLBACK, "model->derivatives returned %d for p = %d", failed, q);
+    int status = matrix_check_entries("the stiffness of model->derivatives", &p->dk, p->failure);
+    return status ? status : matrix_check_entries("the mass of model->derivatives", &p->dm, p->failure);
 }
 
 /* (36) with the derivatives of the matrices in place */

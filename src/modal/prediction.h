@@ -11,6 +11,7 @@
 struct prediction {
     const rotid_model *model;
     int reduction, derivative;
+    char *failure; /* NULL, or where the model's part in an error is told, as in rotid.h */
     int count; /* pairs computed, rigid ones included */
     int size;  /* length of a vector: nmaster when condensed, n when full */
     rotid_matrix k, m, dk, dm, other_k, other_m;

@@ -116,7 +116,7 @@ static int is_waiting(const struct office *office)
 
 static void compute_own(struct office *office, struct jobs *jobs)
 {
-    const rotid_environment environment = {.cancelled = serve_meanwhile, .context = office};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = serve_meanwhile, .context = office};
     char *line;
     long run = record_take(office->record);
     if (run < 0)
@@ -178,7 +178,7 @@ static int lead(struct command *command, const struct study *study, int size)
 
 static void follow(const struct study *study)
 {
-    const rotid_environment environment = {.cancelled = command_cancelled};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = command_cancelled};
     struct jobs jobs;
     jobs_open(study, &jobs);
     for (;;) {

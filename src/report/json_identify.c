@@ -102,7 +102,7 @@ static void add_history(struct json_tree *tree, cJSON *object, const struct iden
 static double bijection_chi(const struct job *job)
 {
     rotid_fit_options standard;
-    rotid_fit_defaults(&standard);
+    rotid_fit_defaults(sizeof standard, &standard);
     return job->fit.bijection_chi > 0 ? job->fit.bijection_chi : standard.bijection_chi;
 }
 

@@ -54,7 +54,7 @@ static int take(int socket, void *bytes, size_t count, struct stop *stop)
 /* The worker itself: until there is nothing to read any more, or it is stopped. Its exit code. */
 static int work(const struct study *study, int socket, struct stop *stop)
 {
-    const rotid_environment environment = {.cancelled = is_stopped, .context = stop};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = is_stopped, .context = stop};
     struct jobs jobs;
     int64_t run;
     int status = ROTID_OK;

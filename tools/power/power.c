@@ -95,7 +95,7 @@ static int run_case(void *context, int index, int worker)
 {
     struct run *run = context;
     struct power_result *result = &run->result[index];
-    const rotid_environment environment = {.cancelled = is_interrupted};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = is_interrupted};
     struct hidden_case c = {.directory = run->directory};
     char effect[64];
     const char *list;
