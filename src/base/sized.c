@@ -16,10 +16,7 @@
 #define ENDS_WITH(type, last)                                                                                                    \
     _Static_assert(offsetof(type, size) == 0 && offsetof(type, last) + sizeof(((type *)0)->last) == sizeof(type), #type)
 
-static const struct {
-    const char *type, *argument;
-    size_t first, known;
-} table[] = {
+static const struct sized_struct table[] = {
     [SIZED_ENVIRONMENT] = STRUCT(rotid_environment, "environment", context),
     [SIZED_DIAGNOSE_OPTIONS] = STRUCT(rotid_diagnose_options, "options", seed),
     [SIZED_MODEL] = STRUCT(rotid_model, "model", user),
@@ -35,13 +32,13 @@ ENDS_WITH(rotid_measured, holdout);
 ENDS_WITH(rotid_fit_options, bijection_chi);
 ENDS_WITH(rotid_lm_options, trace_user);
 
-int sized_take(enum sized which, const void *given, char *failure, void *copy)
+int sized_copy(const struct sized_struct *structure, const void *given, char *failure, void *copy)
 {
-    const char *type = table[which].type, *argument = table[which].argument;
+    const char *type = structure->type, *argument = structure->argument;
     const unsigned char *byte = given;
-    size_t known = table[which].known, size;
+    size_t known = structure->known, size;
     memcpy(&size, given, sizeof size);
-    if (size < table[which].first || size > MOST)
+    if (size < structure->first || size > MOST)
         return refuse(failure, "%s->size is %zu, expected sizeof(%s), here %zu", argument, size, type, known);
     for (size_t i = known; i < size; i++)
         if (byte[i])
@@ -50,4 +47,9 @@ int sized_take(enum sized which, const void *given, char *failure, void *copy)
     memset(copy, 0, known);
     memcpy(copy, given, size < known ? size : known);
     return ROTID_OK;
+}
+
+int sized_take(enum sized which, const void *given, char *failure, void *copy)
+{
+    return sized_copy(&table[which], given, failure, copy);
 }
