@@ -165,6 +165,7 @@ static void help_and_version_exit_0(void **state)
     assert_true(is(run("--help"), 0, "usage: rotid COMMAND FILE", NULL));
     assert_true(is(run("identify", "--help"), 0, "usage: rotid COMMAND FILE", NULL));
     assert_true(is(run("--version"), 0, "rotid " ROTID_VERSION, NULL));
+    assert_int_equal(is(run("--version"), 0, ", without NLopt: identify has no baseline\n", NULL), !WITH_NLOPT);
 }
 
 static void quiet_commands_print_nothing(void **state)
@@ -186,7 +187,8 @@ static void json_of_identify_has_the_keys_of_the_interface(void **state)
     forget(&outcome);
     has_keys(json, "schema rotid commit blas seed threads command deck status functional reduction objective iterations "
                    "evaluations stop_reason parameters correlation condition_number modes reduction_error_percent "
-                   "mesh_error_percent history baseline seconds");
+                   "mesh_error_percent history nlopt baseline seconds");
+    assert_int_equal(cJSON_IsTrue(get(json, "nlopt")), WITH_NLOPT);
     assert_true(cJSON_GetArraySize(get(json, "parameters")) == 2 && cJSON_GetArraySize(get(json, "modes")) == 6);
     has_keys(cJSON_GetArrayItem(get(json, "parameters"), 1), "name unit value start lower upper std ci95 at_bound identifiable");
     has_keys(cJSON_GetArrayItem(get(json, "modes"), 5), "mode measured_hz predicted_hz error_percent residual mac nco holdout");

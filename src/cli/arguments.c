@@ -9,6 +9,7 @@
 #include "cli/arguments_ema.h"
 #include "cli/arguments_study.h"
 #include "export/files.h"
+#include "fit/baseline.h"
 
 static void print_help(FILE *out)
 {
@@ -152,7 +153,8 @@ static int take_option(struct command *command, int option, const char *value)
         command->condensed = 1;
         return -1;
     case OPTION_VERSION:
-        (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
+        (void)printf("rotid %s (%s), %s%s\n", ROTID_VERSION, build_commit, build_blas(),
+                     baseline_exists() ? "" : ", without NLopt: identify has no baseline");
         return EXIT_DONE;
     case OPTION_HELP:
         print_help(stdout);

@@ -25,7 +25,7 @@ int command_identify(struct command *command)
     const rotid_fit_result *fit = result.fit;
     int code = fit->converged && !fit->any_at_bound && !fit->any_undetermined ? EXIT_DONE : EXIT_DOUBTFUL;
     if (command_wants_table(command)) {
-        table_identify(stdout, job, &result, command->verbose);
+        table_identify(stdout, job, &result, command->baseline, command->verbose);
         table_notes(stdout, &command->messages);
     }
     if (fit->status == ROTID_STOP_CANCELLED) {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fit/baseline.h"
 #include "fit/quantile.h"
 #include "report/layout.h"
 
@@ -289,7 +290,7 @@ static void print_baseline(FILE *out, const struct job *job, const rotid_fit_res
     }
 }
 
-void table_identify(FILE *out, const struct job *job, const struct identification *result, int history)
+void table_identify(FILE *out, const struct job *job, const struct identification *result, int baseline, int history)
 {
     const rotid_fit_result *fit = result->fit;
     int fitted = fit->m;
@@ -303,6 +304,8 @@ void table_identify(FILE *out, const struct job *job, const struct identificatio
     print_parameters(out, job, fit);
     if (fit->nbaseline)
         print_baseline(out, job, fit);
+    else if (baseline && !baseline_exists())
+        (void)fprintf(out, "\nno minimiser beside it: this rotid is built without NLopt (WITH_NLOPT=0)\n");
     if (history)
         print_history(out, fit);
     (void)fputc('\n', out);
