@@ -462,19 +462,19 @@ ROTID_API int rotid_eigenpair_derivative(const rotid_matrix *k, const rotid_matr
 
 /* At x [n], one of the two: the residual r [m] (jacobian is NULL), or the jacobian [m * n] column-major, dr_i/dx_j (r is NULL),
  * always at the point whose residual was asked for last, so that what both need is computed once. Returns 0, or nonzero where x
- * has no residual: at the start that ends the call, later the step is refused and a shorter one tried. */
+ * has no residual or no Jacobian: at the start that ends the call, later the step is refused and a shorter one tried. */
 typedef int (*rotid_residual)(void *user, int m, int n, const double *x, double *r, double *jacobian);
 
 typedef struct rotid_lm_iteration {
     int iteration;
-    double objective, mu, gain_ratio;
-    double cosine;              /* largest cosine between r and a column of J */
-    const double *x, *gradient; /* [n] the accepted point, J' r */
+    double objective, mu, gain_ratio; /* objective: r'r/2, infinite or 0 where that has no double */
+    double cosine;                    /* largest cosine between r and a column of J */
+    const double *x, *gradient;       /* [n] the accepted point, J' r */
 } rotid_lm_iteration;
 
 /* Zero takes the default in brackets. */
 typedef struct rotid_lm_options {
-    int max_iterations;                                            /* [100] */
+    int max_iterations;                                            /* [1000] */
     double gradient_tolerance;                                     /* [1e-10] on that cosine */
     double step_tolerance;                                         /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
     double objective_tolerance;                                    /* [1e-16] predicted decrease over the objective */
@@ -495,10 +495,19 @@ ROTID_API size_t rotid_lm_workspace(int m, int n);
  * norms of J so far (More 1978), s the largest of |J_j|/D_j. mu follows the gain ratio (Nielsen 1999; Madsen, Nielsen, Tingleff
  * 2004, 3.2), the actual decrease being (r - r+)'(r + r+)/2, which keeps its digits at the optimum. It is raised where |D h|
  * would exceed a radius (More 1978): the larger of 10 |D x| and |r| at first, then 4 times the last step, after one that failed a
- * half to a tenth of it. Entry: m >= 1, n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the
- * best point, r [m] and jacobian [m * n] there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing. Returns the stop
- * reason (> 0) or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual at the start), _FINITE (residual at the start), _RANK (J = 0 there
- * with r != 0), _LIBRARY. */
+ * half to a tenth of it. Residuals and Jacobians may be of any size: the path is the same for 1e200 r as for r. Entry: m >= 1,
+ * n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the best point, r [m] and jacobian [m * n]
+ * there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing. Returns
+ *   ROTID_STOP_GRADIENT    the cosine, or r, has vanished
+ *   ROTID_STOP_STEP        the Gauss-Newton step, without damping and radius, is negligible
+ *   ROTID_STOP_OBJECTIVE   what the Gauss-Newton step promises is below 1e-8 of the objective and no step that was tried gains
+ *                          anything, or the cosine is below 1e-4: the noise of a computed objective can hide what is left
+ *   ROTID_STOP_STALLED     no step lowers the objective though there is more to gain: this is no minimum. The Jacobian is not
+ *                          that of the residual (rotid_check_jacobian), the residual is flat around x but not to its slope (a
+ *                          minimum at infinity), or the residual fails on every step from here
+ *   ROTID_STOP_ITERATIONS, ROTID_STOP_CANCELLED
+ * or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual or Jacobian at the start), _FINITE (one there is not), _RANK (J = 0 there with
+ * r != 0), _LIBRARY. */
 ROTID_API int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
                        double *jacobian, double *work, rotid_lm_result *result);
 
