@@ -301,8 +301,9 @@ typedef struct rotid_model {
     int nmaster;       /* number of sensors */
     const int *master; /* [nmaster] degree of freedom of each sensor, distinct, increasing */
     int (*matrices)(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass);
-    /* dK/dx_p and dM/dx_p; NULL: central differences of fourth order of `matrices` over x_p (1 +- 0.004), which must be valid
-     * there; 1e-9 accurate for parameters that act strongly, 1e-7 for weak ones */
+    /* dK/dx_p and dM/dx_p; NULL: differences of fourth order of `matrices`, central over x_p (1 +- 0.004), or over x_p ... x_p (1
+     * +- 0.008) on one side where `matrices` fails on the other; 1e-9 accurate for parameters that act strongly, 1e-7 for weak
+     * ones */
     int (*derivatives)(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass);
     void *user;
 } rotid_model;
