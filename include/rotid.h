@@ -400,6 +400,18 @@ ROTID_API int rotid_fit(const rotid_model *model, const rotid_parameter *paramet
 /* NULL is allowed. The allocator of the environment that the fit was given has to exist until then. */
 ROTID_API void rotid_fit_free(rotid_fit_result *result);
 
+/* Compares dK/dx_p and dM/dx_p as rotid_fit would use them, those of model->derivatives or differences where it is NULL, with
+ * differences of `matrices` that are extrapolated over a sequence of steps inside the bounds (rotid_check_jacobian), at x
+ * [nparam] between the bounds, NULL: at the starts. A derivative that is a fifth too large does not keep a fit from converging,
+ * but its intervals are too narrow then. Entries are compared as A_ij / sqrt(A_ii A_jj), whatever their units, those of the far
+ * block both triangles. error [2 * nparam]: |claimed - D| / max(|claimed|, |D|) of dK/dx_p, p = 0 ..., then of dM/dx_p, 0 where
+ * both vanish, 1 where one does; doubt [2 * nparam]: the same ratio for what D may be wrong by. A derivative is wrong where its
+ * error exceeds both 1e-6 and doubt; both are NaN where `matrices` has no model around x. K and M at x are looked at as by the
+ * fit: positive (semi)definite, finite. Some thirty calls of `matrices` for each parameter, twice. Statuses: ROTID_OK, _ARGUMENT,
+ * _MEMORY, _CALLBACK, _FINITE, _MASS, _STIFFNESS, _EIGEN. Memory: O(n kd + nfar^2), 35 + nparam times. */
+ROTID_API int rotid_check_model(const rotid_model *model, const rotid_parameter *parameter, const double *x,
+                                const rotid_environment *environment, double *error, double *doubt);
+
 /* ------------------------------------------------------------------------------------------------ building blocks: the beam */
 
 /* Shear coefficient of an annulus after Cowper, (A.3): a = inner/outer diameter in [0, 1], -1 < nu <= 0.5. */
