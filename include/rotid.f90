@@ -546,6 +546,17 @@ module rotid
       type(c_ptr), value :: result
     end subroutine rotid_fit_free
 
+    function rotid_check_model(model, parameter, x, environment, failure, error, doubt) result(status) &
+        bind(C, name="rotid_check_model")
+      import :: c_double, c_ptr, c_int, rotid_model, rotid_parameter
+      type(rotid_model), intent(in), target :: model
+      type(rotid_parameter), intent(in) :: parameter(*)
+      type(c_ptr), value :: x                   ! real [nparam]
+      type(c_ptr), value :: environment, failure
+      real(c_double), intent(inout) :: error(*), doubt(*)
+      integer(c_int) :: status
+    end function rotid_check_model
+
     ! ---- building blocks: the beam
 
     function rotid_shear_coefficient_annulus(nu, a) result(coefficient) bind(C, name="rotid_shear_coefficient_annulus")

@@ -322,8 +322,9 @@ typedef struct rotid_model {
     int nmaster;       /* number of sensors */
     const int *master; /* [nmaster] degree of freedom of each sensor, distinct, increasing */
     int (*matrices)(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass);
-    /* dK/dx_p and dM/dx_p; NULL: central differences of fourth order of `matrices` over x_p (1 +- 0.004), which must be valid
-     * there; 1e-9 accurate for parameters that act strongly, 1e-7 for weak ones */
+    /* dK/dx_p and dM/dx_p; NULL: differences of fourth order of `matrices`, central over x_p (1 +- 0.004), or over x_p ... x_p (1
+     * +- 0.008) on one side where `matrices` fails on the other; 1e-9 accurate for parameters that act strongly, 1e-7 for weak
+     * ones */
     int (*derivatives)(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass);
     void *user;
 } rotid_model;
@@ -424,6 +425,18 @@ ROTID_API int rotid_fit(const rotid_model *model, const rotid_parameter *paramet
 /* NULL is allowed. The allocator of the environment that the fit was given has to exist until then. */
 ROTID_API void rotid_fit_free(rotid_fit_result *result);
 
+/* Compares dK/dx_p and dM/dx_p as rotid_fit would use them, those of model->derivatives or differences where it is NULL, with
+ * differences of `matrices` that are extrapolated over a sequence of steps inside the bounds (rotid_check_jacobian), at x
+ * [nparam] between the bounds, NULL: at the starts. A derivative that is a fifth too large does not keep a fit from converging,
+ * but its intervals are too narrow then. Entries are compared as A_ij / sqrt(A_ii A_jj), whatever their units, those of the far
+ * block both triangles. error [2 * nparam]: |claimed - D| / max(|claimed|, |D|) of dK/dx_p, p = 0 ..., then of dM/dx_p, 0 where
+ * both vanish, 1 where one does; doubt [2 * nparam]: the same ratio for what D may be wrong by. A derivative is wrong where its
+ * error exceeds both 1e-6 and doubt; both are NaN where `matrices` has no model around x. K and M at x are looked at as by the
+ * fit: positive (semi)definite, finite. Some thirty calls of `matrices` for each parameter, twice. Statuses: ROTID_OK, _ARGUMENT,
+ * _MEMORY, _CALLBACK, _FINITE, _MASS, _STIFFNESS, _EIGEN. Memory: O(n kd + nfar^2), 35 + nparam times. */
+ROTID_API int rotid_check_model(const rotid_model *model, const rotid_parameter *parameter, const double *x,
+                                const rotid_environment *environment, char *failure, double *error, double *doubt);
+
 /* ------------------------------------------------------------------------------------------------ building blocks: the beam */
 
 /* Shear coefficient of an annulus after Cowper, (A.3): a = inner/outer diameter in [0, 1], -1 < nu <= 0.5. */
@@ -488,20 +501,20 @@ ROTID_API int rotid_eigenpair_derivative(const rotid_matrix *k, const rotid_matr
 
 /* At x [n], one of the two: the residual r [m] (jacobian is NULL), or the jacobian [m * n] column-major, dr_i/dx_j (r is NULL),
  * always at the point whose residual was asked for last, so that what both need is computed once. Returns 0, or nonzero where x
- * has no residual: at the start that ends the call, later the step is refused and a shorter one tried. */
+ * has no residual or no Jacobian: at the start that ends the call, later the step is refused and a shorter one tried. */
 typedef int (*rotid_residual)(void *user, int m, int n, const double *x, double *r, double *jacobian);
 
 typedef struct rotid_lm_iteration {
     int iteration;
-    double objective, mu, gain_ratio;
-    double cosine;              /* largest cosine between r and a column of J */
-    const double *x, *gradient; /* [n] the accepted point, J' r */
+    double objective, mu, gain_ratio; /* objective: r'r/2, infinite or 0 where that has no double */
+    double cosine;                    /* largest cosine between r and a column of J */
+    const double *x, *gradient;       /* [n] the accepted point, J' r */
 } rotid_lm_iteration;
 
 /* Zero takes the default in brackets. */
 typedef struct rotid_lm_options {
     size_t size;
-    int max_iterations;                                            /* [100] */
+    int max_iterations;                                            /* [1000] */
     double gradient_tolerance;                                     /* [1e-10] on that cosine */
     double step_tolerance;                                         /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
     double objective_tolerance;                                    /* [1e-16] predicted decrease over the objective */
@@ -522,10 +535,19 @@ ROTID_API size_t rotid_lm_workspace(int m, int n);
  * norms of J so far (More 1978), s the largest of |J_j|/D_j. mu follows the gain ratio (Nielsen 1999; Madsen, Nielsen, Tingleff
  * 2004, 3.2), the actual decrease being (r - r+)'(r + r+)/2, which keeps its digits at the optimum. It is raised where |D h|
  * would exceed a radius (More 1978): the larger of 10 |D x| and |r| at first, then 4 times the last step, after one that failed a
- * half to a tenth of it. Entry: m >= 1, n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the
- * best point, r [m] and jacobian [m * n] there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing. Returns the stop
- * reason (> 0) or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual at the start), _FINITE (residual at the start), _RANK (J = 0 there
- * with r != 0), _LIBRARY. */
+ * half to a tenth of it. Residuals and Jacobians may be of any size: the path is the same for 1e200 r as for r. Entry: m >= 1,
+ * n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the best point, r [m] and jacobian [m * n]
+ * there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing. Returns
+ *   ROTID_STOP_GRADIENT    the cosine, or r, has vanished
+ *   ROTID_STOP_STEP        the Gauss-Newton step, without damping and radius, is negligible
+ *   ROTID_STOP_OBJECTIVE   what the Gauss-Newton step promises is below 1e-8 of the objective and no step that was tried gains
+ *                          anything, or the cosine is below 1e-4: the noise of a computed objective can hide what is left
+ *   ROTID_STOP_STALLED     no step lowers the objective though there is more to gain: this is no minimum. The Jacobian is not
+ *                          that of the residual (rotid_check_jacobian), the residual is flat around x but not to its slope (a
+ *                          minimum at infinity), or the residual fails on every step from here
+ *   ROTID_STOP_ITERATIONS, ROTID_STOP_CANCELLED
+ * or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual or Jacobian at the start), _FINITE (one there is not), _RANK (J = 0 there with
+ * r != 0), _LIBRARY. */
 ROTID_API int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure,
                        double *x, double *r, double *jacobian, double *work, rotid_lm_result *result);
 

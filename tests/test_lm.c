@@ -160,8 +160,7 @@ static int given(void *user, int m, int n, const double *x, double *r, double *j
 
 static void test_start_without_a_finite_residual_is_an_error(void **state)
 {
-    /* the last two: their squares are not finite */
-    static const double values[][2] = {{NAN, 1}, {INFINITY, 1}, {1, NAN}, {1, INFINITY}, {1e200, 1}, {1, 1e200}};
+    static const double values[][2] = {{NAN, 1}, {INFINITY, 1}, {1, NAN}, {1, INFINITY}};
     (void)state;
     for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
         double value[2] = {values[k][0], values[k][1]}, x = 1, r;
@@ -318,8 +317,7 @@ static void test_jacobian_of_the_wrong_sign_ends_soon_and_changes_nothing(void *
     struct watch watch = {.residual = uphill};
     double x[2] = {1, 0.3}, r[M];
     rotid_lm_result result;
-    int status = rotid_lm(M, 2, watched, &watch, NULL, NULL, x, r, jacobian, work, &result);
-    assert_true(status == ROTID_STOP_STALLED || status == ROTID_STOP_STEP || status == ROTID_STOP_OBJECTIVE);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, x, r, jacobian, work, &result), ROTID_STOP_STALLED);
     assert_true(x[0] == 1 && x[1] == 0.3 && watch.residuals < 30);
 }
 

@@ -1,3 +1,4 @@
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -143,9 +144,12 @@ static int run(int m, int n, rotid_residual residual, void *user, const double *
         return ROTID_ERROR_CALLBACK;
     if (!all_finite((ptrdiff_t)m * n, check.jacobian))
         return failure_say(failure, ROTID_ERROR_FINITE, "the Jacobian at x is not finite");
+    double rounding = DBL_EPSILON * length(m, check.above); /* of r: no difference is known any better */
     for (int j = 0; j < n; j++) {
         const double *column = check.jacobian + (ptrdiff_t)j * m;
-        double wrong_by = extrapolate(&check, j, scale ? scale[j] : fmax(fabs(x[j]), 1e-3));
+        double unit = scale ? scale[j] : fmax(fabs(x[j]), 1e-3), wrong_by = extrapolate(&check, j, unit);
+        if (wrong_by < rounding / (FIRST * unit) && length(m, check.best) > 0) /* 0: r does not change at all */
+            wrong_by = rounding / (FIRST * unit);
         error[j] = doubt[j] = wrong_by; /* where that is not NaN: */
         if (wrong_by >= 0) {
             double size = fmax(length(m, column), length(m, check.best));

@@ -24,9 +24,7 @@ struct fit {
     int n, callback_status;
     char *failure; /* of the host: why the last evaluation failed */
     double *x, *y, *r, *jacobian, *work;
-    int evaluated;  /* the modes are those at x */
-    int linearised; /* result->jacobian is dr/dx at linearised_at [n] */
-    double *linearised_at;
+    double *bounded;        /* dr/dx that was asked for last */
     const double *accepted; /* y of the last accepted point, NULL before the first */
     double begin;           /* on the clock */
 };
@@ -59,28 +57,54 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
         fit->x[p] = bounds_to_x(&fit->parameter[p], chi, y[p]);
     if (r) {
         fit->callback_status = functional_residual(&fit->functional, fit->x, r);
-        fit->evaluated = fit->callback_status == ROTID_OK;
         return fit->callback_status;
     }
-    double *bounded = fit->result->jacobian;
-    fit->callback_status = functional_jacobian(&fit->functional, fit->x, bounded);
-    fit->linearised = fit->callback_status == ROTID_OK;
-    memcpy(fit->linearised_at, fit->x, (size_t)n * sizeof *fit->x);
+    fit->callback_status = functional_jacobian(&fit->functional, fit->x, fit->bounded);
     for (int p = 0; p < n; p++) {
         double slope = bounds_slope(&fit->parameter[p], chi, y[p]);
         for (int i = 0; i < m; i++)
-            jacobian[i + (ptrdiff_t)p * m] = bounded[i + (ptrdiff_t)p * m] * slope;
+            jacobian[i + (ptrdiff_t)p * m] = fit->bounded[i + (ptrdiff_t)p * m] * slope;
     }
     return fit->callback_status;
 }
 
-/* Keeps the history in the variables x/|start|; polls the host. */
+/* Predicted frequencies, correlation and residual of every mode at the last evaluation. */
+static void compare_modes(struct fit *fit)
+{
+    struct functional *f = &fit->functional;
+    const rotid_measured *measured = f->measured;
+    int nmaster = f->prediction.model->nmaster;
+    for (int k = 0; k < measured->nmode; k++) {
+        fit->result->predicted_hz[k] = prediction_hz(&f->prediction, f->pair[k]);
+        fit->result->residual[k] = functional_frequency_residual(f, k);
+        fit->result->mac[k] = NAN;
+        if (!f->shape)
+            continue;
+        for (int s = 0; s < nmaster; s++)
+            f->work[s] = prediction_at_sensor(&f->prediction, f->pair[k], s);
+        fit->result->mac[k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
+    }
+}
+
+/* Everything that is known of an accepted point while the functional stands there: the host is not asked for it again, as it may
+ * have failed for good since. */
+static void keep_point(struct fit *fit)
+{
+    rotid_fit_result *result = fit->result;
+    memcpy(result->x, fit->x, (size_t)fit->n * sizeof *result->x);
+    memcpy(result->r, fit->r, (size_t)result->nresidual * sizeof *result->r);
+    memcpy(result->jacobian, fit->bounded, (size_t)result->nresidual * (size_t)fit->n * sizeof *result->jacobian);
+    compare_modes(fit);
+}
+
+/* Keeps the point, and the history in the variables x/|start|; polls the host. */
 static int trace(void *user, const rotid_lm_iteration *now)
 {
     struct fit *fit = user;
     rotid_fit_result *result = fit->result;
     int n = fit->n, row = result->nhistory;
     fit->accepted = now->x;
+    keep_point(fit);
     double *x = result->history_x + (ptrdiff_t)row * n, step = 0, gradient = 0;
     for (int p = 0; p < n; p++) {
         double unit = fabs(fit->parameter[p].start),
@@ -187,38 +211,6 @@ static double step_left(const struct fit *fit, const double *relative_gradient)
     return worst;
 }
 
-/* Predicted frequencies, correlation and residual of every mode at the last evaluation. */
-static void compare_modes(struct fit *fit)
-{
-    struct functional *f = &fit->functional;
-    const rotid_measured *measured = f->measured;
-    int nmaster = f->prediction.model->nmaster;
-    for (int k = 0; k < measured->nmode; k++) {
-        fit->result->predicted_hz[k] = prediction_hz(&f->prediction, f->pair[k]);
-        fit->result->residual[k] = functional_frequency_residual(f, k);
-        fit->result->mac[k] = NAN;
-        if (!f->shape)
-            continue;
-        for (int s = 0; s < nmaster; s++)
-            f->work[s] = prediction_at_sensor(&f->prediction, f->pair[k], s);
-        fit->result->mac[k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
-    }
-}
-
-/* The modes, r and dr/dx at the best point, where the iteration has not left them behind. */
-static int evaluate_best(struct fit *fit)
-{
-    rotid_fit_result *result = fit->result;
-    size_t size = (size_t)fit->n * sizeof *result->x;
-    int status = ROTID_OK, at_best = fit->evaluated && !memcmp(fit->x, result->x, size);
-    memcpy(result->r, fit->r, (size_t)result->nresidual * sizeof *result->r);
-    if (!at_best)
-        status = functional_residual(&fit->functional, result->x, result->r);
-    if (!status && (!fit->linearised || memcmp(fit->linearised_at, result->x, size) != 0))
-        status = functional_jacobian(&fit->functional, result->x, result->jacobian);
-    return status;
-}
-
 /* Everything about the best point. */
 static int conclude(struct fit *fit, const rotid_lm_result *lm)
 {
@@ -226,12 +218,6 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     struct functional *f = &fit->functional;
     int n = fit->n, m = f->nresidual, pulled_inside = 0;
     double *noise = fit->work, *gradient = noise + m, *rest = gradient + n;
-    for (int p = 0; p < n; p++)
-        result->x[p] = bounds_to_x(&fit->parameter[p], fit->options.bijection_chi, fit->y[p]);
-    int status = evaluate_best(fit);
-    if (status)
-        return status;
-    compare_modes(fit);
     result->status = lm->status;
     result->iterations = lm->iterations;
     result->evaluations = lm->evaluations;
@@ -262,7 +248,7 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
                                      .nscale = count_scales(fit),
                                      .x = result->x,
                                      .fixed = result->at_bound};
-    status = covariance_compute(&input, result, rest);
+    int status = covariance_compute(&input, result, rest);
     /* a stop on the limit, or where rounding left no step that lowers f, may still be at the minimum: the step that is left
      * decides */
     result->converged = result->status != ROTID_STOP_CANCELLED && !pulled_inside &&
@@ -304,8 +290,8 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     fit->r = POOL_ARRAY(pool, double, m);
     fit->jacobian = POOL_ARRAY(pool, double, (size_t)m *(size_t)n);
     fit->work = POOL_ARRAY(pool, double, lm_work > end_work ? lm_work : end_work);
-    fit->linearised_at = POOL_ARRAY(pool, double, n);
-    if (!fit->linearised_at || !fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
+    fit->bounded = POOL_ARRAY(pool, double, (size_t)m *(size_t)n);
+    if (!fit->bounded || !fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n; p++)
         fit->y[p] = bounds_to_y(&fit->parameter[p], options->bijection_chi, fit->parameter[p].start);

@@ -6,7 +6,7 @@
 #include "linalg/matrix_check.h"
 #include "modal/measured_check.h"
 
-static int check_model(const rotid_model *model, char *failure)
+int fit_check_model(const rotid_model *model, char *failure)
 {
     if (model->n < 2)
         return refuse(failure, "model->n is %d, expected 2 or more", model->n);
@@ -22,7 +22,7 @@ static int check_model(const rotid_model *model, char *failure)
     return status ? status : indices_check("far", model->nfar, model->far, model->n, failure);
 }
 
-static int check_parameters(int count, const rotid_parameter *parameter, char *failure)
+int fit_check_parameters(int count, const rotid_parameter *parameter, char *failure)
 {
     if (count && !parameter)
         return refuse(failure, "parameter is NULL, expected model->nparam = %d of them", count);
@@ -56,9 +56,9 @@ static int check_options(const rotid_fit_options *options, char *failure)
 int fit_check(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
               const rotid_fit_options *options, char *failure)
 {
-    int status = check_model(model, failure);
+    int status = fit_check_model(model, failure);
     if (!status)
-        status = check_parameters(model->nparam, parameter, failure);
+        status = fit_check_parameters(model->nparam, parameter, failure);
     if (!status)
         status = check_options(options, failure);
     return status ? status : measured_check(model, measured, options->functional, options->reduction, failure);

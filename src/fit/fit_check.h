@@ -8,4 +8,8 @@
 int fit_check(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
               const rotid_fit_options *options, char *failure);
 
+/* Its parts: the model, and its parameters with their bounds and starts. */
+int fit_check_model(const rotid_model *model, char *failure);
+int fit_check_parameters(int count, const rotid_parameter *parameter, char *failure);
+
 #endif

@@ -95,27 +95,38 @@ int prediction_compute(struct prediction *p, const double *x)
     return status ? status : eigen_dense_solve(&p->dense, p->condensed.kc, p->condensed.mc, p->lambda, p->phi);
 }
 
-/* dK and dM by central differences of fourth order, for a host that gives none. The wide step is for parameters that change
- * little of a stiff matrix: rounding of what they leave alone is divided by it. */
+/* dK and dM by differences of fourth order over steps of h, for a host that gives none: of A(x + h) - A(x), K and M at x being
+ * the last that were computed, so that entries that x_q leaves alone come out as zeros. The wide step is for parameters that
+ * change little of a stiff entry: its rounding is divided by the step. Where the host has no model on one side of x, those of the
+ * other side, whose error is six times as large. */
 static int difference(struct prediction *p, const double *x, int q)
 {
-    static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
+    static const struct {
+        int at[4];
+        double weight[4];
+    } side[] = {{{-2, -1, 1, 2}, {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12}},
+                {{1, 2, 3, 4}, {4, -3, 4.0 / 3, -1.0 / 4}},
+                {{-1, -2, -3, -4}, {-4, 3, -4.0 / 3, 1.0 / 4}}};
     double h = 2e-3 * (x[q] != 0 ? fabs(x[q]) : 1);
+    int status = ROTID_OK;
     memcpy(p->x, x, (size_t)p->model->nparam * sizeof *x);
-    matrix_zero(&p->dk);
-    matrix_zero(&p->dm);
-    for (int i = 0; i < 4; i++) {
-        p->x[q] = x[q] + at[i] * h;
-        int status = evaluate(p, p->x, &p->other_k, &p->other_m);
-        if (status)
-            return status;
-        matrix_combine(1, &p->dk, weight[i] / h, &p->other_k, &p->dk);
-        matrix_combine(1, &p->dm, weight[i] / h, &p->other_m, &p->dm);
+    for (size_t s = 0; s < sizeof side / sizeof *side && (!s || status); s++) {
+        matrix_zero(&p->dk);
+        matrix_zero(&p->dm);
+        status = ROTID_OK;
+        for (int i = 0; i < 4 && !status; i++) {
+            p->x[q] = x[q] + side[s].at[i] * h;
+            status = evaluate(p, p->x, &p->other_k, &p->other_m);
+            matrix_combine(1, &p->other_k, -1, &p->k, &p->other_k);
+            matrix_combine(1, &p->other_m, -1, &p->m, &p->other_m);
+            matrix_combine(1, &p->dk, side[s].weight[i] / h, &p->other_k, &p->dk);
+            matrix_combine(1, &p->dm, side[s].weight[i] / h, &p->other_m, &p->dm);
+        }
     }
-    return ROTID_OK;
+    return status;
 }
 
-static int matrix_derivatives(struct prediction *p, const double *x, int q)
+int prediction_matrix_derivatives(struct prediction *p, const double *x, int q)
 {
     if (!p->model->derivatives)
         return difference(p, x, q);
@@ -213,7 +224,7 @@ static int differentiate_vectors(struct prediction *p, const double *x, const in
             multiply_dense(n, p->condensed.mc, phi, p->m_phi + (ptrdiff_t)k * n);
     }
     for (int q = 0; q < p->model->nparam && !status; q++) {
-        status = matrix_derivatives(p, x, q);
+        status = prediction_matrix_derivatives(p, x, q);
         for (int k = 0; k < p->count && !status; k++)
             if (wanted[k])
                 form_right_side(p, k, q);
@@ -233,7 +244,7 @@ int prediction_differentiate(struct prediction *p, const double *x, const int *w
         if (wanted[k])
             reduction_mode_prepare(&p->condensed, p->lambda[k], p->phi + (ptrdiff_t)k * p->size, &p->mode[k]);
     for (int q = 0; q < p->model->nparam && !status; q++) {
-        status = matrix_derivatives(p, x, q);
+        status = prediction_matrix_derivatives(p, x, q);
         for (int k = 0; k < p->count && !status; k++)
             if (wanted[k])
                 p->dlambda[k + (ptrdiff_t)q * p->count] = eigenvalue_derivative(p, k);

@@ -39,6 +39,10 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
 /* K, M and the pairs at x [nparam]. Allocates nothing. Statuses: CALLBACK, FINITE, SLAVE, STIFFNESS, MASS, EIGEN. */
 int prediction_compute(struct prediction *p, const double *x);
 
+/* dk, dm := dK/dx_q, dM/dx_q at the x of the last prediction_compute: the host's, or differences where it has none. Statuses:
+ * CALLBACK, FINITE. */
+int prediction_matrix_derivatives(struct prediction *p, const double *x, int q);
+
 /* Derivatives of eigenvalues of the pairs with wanted [count] nonzero, and of their vectors where asked for, at the x of the last
  * prediction_compute. Statuses: CALLBACK, FINITE, CLOSE. */
 int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors);

@@ -255,7 +255,8 @@ contains
 
   subroutine models()
     real(dp), parameter :: two_pi = 2 * acos(-1.0_dp)
-    real(dp) :: hz(2), shapes(2, 2)
+    real(dp) :: hz(2), shapes(2, 2), error(4), doubt(4)
+    integer(c_int), target :: far(2)
     type(rotid_model), target :: model
     type(rotid_parameter) :: parameter(2)
     type(rotid_fit_options) :: options
@@ -272,6 +273,12 @@ contains
     parameter(1) = rotid_parameter(lower=0.01_dp, upper=100.0_dp, start=3.0_dp)
     parameter(2) = rotid_parameter(lower=0.01_dp, upper=100.0_dp, start=0.8_dp)
     options%functional = ROTID_LIKELIHOOD
+    far = [0, 2]
+    model%nfar = 2
+    model%far = c_loc(far)
+    model%nparam = 2
+    status = rotid_check_model(model, parameter, c_null_ptr, c_null_ptr, c_null_ptr, error, doubt)
+    call check(status == ROTID_OK .and. all(error < 1e-7_dp), 'a check of a model')
     account = ledger()
     allocator = rotid_allocator(allocate=c_funloc(take), release=c_funloc(give_back), context=c_loc(account))
     environment%allocator = c_loc(allocator)
