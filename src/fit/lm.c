@@ -80,17 +80,17 @@ static double length_of_x(struct lm *lm)
 {
     for (int j = 0; j < lm->n; j++)
         lm->scratch[j] = lm->unit * lm->x[j];
-    return scaled_length(lm->n, lm->scale, lm->scratch);
+    return least_squares_length(lm->n, lm->scale, lm->scratch);
 }
 
 /* Largest cosine between r and a column of J: with the norm of the column here, not with D: where J has shrunk by 1e10 D would
  * end the iteration. */
 static double largest_cosine(const struct lm *lm, const double *r, const double *jacobian)
 {
-    double largest = 0, length = lm->unit * scaled_length(lm->m, NULL, r);
+    double largest = 0, length = lm->unit * least_squares_length(lm->m, NULL, r);
     for (int j = 0; j < lm->n && length > 0; j++) {
         const double *column = jacobian + (ptrdiff_t)j * lm->m;
-        double norm = scaled_length(lm->m, NULL, column), product = 0;
+        double norm = least_squares_length(lm->m, NULL, column), product = 0;
         for (int i = 0; i < lm->m; i++)
             product += column[i] * (lm->unit * r[i]);
         if (norm > 0)
@@ -106,7 +106,7 @@ static int ask_jacobian(struct lm *lm, const double *x, double *jacobian)
     if (lm->residual(lm->user, lm->m, lm->n, x, NULL, jacobian))
         return ROTID_ERROR_CALLBACK;
     for (int j = 0; j < lm->n; j++)
-        if (!isfinite(scaled_length(lm->m, NULL, jacobian + (ptrdiff_t)j * lm->m)))
+        if (!isfinite(least_squares_length(lm->m, NULL, jacobian + (ptrdiff_t)j * lm->m)))
             return ROTID_ERROR_FINITE;
     return ROTID_OK;
 }
@@ -117,7 +117,7 @@ static int linearise(struct lm *lm)
     double length = sqrt(2 * lm->objective), largest = 0, size = 0;
     for (int j = 0; j < lm->n; j++) {
         const double *column = lm->jacobian + (ptrdiff_t)j * lm->m;
-        lm->floor[j] = scaled_length(lm->m, NULL, column);
+        lm->floor[j] = least_squares_length(lm->m, NULL, column);
         lm->gradient[j] = 0;
         for (int i = 0; i < lm->m; i++)
             lm->gradient[j] += column[i] * lm->scaled[i];

@@ -40,7 +40,7 @@ static int solve_damped(int m, int n, const double *jacobian, const double *r, c
     return 0;
 }
 
-double scaled_length(int n, const double *scale, const double *h)
+double least_squares_length(int n, const double *scale, const double *h)
 {
     double largest = 0, sum = 0;
     for (int j = 0; j < n; j++) {
@@ -77,7 +77,7 @@ int least_squares_damped_step(int m, int n, const double *jacobian, const double
     for (int turn = 0;; turn++) {
         if (solve_damped(m, n, jacobian, r, scale, floor, *mu, h, work))
             return 1;
-        *length = scaled_length(n, scale, h);
+        *length = least_squares_length(n, scale, h);
         if (!(*length > LONGER * radius))
             return 0;
         double raise = *length * *length / length_slope(m, n, scale, h, work) * (*length - radius) / radius;

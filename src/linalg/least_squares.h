@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /* |D h|, D = diag(scale [n]), NULL: 1; of any size that has a double, as its square may not. NaN where a component is. */
-double scaled_length(int n, const double *scale, const double *h);
+double least_squares_length(int n, const double *scale, const double *h);
 
 size_t least_squares_workspace(int m, int n);
 
