@@ -103,7 +103,8 @@ static void subspace_of_close_pairs_is_differentiated_at_any_gap(void **state)
         double full = projector_error(*state, model, ROTID_REDUCTION_NONE, ROTID_NELSON, 2),
                nelson = projector_error(*state, model, ROTID_GUYAN, ROTID_NELSON, 2),
                modal = projector_error(*state, model, ROTID_GUYAN, ROTID_MODAL, 2);
-        print_message("coupling %.0e: full %.1e, condensed by Nelson %.1e, by superposition %.1e\n", coupling, full, nelson, modal);
+        print_message("coupling %.0e: full %.1e, condensed by Nelson %.1e, by superposition %.1e\n", coupling, full, nelson,
+                      modal);
         double turning = coupling > 1e-6 ? 1e-8 / coupling : 0;
         assert_close(full, 0, 0, 1e-9 + turning);
         assert_close(nelson, 0, 0, 1e-9 + turning + 0.2 * coupling);
@@ -143,7 +144,8 @@ static void vectors_turn_where_they_are_apart(void **state)
                     sign[0] += p.phi[j + k * 6] * low.phi[j + k * 6];
                     sign[1] += p.phi[j + k * 6] * high.phi[j + k * 6];
                 }
-                difference[i] = (copysign(1, sign[1]) * high.phi[i + k * 6] - copysign(1, sign[0]) * low.phi[i + k * 6]) / (2 * h);
+                difference[i] =
+                    (copysign(1, sign[1]) * high.phi[i + k * 6] - copysign(1, sign[0]) * low.phi[i + k * 6]) / (2 * h);
             }
             worst = fmax(worst, relative_difference(6, p.dphi + prediction_place(&p, k, 0), difference));
         }

@@ -73,7 +73,8 @@ static void answer_without(struct nelson_band *nelson, const struct prediction *
     nelson_band_solve(nelson, 1, mode->members, mode->phi, mode->m_phi, work, zero, out);
 }
 
-/* phi, phi^2, what the other modes add at the sensors of one mode, and how that changes with lambda. vector [(CLUSTER_MOST + 3) * size] */
+/* phi, phi^2, what the other modes add at the sensors of one mode, and how that changes with lambda. vector [(CLUSTER_MOST + 3) *
+ * size] */
 static void take_mode(struct weighing *w, int m, struct nelson_band *nelson, double *vector)
 {
     const struct prediction *p = &w->columns.functional.prediction;

@@ -163,8 +163,8 @@ static void shape_part(const struct columns *c, const struct columns_mode *mode,
         part[i] -= mode->weighted[i] * along / mode->square;
 }
 
-/* What of a mode moves with dK and dM: dlambda, and dphi at its sensors: P by the adjoints, which do not see its middle part, plus
- * the parts along the cluster. P = -(dK - dlambda M - lambda dM) phi is local but for that part: most changes touch a few
+/* What of a mode moves with dK and dM: dlambda, and dphi at its sensors: P by the adjoints, which do not see its middle part,
+ * plus the parts along the cluster. P = -(dK - dlambda M - lambda dM) phi is local but for that part: most changes touch a few
  * elements. */
 static double mode_derivative(struct columns *c, const struct columns_mode *mode, double *dphi)
 {

@@ -240,8 +240,8 @@ void nelson_band_solve(struct nelson_band *b, int columns, int members, const do
     for (int c = 0; c < columns; c++)
         set_components(n, members, phi, m_phi, NULL, dphi + (ptrdiff_t)c * n);
     solve_columns(b, columns, members, dphi);
-    /* the bordered factors may lose digits where a clamped mode lies near, and a cluster counts as one eigenvalue in them; a second
-     * step would change V by the square of the first
+    /* the bordered factors may lose digits where a clamped mode lies near, and a cluster counts as one eigenvalue in them; a
+     * second step would change V by the square of the first
      */
     if (refine(b, columns, members, phi, m_phi, p, dphi) > ENOUGH)
         (void)refine(b, columns, members, phi, m_phi, p, dphi);

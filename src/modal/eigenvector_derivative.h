@@ -4,10 +4,10 @@
  * Modal superposition (37, 38 corrected): V = sum over j != k of phi_j (phi_j' P)/(lambda_j - lambda_k), needing every vector.
  *
  * Pairs whose eigenvalues are close form a cluster C. Its subspace has a derivative that is well conditioned; the vectors turn in
- * it by (phi_j' P)/(lambda_j - lambda_k), which says nothing beyond steps of the relative distance. So they are taken not to turn:
- *   dphi = V + sum over j in C of q_j phi_j,  phi_j' M V = 0,  q_j = -1/2 phi_j' dM phi,
- * where V solves with P less its part in C, and as many rows and columns are left out as C has members. The derivative of
- * sum over C of phi phi', and with it that of the subspace, is exact; a cluster of one is Nelson's method. */
+ * it by (phi_j' P)/(lambda_j - lambda_k), which says nothing beyond steps of the relative distance. So they are taken not to
+ * turn: dphi = V + sum over j in C of q_j phi_j,  phi_j' M V = 0,  q_j = -1/2 phi_j' dM phi, where V solves with P less its part
+ * in C, and as many rows and columns are left out as C has members. The derivative of sum over C of phi phi', and with it that of
+ * the subspace, is exact; a cluster of one is Nelson's method. */
 #ifndef ROTID_MODAL_EIGENVECTOR_DERIVATIVE_H
 #define ROTID_MODAL_EIGENVECTOR_DERIVATIVE_H
 

@@ -57,7 +57,7 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     p->dlambda = POOL_ARRAY(pool, double, (size_t)p->count *nparam);
     p->dphi = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
     p->right = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
-    p->constant = POOL_ARRAY(pool, double, with_vectors ? CLUSTER_MOST * (size_t)p->count * nparam : 0);
+    p->constant = POOL_ARRAY(pool, double, with_vectors ? CLUSTER_MOST *(size_t)p->count *nparam : 0);
     p->m_phi = POOL_ARRAY(pool, double, with_vectors ? vectors : 0);
     p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);

@@ -39,8 +39,9 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
 int prediction_compute(struct prediction *p, const double *x);
 
 /* Derivatives of eigenvalues of the pairs with wanted [count] nonzero, and of their vectors where asked for, at the x of the last
- * prediction_compute. Vectors of a cluster (modal/eigenvector_derivative.h) are taken not to turn in it, as long as it ends within
- * the pairs that are known: those asked for and one more. Statuses: CALLBACK, FINITE, CLOSE (a third one right behind them). */
+ * prediction_compute. Vectors of a cluster (modal/eigenvector_derivative.h) are taken not to turn in it, as long as it ends
+ * within the pairs that are known: those asked for and one more. Statuses: CALLBACK, FINITE, CLOSE (a third one right behind
+ * them). */
 int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors);
 
 /* Frequency of pair k [Hz]; 0 where its eigenvalue is not above zero. */
