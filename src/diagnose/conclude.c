@@ -113,6 +113,11 @@ static const char *open_parameters(struct engine *engine)
     const rotid_parameter *parameter = out->extended.fit ? out->extended_job.bounds : out->job.bounds;
     const char *text = "";
     for (int p = 0; p < fit->n && p < out->job.nparameter && text; p++) {
+        if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->kind != VERDICT_ADEQUATE)
+            text = pool_format(engine->pool, "%s %s ends at its %s bound %.4g %s, which may be the cause itself: widen it.", text,
+                               parameter[p].name, base_bound_side(engine, p), out->base.fit->x[p], parameter[p].unit);
+        if (!text)
+            break;
         double half = (fit->ci_upper[p] - fit->ci_lower[p]) / 2;
         if (!isfinite(half) || (fit->identifiable[p] && !(half > WIDE * fabs(fit->x[p])))) /* no interval: it lies at a bound */
             continue;

@@ -25,7 +25,8 @@ static int is_close(struct pool *pool, const struct pair *pair, int *close)
     for (int i = 0; i < n; i++)
         largest = fmax(largest, fabs(pair->k->band[(ptrdiff_t)i * stride] / pair->m->band[(ptrdiff_t)i * stride]));
     double zero = ZERO * largest;
-    *close = eigenvalue_is_close(pair->count, pair->lambda, pair->j);
+    int first;
+    *close = eigenvalue_cluster(pair->count, pair->lambda, pair->j, &first) > 1;
     for (int i = 0; i < pair->count; i++) /* both are zero, and their distance is nothing but rounding */
         *close |= i != pair->j && fabs(pair->lambda[i]) < zero && fabs(here) < zero;
     if (*close || pair->j + 1 < pair->count || pair->count == n)
@@ -66,10 +67,10 @@ static int differentiate(struct pool *pool, const struct pair *pair, char *failu
         if (!status)
             status = nelson_band_new(pool, pair->k, 1, &nelson);
         if (!status)
-            status = nelson_band_prepare(&nelson, pair->k, pair->m, pair->lambda[pair->j], pair->phi);
+            status = nelson_band_prepare(&nelson, pair->k, pair->m, pair->lambda[pair->j], 1, pair->phi);
         if (status)
             return status;
-        nelson_band_solve(&nelson, 1, pair->phi, m_phi, p, &q, dphi);
+        nelson_band_solve(&nelson, 1, 1, pair->phi, m_phi, p, &q, dphi);
     }
     *dlambda = slope;
     return ROTID_OK;

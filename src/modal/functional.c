@@ -105,8 +105,10 @@ static int hybrid_quotient(struct functional *f, int mode)
 static double hybrid_quotient_derivative(const struct functional *f, int mode, int q)
 {
     const struct prediction *p = &f->prediction;
-    int k = f->pair[mode], n = p->size;
-    if (!uses_shape(f, mode))
+    int k = f->pair[mode], n = p->size, first;
+    /* R* is the eigenvalue whatever the measured shape is; the bracket needs how phi~ turns in a cluster, which dphi~ leaves out
+     */
+    if (!uses_shape(f, mode) || eigenvalue_cluster(p->count, p->lambda, k, &first) > 1)
         return p->dlambda[k + (ptrdiff_t)q * p->count];
     ptrdiff_t place = prediction_place(p, k, q);
     const double *measured = f->shape + (ptrdiff_t)mode * n, *phi = p->phi + (ptrdiff_t)k * n, *dphi = p->dphi + place;

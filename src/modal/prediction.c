@@ -52,14 +52,14 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     if (with_vectors && derivative == ROTID_MODAL)
         p->count = p->size;
     else if (with_vectors && count < p->size)
-        p->count++; /* the neighbour above the last: a vector is differentiated only where none is close */
+        p->count++; /* the neighbour above the last may be close to it */
     size_t vectors = (size_t)p->size * (size_t)p->count, nparam = (size_t)model->nparam;
     p->lambda = POOL_ARRAY(pool, double, p->count);
     p->phi = POOL_ARRAY(pool, double, vectors);
     p->dlambda = POOL_ARRAY(pool, double, (size_t)p->count *nparam);
     p->dphi = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
     p->right = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
-    p->constant = POOL_ARRAY(pool, double, with_vectors ? (size_t)p->count *nparam : 0);
+    p->constant = POOL_ARRAY(pool, double, with_vectors ? CLUSTER_MOST *(size_t)p->count *nparam : 0);
     p->m_phi = POOL_ARRAY(pool, double, with_vectors ? vectors : 0);
     p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
@@ -165,6 +165,12 @@ ptrdiff_t prediction_place(const struct prediction *p, int k, int q)
     return ((ptrdiff_t)k * p->model->nparam + q) * p->size;
 }
 
+/* [members * nparam] of mode k */
+static double *constants_of(const struct prediction *p, int k)
+{
+    return p->constant + (ptrdiff_t)k * p->model->nparam * CLUSTER_MOST;
+}
+
 /* P, Q and dlambda of mode k, with dK and dM of parameter q in place */
 static void form_right_side(struct prediction *p, int k, int q)
 {
@@ -180,31 +186,36 @@ static void form_right_side(struct prediction *p, int k, int q)
         dk_phi = p->kx + place;
         dm_phi = p->mx + place;
     }
-    p->dlambda[k + (ptrdiff_t)q * p->count] = nelson_right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, p->right + place,
-                                                                &p->constant[q + (ptrdiff_t)k * p->model->nparam]);
+    int first, members = eigenvalue_cluster(p->count, p->lambda, k, &first);
+    double *constant = constants_of(p, k) + (ptrdiff_t)q * members;
+    for (int j = 0; j < members; j++)
+        constant[j] = -0.5 * product_dot(n, p->phi + (ptrdiff_t)(first + j) * n, dm_phi);
+    p->dlambda[k + (ptrdiff_t)q * p->count] =
+        nelson_right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, p->right + place, &constant[k - first]);
 }
 
 /* dphi of mode k for every parameter */
 static int solve_vectors(struct prediction *p, int k)
 {
-    int n = p->size, nparam = p->model->nparam, status = ROTID_OK;
+    int n = p->size, nparam = p->model->nparam, status = ROTID_OK, first;
+    int members = eigenvalue_cluster(p->count, p->lambda, k, &first);
     ptrdiff_t place = prediction_place(p, k, 0);
-    const double *phi = p->phi + (ptrdiff_t)k * n, *m_phi = p->m_phi + (ptrdiff_t)k * n, *right = p->right + place,
-                 *constant = p->constant + (ptrdiff_t)k * nparam;
+    const double *phi = p->phi + (ptrdiff_t)first * n, *m_phi = p->m_phi + (ptrdiff_t)first * n, *right = p->right + place,
+                 *constant = constants_of(p, k);
     double *dphi = p->dphi + place;
     if (p->reduction == ROTID_REDUCTION_NONE) {
-        status = nelson_band_prepare(&p->nelson_band, &p->k, &p->m, p->lambda[k], phi);
+        status = nelson_band_prepare(&p->nelson_band, &p->k, &p->m, p->lambda[k], members, phi);
         if (!status)
-            nelson_band_solve(&p->nelson_band, nparam, phi, m_phi, right, constant, dphi);
+            nelson_band_solve(&p->nelson_band, nparam, members, phi, m_phi, right, constant, dphi);
         return status;
     }
     if (p->derivative == ROTID_NELSON)
-        status = nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, p->lambda[k], phi);
-    for (int q = 0; q < nparam && !status; q++, right += n, dphi += n)
+        status = nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, p->lambda[k], members, phi);
+    for (int q = 0; q < nparam && !status; q++, right += n, dphi += n, constant += members)
         if (p->derivative == ROTID_MODAL)
-            modal_superposition(n, p->lambda, p->phi, k, m_phi, right, constant[q], dphi);
+            modal_superposition(n, p->lambda, p->phi, k, first, members, m_phi, right, constant, dphi);
         else
-            nelson_dense_solve(&p->nelson_dense, phi, m_phi, right, constant[q], dphi);
+            nelson_dense_solve(&p->nelson_dense, members, phi, m_phi, right, constant, dphi);
     return status;
 }
 
@@ -213,15 +224,14 @@ static int differentiate_vectors(struct prediction *p, const double *x, const in
 {
     int n = p->size, status = ROTID_OK;
     for (int k = 0; k < p->count; k++) {
-        const double *phi = p->phi + (ptrdiff_t)k * n;
-        if (!wanted[k])
-            continue;
-        if (eigenvalue_is_close(p->count, p->lambda, k))
-            return ROTID_ERROR_CLOSE;
-        if (p->reduction == ROTID_REDUCTION_NONE)
-            matrix_multiply(&p->m, 1, phi, p->m_phi + (ptrdiff_t)k * n);
-        else
-            multiply_dense(n, p->condensed.mc, phi, p->m_phi + (ptrdiff_t)k * n);
+        int first, members = wanted[k] ? eigenvalue_cluster(p->count, p->lambda, k, &first) : 0;
+        for (int j = 0; j < members; j++) {
+            ptrdiff_t at = (ptrdiff_t)(first + j) * n;
+            if (p->reduction == ROTID_REDUCTION_NONE)
+                matrix_multiply(&p->m, 1, p->phi + at, p->m_phi + at);
+            else
+                multiply_dense(n, p->condensed.mc, p->phi + at, p->m_phi + at);
+        }
     }
     for (int q = 0; q < p->model->nparam && !status; q++) {
         status = prediction_matrix_derivatives(p, x, q);
