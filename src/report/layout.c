@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/text.h"
+
 void number_cell(FILE *out, int width, int decimals, double value)
 {
     if (isfinite(value))
@@ -36,27 +38,36 @@ void chance_cell(FILE *out, int width, double value)
         number_cell(out, width, 3, value);
 }
 
-static int begins_character(char c)
+/* Bytes of the next column: of a character, or one that is shown in its place. */
+static size_t next_column(const char *text)
 {
-    return ((unsigned char)c & 0xc0) != 0x80;
+    size_t bytes = text_utf8(text);
+    return bytes ? bytes : 1;
 }
 
 static int columns_of(const char *text, size_t bytes)
 {
     int columns = 0;
-    for (size_t i = 0; i < bytes; i++)
-        columns += begins_character(text[i]);
+    for (const char *end = text + bytes; text < end; text += next_column(text))
+        columns++;
     return columns;
+}
+
+static void put_column(FILE *out, const char *text, size_t bytes)
+{
+    if (text_visible(text))
+        (void)fwrite(text, 1, bytes, out);
+    else
+        (void)fputs(TEXT_REPLACEMENT, out); /* a line feed among them: it would end the row */
 }
 
 void text_cell(FILE *out, int width, const char *text)
 {
-    int columns = columns_of(text, strlen(text)), shown = columns > width ? width - 1 : columns, column = 0;
-    for (; *text; text++) {
-        column += begins_character(*text);
-        if (column > shown)
-            break;
-        (void)fputc(*text, out);
+    int columns = columns_of(text, strlen(text)), shown = columns > width ? width - 1 : columns;
+    for (int column = 0; column < shown; column++) {
+        size_t bytes = next_column(text);
+        put_column(out, text, bytes);
+        text += bytes;
     }
     (void)fprintf(out, "%*s", width - shown, columns > width ? "~" : "");
 }
@@ -88,13 +99,11 @@ static void put(struct wrap *wrap, const char *text, size_t bytes)
         (void)fputc(' ', wrap->out);
         wrap->column++;
     }
-    for (size_t i = 0; i < bytes; i++) {
-        if (begins_character(text[i])) {
-            if (wrap->column >= wrap->width - 1)
-                new_line(wrap);
-            wrap->column++;
-        }
-        (void)fputc(text[i], wrap->out);
+    for (const char *end = text + bytes; text < end; text += next_column(text)) {
+        if (wrap->column >= wrap->width - 1)
+            new_line(wrap);
+        wrap->column++;
+        put_column(wrap->out, text, next_column(text));
     }
     wrap->fresh = 0;
 }
