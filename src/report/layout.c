@@ -61,15 +61,31 @@ static void put_column(FILE *out, const char *text, size_t bytes)
         (void)fputs(TEXT_REPLACEMENT, out); /* a line feed among them: it would end the row */
 }
 
+int text_columns(const char *text)
+{
+    return columns_of(text, strlen(text));
+}
+
+static void put_columns(FILE *out, int columns, const char *text)
+{
+    for (size_t bytes; columns > 0; columns--, text += bytes) {
+        bytes = next_column(text);
+        put_column(out, text, bytes);
+    }
+}
+
 void text_cell(FILE *out, int width, const char *text)
 {
-    int columns = columns_of(text, strlen(text)), shown = columns > width ? width - 1 : columns;
-    for (int column = 0; column < shown; column++) {
-        size_t bytes = next_column(text);
-        put_column(out, text, bytes);
-        text += bytes;
-    }
+    int columns = text_columns(text), shown = columns > width ? width - 1 : columns;
+    put_columns(out, shown, text);
     (void)fprintf(out, "%*s", width - shown, columns > width ? "~" : "");
+}
+
+void name_cell(FILE *out, int width, const char *text)
+{
+    int columns = text_columns(text);
+    put_columns(out, columns, text);
+    (void)fprintf(out, "%*s", columns < width ? width - columns : 0, "");
 }
 
 static void new_line(struct wrap *wrap)
@@ -132,7 +148,7 @@ void wrap_item(struct wrap *wrap, const char *format, ...)
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    if (columns_of(text, strlen(text)) < wrap->width - wrap->indent)
+    if (text_columns(text) < wrap->width - wrap->indent)
         put(wrap, text, strlen(text));
     else
         wrap_words(wrap, text);

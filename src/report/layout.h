@@ -12,8 +12,12 @@ void signed_cell(FILE *out, int width, int decimals, double value);
 void digits_cell(FILE *out, int width, int digits, double value);
 /* A probability: three decimals, "<0.001" below. */
 void chance_cell(FILE *out, int width, double value);
-/* A text to the left; what does not fit ends in '~'. */
+/* A text to the left; what does not fit ends in '~'. Control characters, line feeds among them, become U+FFFD. */
 void text_cell(FILE *out, int width, const char *text);
+/* The same of any length, with at least `width` columns. */
+void name_cell(FILE *out, int width, const char *text);
+
+int text_columns(const char *text);
 
 /* Running text: lines of `width` columns, all but the first indented. */
 struct wrap {

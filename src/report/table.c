@@ -48,7 +48,8 @@ static void print_target(FILE *out, const struct rotor *rotor, const struct effe
 
 static void print_effect(FILE *out, const struct rotor *rotor, const struct effect *effect, const char *role)
 {
-    (void)fprintf(out, "%-12s %s, %s", effect->name, role, effect->kind->id);
+    name_cell(out, 12, effect->name);
+    (void)fprintf(out, " %s, %s", role, effect->kind->id);
     print_target(out, rotor, effect);
     for (int p = 0; p < effect_parameters(effect); p++) {
         const struct effect_parameter_name *parameter = &effect->kind->parameter[p];
@@ -69,7 +70,8 @@ static void print_causes(FILE *out, const struct job *job)
         print_effect(out, &job->rotor, &job->suspect[i].effect, "suspected");
     for (int i = 0; i < job->ncorrection; i++) {
         const struct correction *correction = &job->correction[i];
-        (void)fprintf(out, "%-12s taken out of the data, %s", correction->name, correction->id);
+        name_cell(out, 12, correction->name);
+        (void)fprintf(out, " taken out of the data, %s", correction->id);
         for (int s = 0; s < correction->nsensor; s++)
             (void)fprintf(out, "%s%d", s ? " and " : " of sensor ", correction->sensor[s]);
         (void)fprintf(out, "%s%s, value %.6g\n", correction->block ? " of " : "", correction->block ? correction->block : "",
@@ -99,7 +101,8 @@ void table_check(FILE *out, const struct job *job, const struct mass_properties 
         const struct material *material = &rotor->group[g].material;
         double from, to;
         rotor_group_span(rotor, g, &from, &to);
-        (void)fprintf(out, "%-12s %10.6f %10.6f  %10.4e  %10.4e  %5.3f  %12.2f\n", rotor->group[g].name, from, to, material->e,
+        name_cell(out, 12, rotor->group[g].name);
+        (void)fprintf(out, " %10.6f %10.6f  %10.4e  %10.4e  %5.3f  %12.2f\n", from, to, material->e,
                       material_shear_modulus(material), material->nu, material->rho);
     }
     print_causes(out, job);
@@ -224,7 +227,8 @@ static void print_parameters(FILE *out, const struct job *job, const rotid_fit_r
         double ratio = fabs(fit->x[p]) / (fit->ci_upper[p] - fit->ci_lower[p]); /* an interval shows two digits of its width */
         int digits = ratio > 1e3 && isfinite(ratio) ? (int)ceil(log10(ratio)) + 2 : 5;
         digits = digits < 5 ? 5 : digits > 8 ? 8 : digits;
-        (void)fprintf(out, "%-14s %14.*g  %-8s ", job->bounds[p].name, digits > 6 ? digits : 6, fit->x[p], job->bounds[p].unit);
+        name_cell(out, 14, job->bounds[p].name);
+        (void)fprintf(out, " %14.*g  %-8s ", digits > 6 ? digits : 6, fit->x[p], job->bounds[p].unit);
         if (isfinite(fit->ci_lower[p]))
             (void)fprintf(out, "%12.*g ...%12.*g", digits, fit->ci_lower[p], digits, fit->ci_upper[p]);
         else

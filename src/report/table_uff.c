@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "import/names.h"
 #include "report/layout.h"
 
@@ -35,17 +36,13 @@ static struct row take_row(const struct listing *listing, int first, int all)
     return row;
 }
 
-/* Texts in Latin-1, with a superscript of two or a micro, would spoil a terminal that expects UTF-8. */
+/* A unit in Latin-1, such as m/s with a superscript of two, can still be read. */
 static void print_clean(FILE *out, const char *text)
 {
-    for (const unsigned char *c = (const unsigned char *)text; *c; ++c) {
-        int pair = *c >= 0xc2 && *c < 0xe0 && (c[1] & 0xc0) == 0x80;
-        if (*c < 0x80 || pair)
-            (void)fputc(*c, out);
-        else
-            (void)fputs(*c == 0xb2 ? "2" : "?", out);
-        if (pair)
-            (void)fputc(*++c, out);
+    for (size_t bytes; *text; text += bytes) {
+        int is_two = !text_utf8(text) && (unsigned char)*text == 0xb2;
+        bytes = text_utf8(text) ? text_utf8(text) : 1;
+        (void)fwrite(is_two ? "2" : text, 1, bytes, out);
     }
 }
 
