@@ -11,6 +11,7 @@
 #include <cJSON.h>
 
 #include "base/text.h"
+#include "report/chart.h"
 #include "report/layout.h"
 #include "shell.h"
 #include "study/results.h"
@@ -347,6 +348,22 @@ static const char *cell_of(int width, const char *text)
     return kept;
 }
 
+static void names_along_the_axis_keep_their_columns(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&text, &length);
+    struct strip strip;
+    strip_open(&strip, 1, 21);
+    strip_name(&strip, 0, 0.5, LETTERS "\x1b" "bcdefghijk");
+    strip_name(&strip, 0.5, 1, "\xc3\xa4\xc3\xa4");
+    strip_print(&strip, stream, 2, "z");
+    (void)fclose(stream);
+    assert_string_equal(text, "z |" LETTERS "\xef\xbf\xbd" "bcdef|\xc3\xa4\xc3\xa4\n");
+    free(text);
+}
+
 /* One column for one character or one byte that is none, so that rows stay in line. */
 static void cells_keep_their_width(void **state)
 {
@@ -389,6 +406,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(results_of_commands, setup, teardown),
         cmocka_unit_test_setup_teardown(results_of_studies, setup, teardown),
         cmocka_unit_test_setup_teardown(arguments, setup, teardown),
+        cmocka_unit_test_setup_teardown(names_along_the_axis_keep_their_columns, setup, teardown),
         cmocka_unit_test_setup_teardown(cells_keep_their_width, setup, teardown),
         cmocka_unit_test_setup_teardown(every_character, setup, teardown),
     };

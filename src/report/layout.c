@@ -53,9 +53,10 @@ static int columns_of(const char *text, size_t bytes)
     return columns;
 }
 
-static void put_column(FILE *out, const char *text, size_t bytes)
+void text_character(FILE *out, const char *text)
 {
-    if (text_visible(text))
+    size_t bytes = text_visible(text);
+    if (bytes)
         (void)fwrite(text, 1, bytes, out);
     else
         (void)fputs(TEXT_REPLACEMENT, out); /* a line feed among them: it would end the row */
@@ -68,10 +69,8 @@ int text_columns(const char *text)
 
 static void put_columns(FILE *out, int columns, const char *text)
 {
-    for (size_t bytes; columns > 0; columns--, text += bytes) {
-        bytes = next_column(text);
-        put_column(out, text, bytes);
-    }
+    for (; columns > 0; columns--, text += next_column(text))
+        text_character(out, text);
 }
 
 void text_cell(FILE *out, int width, const char *text)
@@ -119,7 +118,7 @@ static void put(struct wrap *wrap, const char *text, size_t bytes)
         if (wrap->column >= wrap->width - 1)
             new_line(wrap);
         wrap->column++;
-        put_column(wrap->out, text, next_column(text));
+        text_character(wrap->out, text);
     }
     wrap->fresh = 0;
 }

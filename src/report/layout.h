@@ -18,6 +18,8 @@ void text_cell(FILE *out, int width, const char *text);
 void name_cell(FILE *out, int width, const char *text);
 
 int text_columns(const char *text);
+/* The character that begins here, or U+FFFD. */
+void text_character(FILE *out, const char *text);
 
 /* Running text: lines of `width` columns, all but the first indented. */
 struct wrap {
