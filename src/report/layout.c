@@ -6,34 +6,59 @@
 
 #include "base/text.h"
 
+static void put_number(FILE *out, int width, const char *text)
+{
+    (void)fprintf(out, "%*s", width, text);
+}
+
+/* A text of a number, and one of few digits where that is wider than its cell. */
+static void put_wide(FILE *out, int width, const char *text, double value)
+{
+    char few[32];
+    (void)snprintf(few, sizeof few, "%.1e", value);
+    put_number(out, width, width > 0 && (int)strlen(text) > width ? few : text);
+}
+
 void number_cell(FILE *out, int width, int decimals, double value)
 {
-    if (isfinite(value))
-        (void)fprintf(out, "%*.*f", width, decimals, value);
-    else
-        (void)fprintf(out, "%*s", width, "-");
+    char text[400]; /* the largest number has 309 digits before its point */
+    (void)snprintf(text, sizeof text, "%.*f", decimals, value);
+    put_wide(out, width, isfinite(value) ? text : "-", value);
 }
 
 void signed_cell(FILE *out, int width, int decimals, double value)
 {
-    if (isfinite(value))
-        (void)fprintf(out, "%+*.*f", width, decimals, value);
-    else
-        (void)fprintf(out, "%*s", width, "-");
+    char text[400];
+    (void)snprintf(text, sizeof text, "%+.*f", decimals, value);
+    put_wide(out, width, isfinite(value) ? text : "-", value);
 }
 
 void digits_cell(FILE *out, int width, int digits, double value)
 {
+    char text[64];
+    put_number(out, width, number_text(text, digits, value));
+}
+
+void power_cell(FILE *out, int width, int decimals, double value)
+{
+    char text[64];
+    (void)snprintf(text, sizeof text, "%.*e", decimals, value);
+    put_number(out, width, isfinite(value) ? text : "-");
+}
+
+const char *number_text(char text[64], int digits, double value)
+{
     if (isfinite(value))
-        (void)fprintf(out, "%*.*g", width, digits, value);
+        (void)snprintf(text, 64, "%.*g", digits, value);
     else
-        (void)fprintf(out, "%*s", width, "-");
+        (void)strcpy(text, "-");
+    return text;
 }
 
 void chance_cell(FILE *out, int width, double value)
 {
     if (value < 0.001)
-        (void)fprintf(out, "%*s", width, "<0.001");
+        put_number(out, width, "<0.001");
     else
         number_cell(out, width, 3, value);
 }
