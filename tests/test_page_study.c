@@ -250,7 +250,8 @@ static void broken_lines_are_told_with_their_place(void **state)
     static const struct {
         const char *from, *to, *says;
     } wrong[] = {
-        {"\"status\":\"converged\"", "\"status\":\"perhaps\"", "2:1: this line is no result: expected converged, at_bound, not_converged or failed as status"},
+        {"\"status\":\"converged\"", "\"status\":\"perhaps\"",
+         "2:1: this line is no result: expected converged, at_bound, not_converged or failed as status"},
         {"\"objective\":", "\"objective\":\"x\",\"y\":", "2:1: this line is no result: expected a number or null as objective"},
         {"\"parameters\":[{", "\"parameters\":[7,{", "2:1: this line is no result: expected a text as name of a parameter"},
         {"\"modes\":[", "\"modes\":7,\"y\":[", "2:1: this line is no result: expected a list as modes"},

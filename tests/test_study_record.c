@@ -41,12 +41,12 @@ static const char *line_of(long run, const char *status, double value)
     static char text[8][500];
     static int next;
     next = (next + 1) % 8;
-    (void)snprintf(
-        text[next], sizeof text[next],
-        "{\"run\":%ld,\"cell\":{\"deck\":\"d\"},\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
-        "\"objective\":%g,\"chi2_per_dof\":null,\"evaluations\":1,\"parameters\":[{\"name\":\"a\",\"unit\":\"1\",\"value\":%g,\"std\":2,\"ci95\":[0,4],\"truth\":3}],"
-        "\"modes\":[],\"seconds\":%g}\n",
-        run, run, status, value, value, 0.001 * (double)run);
+    (void)snprintf(text[next], sizeof text[next],
+                   "{\"run\":%ld,\"cell\":{\"deck\":\"d\"},\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
+                   "\"objective\":%g,\"chi2_per_dof\":null,\"evaluations\":1,\"parameters\":[{\"name\":\"a\",\"unit\":\"1\","
+                   "\"value\":%g,\"std\":2,\"ci95\":[0,4],\"truth\":3}],"
+                   "\"modes\":[],\"seconds\":%g}\n",
+                   run, run, status, value, value, 0.001 * (double)run);
     return text[next];
 }
 

@@ -18,18 +18,18 @@
 #include "support.h"
 
 /* Colour, window title, backspace, DEL, C1 as a character and as a byte, controls of direction, separators, no UTF-8. */
-#define STEERS                                                                                                                    \
-    "\x1b[31m\x1b]0;t\x07\b\r\x7f\xc2\x9b"                                                                                         \
+#define STEERS                                                                                                                   \
+    "\x1b[31m\x1b]0;t\x07\b\r\x7f\xc2\x9b"                                                                                       \
     "1m\xd8\x9c\xe2\x80\x8e\xe2\x80\x8f\xe2\x80\xa8\xe2\x80\xa9\xe2\x80\xaa\xe2\x80\xae\xe2\x81\xa6\xe2\x81\xa9"
-#define RAW     "\x9b\x90\xff\xc3\xe2\x82"              /* what a deck may have: it is no character, so it controls none */
+#define RAW     "\x9b\x90\xff\xc3\xe2\x82"             /* what a deck may have: it is no character, so it controls none */
 #define LETTERS "\xc3\xa4\xe2\x82\xac\xf0\x9d\x84\x9e" /* a umlaut, euro, clef: they stay */
 #define HOSTILE STEERS RAW LETTERS
 
-#define DECK                                                                                                                      \
-    "*HEADING\nrotor " RAW LETTERS "\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"                             \
-    "*SHAFT, NAME=co" RAW LETTERS "re, MATERIAL=steel\n1, 0.1, 0, 20\n*SENSORS\n1, 0\n2, 0.2\n3, 0.4\n4, 0.6\n5, 0.8\n6, 1\n"      \
-    "*MODES\n1, 448, 0.002\n2, 1184, 0.002\n3, 2199, 0.002\n*NOISE, FREQUENCY=0.002\n*FIT, REDUCTION=NONE\n"                       \
-    "*IDENTIFY\nco" RAW LETTERS "re.E, 1e11, 4e11, 2e11\nco" RAW LETTERS "re.G, 1e10, 4e11, 8e10\n"                                \
+#define DECK                                                                                                                     \
+    "*HEADING\nrotor " RAW LETTERS "\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"                            \
+    "*SHAFT, NAME=co" RAW LETTERS "re, MATERIAL=steel\n1, 0.1, 0, 20\n*SENSORS\n1, 0\n2, 0.2\n3, 0.4\n4, 0.6\n5, 0.8\n6, 1\n"    \
+    "*MODES\n1, 448, 0.002\n2, 1184, 0.002\n3, 2199, 0.002\n*NOISE, FREQUENCY=0.002\n*FIT, REDUCTION=NONE\n"                     \
+    "*IDENTIFY\nco" RAW LETTERS "re.E, 1e11, 4e11, 2e11\nco" RAW LETTERS "re.G, 1e10, 4e11, 8e10\n"                              \
     "*FRF, LOW=100, HIGH=3000, LINES=1201\n1, 6\n2, 6\n3, 6\n4, 6\n5, 6\n6, 6\n"
 
 static char folder[] = "/tmp/test_terminal_XXXXXX";
@@ -71,7 +71,8 @@ static int teardown(void **state)
     return close_test_pool(state);
 }
 
-/* Every byte belongs to a character that is shown, but for line feeds and tabs. latin: bytes from a0 may be letters of Latin-1. */
+/* Every byte belongs to a character that is shown, but for line feeds and tabs. latin: bytes from a0 may be letters of Latin-1.
+ */
 static void assert_text(const char *what, const char *text, size_t length, int latin)
 {
     for (const char *c = text; c < text + length;) {
@@ -161,10 +162,14 @@ static void decks_with_control_characters(void **state)
     (void)state;
     static const struct {
         const char *text, *says;
-    } table[] = {{"\x1b[2J", "byte 0x1b is not text"},      {"\x7f", "character U+007F does not stand for itself"},
-                 {"\xc2\x85", "character U+0085"},          {"\xd8\x9c", "character U+061C"},
-                 {"\xe2\x80\x8f", "character U+200F"},      {"\xe2\x80\xa8", "character U+2028"},
-                 {"\xe2\x80\xae", "character U+202E"},      {"\xe2\x81\xa6", "character U+2066"},
+    } table[] = {{"\x1b[2J", "byte 0x1b is not text"},
+                 {"\x7f", "character U+007F does not stand for itself"},
+                 {"\xc2\x85", "character U+0085"},
+                 {"\xd8\x9c", "character U+061C"},
+                 {"\xe2\x80\x8f", "character U+200F"},
+                 {"\xe2\x80\xa8", "character U+2028"},
+                 {"\xe2\x80\xae", "character U+202E"},
+                 {"\xe2\x81\xa6", "character U+2066"},
                  {"** \xe2\x80\xae", "a.inp:2:8: character U+202E"}};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         write_file("a.inp", pool_format(&test_pool, "*HEADING\nrow %s" DECK, table[i].text));
@@ -184,9 +189,10 @@ static void extended_decks(void **state)
 {
     (void)state;
     static char text[1 << 16];
-    write_file("a.inp", "*HEADING\nL\xe4nge \x96 \xff " LETTERS "\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
-                        "*SHAFT, NAME=L\xe4ufer, MATERIAL=steel\n1, 0.1, 0, 20\n*MODES\n1, 430\n2, 1150\n3, 2150\n4, 3380\n5, 4700\n"
-                        "*NOISE, FREQUENCY=0.002\n*DISK, NAME=d\n0.3, 2, 0.01\n*IDENTIFY\nL\xe4ufer.E, 1e11, 4e11, 2e11\n");
+    write_file("a.inp",
+               "*HEADING\nL\xe4nge \x96 \xff " LETTERS "\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+               "*SHAFT, NAME=L\xe4ufer, MATERIAL=steel\n1, 0.1, 0, 20\n*MODES\n1, 430\n2, 1150\n3, 2150\n4, 3380\n5, 4700\n"
+               "*NOISE, FREQUENCY=0.002\n*DISK, NAME=d\n0.3, 2, 0.01\n*IDENTIFY\nL\xe4ufer.E, 1e11, 4e11, 2e11\n");
     (void)RUN("diagnose", "a.inp", "--extended", "b.inp", "--replicates", "100");
     assert_text_file("b.inp", 1);
     (void)read_file("b.inp", text, sizeof text);
@@ -243,8 +249,9 @@ static void universal_files(void **state)
 static void poison(cJSON *json)
 {
     for (; json; json = json->next) {
-        if (cJSON_IsString(json) && (!json->string || (strcmp(json->string, "command") != 0 && strcmp(json->string, "status") != 0 &&
-                                                       strcmp(json->string, "functional") != 0)))
+        if (cJSON_IsString(json) &&
+            (!json->string || (strcmp(json->string, "command") != 0 && strcmp(json->string, "status") != 0 &&
+                               strcmp(json->string, "functional") != 0)))
             assert_non_null(cJSON_SetValuestring(json, HOSTILE "\nrotid: a line of its own"));
         poison(json->child);
     }
@@ -314,9 +321,10 @@ static void results_of_studies(void **state)
 static void arguments(void **state)
 {
     (void)state;
-    static const char *const options[] = {"--set",    "--at",     "--step",   "--points",      "--threads", "--seed",      "--format",
-                                          "--band",   "--method", "--pick",   "--reference",   "--shard",   "--timeout",   "--json",
-                                          "--output", "--range",  "--order",  "--exponential", "--block",   "--estimator", "--extended"};
+    static const char *const options[] = {"--set",     "--at",        "--step",    "--points", "--threads",   "--seed",
+                                          "--format",  "--band",      "--method",  "--pick",   "--reference", "--shard",
+                                          "--timeout", "--json",      "--output",  "--range",  "--order",     "--exponential",
+                                          "--block",   "--estimator", "--extended"};
     static const char *const commands[] = {"check", "sensitivity", "diagnose", "frf", "ema", "export", "uff", "report", "study"};
     write_file("a.inp", DECK);
     for (size_t o = 0; o < sizeof options / sizeof *options; o++)
@@ -356,11 +364,14 @@ static void names_along_the_axis_keep_their_columns(void **state)
     FILE *stream = open_memstream(&text, &length);
     struct strip strip;
     strip_open(&strip, 1, 21);
-    strip_name(&strip, 0, 0.5, LETTERS "\x1b" "bcdefghijk");
+    strip_name(&strip, 0, 0.5,
+               LETTERS "\x1b"
+                       "bcdefghijk");
     strip_name(&strip, 0.5, 1, "\xc3\xa4\xc3\xa4");
     strip_print(&strip, stream, 2, "z");
     (void)fclose(stream);
-    assert_string_equal(text, "z |" LETTERS "\xef\xbf\xbd" "bcdef|\xc3\xa4\xc3\xa4\n");
+    assert_string_equal(text, "z |" LETTERS "\xef\xbf\xbd"
+                              "bcdef|\xc3\xa4\xc3\xa4\n");
     free(text);
 }
 
@@ -370,10 +381,14 @@ static void cells_keep_their_width(void **state)
     (void)state;
     assert_string_equal(cell_of(5, "abc"), "abc  |");
     assert_string_equal(cell_of(5, LETTERS), LETTERS "  |");
-    assert_string_equal(cell_of(5, "a\x1b\xc2\x9b" "b"), "a\xef\xbf\xbd\xef\xbf\xbd" "b |");
+    assert_string_equal(cell_of(5, "a\x1b\xc2\x9b"
+                                   "b"),
+                        "a\xef\xbf\xbd\xef\xbf\xbd"
+                        "b |");
     assert_string_equal(cell_of(5, "\x9b\xff\xe2\x82"), "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd |");
     assert_string_equal(cell_of(3, "\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4"), "\xc3\xa4\xc3\xa4~|");
-    assert_string_equal(cell_of(3, "a\nb"), "a\xef\xbf\xbd" "b|");
+    assert_string_equal(cell_of(3, "a\nb"), "a\xef\xbf\xbd"
+                                            "b|");
 }
 
 static void every_character(void **state)
@@ -387,7 +402,8 @@ static void every_character(void **state)
         else if (u < 0x800)
             (void)snprintf(text, sizeof text, "%c%c", (int)(0xc0 | u >> 6), (int)(0x80 | (u & 0x3f)));
         else
-            (void)snprintf(text, sizeof text, "%c%c%c", (int)(0xe0 | u >> 12), (int)(0x80 | (u >> 6 & 0x3f)), (int)(0x80 | (u & 0x3f)));
+            (void)snprintf(text, sizeof text, "%c%c%c", (int)(0xe0 | u >> 12), (int)(0x80 | (u >> 6 & 0x3f)),
+                           (int)(0x80 | (u & 0x3f)));
         int is_control = u < 0x20 || (u >= 0x7f && u <= 0x9f) || u == 0x61c || u == 0x200e || u == 0x200f || u == 0x2028 ||
                          u == 0x2029 || (u >= 0x202a && u <= 0x202e) || (u >= 0x2066 && u <= 0x2069);
         assert_int_equal(text_is_control(text, &code), is_control);

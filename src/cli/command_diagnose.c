@@ -20,8 +20,7 @@ static int write_extended(struct command *command, const struct diagnosis *d, in
     }
     int status = deck_write_extended(&command->pool, d, command->deck, &text);
     if (status) {
-        terminal_say("rotid: cannot write %s: no deck can say this model (%s)\n", command->extended,
-                      rotid_status_text(status));
+        terminal_say("rotid: cannot write %s: no deck can say this model (%s)\n", command->extended, rotid_status_text(status));
         return EXIT_INTERNAL;
     }
     return command_write_file(command, command->extended, text, code);
@@ -42,7 +41,8 @@ int command_diagnose(struct command *command)
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        const struct diagnosis_view view = {terminal_out(), &command->provenance, &command->job, &diagnosis, command->verbose, WIDTH};
+        const struct diagnosis_view view = {terminal_out(), &command->provenance, &command->job,
+                                            &diagnosis,     command->verbose,     WIDTH};
         table_diagnose(&view);
         table_notes(terminal_out(), &command->messages);
     }

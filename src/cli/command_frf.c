@@ -44,7 +44,7 @@ static int write_output(struct command *command, const struct frf_view *view, in
     if (!status)
         return code;
     terminal_say("rotid: cannot write %s: %s\n", command->output,
-                  status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+                 status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
     return EXIT_INTERNAL;
 }
 

@@ -19,8 +19,14 @@ static void show_progress(void *context, const struct study_progress *now)
         return;
     double rate = (double)now->computed / now->seconds, left = (double)(now->wanted - now->done) / rate;
     int minutes = left >= 120, hours = left >= 7200;
-    terminal_progress("rotid: %ld of %ld runs, %ld failed, %.3g a second, %.*f %s left", now->done, now->wanted, now->failed, rate,
-                      hours, hours ? left / 3600 : minutes ? left / 60 : left, hours ? "h" : minutes ? "min" : "s");
+    terminal_progress("rotid: %ld of %ld runs, %ld failed, %.3g a second, %.*f %s left", now->done, now->wanted, now->failed,
+                      rate, hours,
+                      hours     ? left / 3600
+                      : minutes ? left / 60
+                                : left,
+                      hours     ? "h"
+                      : minutes ? "min"
+                                : "s");
 }
 
 static int in_processes(void *context, struct command *command, const struct study *study, struct study_record *record)
@@ -91,7 +97,7 @@ static int finish(struct command *command, struct study_record *record, int code
     if (!status)
         return code;
     terminal_say("rotid: every run is in %s, but it cannot be put in order: %s\n", command->output,
-                  status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+                 status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
     return EXIT_INTERNAL;
 }
 
@@ -113,13 +119,12 @@ int study_conduct(struct command *command, const struct study *study, study_comp
         terminal_say("rotid: %ld of %ld runs are in %s already\n", before, record.wanted, command->output);
     status = compute(context, command, study, &record);
     if (status < 0) {
-        terminal_say("rotid: stopped, %ld of %ld runs are in %s, the same command goes on with the rest: %s\n",
-                      record.done, record.wanted, command->output,
-                      status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+        terminal_say("rotid: stopped, %ld of %ld runs are in %s, the same command goes on with the rest: %s\n", record.done,
+                     record.wanted, command->output, status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
         code = EXIT_INTERNAL;
     } else if (record.done < record.wanted) {
-        terminal_say("rotid: interrupted, %ld of %ld runs are in %s; the same command goes on with the rest\n",
-                      record.done, record.wanted, command->output);
+        terminal_say("rotid: interrupted, %ld of %ld runs are in %s; the same command goes on with the rest\n", record.done,
+                     record.wanted, command->output);
         code = EXIT_DOUBTFUL;
     } else {
         code = finish(command, &record, code);
@@ -135,8 +140,8 @@ static int merge(struct command *command)
     if (status)
         return refuse(command, status);
     if (merged.missing)
-        terminal_say("rotid: %ld of %ld runs are missing in %s: %s; rotid study PLAN -o %s computes them\n",
-                      merged.missing, merged.runs, command->output, merged.list, command->output);
+        terminal_say("rotid: %ld of %ld runs are missing in %s: %s; rotid study PLAN -o %s computes them\n", merged.missing,
+                     merged.runs, command->output, merged.list, command->output);
     return report(command, command->output, merged.missing || merged.failed ? EXIT_DOUBTFUL : EXIT_DONE);
 }
 

@@ -40,12 +40,12 @@ static int convert(struct command *command)
     if (output_close(&output))
         return fail_output(command);
     if (command_wants_table(command))
-        (void)fprintf(terminal_out(), "\n%s: %d function%s%s, %d other set%s, %d of them copied as they are\n", command->output, result.functions,
-                     result.functions == 1 ? "" : "s",
-                     !result.functions  ? ""
-                     : result.is_binary ? " in binary (58b, little endian)"
-                                        : " as text (58)",
-                     result.others + result.copied, result.others + result.copied == 1 ? "" : "s", result.copied);
+        (void)fprintf(terminal_out(), "\n%s: %d function%s%s, %d other set%s, %d of them copied as they are\n", command->output,
+                      result.functions, result.functions == 1 ? "" : "s",
+                      !result.functions  ? ""
+                      : result.is_binary ? " in binary (58b, little endian)"
+                                         : " as text (58)",
+                      result.others + result.copied, result.others + result.copied == 1 ? "" : "s", result.copied);
     return EXIT_DONE;
 }
 

@@ -235,7 +235,7 @@ static int read_line(struct reader *reader, char *whole, size_t length, int line
         if (*c != '\t' && text_is_control(c, &code)) {
             message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(c - line_text) + 1,
                         "character U+%04X does not stand for itself, expected text without control characters", code);
-            return 1;
+            break;
         }
     }
     if (line == 1 && length >= 3 && !memcmp(line_text, "\xef\xbb\xbf", 3))

@@ -117,7 +117,9 @@ static void put_text(struct deck_writer *w, const char *text)
     for (; *text; text += taken) {
         size_t bytes = text_visible(text);
         taken = bytes ? bytes : text_utf8(text) ? text_utf8(text) : 1;
-        const char *shown = (*text == '*' && text[1] == '*') || (unsigned char)*text < ' ' ? " " : bytes ? text : TEXT_REPLACEMENT;
+        const char *shown = (*text == '*' && text[1] == '*') || (unsigned char)*text < ' ' ? " "
+                            : bytes                                                        ? text
+                                                                                           : TEXT_REPLACEMENT;
         size_t count = shown == text ? bytes : strlen(shown);
         if (length + count > DECK_LINE_LENGTH)
             break;

@@ -1,5 +1,6 @@
-/* Standard output and standard error. What is printed passes one filter here, whatever deck, file or argument it comes from: control
- * characters and bytes that are no UTF-8 become U+FFFD; line feeds and tabs stay. No other file of the program names the two. */
+/* Standard output and standard error. What is printed passes one filter here, whatever deck, file or argument it comes from:
+ * control characters and bytes that are no UTF-8 become U+FFFD; line feeds and tabs stay. No other file of the program names the
+ * two. */
 #ifndef ROTID_REPORT_TERMINAL_H
 #define ROTID_REPORT_TERMINAL_H
 

@@ -15,11 +15,11 @@ struct study_record {
     char *path; /* without symbolic links */
     struct header header;
     char study[DIGEST_LETTERS + 1]; /* stamp of its lines */
-    char *state;               /* [header.runs] of enum record_state; failed ones that are to be tried again are missing */
-    long wanted, done, failed; /* of the shard; failed ones are among those done */
-    long next;                 /* where record_take goes on */
-    long last;                 /* of the last line, -1 where there is none */
-    int in_order;              /* the lines stand in order of the runs, once each */
+    char *state;                    /* [header.runs] of enum record_state; failed ones that are to be tried again are missing */
+    long wanted, done, failed;      /* of the shard; failed ones are among those done */
+    long next;                      /* where record_take goes on */
+    long last;                      /* of the last line, -1 where there is none */
+    int in_order;                   /* the lines stand in order of the runs, once each */
     off_t length;
     int unsynced;
     double synced; /* on the clock */

@@ -101,12 +101,15 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
 static int refuse_stamp(struct results *r, const struct result_line *line)
 {
     static const char *const texts[] = {
-        [STAMP_NONE] = "this line does not end in its digest, expected a line of rotid study: without this one the run is computed "
-                       "again; a file of an early version has no digests at all and cannot be checked",
-        [STAMP_CHANGED] = "this line is not as rotid wrote it, its digest differs, expected the line as it was: without it the run "
-                          "is computed again",
-        [STAMP_OTHER_STUDY] = "this line is of another study than the first line of the file, expected lines of that one: without "
-                              "it the run is computed again",
+        [STAMP_NONE] =
+            "this line does not end in its digest, expected a line of rotid study: without this one the run is computed "
+            "again; a file of an early version has no digests at all and cannot be checked",
+        [STAMP_CHANGED] =
+            "this line is not as rotid wrote it, its digest differs, expected the line as it was: without it the run "
+            "is computed again",
+        [STAMP_OTHER_STUDY] =
+            "this line is of another study than the first line of the file, expected lines of that one: without "
+            "it the run is computed again",
     };
     enum stamp_fault fault = stamp_check(r->study, line->text, line->length);
     if (fault)

@@ -16,8 +16,8 @@ struct results {
     char study[DIGEST_LETTERS + 1]; /* what its lines are stamped with */
     char *there;                    /* [header.runs] 1: a line of the run failed, 2: one did not */
     int number;                     /* of the line read last, from 1 */
-    off_t next; /* where the next line begins; at the end: where the last whole one ends */
-    off_t size; /* of the file, beyond `next` where the last line is cut */
+    off_t next;                     /* where the next line begins; at the end: where the last whole one ends */
+    off_t size;                     /* of the file, beyond `next` where the last line is cut */
     char *buffer;
     size_t capacity, first, count; /* bytes of the buffer not yet given out */
 };
