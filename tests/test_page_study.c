@@ -10,6 +10,7 @@
 #include "page/by_modes.h"
 #include "page/page.h"
 #include "page_bench.h"
+#include "study/stamp.h"
 #include "study_bench.h"
 #include "support.h"
 
@@ -213,6 +214,35 @@ static void many_decks_stand_beside_each_other(void **state)
 
 /* ------------------------------------------------------------------------------------------------------------ broken files */
 
+/* The file of results with its second line stamped anew. */
+static char *stamp_second(const char *text)
+{
+    struct pool pool;
+    struct header header;
+    char study[DIGEST_LETTERS + 1];
+    const char *line = strchr(text, '\n') + 1, *end = strchr(line, '\n') + 1, *stamp = strstr(line, ",\"study\":\"");
+    cJSON *json = cJSON_ParseWithLength(text, (size_t)(line - text));
+    pool_open(&pool, NULL);
+    assert_true(stamp && stamp < end && !results_header_read(&pool, json, &header));
+    cJSON_Delete(json);
+    stamp_study(&header, study);
+    char *stamped = stamp_line(study, pool_format(&pool, "%.*s}\n", (int)(stamp - line), line));
+    char *all = strdup(pool_format(&pool, "%.*s%s%s", (int)(line - text), text, stamped, end));
+    free(stamped);
+    pool_close(&pool);
+    return all;
+}
+
+static void assert_refused(const char *text, const char *says)
+{
+    page_write_file("broken.jsonl", text);
+    assert_int_equal(page_run("cd %s; %s report broken.jsonl -o broken", page_path(""), ROTID_PROGRAM), 2);
+    if (!strstr(page_err, says))
+        print_error("expected '%s', got '%s'\n", says, page_err);
+    assert_non_null(strstr(page_err, says));
+    assert_false(page_exists("broken"));
+}
+
 static void broken_lines_are_told_with_their_place(void **state)
 {
     (void)state;
@@ -220,10 +250,11 @@ static void broken_lines_are_told_with_their_place(void **state)
     static const struct {
         const char *from, *to, *says;
     } wrong[] = {
-        {"\"status\":\"converged\"", "\"status\":\"perhaps\"", "line 2.status: is 'perhaps', expected converged, at_bound"},
-        {"\"objective\":", "\"objective\":\"x\",\"y\":", "line 2.objective: is a text, expected a number"},
-        {"\"parameters\":[{", "\"parameters\":[7,{", "line 2.parameters[0]: is a number, expected an object"},
-        {"\"modes\":[", "\"modes\":7,\"y\":[", "line 2.modes: is a number, expected a list"},
+        {"\"status\":\"converged\"", "\"status\":\"perhaps\"",
+         "2:1: this line is no result: expected converged, at_bound, not_converged or failed as status"},
+        {"\"objective\":", "\"objective\":\"x\",\"y\":", "2:1: this line is no result: expected a number or null as objective"},
+        {"\"parameters\":[{", "\"parameters\":[7,{", "2:1: this line is no result: expected a text as name of a parameter"},
+        {"\"modes\":[", "\"modes\":7,\"y\":[", "2:1: this line is no result: expected a list as modes"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         const char *whole = page_read("truth.jsonl"), *at = strstr(strchr(whole, '\n'), wrong[i].from);
@@ -231,13 +262,11 @@ static void broken_lines_are_told_with_their_place(void **state)
         char *broken = malloc(strlen(whole) + strlen(wrong[i].to) + 1);
         assert_non_null(broken);
         (void)sprintf(broken, "%.*s%s%s", (int)(at - whole), whole, wrong[i].to, at + strlen(wrong[i].from)); /* NOLINT: fits */
-        page_write_file("broken.jsonl", broken);
+        char *forged = stamp_second(broken);
+        assert_refused(broken, "broken.jsonl:2:1: this line is not as rotid wrote it");
+        assert_refused(forged, wrong[i].says);
         free(broken);
-        assert_int_equal(page_run("cd %s; %s report broken.jsonl -o broken", page_path(""), ROTID_PROGRAM), 2);
-        if (!strstr(page_err, wrong[i].says))
-            print_error("expected '%s', got '%s'\n", wrong[i].says, page_err);
-        assert_non_null(strstr(page_err, wrong[i].says));
-        assert_false(page_exists("broken"));
+        free(forged);
     }
     page_write_file("other.jsonl", "{\"a\": 1}\n{\"b\": 2}\n");
     assert_int_equal(page_run("cd %s; %s report other.jsonl -o broken", page_path(""), ROTID_PROGRAM), 2);

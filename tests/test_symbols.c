@@ -161,6 +161,17 @@ static void the_library_does_not_print_or_exit(void **state)
     assert_non_null(find_call(called_by("uff"), no_files));
 }
 
+/* What is printed passes one filter: no other file can reach the two streams. */
+static void one_file_knows_the_terminal(void **state)
+{
+    (void)state;
+    assert_string_equal(shell(&test_pool,
+                              "cd " ROTID_BUILD "/src && find . -name '*.o' ! -path './mpi/*' | xargs nm -A -u | "
+                              "awk '$NF ~ /^(__)?(stdout|stderr|v?printf(_chk)?|puts|putchar|perror|psignal|v?warnx?|v?errx?|"
+                              "v?dprintf(_chk)?)(@.*)?$/ { sub(/:.*/, \"\"); print }' | sort -u"),
+                        "./report/terminal.o\n");
+}
+
 /* Static variables that can be written to would be shared by all calls. */
 static void the_library_keeps_no_state(void **state)
 {
@@ -178,6 +189,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_shared_library_shows_what_the_header_declares, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_static_library_shows_what_the_header_declares, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_library_does_not_print_or_exit, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(one_file_knows_the_terminal, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_library_keeps_no_state, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,6 +6,7 @@
 #include "ema/ema.h"
 #include "import/measurement.h"
 #include "report/json.h"
+#include "report/terminal.h"
 #include "run/job.h"
 
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };

@@ -22,7 +22,7 @@ static int write_modes(struct command *command, const struct measurement *measur
             status = output_close(&output);
     }
     if (status == ROTID_ERROR_IO) {
-        (void)fprintf(stderr, "rotid: %s: cannot be written: %s\n", command->output, strerror(errno));
+        terminal_say("rotid: %s: cannot be written: %s\n", command->output, strerror(errno));
         return EXIT_INTERNAL;
     }
     return status ? command_fail(command, status) : EXIT_DONE;
@@ -65,9 +65,9 @@ int command_ema(struct command *command)
     if (!status)
         status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
     if (terminal)
-        (void)fputs("\r\033[K", stderr);
+        terminal_progress_end();
     if (status == ROTID_STOP_CANCELLED) {
-        (void)fprintf(stderr, "rotid: interrupted; nothing was written\n");
+        terminal_say("rotid: interrupted; nothing was written\n");
         return EXIT_DOUBTFUL;
     }
     if (status == ROTID_ERROR_ARGUMENT && !command->messages.errors)
@@ -93,9 +93,9 @@ int command_ema(struct command *command)
             return failed;
     }
     if (command->output && !report.output)
-        (void)fprintf(stderr, "rotid: %s: not written, there is no mode\n", command->output);
+        terminal_say("rotid: %s: not written, there is no mode\n", command->output);
     if (command_wants_table(command))
-        table_ema(stdout, &report, command->verbose);
+        table_ema(terminal_out(), &report, command->verbose);
     char *text = command->json ? json_ema(&command->provenance, &report, &command->messages) : NULL;
     return command_write_json(command, text, code);
 }

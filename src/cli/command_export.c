@@ -35,7 +35,7 @@ static int identify(struct command *command, struct identification *identified)
     }
     int status = identify_run(&command->pool, job, 0, &environment, &command->messages, identified);
     if (terminal)
-        (void)fputs("\r\033[K", stderr);
+        terminal_progress_end();
     return status;
 }
 
@@ -86,14 +86,14 @@ static int write_files(struct command *command, const struct export_files *files
     const char *failed;
     int status = export_files_write(&command->pool, files, model, ross, &failed);
     if (status == ROTID_ERROR_IO) {
-        (void)fprintf(stderr, "rotid: cannot write %s: %s; no file was written\n", failed, strerror(errno));
+        terminal_say("rotid: cannot write %s: %s; no file was written\n", failed, strerror(errno));
         return EXIT_INTERNAL;
     }
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        table_export(stdout, files, model, ross);
-        table_notes(stdout, &command->messages);
+        table_export(terminal_out(), files, model, ross);
+        table_notes(terminal_out(), &command->messages);
     }
     char *text = command->json ? json_export(&command->provenance, files, model, ross, &command->messages) : NULL;
     return command_write_json(command, text, code);
@@ -130,7 +130,7 @@ int command_export(struct command *command)
     if (status)
         return command_fail(command, status);
     if (command_cancelled(NULL)) {
-        (void)fprintf(stderr, "rotid: interrupted, nothing was written\n");
+        terminal_say("rotid: interrupted, nothing was written\n");
         rotid_fit_free(identified.fit);
         return EXIT_DOUBTFUL;
     }

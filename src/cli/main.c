@@ -1,5 +1,4 @@
 #include <errno.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -58,13 +57,15 @@ int main(int argc, char **argv)
 {
     struct command command = {.seed = 1, .step = 0.01, .range = 0.5, .points = 11, .baseline = 1};
     command_watch_signals();
+    if (terminal_open())
+        return EXIT_INTERNAL;
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
     int code = arguments_parse(&command, argc, argv);
     if (code < 0)
         code = run(&command);
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        (void)fprintf(stderr, "rotid: cannot write to standard output: %s\n", strerror(errno));
+    if (terminal_flush()) {
+        terminal_say("rotid: cannot write to standard output: %s\n", strerror(errno));
         code = EXIT_INTERNAL;
     }
     pool_close(&command.pool);

@@ -224,9 +224,11 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     card->line[card->nline++] = data;
 }
 
-/* Returns 1 where the file is not text, which ends the reading of it. */
-static int read_line(struct reader *reader, const char *line_text, size_t length, int line)
+/* Overwrites what is behind the line. Returns 1 where the file is not text, which ends the reading of it. */
+static int read_line(struct reader *reader, char *whole, size_t length, int line)
 {
+    const char *line_text = whole;
+    whole[length] = 0;
     const char *file = reader->open_file[reader->depth], *end = line_text + length;
     for (const char *c = line_text; c < end; c++)
         if ((unsigned char)*c < ' ' && *c != '\t') {
@@ -234,6 +236,14 @@ static int read_line(struct reader *reader, const char *line_text, size_t length
                         "byte 0x%02x is not text, expected a deck of cards that begin with *", (unsigned char)*c);
             return 1;
         }
+    for (const char *c = line_text; c < end; c++) { /* what makes a line look like another one, in comments as well */
+        unsigned code;
+        if (*c != '\t' && text_is_control(c, &code)) {
+            message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(c - line_text) + 1,
+                        "character U+%04X does not stand for itself, expected text without control characters", code);
+            break;
+        }
+    }
     if (line == 1 && length >= 3 && !memcmp(line_text, "\xef\xbb\xbf", 3))
         line_text += 3; /* byte-order mark of an editor */
     for (const char *c = line_text; c + 1 < end; c++)

@@ -209,6 +209,12 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
         imag[i] = shape->imag ? shape->imag[i * shape->component_count + component] : 0;
         largest = fmax(largest, hypot(real[i], imag[i]));
     }
+    if (!deck_is_usual(largest) || !deck_is_usual(shape->frequency_hz)) {
+        deck_error(reader, in_file(import, shape->line),
+                   "the shape has a frequency of %.6g Hz and a largest component of %.6g, expected sizes from %g to %g",
+                   shape->frequency_hz, largest, DECK_LEAST, DECK_MOST);
+        return 1;
+    }
     if (largest == 0) {
         deck_error(reader, in_file(import, shape->line),
                    "the shape at %.6g Hz is zero everywhere in this direction, expected another DIRECTION", shape->frequency_hz);

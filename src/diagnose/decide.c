@@ -70,7 +70,8 @@ static double frequency_noise(const struct job *job)
 
 static const char *chance(struct pool *pool, const struct candidate *c)
 {
-    return pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value);
+    return isfinite(c->p_value) ? pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value)
+                                : "gains no more than chance";
 }
 
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than

@@ -10,9 +10,8 @@ void html_text(FILE *out, const char *text)
     while (*text) {
         size_t bytes = text_utf8(text);
         unsigned char c = (unsigned char)*text;
-        int is_control = (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f || (c == 0xc2 && (unsigned char)text[1] < 0xa0);
-        if (!bytes || is_control)
-            (void)fputs("\xef\xbf\xbd", out);
+        if (!text_visible(text) && c != '\n' && c != '\t')
+            (void)fputs(TEXT_REPLACEMENT, out);
         else if (c == '&')
             (void)fputs("&amp;", out);
         else if (c == '<')

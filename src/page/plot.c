@@ -29,8 +29,8 @@ int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const
         return ROTID_ERROR_MEMORY;
     FILE *out = plot->out;
     (void)fprintf(out, "# rotid %s, figure %s of ", ROTID_VERSION, figure->id);
-    for (const char *c = source; *c; c++)
-        (void)fputc((unsigned char)*c < 0x20 ? '?' : *c, out);
+    for (const char *c = source; *c; c += text_utf8(c) ? text_utf8(c) : 1)
+        (void)fwrite(text_visible(c) ? c : "?", 1, text_visible(c) ? text_visible(c) : 1, out);
     (void)fprintf(out,
                   "\n# Change what you like, then run:  gnuplot %s.gp\n"
                   "# It writes %s.svg and %s.pdf. Colours and styles come first, then the data, then what is drawn.\n"
@@ -69,12 +69,12 @@ const char *plot_quote(struct plot *plot, const char *text)
         return "''";
     *end++ = '\'';
     while (*text) {
-        size_t bytes = text_utf8(text);
+        size_t bytes = text_visible(text);
         if (*text == '\'')
             *end++ = '\'';
-        if (!bytes || (unsigned char)*text < 0x20) { /* a line feed would end the text, and the command */
-            *end++ = bytes ? ' ' : '?';
-            text++;
+        if (!bytes) { /* a line feed would end the text, and the command */
+            *end++ = (unsigned char)*text < 0x20 ? ' ' : '?';
+            text += text_utf8(text) ? text_utf8(text) : 1;
             continue;
         }
         memcpy(end, text, bytes);

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "report/terminal.h"
 #include "rotid.h"
 
 /* A device or a pipe is written to as it is: there is nothing to keep whole, and a rename would put a file in its place. */
@@ -184,7 +185,7 @@ void output_abandon(struct output *output)
 int output_write(const char *path, const char *text)
 {
     if (!strcmp(path, "-"))
-        return fputs(text, stdout) < 0 || fflush(stdout) != 0 ? ROTID_ERROR_IO : ROTID_OK;
+        return terminal_print(text);
     struct output output;
     int status = output_open(&output, path);
     if (status)
