@@ -6,8 +6,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "page/picture.h"
 #include "page/process.h"
-#include "page/svg.h"
 
 #define SECONDS      120.0       /* for one run: a page takes two */
 #define MOST_SVG     (64L << 20) /* bytes */
@@ -58,13 +58,13 @@ static int take(struct pool *pool, const char *folder, struct figure *figure)
     static const char *const ending[LAYOUTS] = {".svg", "-narrow.svg"};
     for (int l = 0; l < LAYOUTS; l++) {
         char *raw = read_back(pool, folder, figure->id, ending[l]);
-        figure->svg[l] = raw ? svg_clean(pool, raw, figure, l) : NULL;
+        figure->picture[l] = raw ? picture_uri(pool, raw) : NULL;
     }
-    if (!figure->svg[WIDE] || !figure->svg[NARROW])
-        figure->svg[WIDE] = figure->svg[NARROW] = NULL;
+    if (!figure->picture[WIDE] || !figure->picture[NARROW])
+        figure->picture[WIDE] = figure->picture[NARROW] = NULL;
     else
         figure->has_pdf = read_back(pool, folder, figure->id, ".pdf") != NULL;
-    return figure->svg[WIDE] != NULL;
+    return figure->picture[WIDE] != NULL;
 }
 
 /* The lines of its errors that say something. */

@@ -42,7 +42,7 @@ static int draw(struct document *document, const struct folder *folder, struct f
     status = gnuplot_draw(pool, &gnuplot, environment, folder->figures, count, figure, why);
     for (int i = 0; i < count && !status; i++) {
         const char *narrow = pool_format(pool, "%s/%s-narrow.svg", folder->figures, figure[i]->id);
-        written->ndrawn += figure[i]->svg[WIDE] != NULL;
+        written->ndrawn += figure[i]->picture[WIDE] != NULL;
         if (narrow)
             (void)unlink(narrow); /* it stands in the page */
         if (!why[i])
