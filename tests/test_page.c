@@ -279,6 +279,60 @@ static void nothing_of_anybody_else_is_written_over(void **state)
     }
 }
 
+/* Another one who may write into the folder puts links there. */
+static void no_link_in_the_folder_is_followed(void **state)
+{
+    (void)state;
+    make_result("identify", PAPER, "paper.json");
+    const char *report = "%s %s report %s -o %s";
+    assert_int_equal(page_run("cd %s; mkdir elsewhere shared linked; ln -s ../elsewhere shared/figures", page_path("")), 0);
+    assert_int_equal(page_run(report, page_stand_in(NULL), ROTID_PROGRAM, page_path("paper.json"), page_path("shared")), 2);
+    assert_non_null(strstr(page_err, "shared: its figures is a symbolic link, which is not followed, expected a folder or none"));
+    assert_int_equal(page_count("elsewhere", ""), 0);
+    assert_int_equal(page_count("shared", ""), 1);
+    /* also where it comes behind the look at the folder, while the figures are drawn */
+    char text[1024];
+    (void)snprintf(text, sizeof text,
+                   "#!/bin/sh\n[ \"$1\" = --version ] && { echo gnuplot 5.4 patchlevel 0; exit 0; }\n"
+                   "ln -sfn ../elsewhere %s\nexit 0\n",
+                   page_path("linked/figures"));
+    page_write_file("linker", text);
+    assert_int_equal(page_run("chmod 755 %s; GNUPLOT=%s %s report %s -o %s", page_path("linker"), page_path("linker"),
+                              ROTID_PROGRAM, page_path("paper.json"), page_path("linked")),
+                     3);
+    assert_non_null(strstr(page_err, "cannot write"));
+    assert_int_equal(page_count("elsewhere", ""), 0);
+    assert_int_equal(page_count("linked", ""), 1);
+    /* a page that is a link to one of rotid, and pictures that are links */
+    assert_int_equal(page_run(report, page_stand_in(NULL), ROTID_PROGRAM, page_path("paper.json"), page_path("elsewhere/true")),
+                     0);
+    assert_int_equal(page_run("cd %s; mkdir page; ln -s ../elsewhere/true/index.html page/index.html", page_path("")), 0);
+    assert_int_equal(page_run(report, page_stand_in(NULL), ROTID_PROGRAM, page_path("paper.json"), page_path("page")), 2);
+    assert_non_null(strstr(page_err, "its index.html is no page of rotid"));
+    assert_int_equal(
+        page_run("cd %s/elsewhere/true/figures; echo mine > ../../mine; ln -sf ../../mine rotor.svg; ln -sf ../../mine "
+                 "rotor.gp; ln -sf ../../none rotor.pdf",
+                 page_path("")),
+        0);
+    /* the folder itself may be a link: its user says so */
+    assert_int_equal(page_run("cd %s; ln -s elsewhere/true by-link", page_path("")), 0);
+    assert_int_equal(page_run(report, page_stand_in(NULL), ROTID_PROGRAM, page_path("paper.json"), page_path("by-link")), 0);
+    assert_string_equal(page_read("elsewhere/mine"), "mine\n");
+    assert_false(page_exists("elsewhere/none"));
+    assert_int_equal(page_run("cd %s; find elsewhere -type l; ls elsewhere/true/figures | wc -l", page_path("")), 0);
+    assert_string_equal(page_out, "21\n");
+}
+
+/* gnuplot runs in the folder of the figures, wherever it was named from. */
+static void gnuplot_may_be_named_from_here(void **state)
+{
+    (void)state;
+    make_result("identify", PAPER, "paper.json");
+    (void)page_stand_in(NULL);
+    assert_int_equal(page_run("cd %s; GNUPLOT=./stand-in %s report paper.json -o from-here", page_path(""), ROTID_PROGRAM), 0);
+    assert_int_equal(page_times(page_read("from-here/index.html"), "<img "), 14);
+}
+
 static void a_folder_that_cannot_be_written_is_said(void **state)
 {
     (void)state;
@@ -471,6 +525,8 @@ int main(void)
         cmocka_unit_test(a_figure_that_fails_costs_no_other),
         cmocka_unit_test(an_interrupt_leaves_nothing_behind),
         cmocka_unit_test(nothing_of_anybody_else_is_written_over),
+        cmocka_unit_test(no_link_in_the_folder_is_followed),
+        cmocka_unit_test(gnuplot_may_be_named_from_here),
         cmocka_unit_test(a_folder_that_cannot_be_written_is_said),
         cmocka_unit_test(a_text_in_a_deck_stays_a_text),
         cmocka_unit_test(a_large_result_makes_a_page_of_less_than_five_megabytes),

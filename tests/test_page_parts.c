@@ -1,9 +1,11 @@
 /* The parts of a page: numbers for people, colours that can be told apart, texts in scripts, pictures made ready, programs run.
  */
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/clock.h"
 #include "page/document.h"
@@ -308,24 +310,33 @@ static void a_program_is_run_waited_for_and_ended(void **state)
     (void)state;
     struct process_result run;
     const char *const say[] = {"sh", "-c", "echo out; echo err >&2; read x || echo eof; exit 3", NULL};
-    assert_status(process_run(say, 10, NULL, &run), ROTID_OK);
+    assert_status(process_run(say, PROCESS_HERE, 10, NULL, &run), ROTID_OK);
     assert_true(run.exit_code == 3 && !run.timed_out && !run.cancelled);
     assert_string_equal(run.out, "out\neof\n");
     assert_string_equal(run.err, "err\n");
     /* more than is kept, on both streams: neither blocks */
     const char *const flood[] = {"sh", "-c", "head -c 300000 /dev/zero | tr '\\0' a; head -c 300000 /dev/zero | tr '\\0' b >&2",
                                  NULL};
-    assert_status(process_run(flood, 20, NULL, &run), ROTID_OK);
+    assert_status(process_run(flood, PROCESS_HERE, 20, NULL, &run), ROTID_OK);
     assert_true(run.exit_code == 0 && strlen(run.out) == PROCESS_TEXT - 1 && strlen(run.err) == PROCESS_TEXT - 1);
     double begin = clock_seconds();
     const char *const sleeper[] = {"sleep", "20", NULL};
-    assert_status(process_run(sleeper, 0.2, NULL, &run), ROTID_OK);
+    assert_status(process_run(sleeper, PROCESS_HERE, 0.2, NULL, &run), ROTID_OK);
     assert_true(run.timed_out && run.exit_code == -1);
     const rotid_environment impatient = {.cancelled = cancel_now};
-    assert_status(process_run(sleeper, 20, &impatient, &run), ROTID_OK);
+    assert_status(process_run(sleeper, PROCESS_HERE, 20, &impatient, &run), ROTID_OK);
     assert_true(run.cancelled && clock_seconds() - begin < 10);
+    const char *const where[] = {"pwd", NULL};
+    char before[4096], after[4096];
+    int root = open("/", O_RDONLY | O_DIRECTORY);
+    assert_non_null(getcwd(before, sizeof before));
+    assert_status(process_run(where, root, 10, NULL, &run), ROTID_OK);
+    assert_string_equal(run.out, "/\n");
+    assert_non_null(getcwd(after, sizeof after));
+    assert_string_equal(before, after);
+    (void)close(root);
     const char *const nobody[] = {"/nowhere/at/all", NULL};
-    assert_status(process_run(nobody, 1, NULL, &run), ROTID_ERROR_IO);
+    assert_status(process_run(nobody, PROCESS_HERE, 1, NULL, &run), ROTID_ERROR_IO);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
