@@ -127,13 +127,13 @@ static void texts_are_escaped(void **state)
                               "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd \t \xef\xbf\xbd");
     free(text);
     struct plot plot = {.pool = &test_pool};
-    assert_string_equal(plot_quote(&plot, "it's `rm` \"q\" \\"), "'it''s `rm` \"q\" \\'");
-    assert_string_equal(plot_quote(&plot, "a\nb\xff\r\xc3\xa9''"), "'a b\xef\xbf\xbd \xc3\xa9'''''");
+    assert_string_equal(plot_quote(&plot, "it's `rm` \"q\" \\"), "'it\xe2\x80\x99s `rm` \"q\" \\'");
+    assert_string_equal(plot_quote(&plot, "a\nb\xff\r\xc3\xa9''"), "'a b\xef\xbf\xbd \xc3\xa9\xe2\x80\x99\xe2\x80\x99'");
     assert_string_equal(plot_quote(&plot, ""), "''");
     assert_string_equal(plot_quote(&plot, "\xe2\x80\xae\xc2\x9b\x7f\xef\xbf\xbe."), /* turned round, C1, DEL, no character */
                         "'\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd.'");
     assert_string_equal(plot_quote(&plot, "100 %"), "'100 %'");
-    assert_string_equal(plot_quote_tick(&plot, "it's 100 %s"), "'it''s 100 %%s'");
+    assert_string_equal(plot_quote_tick(&plot, "it's 100 %s"), "'it\xe2\x80\x99s 100 %%s'");
     assert_string_equal(plot_number(&plot, NAN), "NaN");
     assert_string_equal(plot_number(&plot, -1.5e-7), "-1.5e-07");
 }

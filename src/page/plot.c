@@ -69,24 +69,34 @@ static size_t drawable(const char *text)
     return strncmp(text, "\xef\xbf\xbe", 3) != 0 && strncmp(text, "\xef\xbf\xbf", 3) != 0 ? text_visible(text) : 0;
 }
 
-/* twice: a character that is to stand for itself, beside the quote. */
-static const char *quote(struct plot *plot, const char *text, char twice)
+#define APOSTROPHE "\xe2\x80\x99" /* U+2019 */
+
+/* What stands for the character at `text` in a text of quotes. A quote within one is written twice, but gnuplot 5.4 takes one at
+ * the beginning for the end: an apostrophe is another character, so none has to be written. */
+static const char *shown(const char *text, int is_tick)
+{
+    if (*text == '\'')
+        return APOSTROPHE;
+    if (strchr("\n\r\t", *text)) /* a line feed would end the text, and the command */
+        return " ";
+    if (*text == '%' && is_tick)
+        return "%%";
+    return drawable(text) ? NULL : TEXT_REPLACEMENT;
+}
+
+static const char *quote(struct plot *plot, const char *text, int is_tick)
 {
     char *quoted = POOL_ARRAY(plot->pool, char, 3 * strlen(text) + 3), *end = quoted;
     if (!quoted)
         return "''";
     *end++ = '\'';
     while (*text) {
-        size_t bytes = drawable(text), kept = bytes ? bytes : sizeof TEXT_REPLACEMENT - 1;
-        if (*text == '\'' || *text == twice)
-            *end++ = *text;
-        if (strchr("\n\r\t", *text)) /* a line feed would end the text, and the command */
-            *end++ = ' ';
-        else {
-            memcpy(end, bytes ? text : TEXT_REPLACEMENT, kept);
-            end += kept;
-        }
-        text += bytes ? bytes : text_utf8(text) ? text_utf8(text) : 1;
+        size_t bytes = text_utf8(text) ? text_utf8(text) : 1;
+        const char *other = shown(text, is_tick);
+        size_t kept = other ? strlen(other) : bytes;
+        memcpy(end, other ? other : text, kept);
+        end += kept;
+        text += bytes;
     }
     *end = '\'';
     return quoted;
@@ -94,12 +104,12 @@ static const char *quote(struct plot *plot, const char *text, char twice)
 
 const char *plot_quote(struct plot *plot, const char *text)
 {
-    return quote(plot, text, '\'');
+    return quote(plot, text, 0);
 }
 
 const char *plot_quote_tick(struct plot *plot, const char *text)
 {
-    return quote(plot, text, '%');
+    return quote(plot, text, 1);
 }
 
 void plot_decades_axis(struct plot *plot, char axis, const struct plot_range *range, int most)
