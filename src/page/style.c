@@ -41,7 +41,7 @@ static const char layout[] =
     "dl div{grid-template-columns:1fr;gap:0}}\n";
 
 static const char paper[] =
-    "@page{margin:15mm}\n:root{color-scheme:light}\nbody{max-width:none;padding:0}\nhtml{font-size:10pt}\nfigure{margin:1rem "
+    "@page{margin:15mm}\nbody{max-width:none;padding:0}\nhtml{font-size:10pt}\nfigure{margin:1rem "
     "0}\nh2{margin-top:1.5rem}\nnav,details,.files{display:none}\n.wide{display:block}\n"
     ".narrow{display:none}\nfigure,table,.answer,li,dl div{break-inside:avoid}\nh2,h3,caption{break-after:avoid}\n"
     ".scroll{overflow:visible}\nthead{display:table-header-group}\na{color:inherit;text-decoration:none}\n"
