@@ -1,4 +1,6 @@
-/* What a picture of a figure may be, judged apart from the program: well-formed, and nothing in it runs, loads or leads elsewhere. */
+/* What a picture of a figure may be, judged apart from the program: well-formed, and nothing in it runs, loads or leads
+ * elsewhere.
+ */
 #ifndef ROTID_TESTS_PICTURE_CHECK_H
 #define ROTID_TESTS_PICTURE_CHECK_H
 
