@@ -13,6 +13,7 @@
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks, universal files, plans and results on random input, FUZZ_SECONDS (600) each
+#   make sweep      report, with gnuplot, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
@@ -159,6 +160,11 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) 
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
+
+SWEEP_PAYLOADS ?= 2000
+.PHONY: sweep
+sweep: all $(BUILD)/tests/test_report_sweep
+	@ROTID_SWEEP_PAYLOADS=$(SWEEP_PAYLOADS) OPENBLAS_NUM_THREADS=1 $(BUILD)/tests/test_report_sweep
 
 abi: $(BUILD)/tests/test_abi
 	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
