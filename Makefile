@@ -62,7 +62,7 @@ ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 $(WARNING
 LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread
 PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
 
-LIBRARY_ROOMS := base linalg beam modal fit signal ema run diagnose/causes diagnose uff import deck api
+LIBRARY_ROOMS := base linalg beam modal fit signal ema run diagnose/causes diagnose file uff import deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
 IO_SOURCES := $(foreach room,report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
@@ -92,6 +92,7 @@ $(BUILD)/%.o: %.c
 	$(CC) $(ALL_CFLAGS) $(EXTRA_$(basename $(notdir $<))) -MMD -MP -c $< -o $@
 
 # The commit stands in every result, so the file that holds it follows it.
+EXTRA_blas = -DROTID_BLAS='"$(BLAS)"'
 EXTRA_build_info = -DROTID_COMMIT='"$(COMMIT)"'
 $(BUILD)/src/cli/build_info.o: $(BUILD)/commit
 $(BUILD)/commit: FORCE

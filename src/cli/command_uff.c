@@ -11,7 +11,7 @@
 
 static int fail_output(const struct command *command)
 {
-    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", command->output, strerror(errno));
+    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", command->output, output_error());
     return EXIT_INTERNAL;
 }
 

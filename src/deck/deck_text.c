@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/host.h"
+#include "file/open.h"
 #include "rotid.h"
 
 struct reader {
@@ -269,16 +270,11 @@ static void too_large(struct reader *reader, const char *path)
 static int read_file(struct reader *reader, const char *path, struct place from)
 {
     struct stat information;
-    FILE *stream = NULL;
+    FILE *stream = file_open(path, 0, &information);
     char why[HOST_ERROR_TEXT];
-    if (stat(path, &information) == 0) {
-        errno = EISDIR;
-        if (!S_ISDIR(information.st_mode))
-            stream = fopen(path, "rb");
-    }
     if (!stream) {
         message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
-                    "cannot read %s: %s, expected a deck", path, host_error_text(errno, why));
+                    "cannot read %s: %s, expected a deck", path, file_error_text(errno, why));
         return ROTID_ERROR_IO;
     }
     if (S_ISREG(information.st_mode) && information.st_size > reader->bytes_left) {

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "file/open.h"
 #include "page/document.h"
 #include "report/output.h"
 
@@ -31,7 +32,8 @@ static const char *join(struct pool *pool, const char *folder, const char *name)
 static int is_ours(const char *page)
 {
     char text[MARK_ROOM + 1];
-    FILE *stream = fopen(page, "rb");
+    struct stat is;
+    FILE *stream = file_open_regular(page, &is);
     if (!stream)
         return errno == ENOENT ? -1 : 0;
     size_t length = fread(text, 1, MARK_ROOM, stream);

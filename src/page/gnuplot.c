@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "file/open.h"
 #include "page/process.h"
 #include "page/svg.h"
 
@@ -42,8 +43,8 @@ static char *read_back(struct pool *pool, const char *folder, const char *id, co
 {
     struct stat is;
     char *text = NULL, *path = pool_format(pool, "%s/%s%s", folder, id, ending);
-    FILE *stream = path ? fopen(path, "rb") : NULL;
-    if (stream && fstat(fileno(stream), &is) == 0 && is.st_size > 0 && is.st_size < MOST_SVG)
+    FILE *stream = path ? file_open_regular(path, &is) : NULL;
+    if (stream && is.st_size > 0 && is.st_size < MOST_SVG)
         text = POOL_ARRAY(pool, char, is.st_size + 1);
     if (text && fread(text, 1, (size_t)is.st_size, stream) != (size_t)is.st_size)
         text = NULL;
