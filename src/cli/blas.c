@@ -11,7 +11,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 
-#ifdef OPENBLAS_VERSION
+#if ROTID_OPENBLAS
 
 /* OpenBLAS maps this much for each thread that calls it (BUFFER_SIZE of x86-64 and arm64), and where it cannot have that it tries
  * again, for ever: its own threads as soon as it is loaded, the others in their first call. */
