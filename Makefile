@@ -10,6 +10,7 @@
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
 #   make check-embedding   the programs of docs/embedding.md with gcc, clang, flang, make, CMake, Python, as far as they are there
+#   make check-blas   the library with reference LAPACK and with BLIS
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks, universal files, plans and results on random input, FUZZ_SECONDS (600) each
@@ -72,7 +73,7 @@ PROGRAM_PACKAGES := kissfft-float libcjson
 COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(filter 1,$(WERROR)),-Werror)
 ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 $(WARNINGS) -fvisibility=hidden -fPIC -Iinclude -Isrc \
-             -DWITH_NLOPT=$(WITH_NLOPT) $(BLAS_CFLAGS) $(shell pkg-config --cflags $(PACKAGES) $(PROGRAM_PACKAGES)) $(CFLAGS)
+             -DWITH_NLOPT=$(WITH_NLOPT) $(patsubst -I%,-isystem%,$(BLAS_CFLAGS)) $(shell pkg-config --cflags $(PACKAGES) $(PROGRAM_PACKAGES)) $(CFLAGS)
 LIBRARY_LIBS := $(shell pkg-config --libs lapacke) $(BLAS_LIBS) $(if $(filter 1,$(WITH_NLOPT)),$(shell pkg-config --libs nlopt)) -lm -pthread
 PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(LIBRARY_LIBS)
 
@@ -227,6 +228,11 @@ $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_g
 $(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
 check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
+
+# the tests of linear algebra, fits and decks with reference LAPACK and, where installed, BLIS
+.PHONY: check-blas
+check-blas:
+	@sh tests/blas/check '$(BUILD)'
 
 check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 	@sh tests/embedding/check '$(BUILD)'
