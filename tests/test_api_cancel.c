@@ -15,7 +15,6 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
-void openblas_set_num_threads(int threads);
 
 static char directory[] = "/tmp/test_api_cancel_XXXXXX", deck_path[64];
 
@@ -240,7 +239,7 @@ static void a_broken_off_model_is_no_result(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1);
+    set_blas_threads(1);
     if (!mkdtemp(directory))
         return 1;
     (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);

@@ -21,8 +21,6 @@
 
 #define TRAPS (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW)
 
-int openblas_get_num_threads(void);
-void openblas_set_num_threads(int threads);
 
 static char directory[] = "/tmp/test_host_XXXXXX", deck_path[64];
 
@@ -302,28 +300,28 @@ static void workers_compute_as_their_caller(void **state)
 static void the_blas_keeps_the_number_of_threads_of_its_host(void **state)
 {
     (void)state;
-    int began_with = openblas_get_num_threads();
+    int began_with = blas_threads();
     for (int threads = 1; threads <= 2; threads++) {
         rotid_deck *deck;
         rotid_spectrum *spectrum;
         rotid_identification *identification;
         rotid_diagnosis *diagnosis;
-        openblas_set_num_threads(threads);
-        assert_int_equal(openblas_get_num_threads(), threads); /* or there would be nothing to see */
+        set_blas_threads(threads);
+        assert_int_equal(blas_threads(), threads); /* or there would be nothing to see */
         assert_status(rotid_deck_read(deck_path, 0, NULL, NULL, NULL, &deck), ROTID_OK);
-        assert_int_equal(openblas_get_num_threads(), threads);
+        assert_int_equal(blas_threads(), threads);
         assert_status(rotid_spectrum_compute(deck, NULL, 5, NULL, NULL, &spectrum), ROTID_OK);
-        assert_int_equal(openblas_get_num_threads(), threads);
+        assert_int_equal(blas_threads(), threads);
         assert_status(rotid_identify(deck, 1, NULL, NULL, &identification), ROTID_OK);
-        assert_int_equal(openblas_get_num_threads(), threads);
+        assert_int_equal(blas_threads(), threads);
         assert_status(rotid_diagnose(deck, &quick, NULL, NULL, &diagnosis), ROTID_OK);
-        assert_int_equal(openblas_get_num_threads(), threads);
+        assert_int_equal(blas_threads(), threads);
         rotid_diagnosis_free(diagnosis);
         rotid_identification_free(identification);
         rotid_spectrum_free(spectrum);
         rotid_deck_free(deck);
     }
-    openblas_set_num_threads(began_with);
+    set_blas_threads(began_with);
 }
 
 static void an_error_of_the_system_has_a_text(void **state)
@@ -337,7 +335,7 @@ static void an_error_of_the_system_has_a_text(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1);
+    set_blas_threads(1);
     if (!mkdtemp(directory) || setenv("LOCPATH", directory, 1))
         return 1;
     (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);

@@ -14,8 +14,6 @@
 #define DIAGNOSERS  2 /* each asks for two threads; the second one works on that same deck */
 #define REPEATS     2
 
-void openblas_set_num_threads(int threads);
-
 static char directory[] = "/tmp/test_threads_XXXXXX", path[DECKS][64];
 
 struct task {
@@ -143,7 +141,7 @@ static void eight_identifications_and_two_diagnoses_at_once(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1);
+    set_blas_threads(1);
     if (!mkdtemp(directory))
         return 1;
     for (int d = 0; d < DECKS; d++) {

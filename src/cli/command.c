@@ -71,7 +71,7 @@ int command_write_file(struct command *command, const char *path, const char *te
     int status = output_write(path, text);
     if (!status)
         return code;
-    terminal_say("rotid: cannot write %s: %s\n", path, strerror(errno));
+    terminal_say("rotid: cannot write %s: %s\n", path, output_error());
     return EXIT_INTERNAL;
 }
 

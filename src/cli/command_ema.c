@@ -1,8 +1,6 @@
 #include "cli/command.h"
 
-#include <errno.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "import/modes.h"
@@ -22,7 +20,7 @@ static int write_modes(struct command *command, const struct measurement *measur
             status = output_close(&output);
     }
     if (status == ROTID_ERROR_IO) {
-        terminal_say("rotid: %s: cannot be written: %s\n", command->output, strerror(errno));
+        terminal_say("rotid: %s: cannot be written: %s\n", command->output, output_error());
         return EXIT_INTERNAL;
     }
     return status ? command_fail(command, status) : EXIT_DONE;

@@ -1,13 +1,12 @@
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "export/dmig.h"
 #include "export/files.h"
 #include "export/summary.h"
+#include "report/output.h"
 #include "report/table.h"
 
 #define REDUCTION_DOUBTFUL 1 /* % of a frequency */
@@ -86,7 +85,7 @@ static int write_files(struct command *command, const struct export_files *files
     const char *failed;
     int status = export_files_write(&command->pool, files, model, ross, &failed);
     if (status == ROTID_ERROR_IO) {
-        terminal_say("rotid: cannot write %s: %s; no file was written\n", failed, strerror(errno));
+        terminal_say("rotid: cannot write %s: %s; no file was written\n", failed, output_error());
         return EXIT_INTERNAL;
     }
     if (status)

@@ -1,4 +1,3 @@
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,7 +43,7 @@ static int write_output(struct command *command, const struct frf_view *view, in
     if (!status)
         return code;
     terminal_say("rotid: cannot write %s: %s\n", command->output,
-                 status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+                 status == ROTID_ERROR_IO ? output_error() : rotid_status_text(status));
     return EXIT_INTERNAL;
 }
 

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/arguments.h"
 #include "study/merge.h"
@@ -74,8 +75,12 @@ int study_prepare(struct command *command, struct study *study)
     int plans = 0;
     if (!plan)
         return command_fail(command, ROTID_ERROR_MEMORY);
-    for (int i = 0; i < command->nfile; i++)
+    for (int i = 0; i < command->nfile; i++) {
+        struct stat about;
+        if (stat(command->file[i], &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode))
+            return arguments_wrong("%s is no regular file, expected one, for it is read several times", command->file[i]);
         plans += plan_is(command->file[i]);
+    }
     if (plans && command->nfile > 1)
         return arguments_wrong("%s: a plan and another file, expected one plan, or decks", command->name);
     int status = plans ? plan_read(&command->pool, command->deck, &command->messages, plan)

@@ -11,7 +11,7 @@
 
 static int fail_output(const struct command *command)
 {
-    terminal_say("rotid: cannot write %s: %s\n", command->output, strerror(errno));
+    terminal_say("rotid: cannot write %s: %s\n", command->output, output_error());
     return EXIT_INTERNAL;
 }
 

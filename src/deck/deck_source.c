@@ -2,14 +2,12 @@
 
 #include <errno.h>
 
+#include "file/open.h"
+
 int deck_source_open(struct deck_source *source, const char *path)
 {
-    *source = (struct deck_source){.stream = NULL};
-    if (stat(path, &source->information))
-        return errno;
-    if (S_ISDIR(source->information.st_mode))
-        return EISDIR;
-    source->stream = fopen(path, "rb");
+    *source = (struct deck_source){.text = NULL};
+    source->stream = file_open(path, 0, &source->information);
     return source->stream ? 0 : errno;
 }
 

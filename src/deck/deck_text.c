@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/host.h"
+#include "file/open.h"
 #include "rotid.h"
 
 struct reader {
@@ -336,7 +337,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
     int failed = deck_source_open(&source, path);
     if (failed) {
         message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
-                    "cannot read %s: %s, expected a deck", path, host_error_text(failed, why));
+                    "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
         return ROTID_ERROR_IO;
     }
     reader->depth += from.file != NULL;

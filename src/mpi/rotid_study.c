@@ -235,6 +235,8 @@ static int prepare(struct command *command, int argc, char **argv, int rank, int
             command->provenance =
                 (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, size};
             build_set_threads(1);
+            if (code < 0 && !build_make_room(1, 1))
+                code = EXIT_INTERNAL;
             if (code < 0 && !command->study.merge && !command->study.summary) {
                 int wrong = study_prepare(command, study);
                 code = wrong ? wrong : -1;

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "file/open.h"
 #include "report/terminal.h"
 #include "rotid.h"
 
@@ -34,7 +35,7 @@ int output_open(struct output *output, const char *path)
 {
     *output = (struct output){.path = path};
     if (is_special(path)) {
-        output->stream = fopen(path, "wb");
+        output->stream = file_open_device(path);
         return output->stream ? ROTID_OK : ROTID_ERROR_IO;
     }
     output->beside = malloc(strlen(path) + sizeof ".XXXXXX");
@@ -180,6 +181,11 @@ void output_abandon(struct output *output)
         (void)unlink(output->beside);
     free(output->beside);
     *output = (struct output){0};
+}
+
+const char *output_error(void)
+{
+    return errno == ENXIO ? FILE_NOBODY : strerror(errno);
 }
 
 int output_write(const char *path, const char *text)

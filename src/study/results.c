@@ -82,7 +82,7 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
     if (fstat(descriptor, &information))
         return cannot_read(r);
     r->size = information.st_size;
-    if (r->size && (pread(descriptor, &(char){0}, 1, 0) != 1 || !S_ISREG(information.st_mode)))
+    if (!S_ISREG(information.st_mode) || (r->size && pread(descriptor, &(char){0}, 1, 0) != 1))
         return malformed(r, 1, expected);
     int status = take_line(r, &text, &length);
     if (status)

@@ -8,6 +8,9 @@
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 #include "base/clock.h"
 #include "report/json.h"
@@ -81,8 +84,13 @@ int worker_start(const struct study *study, int (*cancelled)(void *context), voi
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair))
         return ROTID_ERROR_IO;
-    pid_t process = fork();
+    const pid_t parent = getpid(), process = fork();
+    (void)parent;
     if (process == 0) {
+#ifdef __linux__ /* whatever it is doing then, nobody would hear of it */
+        if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent)
+            _exit(0);
+#endif
         /* the others see the end of this program only when nobody but it holds the other end of their sockets */
         for (int i = 0; i < nothers; i++)
             if (others[i].process)
