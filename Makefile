@@ -10,22 +10,27 @@
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
 #   make check-embedding   the programs of docs/embedding.md with gcc, clang, flang, make, CMake, Python, as far as they are there
+#   make check-blas   the library with reference LAPACK and with BLIS
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
 #   make fuzz       the readers of decks, universal files, plans and results on random input, FUZZ_SECONDS (600) each
+#   make sweep      report, with gnuplot, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
-#   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, INCLUDEDIR, DATADIR,
-#                   MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
+#   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
+#                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
 # Options: CC, CFLAGS, BUILD (build), WITH_NLOPT=0 for a build without the NLopt baseline, WERROR=1.
+#   BLAS=openblas   or reference (libblas as it is installed), blis, or names of pkg-config; BLAS_CFLAGS and BLAS_LIBS for what
+#                   pkg-config does not know. Each in a BUILD of its own.
 
 BUILD      ?= build
 CC         ?= cc
 CXX        ?= c++
 CFLAGS     ?= -O2 -g
 OBJCOPY    ?= objcopy
+NM         ?= nm
 WITH_NLOPT ?= 1
 PYTHON     ?= python3
 CLANG_TIDY ?= clang-tidy
@@ -37,6 +42,7 @@ PREFIX       ?= /usr/local
 BINDIR       ?= $(PREFIX)/bin
 LIBDIR       ?= $(PREFIX)/lib
 PKGCONFIGDIR ?= $(LIBDIR)/pkgconfig
+CMAKEDIR     ?= $(LIBDIR)/cmake/rotid
 INCLUDEDIR   ?= $(PREFIX)/include
 DATADIR      ?= $(PREFIX)/share
 MANDIR       ?= $(DATADIR)/man
@@ -50,27 +56,38 @@ VERSION := $(shell awk '$$2 == "ROTID_VERSION" { gsub("\"", "", $$3); print $$3 
 SONAME  := librotid.so.$(shell awk '$$2 == "ROTID_VERSION_MAJOR" { print $$3 }' include/rotid.h)
 SHARED  := librotid.so.$(VERSION)
 
-PACKAGES := lapacke openblas kissfft-float
-ifeq ($(WITH_NLOPT),1)
-PACKAGES += nlopt
+# The BLAS, with its C interface: a package of pkg-config, or the usual name of the library where there is none.
+BLAS ?= openblas
+package = $(shell pkg-config --exists $(1) 2>/dev/null && echo $(1))
+BLAS_PACKAGES_reference = $(firstword $(call package,blas-netlib) $(call package,cblas) $(call package,blas))
+BLAS_PACKAGES_blis      = $(call package,blis)
+BLAS_PACKAGES := $(if $(filter reference blis,$(BLAS)),$(BLAS_PACKAGES_$(BLAS)),$(BLAS))
+ifeq ($(origin BLAS_LIBS),undefined)
+BLAS_LIBS := $(if $(BLAS_PACKAGES),$(shell pkg-config --libs $(BLAS_PACKAGES)),$(if $(filter blis,$(BLAS)),-lblis,-lblas))
+BLAS_CFLAGS ?= $(if $(BLAS_PACKAGES),$(shell pkg-config --cflags $(BLAS_PACKAGES)))
 endif
+
+# what the library calls, and what the program calls beside it
+PACKAGES := lapacke $(if $(filter 1,$(WITH_NLOPT)),nlopt)
+PROGRAM_PACKAGES := kissfft-float libcjson
 
 COMMIT := $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(filter 1,$(WERROR)),-Werror)
 ALL_CFLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 $(WARNINGS) -fvisibility=hidden -fPIC -Iinclude -Isrc \
-             -DWITH_NLOPT=$(WITH_NLOPT) $(shell pkg-config --cflags $(PACKAGES) libcjson) $(CFLAGS)
-LIBRARY_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread
-PROGRAM_LIBS = $(shell pkg-config --libs libcjson) $(LIBRARY_LIBS)
+             -DWITH_NLOPT=$(WITH_NLOPT) $(patsubst -I%,-isystem%,$(BLAS_CFLAGS)) $(shell pkg-config --cflags $(PACKAGES) $(PROGRAM_PACKAGES)) $(CFLAGS)
+LIBRARY_LIBS := $(shell pkg-config --libs lapacke) $(BLAS_LIBS) $(if $(filter 1,$(WITH_NLOPT)),$(shell pkg-config --libs nlopt)) -lm -pthread
+PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(LIBRARY_LIBS)
 
-LIBRARY_ROOMS := base linalg beam modal fit signal ema run diagnose/causes diagnose uff import deck api
+# the rooms that public routines reach, and those of the program alone
+LIBRARY_ROOMS := base linalg beam modal fit run diagnose/causes diagnose file uff deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
-IO_SOURCES := $(foreach room,report export study page,$(wildcard src/$(room)/*.c))
+PROGRAM_SOURCES := $(foreach room,signal ema import result report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
 OBJECTS_OF = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY_OBJECTS := $(call OBJECTS_OF,$(LIBRARY_SOURCES))
 # what the program and the tests link: with the names that librotid keeps to itself
 OBJECTS := $(BUILD)/rotid-objects.a
-IO_OBJECTS := $(call OBJECTS_OF,$(IO_SOURCES))
+PROGRAM_OBJECTS := $(call OBJECTS_OF,$(PROGRAM_SOURCES))
 
 TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c)) \
@@ -92,6 +109,7 @@ $(BUILD)/%.o: %.c
 	$(CC) $(ALL_CFLAGS) $(EXTRA_$(basename $(notdir $<))) -MMD -MP -c $< -o $@
 
 # The commit stands in every result, so the file that holds it follows it.
+EXTRA_blas = -DROTID_BLAS='"$(BLAS)"' -DROTID_OPENBLAS=$(if $(findstring openblas,$(BLAS)),1,0)
 EXTRA_build_info = -DROTID_COMMIT='"$(COMMIT)"'
 $(BUILD)/src/cli/build_info.o: $(BUILD)/commit
 $(BUILD)/commit: FORCE
@@ -103,33 +121,42 @@ $(OBJECTS): $(LIBRARY_OBJECTS)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-# Static: joined into one object whose hidden names are then its own, so that a host may have a pool_open too. Of the flags only
-# those that decide what kind of object it is: a sanitizer's would link its library.
-KIND_FLAGS = $(filter -m% -flto% -fuse-ld=%,$(CFLAGS) $(LDFLAGS)) $(if $(filter -flto%,$(CFLAGS)),-flinker-output=nolto-rel)
-$(BUILD)/librotid.o: $(LIBRARY_OBJECTS)
-	$(CC) -r -nostdlib $(KIND_FLAGS) $^ -o $@
-	$(OBJCOPY) --localize-hidden $@
-$(BUILD)/librotid.a: $(BUILD)/librotid.o
+# Static: every object for itself, so that a host links those alone that it calls. Their hidden names begin with rotid_private_
+# there, so that a host may have a pool_open too.
+$(BUILD)/private.names: $(LIBRARY_OBJECTS)
+	@$(NM) -g --defined-only $^ | awk 'NF == 3 && $$3 !~ /^rotid_/ { print $$3, "rotid_private_" $$3 }' | LC_ALL=C sort -u > $@
+# With -flto what the compiler has left to the linker is made first. Of the flags only those that decide what kind of object it is: a
+# sanitizer's would link its library.
+KIND_FLAGS = $(filter -m% -flto% -fuse-ld=%,$(CFLAGS) $(LDFLAGS)) -flinker-output=nolto-rel
+MEMBERS := $(LIBRARY_OBJECTS:$(BUILD)/src/%.o=$(BUILD)/members/%.o)
+$(MEMBERS): $(BUILD)/members/%.o: $(BUILD)/src/%.o $(BUILD)/private.names
+	@mkdir -p $(@D)
+	@$(if $(filter -flto%,$(CFLAGS)),$(CC) -r -nostdlib $(KIND_FLAGS) $< -o $@.made && )$(OBJCOPY) \
+	    --redefine-syms=$(BUILD)/private.names $(if $(filter -flto%,$(CFLAGS)),$@.made,$<) $@
+# in one folder a member would take the place of another of its name
+$(BUILD)/librotid.a: $(MEMBERS)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(AR) qcs $@ $^
 
-# Shared, and what a static host has to link beside it, for rotid.pc. A sanitizer's names come with the program.
+# Shared, and what a static host has to link beside it, for rotid.pc: without folders of this machine where the linker finds the
+# libraries by itself. A sanitizer's names come with the program.
 NO_UNDEFINED = $(if $(findstring -fsanitize,$(CFLAGS) $(LDFLAGS)),,-Wl,-z,defs)
 $(BUILD)/$(SHARED): $(LIBRARY_OBJECTS)
 	$(CC) -shared -Wl,-soname,$(SONAME) $(NO_UNDEFINED) $(CFLAGS) $(LDFLAGS) $^ $(LIBRARY_LIBS) -o $@
-	@echo '$(LIBRARY_LIBS)' > $(BUILD)/librotid.libs
+	@echo 'int main(void) { return 0; }' | $(CC) -x c - -x none $(filter-out -L%,$(LIBRARY_LIBS)) -o $(BUILD)/finds 2>/dev/null && \
+	    rm $(BUILD)/finds && echo '$(filter-out -L%,$(LIBRARY_LIBS))' > $(BUILD)/librotid.libs || echo '$(LIBRARY_LIBS)' > $(BUILD)/librotid.libs
 $(BUILD)/librotid.so: $(BUILD)/$(SHARED)
 	@ln -sf $(SHARED) $(BUILD)/$(SONAME)
 	@ln -sf $(SONAME) $@
 
-$(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(IO_OBJECTS) $(OBJECTS)
+$(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 # The same studies over MPI; nothing else depends on it.
 MPICC ?= mpicc
 STUDY_RUNS ?= 1000
 $(BUILD)/src/mpi/%.o: override CC = $(MPICC)
-$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(IO_OBJECTS) $(OBJECTS)
+$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 check-mpi:
@@ -146,7 +173,7 @@ $(BUILD)/hammer: $(call OBJECTS_OF,$(wildcard tools/hammer/*.c tools/oracle/*.c)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
 # Fresh hidden effects by the thousand; POWER holds options, such as "--cases 200 --no-shapes".
-$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(OBJECTS)
+$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 power: $(BUILD)/power
 	@OPENBLAS_NUM_THREADS=1 $(BUILD)/power $(POWER)
@@ -154,11 +181,16 @@ power: $(BUILD)/power
 # Some link hosts of their own, in the way the library was built.
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(IO_OBJECTS) $(OBJECTS)
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
+
+SWEEP_PAYLOADS ?= 2000
+.PHONY: sweep
+sweep: all $(BUILD)/tests/test_report_sweep
+	@ROTID_SWEEP_PAYLOADS=$(SWEEP_PAYLOADS) OPENBLAS_NUM_THREADS=1 $(BUILD)/tests/test_report_sweep
 
 abi: $(BUILD)/tests/test_abi
 	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
@@ -197,18 +229,23 @@ check-valgrind: all $(TEST_PROGRAMS)
 
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
-                       $(BUILD)/tests/mgh_functions.o $(BUILD)/tests/mgh_data_fits.o $(BUILD)/librotid.a
+                       $(BUILD)/tests/mgh_functions.o $(BUILD)/tests/mgh_data_fits.o $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(shell pkg-config --libs cminpack) $(LIBRARY_LIBS) -o $@
 $(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
 check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
+
+# the tests of linear algebra, fits and decks with reference LAPACK and, where installed, BLIS
+.PHONY: check-blas
+check-blas:
+	@sh tests/blas/check '$(BUILD)'
 
 check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 	@sh tests/embedding/check '$(BUILD)'
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
 FUZZERS := uff deck plan results
-$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(IO_OBJECTS) $(OBJECTS)
+$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 fuzzers: $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
 fuzz:
@@ -224,7 +261,7 @@ coverage:
 	@sh tools/coverage $(BUILD)/coverage
 
 lint:
-	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(IO_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
+	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
 	@sh tools/lint-manual
 
 format:
@@ -234,7 +271,7 @@ install: all
 	@$(TELL_INSTALL) sh tools/install install '$(BUILD)'
 uninstall:
 	@$(TELL_INSTALL) sh tools/install uninstall '$(BUILD)'
-TELL_INSTALL = $(foreach name,VERSION SONAME DESTDIR PREFIX BINDIR LIBDIR PKGCONFIGDIR INCLUDEDIR DATADIR MANDIR DOCDIR BASHDIR ZSHDIR \
+TELL_INSTALL = $(foreach name,VERSION SONAME DESTDIR PREFIX BINDIR LIBDIR PKGCONFIGDIR CMAKEDIR INCLUDEDIR DATADIR MANDIR DOCDIR BASHDIR ZSHDIR \
                FISHDIR MPI,$(name)='$($(name))')
 
 clean:

@@ -10,19 +10,28 @@
 !   Members of types are as in C: pointers to arrays are type(c_ptr), seen through rotid_reals, rotid_integers or
 !   c_f_pointer, and indices in them count from 0. A type starts out as zeros and null pointers, so that a constructor names
 !   only the members that matter: rotid_parameter(lower=1e9_c_double, upper=1e12_c_double, start=2e11_c_double).
+!   Types that begin with `size` start out with that of 64-bit machines; elsewhere the routines for Fortran set it, and hosts that
+!   call the others have to.
+!   `failure`, optional in the routines for Fortran, becomes why the status is an error, and empty where it is none. In this text
+!   arguments have their names of rotid.h, and indices count from 0.
 !   What a callback changes through `user` or `context` needs the attribute target, and so does the rotid_model, rotid_environment
 !   or rotid_matrix that names it; else a compiler that optimises may take it for unchanged.
 !
 ! Compile this file with the compiler of the host, then link with `pkg-config --libs rotid`.
 module rotid
   use, intrinsic :: iso_c_binding, only: c_int, c_long, c_size_t, c_double, c_char, c_ptr, c_funptr, c_null_ptr, c_null_funptr, &
-                                         c_null_char, c_loc, c_funloc, c_associated, c_f_pointer
+                                         c_null_char, c_loc, c_funloc, c_sizeof, c_associated, c_f_pointer
   implicit none
 
   character(len=*), parameter :: ROTID_VERSION_TEXT = "0.2.0"
   integer(c_int), parameter :: ROTID_VERSION_MAJOR = 0
+  integer(c_int), parameter :: ROTID_VERSION_MINOR = 2
+  integer(c_int), parameter :: ROTID_VERSION_PATCH = 0
 
   ! ------------------------------------------------------------------------------------------------ constants
+
+  ! of the text `failure`, with the zero that ends it
+  integer(c_int), parameter :: ROTID_FAILURE_LENGTH = 512
 
   ! status
   integer(c_int), parameter :: ROTID_OK = 0
@@ -82,6 +91,7 @@ module rotid
   end type rotid_allocator
 
   type, bind(C) :: rotid_environment
+    integer(c_size_t) :: size = 40
     type(c_ptr) :: allocator = c_null_ptr       ! a rotid_allocator
     type(c_funptr) :: cancelled = c_null_funptr ! rotid_environment_cancelled
     type(c_funptr) :: progress = c_null_funptr  ! rotid_environment_progress
@@ -224,6 +234,7 @@ module rotid
   end type rotid_diagnosis
 
   type, bind(C) :: rotid_diagnose_options
+    integer(c_size_t) :: size = 24
     integer(c_int) :: threads = 0
     integer(c_int) :: replicates = 0
     integer(c_long) :: seed = 0
@@ -239,6 +250,7 @@ module rotid
   end type rotid_matrix
 
   type, bind(C) :: rotid_model
+    integer(c_size_t) :: size = 80
     integer(c_int) :: n = 0, kd = 0, nfar = 0
     type(c_ptr) :: far = c_null_ptr    ! integer [nfar], from 0; rotid_fit_model takes it as an array
     integer(c_int) :: nparam = 0
@@ -251,6 +263,7 @@ module rotid
   end type rotid_model
 
   type, bind(C) :: rotid_measured
+    integer(c_size_t) :: size = 64
     integer(c_int) :: nmode = 0
     type(c_ptr) :: number = c_null_ptr        ! integer [nmode]
     type(c_ptr) :: frequency_hz = c_null_ptr  ! real [nmode]
@@ -261,12 +274,13 @@ module rotid
   end type rotid_measured
 
   type, bind(C) :: rotid_fit_options
+    integer(c_size_t) :: size = 56
     integer(c_int) :: functional = 0, reduction = 0, derivative = 0
+    integer(c_int) :: baseline = 0
     integer(c_int) :: max_iterations = 0
     real(c_double) :: gradient_tolerance = 0
     real(c_double) :: step_tolerance = 0
     real(c_double) :: bijection_chi = 0
-    integer(c_int) :: baseline = 0
   end type rotid_fit_options
 
   type, bind(C) :: rotid_fit_iteration
@@ -326,6 +340,7 @@ module rotid
   end type rotid_lm_iteration
 
   type, bind(C) :: rotid_lm_options
+    integer(c_size_t) :: size = 64
     integer(c_int) :: max_iterations = 0
     real(c_double) :: gradient_tolerance = 0
     real(c_double) :: step_tolerance = 0
@@ -427,30 +442,44 @@ module rotid
       type(c_ptr) :: text
     end function rotid_status_name
 
-    ! ---- run a deck; with strings and optional arguments: rotid_read_deck, rotid_compute_spectrum, rotid_identify_deck,
-    ! rotid_diagnose_deck, rotid_free
+    ! ---- run a deck; with strings and optional arguments: rotid_read_deck, rotid_read_deck_text, rotid_compute_spectrum,
+    ! rotid_identify_deck, rotid_diagnose_deck, rotid_free
 
-    function rotid_deck_read(path, noverride, override, environment, deck) result(status) bind(C, name="rotid_deck_read")
+    function rotid_deck_read(path, noverride, override, environment, failure, deck) result(status) bind(C, name="rotid_deck_read")
       import :: c_char, c_ptr, c_int
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int), value :: noverride
       type(c_ptr), value :: override    ! type(c_ptr) [noverride]
-      type(c_ptr), value :: environment
+      type(c_ptr), value :: environment, failure
       type(c_ptr), intent(out) :: deck
       integer(c_int) :: status
     end function rotid_deck_read
+
+    function rotid_deck_read_text(length, text, name, directory, noverride, override, environment, failure, deck) result(status) &
+      bind(C, name="rotid_deck_read_text")
+      import :: c_char, c_ptr, c_int, c_size_t
+      integer(c_size_t), value :: length
+      character(kind=c_char), intent(in) :: text(*)
+      type(c_ptr), value :: name, directory ! texts
+      integer(c_int), value :: noverride
+      type(c_ptr), value :: override        ! type(c_ptr) [noverride]
+      type(c_ptr), value :: environment, failure
+      type(c_ptr), intent(out) :: deck
+      integer(c_int) :: status
+    end function rotid_deck_read_text
 
     subroutine rotid_deck_free(deck) bind(C, name="rotid_deck_free")
       import :: c_ptr
       type(c_ptr), value :: deck
     end subroutine rotid_deck_free
 
-    function rotid_spectrum_compute(deck, x, nmode, environment, spectrum) result(status) bind(C, name="rotid_spectrum_compute")
+    function rotid_spectrum_compute(deck, x, nmode, environment, failure, spectrum) result(status) &
+      bind(C, name="rotid_spectrum_compute")
       import :: c_ptr, c_int
       type(c_ptr), value :: deck
       type(c_ptr), value :: x           ! real [nparameter]
       integer(c_int), value :: nmode
-      type(c_ptr), value :: environment
+      type(c_ptr), value :: environment, failure
       type(c_ptr), intent(out) :: spectrum
       integer(c_int) :: status
     end function rotid_spectrum_compute
@@ -495,18 +524,19 @@ module rotid
 
     ! ---- your own model; with arrays and optional arguments: rotid_fit_model, rotid_free
 
-    subroutine rotid_fit_defaults(options) bind(C, name="rotid_fit_defaults")
-      import :: rotid_fit_options
+    subroutine rotid_fit_defaults(size, options) bind(C, name="rotid_fit_defaults")
+      import :: c_size_t, rotid_fit_options
+      integer(c_size_t), value :: size ! c_sizeof(options)
       type(rotid_fit_options), intent(out) :: options
     end subroutine rotid_fit_defaults
 
-    function rotid_fit(model, parameter, measured, options, environment, result) result(status) bind(C, name="rotid_fit")
+    function rotid_fit(model, parameter, measured, options, environment, failure, result) result(status) bind(C, name="rotid_fit")
       import :: c_ptr, c_int, rotid_model, rotid_parameter, rotid_measured, rotid_fit_options
       type(rotid_model), intent(in), target :: model
       type(rotid_parameter), intent(in) :: parameter(*)
       type(rotid_measured), intent(in) :: measured
       type(rotid_fit_options), intent(in) :: options
-      type(c_ptr), value :: environment
+      type(c_ptr), value :: environment, failure
       type(c_ptr), intent(out) :: result
       integer(c_int) :: status
     end function rotid_fit
@@ -515,6 +545,17 @@ module rotid
       import :: c_ptr
       type(c_ptr), value :: result
     end subroutine rotid_fit_free
+
+    function rotid_check_model(model, parameter, x, environment, failure, error, doubt) result(status) &
+        bind(C, name="rotid_check_model")
+      import :: c_double, c_ptr, c_int, rotid_model, rotid_parameter
+      type(rotid_model), intent(in), target :: model
+      type(rotid_parameter), intent(in) :: parameter(*)
+      type(c_ptr), value :: x                   ! real [nparam]
+      type(c_ptr), value :: environment, failure
+      real(c_double), intent(inout) :: error(*), doubt(*)
+      integer(c_int) :: status
+    end function rotid_check_model
 
     ! ---- building blocks: the beam
 
@@ -530,9 +571,11 @@ module rotid
       real(c_double) :: coefficient
     end function rotid_shear_coefficient_rectangle
 
-    function rotid_equivalent_cylinder(area, inertia, outer, inner) result(status) bind(C, name="rotid_equivalent_cylinder")
-      import :: c_double, c_int
+    function rotid_equivalent_cylinder(area, inertia, failure, outer, inner) result(status) &
+      bind(C, name="rotid_equivalent_cylinder")
+      import :: c_double, c_int, c_ptr
       real(c_double), value :: area, inertia
+      type(c_ptr), value :: failure
       real(c_double), intent(out) :: outer, inner
       integer(c_int) :: status
     end function rotid_equivalent_cylinder
@@ -557,89 +600,95 @@ module rotid
 
     ! ---- building blocks: matrices; with indices from 1: rotid_add, rotid_add_element, rotid_set_full
 
-    function rotid_matrix_add(a, i, j, value) result(status) bind(C, name="rotid_matrix_add")
-      import :: c_double, c_int, rotid_matrix
+    function rotid_matrix_add(a, i, j, value, failure) result(status) bind(C, name="rotid_matrix_add")
+      import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(inout) :: a
       integer(c_int), value :: i, j
       real(c_double), value :: value
+      type(c_ptr), value :: failure
       integer(c_int) :: status
     end function rotid_matrix_add
 
-    function rotid_matrix_add_element(a, nd, dof, e) result(status) bind(C, name="rotid_matrix_add_element")
-      import :: c_double, c_int, rotid_matrix
+    function rotid_matrix_add_element(a, nd, dof, e, failure) result(status) bind(C, name="rotid_matrix_add_element")
+      import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(inout) :: a
       integer(c_int), value :: nd
       integer(c_int), intent(in) :: dof(*)
       real(c_double), intent(in) :: e(nd, *)
+      type(c_ptr), value :: failure
       integer(c_int) :: status
     end function rotid_matrix_add_element
 
-    function rotid_matrix_set_dense(a, full, ld) result(status) bind(C, name="rotid_matrix_set_dense")
-      import :: c_double, c_int, rotid_matrix
+    function rotid_matrix_set_dense(a, full, ld, failure) result(status) bind(C, name="rotid_matrix_set_dense")
+      import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(inout) :: a
       integer(c_int), value :: ld
       real(c_double), intent(in) :: full(ld, *)
+      type(c_ptr), value :: failure
       integer(c_int) :: status
     end function rotid_matrix_set_dense
 
-    function rotid_matrix_get_dense(a, full, ld) result(status) bind(C, name="rotid_matrix_get_dense")
-      import :: c_double, c_int, rotid_matrix
+    function rotid_matrix_get_dense(a, full, ld, failure) result(status) bind(C, name="rotid_matrix_get_dense")
+      import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(in) :: a
       integer(c_int), value :: ld
       real(c_double), intent(inout) :: full(ld, *)
+      type(c_ptr), value :: failure
       integer(c_int) :: status
     end function rotid_matrix_get_dense
 
-    function rotid_matrix_multiply(a, columns, x, y) result(status) bind(C, name="rotid_matrix_multiply")
-      import :: c_double, c_int, rotid_matrix
+    function rotid_matrix_multiply(a, columns, x, y, failure) result(status) bind(C, name="rotid_matrix_multiply")
+      import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(in) :: a
       integer(c_int), value :: columns
       real(c_double), intent(in) :: x(a%n, *)
       real(c_double), intent(inout) :: y(a%n, *)
+      type(c_ptr), value :: failure
       integer(c_int) :: status
     end function rotid_matrix_multiply
 
-    function rotid_condense(k, m, nmaster, master, kind, environment, kc, mc, t) result(status) bind(C, name="rotid_condense")
+    function rotid_condense(k, m, nmaster, master, kind, environment, failure, kc, mc, t) result(status) &
+      bind(C, name="rotid_condense")
       import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(in) :: k, m
       integer(c_int), value :: nmaster
       integer(c_int), intent(in) :: master(*)   ! from 0
       integer(c_int), value :: kind
-      type(c_ptr), value :: environment
+      type(c_ptr), value :: environment, failure
       real(c_double), intent(inout) :: kc(nmaster, *), mc(nmaster, *)
       type(c_ptr), value :: t                   ! real [n, nmaster]
       integer(c_int) :: status
     end function rotid_condense
 
-    function rotid_condense_derivative(k, m, dk, dm, nmaster, master, kind, environment, dkc, dmc) result(status) &
+    function rotid_condense_derivative(k, m, dk, dm, nmaster, master, kind, environment, failure, dkc, dmc) result(status) &
       bind(C, name="rotid_condense_derivative")
       import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(in) :: k, m, dk, dm
       integer(c_int), value :: nmaster
       integer(c_int), intent(in) :: master(*)   ! from 0
       integer(c_int), value :: kind
-      type(c_ptr), value :: environment
+      type(c_ptr), value :: environment, failure
       real(c_double), intent(inout) :: dkc(nmaster, *), dmc(nmaster, *)
       integer(c_int) :: status
     end function rotid_condense_derivative
 
-    function rotid_eigenpairs(k, m, count, environment, lambda, phi) result(status) bind(C, name="rotid_eigenpairs")
+    function rotid_eigenpairs(k, m, count, environment, failure, lambda, phi) result(status) bind(C, name="rotid_eigenpairs")
       import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(in) :: k, m
       integer(c_int), value :: count
-      type(c_ptr), value :: environment
+      type(c_ptr), value :: environment, failure
       real(c_double), intent(inout) :: lambda(*), phi(k%n, *)
       integer(c_int) :: status
     end function rotid_eigenpairs
 
-    function rotid_eigenpair_derivative(k, m, dk, dm, count, lambda, phi, j, environment, dlambda, dphi) result(status) &
+    function rotid_eigenpair_derivative(k, m, dk, dm, count, lambda, phi, j, environment, failure, dlambda, dphi) result(status) &
       bind(C, name="rotid_eigenpair_derivative")
       import :: c_double, c_int, c_ptr, rotid_matrix
       type(rotid_matrix), intent(in) :: k, m, dk, dm
       integer(c_int), value :: count
       real(c_double), intent(in) :: lambda(*), phi(k%n, *)
       integer(c_int), value :: j                ! from 0
-      type(c_ptr), value :: environment
+      type(c_ptr), value :: environment, failure
       real(c_double), intent(out) :: dlambda
       type(c_ptr), value :: dphi                ! real [n]
       integer(c_int) :: status
@@ -653,12 +702,14 @@ module rotid
       integer(c_size_t) :: length
     end function rotid_lm_workspace
 
-    function rotid_lm(m, n, residual, user, options, x, r, jacobian, work, result) result(status) bind(C, name="rotid_lm")
+    function rotid_lm(m, n, residual, user, options, failure, x, r, jacobian, work, result) result(status) &
+      bind(C, name="rotid_lm")
       import :: c_double, c_int, c_ptr, c_funptr, rotid_lm_result
       integer(c_int), value :: m, n
       type(c_funptr), value :: residual         ! rotid_residual
       type(c_ptr), value :: user
       type(c_ptr), value :: options             ! a rotid_lm_options
+      type(c_ptr), value :: failure
       real(c_double), intent(inout) :: x(*), r(*), jacobian(m, *), work(*)
       type(rotid_lm_result), intent(inout) :: result
       integer(c_int) :: status
@@ -670,7 +721,7 @@ module rotid
       integer(c_size_t) :: length
     end function rotid_check_jacobian_workspace
 
-    function rotid_check_jacobian(m, n, residual, user, x, scale, error, doubt, work) result(status) &
+    function rotid_check_jacobian(m, n, residual, user, x, scale, failure, error, doubt, work) result(status) &
       bind(C, name="rotid_check_jacobian")
       import :: c_double, c_int, c_ptr, c_funptr
       integer(c_int), value :: m, n
@@ -678,6 +729,7 @@ module rotid
       type(c_ptr), value :: user
       real(c_double), intent(in) :: x(*)
       type(c_ptr), value :: scale               ! real [n]
+      type(c_ptr), value :: failure
       real(c_double), intent(inout) :: error(*), doubt(*), work(*)
       integer(c_int) :: status
     end function rotid_check_jacobian
@@ -722,8 +774,7 @@ module rotid
   end interface
 
   private :: free_deck, free_spectrum, free_identification, free_diagnosis, free_fit, real_vector, real_matrix, c_length, &
-             c_string, ones_to_zeros, failure_length
-  integer, parameter :: failure_length = 512
+             c_string, c_strings, ones_to_zeros
 
 contains
 
@@ -823,91 +874,133 @@ contains
   end function rotid_block
 
   ! A(i, j) += value and A(j, i) with it. Statuses as rotid_matrix_add.
-  function rotid_add(matrix, i, j, value) result(status)
+  function rotid_add(matrix, i, j, value, failure) result(status)
     type(rotid_matrix), intent(inout) :: matrix
     integer, intent(in) :: i, j
     real(c_double), intent(in) :: value
+    character(len=:), allocatable, intent(out), optional :: failure
     integer(c_int) :: status
-    status = rotid_matrix_add(matrix, int(i - 1, c_int), int(j - 1, c_int), value)
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
+    status = rotid_matrix_add(matrix, int(i - 1, c_int), int(j - 1, c_int), value, c_loc(why))
+    if (present(failure)) failure = rotid_string(c_loc(why))
   end function rotid_add
 
   ! Adds the symmetric element matrix e(nd, nd) on the degrees of freedom dof(nd), from 1; one that is 0 or negative is left out
   ! (held). Statuses as rotid_matrix_add_element; ROTID_ERROR_ARGUMENT also where the sizes of dof and e do not agree.
-  function rotid_add_element(matrix, dof, e) result(status)
+  function rotid_add_element(matrix, dof, e, failure) result(status)
     type(rotid_matrix), intent(inout) :: matrix
     integer, intent(in) :: dof(:)
     real(c_double), intent(in) :: e(:, :)
+    character(len=:), allocatable, intent(out), optional :: failure
     integer(c_int) :: status
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
     status = ROTID_ERROR_ARGUMENT
+    if (present(failure)) failure = 'e has another shape than size(dof) x size(dof)'
     if (size(e, 1) /= size(dof) .or. size(e, 2) /= size(dof)) return
-    status = rotid_matrix_add_element(matrix, size(dof, kind=c_int), int(dof, c_int) - 1_c_int, e)
+    status = rotid_matrix_add_element(matrix, size(dof, kind=c_int), int(dof, c_int) - 1_c_int, e, c_loc(why))
+    if (present(failure)) failure = rotid_string(c_loc(why))
   end function rotid_add_element
 
   ! A := full(n, n), of which the lower triangle is read. Statuses as rotid_matrix_set_dense; ROTID_ERROR_ARGUMENT also where the
   ! sizes do not agree.
-  function rotid_set_full(matrix, full) result(status)
+  function rotid_set_full(matrix, full, failure) result(status)
     type(rotid_matrix), intent(inout) :: matrix
     real(c_double), intent(in) :: full(:, :)
+    character(len=:), allocatable, intent(out), optional :: failure
     integer(c_int) :: status
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
     status = ROTID_ERROR_ARGUMENT
+    if (present(failure)) failure = 'full has another shape than matrix%n x matrix%n'
     if (size(full, 1) /= matrix%n .or. size(full, 2) /= matrix%n) return
-    status = rotid_matrix_set_dense(matrix, full, matrix%n)
+    status = rotid_matrix_set_dense(matrix, full, matrix%n, c_loc(why))
+    if (present(failure)) failure = rotid_string(c_loc(why))
   end function rotid_set_full
 
   ! ---- run a deck
 
   ! rotid_deck_read with a path and overrides "CARD.OPTION=VALUE" of any length; blanks at their ends do not count.
-  function rotid_read_deck(path, deck, override, environment) result(status)
+  function rotid_read_deck(path, deck, override, environment, failure) result(status)
     character(len=*), intent(in) :: path
     type(rotid_deck), pointer, intent(out) :: deck
     character(len=*), intent(in), optional :: override(:)
     type(rotid_environment), intent(in), optional, target :: environment
+    character(len=:), allocatable, intent(out), optional :: failure
     type(rotid_environment), target :: given
     integer(c_int) :: status
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
     character(kind=c_char), allocatable, target :: text(:, :)
     type(c_ptr), allocatable, target :: pointers(:)
-    type(c_ptr) :: c_deck, list
-    integer(c_int) :: noverride
-    integer :: i
+    type(c_ptr) :: c_deck
     if (present(environment)) given = environment
+    given%size = c_sizeof(given)
     nullify (deck)
-    noverride = 0
-    list = c_null_ptr
-    if (present(override)) then
-      noverride = size(override, kind=c_int)
-      allocate (text(len(override) + 1, max(1, size(override))), pointers(max(1, size(override))))
-      do i = 1, size(override)
-        text(1:len_trim(override(i)) + 1, i) = c_string(override(i))
-        pointers(i) = c_loc(text(1, i))
-      end do
-      list = c_loc(pointers)
-    end if
-    status = rotid_deck_read(c_string(path), noverride, list, c_loc(given), c_deck)
+    call c_strings(override, text, pointers)
+    status = rotid_deck_read(c_string(path), size(pointers, kind=c_int) - 1_c_int, c_loc(pointers), c_loc(given), c_loc(why), &
+                             c_deck)
+    if (present(failure)) failure = rotid_string(c_loc(why))
     if (c_associated(c_deck)) call c_f_pointer(c_deck, deck)
   end function rotid_read_deck
 
+  ! rotid_deck_read_text of a deck whose lines end with new_line('a'); `name` is "deck" and there are no files without them.
+  function rotid_read_deck_text(text, deck, name, directory, override, environment, failure) result(status)
+    character(len=*), intent(in) :: text
+    type(rotid_deck), pointer, intent(out) :: deck
+    character(len=*), intent(in), optional :: name, directory, override(:)
+    type(rotid_environment), intent(in), optional, target :: environment
+    character(len=:), allocatable, intent(out), optional :: failure
+    type(rotid_environment), target :: given
+    integer(c_int) :: status
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
+    character(kind=c_char), allocatable, target :: c_override(:, :), c_name(:), c_directory(:)
+    type(c_ptr), allocatable, target :: pointers(:)
+    type(c_ptr) :: c_deck, at_name, at_directory
+    if (present(environment)) given = environment
+    given%size = c_sizeof(given)
+    nullify (deck)
+    at_name = c_null_ptr
+    if (present(name)) then
+      c_name = c_string(name)
+      at_name = c_loc(c_name)
+    end if
+    at_directory = c_null_ptr
+    if (present(directory)) then
+      c_directory = c_string(directory)
+      at_directory = c_loc(c_directory)
+    end if
+    call c_strings(override, c_override, pointers)
+    status = rotid_deck_read_text(len(text, kind=c_size_t), text, at_name, at_directory, size(pointers, kind=c_int) - 1_c_int, &
+                                  c_loc(pointers), c_loc(given), c_loc(why), c_deck)
+    if (present(failure)) failure = rotid_string(c_loc(why))
+    if (c_associated(c_deck)) call c_f_pointer(c_deck, deck)
+  end function rotid_read_deck_text
+
   ! rotid_spectrum_compute; without x at the starts of the parameters.
-  function rotid_compute_spectrum(deck, nmode, spectrum, x, environment) result(status)
+  function rotid_compute_spectrum(deck, nmode, spectrum, x, environment, failure) result(status)
     type(rotid_deck), intent(in), target :: deck
     integer, intent(in) :: nmode
     type(rotid_spectrum), pointer, intent(out) :: spectrum
     real(c_double), intent(in), optional :: x(:)
     type(rotid_environment), intent(in), optional, target :: environment
+    character(len=:), allocatable, intent(out), optional :: failure
     type(rotid_environment), target :: given
     integer(c_int) :: status
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
     real(c_double), allocatable, target :: values(:)
     type(c_ptr) :: c_spectrum, c_x
     if (present(environment)) given = environment
+    given%size = c_sizeof(given)
     nullify (spectrum)
     c_x = c_null_ptr
     if (present(x)) then
       status = ROTID_ERROR_ARGUMENT
+      if (present(failure)) failure = 'x has another size than deck%nparameter'
       if (size(x) /= deck%nparameter) return
       allocate (values(max(1, size(x))))
       values(1:size(x)) = x
       c_x = c_loc(values)
     end if
-    status = rotid_spectrum_compute(c_loc(deck), c_x, int(nmode, c_int), c_loc(given), c_spectrum)
+    status = rotid_spectrum_compute(c_loc(deck), c_x, int(nmode, c_int), c_loc(given), c_loc(why), c_spectrum)
+    if (present(failure)) failure = rotid_string(c_loc(why))
     if (c_associated(c_spectrum)) call c_f_pointer(c_spectrum, spectrum)
   end function rotid_compute_spectrum
 
@@ -920,11 +1013,11 @@ contains
     type(rotid_environment), target :: given
     character(len=:), allocatable, intent(out), optional :: failure
     integer(c_int) :: status, with_baseline
-    character(kind=c_char), target :: why(failure_length)
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
     type(c_ptr) :: c_found
     if (present(environment)) given = environment
+    given%size = c_sizeof(given)
     nullify (found)
-    why = c_null_char
     with_baseline = 0
     if (present(baseline)) with_baseline = merge(1_c_int, 0_c_int, baseline)
     status = rotid_identify(c_loc(deck), with_baseline, c_loc(given), c_loc(why), c_found)
@@ -942,12 +1035,13 @@ contains
     character(len=:), allocatable, intent(out), optional :: failure
     integer(c_int) :: status
     type(rotid_diagnose_options), target :: how
-    character(kind=c_char), target :: why(failure_length)
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
     type(c_ptr) :: c_found
     if (present(environment)) given = environment
+    given%size = c_sizeof(given)
     nullify (found)
-    why = c_null_char
     if (present(options)) how = options
+    how%size = c_sizeof(how)
     status = rotid_diagnose(c_loc(deck), c_loc(how), c_loc(given), c_loc(why), c_found)
     if (present(failure)) failure = rotid_string(c_loc(why))
     if (c_associated(c_found)) call c_f_pointer(c_found, found)
@@ -959,7 +1053,7 @@ contains
   ! of `parameter`, the masters are `master` and the far degrees of freedom `far`, increasing, from 1. Shapes are
   ! shape(size(master), size(number)). ROTID_ERROR_ARGUMENT also where sizes do not agree.
   function rotid_fit_model(model, parameter, number, frequency_hz, fit, frequency_std, shape, shape_std, holdout, master, far, &
-                           options, environment) result(status)
+                           options, environment, failure) result(status)
     type(rotid_model), intent(in), target :: model
     type(rotid_parameter), intent(in) :: parameter(:)
     integer, intent(in) :: number(:)
@@ -970,24 +1064,29 @@ contains
     integer, intent(in), optional :: master(:), far(:)
     type(rotid_fit_options), intent(in), optional :: options
     type(rotid_environment), intent(in), optional, target :: environment
+    character(len=:), allocatable, intent(out), optional :: failure
     type(rotid_environment), target :: given
     integer(c_int) :: status
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
     type(rotid_model), target :: host
-    type(rotid_measured) :: measured
-    type(rotid_fit_options) :: how
+    type(rotid_measured), target :: measured
+    type(rotid_fit_options), target :: how
     integer(c_int), allocatable, target :: c_master(:), c_far(:), c_number(:), c_holdout(:)
     real(c_double), allocatable, target :: c_hz(:), c_std(:), c_shape(:, :), c_shape_std(:, :)
     type(c_ptr) :: c_fit
     integer :: nmode, nmaster
     if (present(environment)) given = environment
+    given%size = c_sizeof(given)
     nullify (fit)
     status = ROTID_ERROR_ARGUMENT
     nmode = size(number)
     nmaster = 0
     if (present(master)) nmaster = size(master)
+    if (present(failure)) failure = 'number is empty, or frequency_hz has another size'
     if (nmode < 1 .or. size(frequency_hz) /= nmode) return
 
     host = model
+    host%size = c_sizeof(host)
     host%nparam = size(parameter, kind=c_int)
     host%nmaster = int(nmaster, c_int)
     host%master = c_null_ptr
@@ -1005,34 +1104,41 @@ contains
       end if
     end if
 
+    measured%size = c_sizeof(measured)
     measured%nmode = int(nmode, c_int)
     c_number = int(number, c_int)
     measured%number = c_loc(c_number)
     c_hz = frequency_hz
     measured%frequency_hz = c_loc(c_hz)
     if (present(frequency_std)) then
+      if (present(failure)) failure = 'frequency_std has another size than number'
       if (size(frequency_std) /= nmode) return
       c_std = frequency_std
       measured%frequency_std = c_loc(c_std)
     end if
     if (present(shape)) then
+      if (present(failure)) failure = 'shape has another shape than size(master) x size(number)'
       if (nmaster < 1 .or. size(shape, 1) /= nmaster .or. size(shape, 2) /= nmode) return
       c_shape = shape
       measured%shape = c_loc(c_shape)
     end if
     if (present(shape_std)) then
+      if (present(failure)) failure = 'shape_std has another shape than size(master) x size(number)'
       if (nmaster < 1 .or. size(shape_std, 1) /= nmaster .or. size(shape_std, 2) /= nmode) return
       c_shape_std = shape_std
       measured%shape_std = c_loc(c_shape_std)
     end if
     if (present(holdout)) then
+      if (present(failure)) failure = 'holdout has another size than number'
       if (size(holdout) /= nmode) return
       c_holdout = merge(1_c_int, 0_c_int, holdout)
       measured%holdout = c_loc(c_holdout)
     end if
 
     if (present(options)) how = options
-    status = rotid_fit(host, parameter, measured, how, c_loc(given), c_fit)
+    how%size = c_sizeof(how)
+    status = rotid_fit(host, parameter, measured, how, c_loc(given), c_loc(why), c_fit)
+    if (present(failure)) failure = rotid_string(c_loc(why))
     if (c_associated(c_fit)) call c_f_pointer(c_fit, fit)
   end function rotid_fit_model
 
@@ -1079,6 +1185,24 @@ contains
     end do
     text(size(text)) = c_null_char
   end function c_string
+
+  ! Texts for C and their addresses, one more than there are texts.
+  subroutine c_strings(string, text, pointers)
+    character(len=*), intent(in), optional :: string(:)
+    character(kind=c_char), allocatable, target, intent(out) :: text(:, :)
+    type(c_ptr), allocatable, intent(out) :: pointers(:)
+    integer :: i
+    if (.not. present(string)) then
+      pointers = [c_null_ptr]
+      return
+    end if
+    allocate (text(len(string) + 1, max(1, size(string))), pointers(size(string) + 1))
+    do i = 1, size(string)
+      text(1:len_trim(string(i)) + 1, i) = c_string(string(i))
+      pointers(i) = c_loc(text(1, i))
+    end do
+    pointers(size(pointers)) = c_null_ptr
+  end subroutine c_strings
 
   pure function ones_to_zeros(index) result(from_zero)
     integer, intent(in) :: index(:)

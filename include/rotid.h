@@ -9,11 +9,19 @@
  *   Matrices are column-major, indices count from 0.
  *   A node of a beam has two degrees of freedom, the lateral deflection v and the rotation theta = -dv/dz of its section.
  *   Every routine returns a status: 0 done, negative an error, positive a reason why an iteration ended.
- *   No routine prints, exits, handles signals or keeps state between calls, and only rotid_deck_read reads files; calls on
- *   different data may run at the same time. The number of BLAS threads stays what the host has set.
- *   NaN stands for what is not known or cannot be stated. While rotid_deck_read, rotid_spectrum_compute, rotid_identify,
- *   rotid_diagnose, rotid_fit or rotid_lm runs, its thread computes with floating-point exceptions masked, and all but the last
- *   two with the locale "C"; both are as the host had them when the call returns. Callbacks run in between. */
+ *   `failure` of a routine that can fail is NULL or ROTID_FAILURE_LENGTH characters of the host. The call leaves there why its
+ *   status is an error: of ROTID_ERROR_ARGUMENT which argument, by its name and place here, its value, and what was expected;
+ *   else at least rotid_status_text. Empty after a status that is no error.
+ *   A struct that begins with `size` is filled by the host: size = sizeof the struct, the rest zero but for what it sets, in C
+ *   rotid_model model = {.size = sizeof model, ...}. Versions to come add members behind the last one, and take zeros for what a
+ *   host was compiled without. What a newer host asks for in members that this library does not know is refused, zeros are not.
+ *   A size that was not set, 0, is ROTID_ERROR_ARGUMENT.
+ *   No routine prints, exits, handles signals or keeps state between calls, and only rotid_deck_read and rotid_deck_read_text
+ *   read files, those that the deck names among them; calls on different data may run at the same time. The number of BLAS
+ *   threads stays what the host has set.
+ *   NaN stands for what is not known or cannot be stated. While any routine computes, its thread does so with floating-point
+ *   exceptions masked, in the layer of decks also with the locale "C"; both are as the host had them when the call returns.
+ *   Callbacks run in between. */
 #ifndef ROTID_H
 #define ROTID_H
 
@@ -31,6 +39,8 @@ extern "C" {
 
 #define ROTID_VERSION       "0.2.0"
 #define ROTID_VERSION_MAJOR 0 /* of the shared library too: librotid.so.MAJOR */
+#define ROTID_VERSION_MINOR 2
+#define ROTID_VERSION_PATCH 0
 
 /* The version of the library that is linked, such as "0.2.0". */
 ROTID_API const char *rotid_version(void);
@@ -81,8 +91,11 @@ typedef struct rotid_allocator {
     void *context;
 } rotid_allocator;
 
-/* What a host may hand to a long call. NULL anywhere: malloc, never cancelled, silent. */
+#define ROTID_FAILURE_LENGTH 512 /* of the text `failure`, with the zero that ends it */
+
+/* What a host may hand to a long call. NULL anywhere: malloc, never cancelled, silent. An allocator has both functions. */
 typedef struct rotid_environment {
+    size_t size;
     const rotid_allocator *allocator;
     int (*cancelled)(void *context); /* polled once per iteration; nonzero ends the call with ROTID_STOP_CANCELLED */
     void (*progress)(void *context, const char *stage, int step); /* told of every iteration, of the baseline every evaluation */
@@ -143,10 +156,17 @@ typedef struct rotid_deck {
 
 /* Reads the deck `path`, what it includes and the measured data it names. override [noverride]: texts "CARD.OPTION=VALUE" that
  * replace options of the deck; NULL with 0. Exit: *deck, to be freed with rotid_deck_free also when the status is an error: its
- * messages then say what is wrong and where. *deck is NULL only with ROTID_ERROR_MEMORY or ROTID_ERROR_ARGUMENT (a NULL pointer).
+ * messages then say what is wrong and where, the first of them `failure` too. *deck is NULL only with ROTID_ERROR_MEMORY or
+ * ROTID_ERROR_ARGUMENT.
  * Statuses: ROTID_OK, ROTID_ERROR_SYNTAX, _IO, _MEMORY, _ARGUMENT; _SECTION where a section of it is none. */
 ROTID_API int rotid_deck_read(const char *path, int noverride, const char *const *override, const rotid_environment *environment,
-                              rotid_deck **deck);
+                              char *failure, rotid_deck **deck);
+/* The same of the deck text [length], which need not end with a zero. `name` stands for its file in messages and in `path`; NULL:
+ * "deck". What it includes and the measured data it names are read relative to `directory`; where that is NULL they are not read
+ * but an error with its place (ROTID_ERROR_SYNTAX). The text is not needed behind the call. */
+ROTID_API int rotid_deck_read_text(size_t length, const char *text, const char *name, const char *directory, int noverride,
+                                   const char *const *override, const rotid_environment *environment, char *failure,
+                                   rotid_deck **deck);
 /* NULL is allowed. */
 ROTID_API void rotid_deck_free(rotid_deck *deck);
 
@@ -710,21 +730,21 @@ typedef struct rotid_diagnosis {
 /* ---- the runs */
 
 /* What `rotid check` says of a deck, of which the model is taken as the deck states it. Statuses as for rotid_spectrum_compute. */
-ROTID_API int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, rotid_check **check);
+ROTID_API int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, char *failure, rotid_check **check);
 ROTID_API void rotid_check_free(rotid_check *check);
 
 /* The lowest nmode elastic modes at the values x [nparameter] of the parameters of the deck, at their starts where x is NULL, and the
- * measured modes beside them; nmode 0: as many as the pairing looks through, at least six. Statuses: every ROTID_ERROR_ but UNPAIRED, RANK, SYNTAX and IO. *spectrum is NULL on an error. */
+ * measured modes beside them; nmode 0: as many as the pairing looks through, at least six. Statuses: every ROTID_ERROR_ but
+ * UNPAIRED, RANK, SYNTAX and IO. *spectrum is NULL on an error. */
 ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
-                                     rotid_spectrum **spectrum);
+                                     char *failure, rotid_spectrum **spectrum);
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
 /* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again. With nothing to identify the model is
  * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
  * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
- * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL; where
- * that is no lack of memory, why is in `failure` (NULL allowed), which must hold 512 characters and is empty on success.
- * Cancelled while NLopt runs: the fit is complete and fit->nbaseline is 0. */
+ * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL.
+ * Cancelled while NLopt runs, or without NLopt (make WITH_NLOPT=0): the fit is complete and fit->nbaseline is 0. */
 ROTID_API int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,
                              rotid_identification **result);
 ROTID_API void rotid_identification_free(rotid_identification *result);
@@ -733,6 +753,7 @@ ROTID_API void rotid_identification_free(rotid_identification *result);
 
 /* Zero takes the default in brackets. */
 typedef struct rotid_diagnose_options {
+    size_t size;
     int threads;    /* [1] of this call; its BLAS should have one then */
     int replicates; /* [1000] of the bootstrap */
     long seed;      /* [1] >= 0, of the random numbers */
@@ -755,12 +776,13 @@ typedef struct rotid_matrix {
     int n, kd, nfar;
     const int *far; /* [nfar] degrees of freedom of C, increasing */
     double *band;   /* [(kd + 1) * n] lower triangle: B(i, j) = band[(i - j) + j * (kd + 1)], j <= i <= min(n - 1, j + kd) */
-    double *block;  /* [nfar * nfar] C, both triangles */
+    double *block;  /* [nfar * nfar] C, both triangles: alike but for rounding, else ROTID_ERROR_ARGUMENT where it is used */
 } rotid_matrix;
 
 /* A model with nparam >= 0 parameters x. Both callbacks receive matrices of the structure declared here, set to zero, and return
  * 0 or anything else for failure. K is positive semidefinite, M positive definite. */
 typedef struct rotid_model {
+    size_t size;
     int n, kd, nfar;
     const int *far;
     int nparam;
@@ -768,8 +790,9 @@ typedef struct rotid_model {
     int nmaster;       /* number of sensors */
     const int *master; /* [nmaster] degree of freedom of each sensor, distinct, increasing */
     int (*matrices)(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass);
-    /* dK/dx_p and dM/dx_p; NULL: central differences of fourth order of `matrices` over x_p (1 +- 0.004), which must be valid
-     * there; 1e-9 accurate for parameters that act strongly, 1e-7 for weak ones */
+    /* dK/dx_p and dM/dx_p; NULL: differences of fourth order of `matrices`, central over x_p (1 +- 0.004), or over x_p ... x_p (1
+     * +- 0.008) on one side where `matrices` fails on the other; 1e-9 accurate for parameters that act strongly, 1e-7 for weak
+     * ones */
     int (*derivatives)(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass);
     void *user;
 } rotid_model;
@@ -777,6 +800,7 @@ typedef struct rotid_model {
 /* The measured modes. Shapes are optional; their scale and sign are free, each mode is scaled to a largest component of 1
  * before use. */
 typedef struct rotid_measured {
+    size_t size;
     int nmode;
     const int *number;           /* [nmode] mode of the model that each is paired with, counted from 1 after the rigid ones */
     const double *frequency_hz;  /* [nmode] > 0 */
@@ -790,17 +814,19 @@ enum { ROTID_HYBRID, ROTID_HYBRID_F, ROTID_LIKELIHOOD }; /* functional */
 enum { ROTID_REDUCTION_NONE, ROTID_GUYAN, ROTID_IRS };   /* reduction */
 enum { ROTID_NELSON, ROTID_MODAL };                      /* eigenvector derivative; ROTID_MODAL needs a reduction */
 
-/* Zero-initialise, or rotid_fit_defaults: a zero takes the default in brackets. */
+/* Zeros but for the size, or rotid_fit_defaults: a zero takes the default in brackets. */
 typedef struct rotid_fit_options {
+    size_t size;
     int functional, reduction, derivative;
+    int baseline;              /* nonzero: minimise the same objective with NLopt as well, where the library has it */
     int max_iterations;        /* [100] */
     double gradient_tolerance; /* [1e-10] of the cosine between the residual and each column of the Jacobian */
     double step_tolerance;     /* [1e-12] relative step */
     double bijection_chi;      /* [0.05] chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by their start */
-    int baseline;              /* nonzero: minimise the same objective with NLopt as well */
 } rotid_fit_options;
 
-ROTID_API void rotid_fit_defaults(rotid_fit_options *options);
+/* *options := ROTID_LIKELIHOOD without reduction, the defaults in brackets; size is sizeof *options of the host. */
+ROTID_API void rotid_fit_defaults(size_t size, rotid_fit_options *options);
 
 typedef struct rotid_fit_iteration {
     int iteration;
@@ -862,9 +888,22 @@ struct rotid_fit_result {
  * convergence (status >= 0). On an error (< 0) *result is NULL. Statuses: every ROTID_ERROR_ but SYNTAX and IO. Memory:
  * O(nmaster^2 + n kd). The iteration itself allocates nothing. */
 ROTID_API int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
-                        const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result);
+                        const rotid_fit_options *options, const rotid_environment *environment, char *failure,
+                        rotid_fit_result **result);
 /* NULL is allowed. The allocator of the environment that the fit was given has to exist until then. */
 ROTID_API void rotid_fit_free(rotid_fit_result *result);
+
+/* Compares dK/dx_p and dM/dx_p as rotid_fit would use them, those of model->derivatives or differences where it is NULL, with
+ * differences of `matrices` that are extrapolated over a sequence of steps inside the bounds (rotid_check_jacobian), at x
+ * [nparam] between the bounds, NULL: at the starts. A derivative that is a fifth too large does not keep a fit from converging,
+ * but its intervals are too narrow then. Entries are compared as A_ij / sqrt(A_ii A_jj), whatever their units, those of the far
+ * block both triangles. error [2 * nparam]: |claimed - D| / max(|claimed|, |D|) of dK/dx_p, p = 0 ..., then of dM/dx_p, 0 where
+ * both vanish, 1 where one does; doubt [2 * nparam]: the same ratio for what D may be wrong by. A derivative is wrong where its
+ * error exceeds both 1e-6 and doubt; both are NaN where `matrices` has no model around x. K and M at x are looked at as by the
+ * fit: positive (semi)definite, finite. Some thirty calls of `matrices` for each parameter, twice. Statuses: ROTID_OK, _ARGUMENT,
+ * _MEMORY, _CALLBACK, _FINITE, _MASS, _STIFFNESS, _EIGEN. Memory: O(n kd + nfar^2), 35 + nparam times. */
+ROTID_API int rotid_check_model(const rotid_model *model, const rotid_parameter *parameter, const double *x,
+                                const rotid_environment *environment, char *failure, double *error, double *doubt);
 
 /* ------------------------------------------------------------------------------------------------ building blocks: the beam */
 
@@ -875,7 +914,7 @@ ROTID_API double rotid_shear_coefficient_rectangle(double nu);
 
 /* Cylinder of area S [m2] and second moment I [m4], (6): outer^2 = 8 I/S + 2 S/pi, inner^2 = 8 I/S - 2 S/pi.
  * ROTID_ERROR_SECTION when the inner diameter would be imaginary, ROTID_ERROR_ARGUMENT unless S, I > 0. */
-ROTID_API int rotid_equivalent_cylinder(double area, double inertia, double *outer, double *inner);
+ROTID_API int rotid_equivalent_cylinder(double area, double inertia, char *failure, double *outer, double *inner);
 
 /* Element matrices [16] for (v1, theta1, v2, theta2). EI [N.m2] bending, kGS [N] shear stiffness, length l [m] > 0;
  * phi = 12 EI/(kGS l^2), (A.2); rhoS [kg/m], rhoI [kg.m]; axial force F [N], tension positive.
@@ -889,59 +928,61 @@ ROTID_API void rotid_element_mass(double rhos, double rhoi, double phi, double l
 
 /* A(i, j) += value, and A(j, i) with it: into the band where it reaches, else into the block. ROTID_OK, or ROTID_ERROR_ARGUMENT
  * where the structure of the matrix has no such place; nothing is changed then. */
-ROTID_API int rotid_matrix_add(rotid_matrix *a, int i, int j, double value);
+ROTID_API int rotid_matrix_add(rotid_matrix *a, int i, int j, double value, char *failure);
 /* Adds the symmetric element matrix e [nd * nd] on the degrees of freedom dof [nd]; a negative dof is left out (held). Statuses
  * as above, nothing is changed on an error. */
-ROTID_API int rotid_matrix_add_element(rotid_matrix *a, int nd, const int *dof, const double *e);
+ROTID_API int rotid_matrix_add_element(rotid_matrix *a, int nd, const int *dof, const double *e, char *failure);
 /* A := the symmetric matrix `full` [n, n] with leading dimension ld >= n, of which the lower triangle is read. ROTID_OK, or
  * ROTID_ERROR_ARGUMENT where it has an entry other than zero outside the structure of A. */
-ROTID_API int rotid_matrix_set_dense(rotid_matrix *a, const double *full, int ld);
+ROTID_API int rotid_matrix_set_dense(rotid_matrix *a, const double *full, int ld, char *failure);
 /* full [n, n], leading dimension ld >= n := A, both triangles. ROTID_OK or ROTID_ERROR_ARGUMENT. */
-ROTID_API int rotid_matrix_get_dense(const rotid_matrix *a, double *full, int ld);
+ROTID_API int rotid_matrix_get_dense(const rotid_matrix *a, double *full, int ld, char *failure);
 /* Y [n * columns] := A X [n * columns]; they do not overlap. */
-ROTID_API int rotid_matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y);
+ROTID_API int rotid_matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y, char *failure);
 
-/* In the following K and M have the same n, kd and far; `environment` may be NULL, of it only the allocator is used. */
+/* In the following K and M have the same n, kd and far, and symmetric blocks; `environment` may be NULL, of it only the allocator
+ * is used. */
 
 /* Condensation onto master degrees of freedom, u = T x: K~ = T'KT, M~ = T'MT. kind: ROTID_GUYAN (11-13), T = [-K_ii^-1 K_ic; I];
  * ROTID_IRS (O'Callahan 1989). master [nmaster] increasing, 1 <= nmaster <= n. kc, mc [nmaster * nmaster]; t [n * nmaster] or
  * NULL. Statuses: ROTID_OK, _ARGUMENT, _MEMORY, _SLAVE, _MASS (IRS), _FINITE. */
 ROTID_API int rotid_condense(const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
-                             const rotid_environment *environment, double *kc, double *mc, double *t);
+                             const rotid_environment *environment, char *failure, double *kc, double *mc, double *t);
 /* The derivatives of K~ and M~ in the direction dK, dM (40, 41 corrected, docs/errata.md): dkc, dmc [nmaster * nmaster]. */
 ROTID_API int rotid_condense_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk,
                                         const rotid_matrix *dm, int nmaster, const int *master, int kind,
-                                        const rotid_environment *environment, double *dkc, double *dmc);
+                                        const rotid_environment *environment, char *failure, double *dkc, double *dmc);
 
 /* The lowest `count` pairs of K phi = lambda M phi, ascending, phi'M phi = 1: lambda [count] (rad/s)^2, phi [n * count]. A Sturm
  * count proves that none was missed. K positive semidefinite, M positive definite. Statuses: ROTID_OK, _ARGUMENT, _MEMORY, _MASS,
  * _STIFFNESS, _EIGEN, _FINITE. */
 ROTID_API int rotid_eigenpairs(const rotid_matrix *k, const rotid_matrix *m, int count, const rotid_environment *environment,
-                               double *lambda, double *phi);
+                               char *failure, double *lambda, double *phi);
 /* Derivatives of pair j of those lambda [count], phi [n * count] that rotid_eigenpairs gave, in the direction dK, dM:
  *   dlambda = phi' (dK - lambda dM) phi,   dphi [n] after Nelson (1976), with phi' M dphi = -1/2 phi' dM phi.
  * dphi may be NULL. Statuses: ROTID_OK, _ARGUMENT, _MEMORY, _FINITE, _CLOSE (for dphi: pair j has a neighbour within 1e-6). */
 ROTID_API int rotid_eigenpair_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk,
                                          const rotid_matrix *dm, int count, const double *lambda, const double *phi, int j,
-                                         const rotid_environment *environment, double *dlambda, double *dphi);
+                                         const rotid_environment *environment, char *failure, double *dlambda, double *dphi);
 
 /* -------------------------------------------------------------------------------------- building blocks: least squares */
 
 /* At x [n], one of the two: the residual r [m] (jacobian is NULL), or the jacobian [m * n] column-major, dr_i/dx_j (r is NULL),
  * always at the point whose residual was asked for last, so that what both need is computed once. Returns 0, or nonzero where x
- * has no residual: at the start that ends the call, later the step is refused and a shorter one tried. */
+ * has no residual or no Jacobian: at the start that ends the call, later the step is refused and a shorter one tried. */
 typedef int (*rotid_residual)(void *user, int m, int n, const double *x, double *r, double *jacobian);
 
 typedef struct rotid_lm_iteration {
     int iteration;
-    double objective, mu, gain_ratio;
-    double cosine;              /* largest cosine between r and a column of J */
-    const double *x, *gradient; /* [n] the accepted point, J' r */
+    double objective, mu, gain_ratio; /* objective: r'r/2, infinite or 0 where that has no double */
+    double cosine;                    /* largest cosine between r and a column of J */
+    const double *x, *gradient;       /* [n] the accepted point, J' r */
 } rotid_lm_iteration;
 
 /* Zero takes the default in brackets. */
 typedef struct rotid_lm_options {
-    int max_iterations;                                            /* [100] */
+    size_t size;
+    int max_iterations;                                            /* [1000] */
     double gradient_tolerance;                                     /* [1e-10] on that cosine */
     double step_tolerance;                                         /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
     double objective_tolerance;                                    /* [1e-16] predicted decrease over the objective */
@@ -962,12 +1003,21 @@ ROTID_API size_t rotid_lm_workspace(int m, int n);
  * norms of J so far (More 1978), s the largest of |J_j|/D_j. mu follows the gain ratio (Nielsen 1999; Madsen, Nielsen, Tingleff
  * 2004, 3.2), the actual decrease being (r - r+)'(r + r+)/2, which keeps its digits at the optimum. It is raised where |D h|
  * would exceed a radius (More 1978): the larger of 10 |D x| and |r| at first, then 4 times the last step, after one that failed a
- * half to a tenth of it. Entry: m >= 1, n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the
- * best point, r [m] and jacobian [m * n] there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing. Returns the stop
- * reason (> 0) or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual at the start), _FINITE (residual at the start), _RANK (J = 0 there
- * with r != 0), _LIBRARY. */
-ROTID_API int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
-                       double *jacobian, double *work, rotid_lm_result *result);
+ * half to a tenth of it. Residuals and Jacobians may be of any size: the path is the same for 1e200 r as for r. Entry: m >= 1,
+ * n >= 1 (m < n is allowed: the damped step is of least norm), x [n] start. Exit: x the best point, r [m] and jacobian [m * n]
+ * there. Workspace: work [rotid_lm_workspace(m, n)]. Allocates nothing. Returns
+ *   ROTID_STOP_GRADIENT    the cosine, or r, has vanished
+ *   ROTID_STOP_STEP        the Gauss-Newton step, without damping and radius, is negligible
+ *   ROTID_STOP_OBJECTIVE   what the Gauss-Newton step promises is below 1e-8 of the objective and no step that was tried gains
+ *                          anything, or the cosine is below 1e-4: the noise of a computed objective can hide what is left
+ *   ROTID_STOP_STALLED     no step lowers the objective though there is more to gain: this is no minimum. The Jacobian is not
+ *                          that of the residual (rotid_check_jacobian), the residual is flat around x but not to its slope (a
+ *                          minimum at infinity), or the residual fails on every step from here
+ *   ROTID_STOP_ITERATIONS, ROTID_STOP_CANCELLED
+ * or ROTID_ERROR_ARGUMENT, _CALLBACK (no residual or Jacobian at the start), _FINITE (one there is not), _RANK (J = 0 there with
+ * r != 0), _LIBRARY. */
+ROTID_API int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure,
+                       double *x, double *r, double *jacobian, double *work, rotid_lm_result *result);
 
 /* Length of the workspace of rotid_check_jacobian in doubles. */
 ROTID_API size_t rotid_check_jacobian_workspace(int m, int n);
@@ -978,7 +1028,7 @@ ROTID_API size_t rotid_check_jacobian_workspace(int m, int n);
  * Column j is wrong where error exceeds both a tolerance and doubt. x is not changed. Statuses: ROTID_OK, _ARGUMENT, _CALLBACK,
  * _FINITE (r or J at x). Where no differences can be had around x in a column, its doubt and error are NaN. */
 ROTID_API int rotid_check_jacobian(int m, int n, rotid_residual residual, void *user, const double *x, const double *scale,
-                                   double *error, double *doubt, double *work);
+                                   char *failure, double *error, double *doubt, double *work);
 
 /* ------------------------------------------------------------------------------------------------ building blocks: modes */
 

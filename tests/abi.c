@@ -25,6 +25,11 @@ static int is_of(const struct header_variable *variable, const char *name, int p
     return !variable->callback && variable->type.pointers == pointers && strcmp(variable->type.base, name) == 0;
 }
 
+int abi_says_its_size(const struct header_struct *structure)
+{
+    return structure->nmember && is_of(&structure->member[0], "size_t", 0) && strcmp(structure->member[0].name, "size") == 0;
+}
+
 static int takes(const struct header_function *function, const char *name, int pointers)
 {
     for (int i = 0; i < function->nparameter; i++)
@@ -89,7 +94,10 @@ static const char *append(struct pool *pool, const char *text, const char *kind,
 
 static const char *append_struct(struct pool *pool, const char *text, const struct header_struct *structure)
 {
-    text = append(pool, text, "struct", structure->name, abi_may_grow(structure->name) ? "grows" : "fixed");
+    text = append(pool, text, "struct", structure->name,
+                  abi_may_grow(structure->name)  ? "grows"
+                  : abi_says_its_size(structure) ? "sized"
+                                                 : "fixed");
     for (int i = 0; i < structure->nmember; i++) {
         struct header_variable member;
         if (without_name(pool, &structure->member[i], &member))
@@ -106,7 +114,7 @@ const char *abi_text(struct pool *pool, const struct header *header)
     const char *text = pool_format(pool, "major %ld\n", abi_major(header));
     for (int i = 0; text && i < header->nconstant; i++) {
         const struct header_constant *constant = &header->constant[i];
-        if (constant->kind != HEADER_TEXT && strcmp(constant->name, "ROTID_VERSION_MAJOR") != 0)
+        if (constant->kind != HEADER_TEXT && strncmp(constant->name, "ROTID_VERSION_", 14) != 0)
             text = append(pool, text, "constant", constant->name, pool_format(pool, "%ld", constant->value));
     }
     for (int i = 0; text && i < header->nstruct; i++)
@@ -140,7 +148,7 @@ static int same_line(const char *a, const char *b)
     return strcspn(b, "\n") == length && strncmp(a, b, length) == 0;
 }
 
-/* Is this new member of a struct that hosts know, and that may not grow. */
+/* Is this new member of a struct that hosts know, and that may not grow: neither "grows" nor "sized". */
 static int widens(struct pool *pool, const char *before, const char *line)
 {
     if (strncmp(line, "member ", 7) != 0)

@@ -34,7 +34,7 @@ static FILE *open_deck(const char *path, int finer)
 rotid_deck *bench_deck(const char *path)
 {
     rotid_deck *deck = NULL;
-    int status = rotid_deck_read(path, 0, NULL, NULL, &deck);
+    int status = rotid_deck_read(path, 0, NULL, NULL, NULL, &deck);
     for (int i = 0; status && deck && i < deck->nmessage; i++)
         print_error("%s:%d:%d: %s\n", path, deck->message[i].line, deck->message[i].column, deck->message[i].text);
     if (status)
@@ -51,7 +51,7 @@ void bench_hidden_deck(const char *path, double gradient, unsigned seed)
         (void)fprintf(out, "*CAUSE, NAME=hidden, TYPE=stiffness_gradient, GROUP=core\nslope, %.17g\n", gradient);
     (void)fclose(out);
     rotid_deck *deck = bench_deck(path);
-    if (rotid_spectrum_compute(deck, NULL, MODES, NULL, &s) || s->nmode != MODES)
+    if (rotid_spectrum_compute(deck, NULL, MODES, NULL, NULL, &s) || s->nmode != MODES)
         abort();
     rotid_deck_free(deck);
     out = open_deck(path, 1);

@@ -210,6 +210,11 @@ const char *fortran_differences(struct pool *pool, const struct header *header, 
 
 /* ---- what compilers make of it */
 
+static int says_its_size(const struct header_struct *structure)
+{
+    return structure->nmember && strcmp(structure->member[0].name, "size") == 0;
+}
+
 int write_c_witness(FILE *stream, const struct header *header)
 {
     (void)fputs("#include <stddef.h>\n#include <stdio.h>\n#include \"rotid.h\"\nint main(void)\n{\n", stream);
@@ -221,6 +226,8 @@ int write_c_witness(FILE *stream, const struct header *header)
     for (int i = 0; i < header->nstruct; i++) {
         const char *name = header->structure[i].name;
         (void)fprintf(stream, "    {\n        static %s a;\n        printf(\"%s %%zu\\n\", sizeof a);\n", name, name);
+        if (says_its_size(&header->structure[i]))
+            (void)fprintf(stream, "        printf(\"%s says %%zu\\n\", sizeof a);\n", name);
         for (int j = 0; j < header->structure[i].nmember; j++) {
             const char *member = header->structure[i].member[j].name;
             (void)fprintf(stream, "        printf(\"%s.%s %%zu %%zu\\n\", offsetof(%s, %s), sizeof a.%s);\n", name, member, name,
@@ -245,6 +252,8 @@ int write_fortran_witness(FILE *stream, const struct header *header)
     for (int i = 0; i < header->nstruct; i++) {
         const char *name = header->structure[i].name;
         (void)fprintf(stream, "  print '(a,1x,i0)', '%s', c_sizeof(a%d)\n", name, i + 1);
+        if (says_its_size(&header->structure[i])) /* from the start */
+            (void)fprintf(stream, "  print '(a,1x,i0)', '%s says', a%d%%size\n", name, i + 1);
         for (int j = 0; j < header->structure[i].nmember; j++) {
             const char *member = header->structure[i].member[j].name;
             (void)fprintf(stream,

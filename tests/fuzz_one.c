@@ -3,11 +3,13 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include "deck/deck.h"
 #include "study/plan.h"
+#include "study/stamp.h"
 #include "study/summary.h"
 #include "uff/uff.h"
 #include "uff/uff_read.h"
@@ -165,7 +167,37 @@ void fuzz_one_plan(const uint8_t *bytes, size_t count)
     (void)close(descriptor);
 }
 
-void fuzz_one_results(const uint8_t *bytes, size_t count)
+/* The lines behind the first with the stamps of it: what is beyond a digest would not be reached otherwise. NULL where there are
+ * none to be had; to be freed. */
+static char *stamp_all(struct pool *pool, const uint8_t *bytes, size_t count)
+{
+    char *text = calloc(1, count + 1), *all = NULL, study[DIGEST_LETTERS + 1];
+    struct header header;
+    size_t length;
+    require(text != NULL);
+    memcpy(text, bytes, count);
+    char *end = strchr(text, '\n');
+    cJSON *json = end ? cJSON_ParseWithLength(text, (size_t)(end - text)) : NULL;
+    if (!results_header_read(pool, json, &header)) {
+        FILE *stream = open_memstream(&all, &length);
+        require(stream != NULL);
+        stamp_study(&header, study);
+        (void)fprintf(stream, "%.*s\n", (int)(end - text), text);
+        for (char *line = end + 1; (end = strchr(line, '\n')); line = end + 1) {
+            char *bare = end - line > 1 && end[-1] == '}' ? strndup(line, (size_t)(end - line) + 1) : NULL,
+                 *stamped = bare ? stamp_line(study, bare) : NULL;
+            (void)fprintf(stream, "%.*s", stamped ? (int)strlen(stamped) : (int)(end - line) + 1, stamped ? stamped : line);
+            free(stamped);
+            free(bare);
+        }
+        require(fclose(stream) == 0);
+    }
+    cJSON_Delete(json);
+    free(text);
+    return all;
+}
+
+static void read_results(const uint8_t *bytes, size_t count)
 {
     struct pool pool;
     struct message_list messages;
@@ -187,4 +219,16 @@ void fuzz_one_results(const uint8_t *bytes, size_t count)
     }
     pool_close(&pool);
     (void)close(descriptor);
+}
+
+void fuzz_one_results(const uint8_t *bytes, size_t count)
+{
+    struct pool pool;
+    pool_open(&pool, NULL);
+    char *stamped = stamp_all(&pool, bytes, count);
+    read_results(bytes, count);
+    if (stamped)
+        read_results((const uint8_t *)stamped, strlen(stamped));
+    free(stamped);
+    pool_close(&pool);
 }

@@ -32,6 +32,8 @@ const char *page_stand_in(const char *fails_on);
 /* Problems of a page: elements that are not closed or in wrong order, attributes without quotes, identifiers that occur twice or
  * are referred to and missing, anything that would be loaded or run. Each is printed; their number. */
 int page_problems(const char *html);
+/* Of its elements and attributes alone: its texts may say anything. */
+int page_problems_of_markup(const char *html);
 
 /* The page that `rotid report` makes of a result in the folder, with a stand-in for gnuplot; nothing is wrong with it. */
 const char *page_made(const char *name);

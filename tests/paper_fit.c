@@ -17,8 +17,9 @@ void paper_fit_open_rotor(struct paper_fit *fit, const struct rotor *rotor, int 
     for (int k = 0; k < PAPER_MODES; k++)
         fit->number[k] = k + 1;
     memcpy(fit->frequency_hz, paper_measured_hz, sizeof fit->frequency_hz);
-    fit->measured = (rotid_measured){.nmode = PAPER_MODES, .number = fit->number, .frequency_hz = fit->frequency_hz};
-    rotid_fit_defaults(&fit->options);
+    fit->measured = (rotid_measured){
+        .size = sizeof(rotid_measured), .nmode = PAPER_MODES, .number = fit->number, .frequency_hz = fit->frequency_hz};
+    rotid_fit_defaults(sizeof fit->options, &fit->options);
     fit->options.functional = ROTID_HYBRID;
     fit->options.reduction = ROTID_GUYAN;
 }
@@ -78,7 +79,7 @@ void paper_synthesise(struct paper_fit *fit, const double *x, double frequency_s
 rotid_fit_result *paper_run(struct paper_fit *fit)
 {
     rotid_fit_result *result = NULL;
-    assert_status(rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, &result), ROTID_OK);
+    assert_status(rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, NULL, &result), ROTID_OK);
     assert_non_null(result);
     return result;
 }

@@ -63,3 +63,17 @@ int close_test_pool(void **state)
     pool_close(&test_pool);
     return 0;
 }
+
+__attribute__((weak)) void openblas_set_num_threads(int threads);
+__attribute__((weak)) int openblas_get_num_threads(void);
+
+void set_blas_threads(int threads)
+{
+    if (openblas_set_num_threads)
+        openblas_set_num_threads(threads);
+}
+
+int blas_threads(void)
+{
+    return openblas_get_num_threads ? openblas_get_num_threads() : 0;
+}

@@ -35,6 +35,10 @@ extern struct pool test_pool;
 int open_test_pool(void **state);
 int close_test_pool(void **state);
 
+/* Threads of the BLAS, where it has any to set, as OpenBLAS does; 0 where not. */
+void set_blas_threads(int threads);
+int blas_threads(void);
+
 /* A status by its name in failure messages. */
 #define assert_status(status, expected) assert_string_equal(rotid_status_name(status), #expected)
 

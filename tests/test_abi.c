@@ -60,7 +60,7 @@ static void hosts_of_this_major_version_still_run(void **state)
     }
 }
 
-static void both_version_numbers_agree(void **state)
+static void all_version_numbers_agree(void **state)
 {
     (void)state;
     struct header header;
@@ -69,6 +69,8 @@ static void both_version_numbers_agree(void **state)
     assert_int_equal(strtol(ROTID_VERSION, &end, 10), ROTID_VERSION_MAJOR);
     assert_int_equal(*end, '.');
     assert_int_equal(abi_major(&header), ROTID_VERSION_MAJOR);
+    assert_string_equal(pool_format(&test_pool, "%d.%d.%d", ROTID_VERSION_MAJOR, ROTID_VERSION_MINOR, ROTID_VERSION_PATCH),
+                        ROTID_VERSION);
     assert_string_equal(rotid_version(), ROTID_VERSION);
 }
 
@@ -92,11 +94,35 @@ static void structs_that_may_grow_are_handed_out_one_at_a_time(void **state)
     assert_string_equal(why, "no routine hands it out by its address");
 }
 
+/* What a host fills says its size, or it stands in the list of what never grows. */
+static void structs_of_hosts_say_their_size(void **state)
+{
+    (void)state;
+    static const char *const fixed[] = {"rotid_allocator", "rotid_parameter", "rotid_matrix", "rotid_lm_result"};
+    static const char *const sized[] = {"rotid_environment", "rotid_diagnose_options", "rotid_model",
+                                        "rotid_measured",    "rotid_fit_options",      "rotid_lm_options"};
+    struct header header;
+    int count = 0;
+    assert_int_equal(header_read(&test_pool, HEADER, &header), 0);
+    for (int i = 0; i < header.nstruct; i++)
+        count += abi_says_its_size(&header.structure[i]);
+    assert_int_equal(count, sizeof sized / sizeof *sized);
+    for (size_t i = 0; i < sizeof sized / sizeof *sized; i++) {
+        const char *why;
+        assert_true(abi_says_its_size(header_struct(&header, sized[i])));
+        (void)abi_cannot_grow(&header, sized[i], &why);
+        assert_string_equal(why, "no routine hands it out by its address"); /* nor does it stand in another one */
+    }
+    for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)
+        assert_false(abi_says_its_size(header_struct(&header, fixed[i])));
+}
+
 /* A small interface, and what becomes of it. */
 static const char small[] = "#define ROTID_VERSION_MAJOR 0\n#define ROTID_MOST 5\n"
                             "enum { ROTID_A, ROTID_B };\n"
                             "typedef struct rotid_deck { int n; const double *x; void *memory; } rotid_deck;\n"
                             "typedef struct rotid_options { int n; double y[2]; } rotid_options;\n"
+                            "typedef struct rotid_sized { size_t size; double y[2]; } rotid_sized;\n"
                             "typedef int (*rotid_call)(void *user, int n);\n"
                             "ROTID_API int rotid_run(const rotid_options *options, rotid_deck **deck);\n"
                             "ROTID_API void rotid_free(rotid_deck *deck);\n";
@@ -136,6 +162,15 @@ static void every_kind_of_change_is_told(void **state)
          "changed: member rotid_options.y = 2: double [2], now member rotid_options.y = 2: double [3]\n"},
         {"double y[2];", "double y[2]; int more;", ABI_BROKEN,
          "added to a struct that hosts have by value or in arrays: member rotid_options.more = 3: int\n"},
+        {"size_t size; double y[2];", "size_t size; double y[2]; int more;", ABI_ADDED,
+         "added: member rotid_sized.more = 3: int\n"},
+        {"size_t size; double y[2];", "size_t size; int more; double y[2];", ABI_BROKEN,
+         "changed: member rotid_sized.y = 2: double [2], now member rotid_sized.y = 3: double [2]\n"
+         "added: member rotid_sized.more = 2: int\n"},
+        {"size_t size; ", "", ABI_BROKEN,
+         "changed: struct rotid_sized = sized, now struct rotid_sized = fixed\n"
+         "removed: member rotid_sized.size = 1: size_t\n"
+         "changed: member rotid_sized.y = 2: double [2], now member rotid_sized.y = 1: double [2]\n"},
         {" double y[2];", "", ABI_BROKEN, "removed: member rotid_options.y = 2: double [2]\n"},
         {"int n);", "long n);", ABI_BROKEN,
          "changed: callback rotid_call = int (*)(void *, int), now callback rotid_call = int (*)(void *, long)\n"},
@@ -197,8 +232,9 @@ int main(int argc, char **argv)
         return write_snapshot(argc > 2 && strcmp(argv[2], "--unreleased") == 0);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(hosts_of_this_major_version_still_run, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(both_version_numbers_agree, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(all_version_numbers_agree, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(structs_that_may_grow_are_handed_out_one_at_a_time, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(structs_of_hosts_say_their_size, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(every_kind_of_change_is_told, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -92,7 +92,7 @@ static void test_model_of_a_rotor_survives_every_failing_allocation(void **state
 static int run_with(struct paper_fit *fit, const rotid_environment *environment, rotid_fit_result **result)
 {
     *result = (void *)fit; /* must be overwritten in any case */
-    return rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, environment, result);
+    return rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, environment, NULL, result);
 }
 
 /* Returns how many allocations the fit needs. */
@@ -102,7 +102,7 @@ static int sweep(struct paper_fit *fit)
         struct failing_allocator failing;
         rotid_fit_result *result;
         failing_allocator_open(&failing, n);
-        rotid_environment environment = {.allocator = &failing.allocator};
+        rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
         int status = run_with(fit, &environment, &result);
         if (!status) {
             assert_true(failing.until_failure > 0); /* no failure was passed over in silence */
@@ -123,10 +123,10 @@ static int sweep(struct paper_fit *fit)
 static void test_fit_survives_every_failing_allocation(void **state)
 {
     static const rotid_fit_options options[] = {
-        {.functional = ROTID_LIKELIHOOD, .reduction = ROTID_REDUCTION_NONE},
-        {.functional = ROTID_LIKELIHOOD, .reduction = ROTID_GUYAN, .derivative = ROTID_MODAL},
-        {.functional = ROTID_HYBRID, .reduction = ROTID_IRS, .derivative = ROTID_NELSON},
-        {.functional = ROTID_HYBRID, .reduction = ROTID_GUYAN, .baseline = 1},
+        {.size = sizeof *options, .functional = ROTID_LIKELIHOOD, .reduction = ROTID_REDUCTION_NONE},
+        {.size = sizeof *options, .functional = ROTID_LIKELIHOOD, .reduction = ROTID_GUYAN, .derivative = ROTID_MODAL},
+        {.size = sizeof *options, .functional = ROTID_HYBRID, .reduction = ROTID_IRS, .derivative = ROTID_NELSON},
+        {.size = sizeof *options, .functional = ROTID_HYBRID, .reduction = ROTID_GUYAN, .baseline = 1},
     };
     (void)state;
     for (size_t k = 0; k < sizeof options / sizeof *options; k++) {
@@ -155,7 +155,7 @@ static void test_iterations_allocate_nothing(void **state)
         struct failing_allocator failing;
         rotid_fit_result *result;
         failing_allocator_open(&failing, 0);
-        rotid_environment environment = {.allocator = &failing.allocator};
+        rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
         fit.options.max_iterations = k ? 50 : 1;
         assert_status(run_with(&fit, &environment, &result), ROTID_OK);
         assert_int_equal(result->status == ROTID_STOP_ITERATIONS, !k);
@@ -186,7 +186,7 @@ static void test_cancelled_fit_returns_the_best_point_so_far(void **state)
     double before = INFINITY;
     for (int k = 1; k <= 8; k++) {
         struct host host = {.stop_at = k};
-        rotid_environment environment = {.cancelled = cancelled, .context = &host};
+        rotid_environment environment = {.size = sizeof environment, .cancelled = cancelled, .context = &host};
         rotid_fit_result *result;
         assert_status(run_with(&fit, &environment, &result), ROTID_OK);
         assert_status(result->status, ROTID_STOP_CANCELLED);
@@ -222,7 +222,7 @@ static void test_cancelled_baseline_leaves_the_finished_fit(void **state)
     fit.options.baseline = 1;
     for (int k = 0; k < 3; k++) {
         struct host host = {.stop_at = 20 + 40 * k};
-        rotid_environment environment = {.cancelled = cancelled, .context = &host};
+        rotid_environment environment = {.size = sizeof environment, .cancelled = cancelled, .context = &host};
         rotid_fit_result *result;
         assert_status(run_with(&fit, &environment, &result), ROTID_OK);
         assert_true(result->converged && result->nhistory < 20 && result->nbaseline == 0);

@@ -16,7 +16,6 @@
     "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1.2, 0.1, 0, 24\n"           \
     "*SENSORS\n1, 0\n2, 0.15\n3, 0.3\n4, 0.45\n5, 0.6\n6, 0.75\n7, 0.9\n8, 1.05\n9, 1.2\n"
 
-void openblas_set_num_threads(int threads);
 
 static char directory[] = "/tmp/test_api_XXXXXX";
 
@@ -107,19 +106,19 @@ static void overrides_act_and_those_of_another_form_are_refused(void **state)
                              *const bad[] = {"FIT.MODES", "=", "FIT=3", ".MODES=1", "SHAFTS.NAME=a", "FIT.MODES=fish"};
     rotid_deck *deck;
     (void)state;
-    assert_status(rotid_deck_read(PAPER, 2, good, NULL, &deck), ROTID_OK);
+    assert_status(rotid_deck_read(PAPER, 2, good, NULL, NULL, &deck), ROTID_OK);
     assert_int_equal(deck->nmode, 6);
     for (int k = 0; k < 6; k++) /* those not fitted are predicted */
         assert_int_equal(deck->holdout[k], k == 1 || k > 3);
     rotid_deck_free(deck);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        assert_status(rotid_deck_read(PAPER, 1, &bad[i], NULL, &deck), ROTID_ERROR_SYNTAX);
+        assert_status(rotid_deck_read(PAPER, 1, &bad[i], NULL, NULL, &deck), ROTID_ERROR_SYNTAX);
         assert_non_null(deck);
         assert_int_equal(deck->nerror, 1);
         assert_non_null(strstr(deck->message[deck->nmessage - 1].text, "expected"));
         rotid_deck_free(deck);
     }
-    assert_status(rotid_deck_read(PAPER, 1, none, NULL, &deck), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_deck_read(PAPER, 1, none, NULL, NULL, &deck), ROTID_ERROR_ARGUMENT);
     assert_null(deck);
 }
 
@@ -131,8 +130,8 @@ static void modes_follow_the_parameters(void **state)
     const double four = 8e11;
     rotid_spectrum *one, *two;
     rotid_deck *deck = bench_deck(write_text("bar.inp", BAR "*IDENTIFY\ncore.E, 1e11, 9e11, 2e11\n"));
-    assert_status(rotid_spectrum_compute(deck, NULL, 4, NULL, &one), ROTID_OK);
-    assert_status(rotid_spectrum_compute(deck, &four, 4, NULL, &two), ROTID_OK);
+    assert_status(rotid_spectrum_compute(deck, NULL, 4, NULL, NULL, &one), ROTID_OK);
+    assert_status(rotid_spectrum_compute(deck, &four, 4, NULL, NULL, &two), ROTID_OK);
     assert_int_equal(one->nrigid, 2);
     assert_int_equal(one->nmode, 4);
     assert_int_equal(one->nmaster, 9);
@@ -170,7 +169,7 @@ static void a_model_with_few_modes_gives_what_it_has(void **state)
     (void)state;
     rotid_spectrum *s;
     rotid_deck *deck = bench_deck(ROTID_SOURCE_DIR "/tests/data/decks/one_element.inp");
-    assert_status(rotid_spectrum_compute(deck, NULL, 1000000000, NULL, &s), ROTID_OK);
+    assert_status(rotid_spectrum_compute(deck, NULL, 1000000000, NULL, NULL, &s), ROTID_OK);
     assert_true(s->nmode >= 1 && s->nmode <= 4);
     for (int i = s->nrigid; i < 2; i++)
         assert_true(isnan(s->rigid_hz[i]));
@@ -276,7 +275,7 @@ static void with_nothing_to_identify_the_model_is_compared(void **state)
     rotid_identification *r;
     rotid_deck *deck = bench_deck(write_text("bar.inp", BAR "*MODES\n1, 350\n3, 1600\n"));
     assert_status(rotid_identify(deck, 1, NULL, NULL, &r), ROTID_OK);
-    assert_status(rotid_spectrum_compute(deck, NULL, 3, NULL, &s), ROTID_OK);
+    assert_status(rotid_spectrum_compute(deck, NULL, 3, NULL, NULL, &s), ROTID_OK);
     assert_int_equal(r->fit->iterations, 0);
     assert_int_equal(r->nparameter, 0);
     assert_true(r->fit->predicted_hz[0] == s->hz[0] && r->fit->predicted_hz[1] == s->hz[2]);
@@ -300,7 +299,7 @@ static void verdicts_have_names(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1); /* the numbers of the program too are those of one */
+    set_blas_threads(1); /* the numbers of the program too are those of one */
     return mkdtemp(directory) == NULL;
 }
 

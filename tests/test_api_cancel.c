@@ -15,7 +15,6 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
-void openblas_set_num_threads(int threads);
 
 static char directory[] = "/tmp/test_api_cancel_XXXXXX", deck_path[64];
 
@@ -58,7 +57,8 @@ static void progress(void *context, const char *stage, int step)
 
 static rotid_environment environment_of(struct host *host, const rotid_allocator *allocator)
 {
-    return (rotid_environment){.allocator = allocator, .cancelled = cancelled, .progress = progress, .context = host};
+    return (rotid_environment){
+        .size = sizeof(rotid_environment), .allocator = allocator, .cancelled = cancelled, .progress = progress, .context = host};
 }
 
 /* ------------------------------------------------------------------------------------------------ a host's own model */
@@ -92,7 +92,7 @@ static void a_fit_evaluates_nothing_more(void **state)
         model.matrices = matrices;
         model.derivatives = derivatives;
         model.user = &host;
-        assert_status(rotid_fit(&model, fit.parameter, &fit.measured, &fit.options, &environment, &result), ROTID_OK);
+        assert_status(rotid_fit(&model, fit.parameter, &fit.measured, &fit.options, &environment, NULL, &result), ROTID_OK);
         ended = !host.said;
         assert_int_equal(host.polls_after, 0);
         assert_int_equal(host.told_after, 0);
@@ -164,7 +164,7 @@ static void a_diagnosis_shows_what_was_finished(void **state)
     (void)state;
     rotid_deck *deck = bench_deck(deck_path);
     for (int threads = 1; threads <= 2; threads++) {
-        const rotid_diagnose_options options = {.replicates = 100, .threads = threads};
+        const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100, .threads = threads};
         struct host whole = {.stop_at = INT_MAX};
         const rotid_environment undisturbed = environment_of(&whole, NULL);
         rotid_diagnosis *r;
@@ -214,7 +214,7 @@ static void a_diagnosis_shows_what_was_finished(void **state)
 static void a_broken_off_model_is_no_result(void **state)
 {
     (void)state;
-    const rotid_diagnose_options options = {.replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
     rotid_deck *deck = bench_deck(deck_path);
     rotid_diagnosis *r;
     int with = 0, without = 0, ended = 0;
@@ -239,7 +239,7 @@ static void a_broken_off_model_is_no_result(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1);
+    set_blas_threads(1);
     if (!mkdtemp(directory))
         return 1;
     (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);

@@ -111,7 +111,7 @@ static void try_deck(const char *name, struct tally *tally)
     rotid_identification *result = (void *)list;
     int count = read_expectations(name, list, 16);
     (void)snprintf(path, sizeof path, CORPUS "/%s", name);
-    int status = rotid_deck_read(path, 0, NULL, NULL, &deck);
+    int status = rotid_deck_read(path, 0, NULL, NULL, NULL, &deck);
     if (!deck)
         return;
     for (int i = 0; i < deck->nmessage; i++)
@@ -169,7 +169,7 @@ static void a_file_that_is_not_there_is_named(void **state)
     rotid_deck *deck;
     char failure[512];
     rotid_identification *result;
-    assert_status(rotid_deck_read(path_of("none.inp"), 0, NULL, NULL, &deck), ROTID_ERROR_IO);
+    assert_status(rotid_deck_read(path_of("none.inp"), 0, NULL, NULL, NULL, &deck), ROTID_ERROR_IO);
     assert_non_null(deck);
     assert_int_equal(deck->nerror, 1);
     assert_non_null(strstr(deck->message[0].text, path_of("none.inp")));
@@ -178,7 +178,7 @@ static void a_file_that_is_not_there_is_named(void **state)
     assert_status(rotid_identify(deck, 0, NULL, failure, &result), ROTID_ERROR_ARGUMENT);
     assert_non_null(strstr(failure, "No such file"));
     rotid_deck_free(deck);
-    assert_status(rotid_deck_read(directory, 0, NULL, NULL, &deck), ROTID_ERROR_IO);
+    assert_status(rotid_deck_read(directory, 0, NULL, NULL, NULL, &deck), ROTID_ERROR_IO);
     rotid_deck_free(deck);
 }
 
@@ -190,7 +190,7 @@ static void of_many_errors_the_number_is_kept(void **state)
     for (int i = 0; i < 1000; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "*UNKNOWN\n");
     rotid_deck *deck;
-    assert_status(rotid_deck_read(write_text("many.inp", text), 0, NULL, NULL, &deck), ROTID_ERROR_SYNTAX);
+    assert_status(rotid_deck_read(write_text("many.inp", text), 0, NULL, NULL, NULL, &deck), ROTID_ERROR_SYNTAX);
     assert_true(deck->nerror >= 1000);
     assert_int_equal(deck->nmessage, 200);
     assert_int_equal(deck->message[199].line, 200);
@@ -201,28 +201,40 @@ static void arguments_out_of_range_are_refused(void **state)
 {
     (void)state;
     static const char *const text[] = {"FIT.FUNCTIONAL=HYBRID"};
-    const rotid_diagnose_options wrong[] = {{.threads = -1}, {.replicates = -1}, {.seed = -1}};
+    const struct {
+        rotid_diagnose_options options;
+        const char *text;
+    } wrong[] = {{{.size = sizeof wrong->options, .threads = -1}, "options->threads is -1, expected 0 or more"},
+                 {{.size = sizeof wrong->options, .replicates = -1}, "options->replicates is -1, expected 0 or more"},
+                 {{.size = sizeof wrong->options, .seed = -1}, "options->seed is -1, expected 0 or more"},
+                 {{.threads = 1}, "options->size is 0, expected sizeof(rotid_diagnose_options), here 24"}};
     const double x[2] = {1e11, NAN};
     char failure[512];
     rotid_deck *deck;
-    assert_status(rotid_deck_read(NULL, 0, NULL, NULL, &deck), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_deck_read(NULL, 0, NULL, NULL, failure, &deck), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(failure, "path is NULL, expected that of a deck");
     assert_null(deck);
-    assert_status(rotid_deck_read(PAPER, 0, NULL, NULL, NULL), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_deck_read(PAPER, 1, NULL, NULL, &deck), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_deck_read(PAPER, 0, NULL, NULL, failure, NULL), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(failure, "deck is NULL, expected the address of a pointer");
+    assert_status(rotid_deck_read(PAPER, 1, NULL, NULL, failure, &deck), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(failure, "override is NULL, expected noverride = 1 texts");
     assert_null(deck);
-    assert_status(rotid_deck_read(PAPER, -1, text, NULL, &deck), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_deck_read(PAPER, -1, text, NULL, failure, &deck), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(failure, "noverride is -1, expected 0 or more");
     assert_null(deck);
     rotid_deck_free(NULL);
 
     rotid_spectrum *spectrum = (void *)&deck;
-    assert_status(rotid_deck_read(PAPER, 0, NULL, NULL, &deck), ROTID_OK);
-    assert_status(rotid_spectrum_compute(NULL, NULL, 1, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_deck_read(PAPER, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    assert_status(rotid_spectrum_compute(NULL, NULL, 1, NULL, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
     assert_null(spectrum);
-    assert_status(rotid_spectrum_compute(deck, NULL, 0, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_spectrum_compute(deck, x, 1, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_spectrum_compute(deck, NULL, 1, NULL, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_spectrum_compute(deck, NULL, 0, NULL, failure, &spectrum), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(failure, "nmode is 0, expected 1 or more");
+    assert_status(rotid_spectrum_compute(deck, x, 1, NULL, failure, &spectrum), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(failure, "x[1], the value of core.G, is nan, expected a number");
+    assert_status(rotid_spectrum_compute(deck, NULL, 1, NULL, NULL, NULL), ROTID_ERROR_ARGUMENT);
     const double soft[2] = {-1e11, -1e10};
-    assert_status(rotid_spectrum_compute(deck, soft, 1, NULL, &spectrum), ROTID_ERROR_STIFFNESS);
+    assert_status(rotid_spectrum_compute(deck, soft, 1, NULL, NULL, &spectrum), ROTID_ERROR_STIFFNESS);
     assert_null(spectrum);
     rotid_spectrum_free(NULL);
 
@@ -231,7 +243,7 @@ static void arguments_out_of_range_are_refused(void **state)
     assert_null(identification);
     assert_non_null(strstr(failure, "expected"));
     assert_status(rotid_identify(deck, 0, NULL, failure, NULL), ROTID_ERROR_ARGUMENT);
-    assert_string_equal(failure, rotid_status_text(ROTID_ERROR_ARGUMENT));
+    assert_string_equal(failure, "result is NULL, expected the address of a pointer");
     rotid_identification_free(NULL);
 
     rotid_diagnosis *diagnosis = (void *)&deck;
@@ -239,8 +251,8 @@ static void arguments_out_of_range_are_refused(void **state)
     assert_null(diagnosis);
     assert_status(rotid_diagnose(deck, NULL, NULL, failure, NULL), ROTID_ERROR_ARGUMENT);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        assert_status(rotid_diagnose(deck, &wrong[i], NULL, failure, &diagnosis), ROTID_ERROR_ARGUMENT);
-        assert_string_equal(failure, rotid_status_text(ROTID_ERROR_ARGUMENT));
+        assert_status(rotid_diagnose(deck, &wrong[i].options, NULL, failure, &diagnosis), ROTID_ERROR_ARGUMENT);
+        assert_string_equal(failure, wrong[i].text);
     }
     rotid_diagnosis_free(NULL);
     rotid_deck_free(deck);
@@ -254,7 +266,7 @@ static void runs_say_why_they_failed(void **state)
     rotid_identification *identification;
     rotid_diagnosis *diagnosis;
     const char *path = write_text("bare.inp", MODEL "*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n");
-    assert_status(rotid_deck_read(path, 0, NULL, NULL, &deck), ROTID_OK);
+    assert_status(rotid_deck_read(path, 0, NULL, NULL, NULL, &deck), ROTID_OK);
     assert_status(rotid_identify(deck, 0, NULL, failure, &identification), ROTID_ERROR_ARGUMENT);
     assert_memory_equal(failure, path, strlen(path));
     assert_non_null(strstr(failure, ":1:1: the deck has no measured modes"));
@@ -263,7 +275,7 @@ static void runs_say_why_they_failed(void **state)
     rotid_deck_free(deck);
     /* rad/s, say, or one frequency for one parameter */
     path = write_text("bare.inp", MODEL "*MODES\n1, 300\n*NOISE, FREQUENCY=0.001\n*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n");
-    assert_status(rotid_deck_read(path, 0, NULL, NULL, &deck), ROTID_OK);
+    assert_status(rotid_deck_read(path, 0, NULL, NULL, NULL, &deck), ROTID_OK);
     assert_status(rotid_diagnose(deck, NULL, NULL, failure, &diagnosis), ROTID_ERROR_ARGUMENT);
     assert_null(diagnosis);
     assert_non_null(strstr(failure, "leave nothing to judge the model by, expected more modes"));
@@ -297,7 +309,7 @@ static void a_long_reason_is_cut_off_between_characters(void **state)
         char asked[1210];
         (void)snprintf(asked, sizeof asked, "%s%s", shift ? "/" : "", path);
         memset(failure, 'z', sizeof failure);
-        assert_status(rotid_deck_read(asked, 0, NULL, NULL, &deck), ROTID_OK);
+        assert_status(rotid_deck_read(asked, 0, NULL, NULL, NULL, &deck), ROTID_OK);
         assert_status(rotid_identify(deck, 0, NULL, failure, &result), ROTID_ERROR_ARGUMENT);
         rotid_deck_free(deck);
         size_t length = strlen(failure);

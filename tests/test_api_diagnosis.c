@@ -10,7 +10,6 @@
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
 
-void openblas_set_num_threads(int threads);
 
 static char directory[] = "/tmp/test_api_diagnosis_XXXXXX", deck_path[64], extended_path[64];
 
@@ -191,7 +190,7 @@ static void what_was_hidden_is_named(void **state)
 {
     (void)state;
     rotid_diagnosis *d;
-    const rotid_diagnose_options options = {.replicates = 200, .threads = 2, .seed = 4};
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2, .seed = 4};
     bench_hidden_deck(deck_path, 0.4, 3);
     rotid_deck *deck = bench_deck(deck_path);
     assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
@@ -211,7 +210,7 @@ static void what_was_hidden_is_named(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1); /* the numbers of the program too are those of one */
+    set_blas_threads(1); /* the numbers of the program too are those of one */
     if (!mkdtemp(directory))
         return 1;
     (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);

@@ -10,7 +10,6 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
-void openblas_set_num_threads(int threads);
 
 static char directory[] = "/tmp/test_api_memory_XXXXXX", deck_path[64], bar_path[64];
 
@@ -28,7 +27,7 @@ static int try_read(const rotid_deck *deck, const rotid_environment *environment
     static const char *const override[] = {"FIT.MODES=1-4", "NOISE.FREQUENCY=0.001"};
     rotid_deck *made = (void *)1;
     (void)deck;
-    int status = rotid_deck_read(deck_path, 2, override, environment, &made);
+    int status = rotid_deck_read(deck_path, 2, override, environment, NULL, &made);
     *result = made;
     return status;
 }
@@ -38,7 +37,7 @@ static int try_read_wrong(const rotid_deck *deck, const rotid_environment *envir
     static const char *const override[] = {"FIT.FUNCTIONAL=NONE", "SHAFTS.NAME=x"};
     rotid_deck *made = (void *)1;
     (void)deck;
-    int status = rotid_deck_read(PAPER, 2, override, environment, &made);
+    int status = rotid_deck_read(PAPER, 2, override, environment, NULL, &made);
     *result = made;
     return status == ROTID_ERROR_SYNTAX && made && made->nerror == 2 && made->nmessage >= 2 ? ROTID_OK : status;
 }
@@ -46,7 +45,7 @@ static int try_read_wrong(const rotid_deck *deck, const rotid_environment *envir
 static int try_spectrum(const rotid_deck *deck, const rotid_environment *environment, void **result)
 {
     rotid_spectrum *made = (void *)1;
-    int status = rotid_spectrum_compute(deck, NULL, 6, environment, &made);
+    int status = rotid_spectrum_compute(deck, NULL, 6, environment, NULL, &made);
     *result = made;
     return status;
 }
@@ -73,7 +72,7 @@ static void free_identification(void *result)
 
 static int try_diagnose(const rotid_deck *deck, const rotid_environment *environment, void **result)
 {
-    const rotid_diagnose_options options = {.replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
     char failure[512];
     rotid_diagnosis *made = (void *)1;
     int status = rotid_diagnose(deck, &options, environment, failure, &made);
@@ -93,7 +92,7 @@ static long run_once(const rotid_deck *deck, attempt try_it, void (*release)(voi
     struct failing_allocator failing;
     void *result;
     failing_allocator_open(&failing, n);
-    const rotid_environment environment = {.allocator = &failing.allocator};
+    const rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
     int status = try_it(deck, &environment, &result), failed = n && failing.until_failure == 0;
     if (status != (failed ? ROTID_ERROR_MEMORY : ROTID_OK))
         print_error("allocation %ld: %s\n", n, rotid_status_name(status));
@@ -221,16 +220,16 @@ static void results_outlive_the_deck_and_live_on_the_allocator(void **state)
     rotid_spectrum *spectrum;
     rotid_identification *identification;
     rotid_diagnosis *diagnosis;
-    const rotid_diagnose_options options = {.replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
     bench_memory_open(&memory);
-    const rotid_environment environment = {.allocator = &memory.allocator};
-    assert_status(rotid_deck_read(deck_path, 0, NULL, &environment, &deck), ROTID_OK);
+    const rotid_environment environment = {.size = sizeof environment, .allocator = &memory.allocator};
+    assert_status(rotid_deck_read(deck_path, 0, NULL, &environment, NULL, &deck), ROTID_OK);
     OWNED(deck);
     OWNED(deck->path);
     OWNED(deck->sensor_z);
     OWNED(deck->shape);
     OWNED(deck->parameter[0].name);
-    assert_status(rotid_spectrum_compute(deck, NULL, 5, &environment, &spectrum), ROTID_OK);
+    assert_status(rotid_spectrum_compute(deck, NULL, 5, &environment, NULL, &spectrum), ROTID_OK);
     OWNED(spectrum);
     OWNED(spectrum->hz);
     OWNED(spectrum->master_mass);
@@ -260,9 +259,9 @@ static void results_are_small(void **state)
     struct bench_memory memory;
     rotid_identification *identification;
     rotid_diagnosis *diagnosis;
-    const rotid_diagnose_options options = {.replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 100};
     bench_memory_open(&memory);
-    const rotid_environment environment = {.allocator = &memory.allocator};
+    const rotid_environment environment = {.size = sizeof environment, .allocator = &memory.allocator};
     rotid_deck *deck = bench_deck(deck_path);
     assert_status(rotid_identify(deck, 0, &environment, NULL, &identification), ROTID_OK);
     print_message("identification: %ld blocks of %ld kept\n", memory.in_use, memory.served);
@@ -280,7 +279,7 @@ static void results_are_small(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1);
+    set_blas_threads(1);
     if (!mkdtemp(directory))
         return 1;
     (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);

@@ -209,7 +209,8 @@ static void rigid_bar_on_soft_springs_translates_and_turns(void **state)
     springs[0].rotational = springs[1].rotational = 2e3;
     double lambda[3], mass = e.rhos + 60, inertia = e.rhos / 12 + e.rhoi + 2 * (30 * 0.25 + 4);
     eigenvalues(&rotor, 3, lambda);
-    double rounding = 16 * DBL_EPSILON * e.kgs / e.rhoi; /* of the highest modes, where sections turn against the shear stiffness */
+    double rounding =
+        16 * DBL_EPSILON * e.kgs / e.rhoi; /* of the highest modes, where sections turn against the shear stiffness */
     assert_close(lambda[0], 1e5 / mass, 1e-6, rounding);
     assert_close(lambda[1], (5e4 * 2 * 0.25 + 4e3) / inertia, 1e-6, rounding);
 }

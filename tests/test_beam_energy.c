@@ -188,7 +188,8 @@ static void unbalanced_tension_stores_force_times_length_in_a_rotation(void **st
         beam_mass_properties(&beam, &p);
         const struct chain *chain = &beam.mesh.tierod[0];
         double force = 12 * 150e3, length = beam.mesh.z[chain->last_end] - beam.mesh.z[chain->first_end];
-        double *u = rigid(0, 1, p.center), *held = POOL_ARRAY(&test_pool, double, k.n), *phi = POOL_ARRAY(&test_pool, double, 3 * k.n);
+        double *u = rigid(0, 1, p.center), *held = POOL_ARRAY(&test_pool, double, k.n),
+               *phi = POOL_ARRAY(&test_pool, double, 3 * k.n);
         assert_close(energy(&k, u), force * length, 1e-7, 0); /* rounding of K, whose entries are 1e11 */
         matrix_multiply(&k, 1, u, held);
         assert_close(held[2 * chain->first_end], force, 1e-5, 0);
@@ -231,7 +232,8 @@ static void relative_rotation_of_the_ends_stretches_and_bends_the_rods(void **st
             rotid_matrix rods;
             rods_alone((enum bundle_model)model, elements, &rods);
             const struct chain *chain = &beam.mesh.tierod[0];
-            double *u = POOL_ARRAY(&test_pool, double, k.n), length = beam.mesh.z[chain->last_end] - beam.mesh.z[chain->first_end];
+            double *u = POOL_ARRAY(&test_pool, double, k.n),
+                   length = beam.mesh.z[chain->last_end] - beam.mesh.z[chain->first_end];
             for (int i = 0; i <= elements; i++) {
                 int node = i == 0 ? chain->first_end : i == elements ? chain->last_end : chain->inner + i - 1;
                 double s = (double)i / elements;
@@ -248,7 +250,7 @@ static void relative_shift_of_the_ends_meets_the_tube_but_hardly_the_rods(void *
     (void)state;
     double area, own, pitch, outer, inner, stored[2];
     section_rods(12, 0.032, 0.13364, &area, &own, &pitch);
-    assert_status(rotid_equivalent_cylinder(area, own + pitch, &outer, &inner), ROTID_OK);
+    assert_status(rotid_equivalent_cylinder(area, own + pitch, NULL, &outer, &inner), ROTID_OK);
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
         rotid_matrix rods;
         rods_alone((enum bundle_model)model, 1, &rods);

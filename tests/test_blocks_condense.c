@@ -28,7 +28,7 @@ static void condensed_matrices_are_those_of_dense_elimination(void **state)
                 int n = k.n;
                 double kc[16], mc[16], *t = numbers(*state, n * nc);
                 const double *full_k = dense_of(*state, &k), *full_m = dense_of(*state, &m);
-                assert_status(rotid_condense(&k, &m, nc, master, kind, NULL, kc, mc, t), ROTID_OK);
+                assert_status(rotid_condense(&k, &m, nc, master, kind, NULL, NULL, kc, mc, t), ROTID_OK);
                 const double *expected = kind == ROTID_GUYAN ? dense_guyan(*state, n, full_k, nc, master)
                                                              : dense_irs(*state, n, full_k, full_m, nc, master);
                 assert_true(relative_difference((size_t)(n * nc), t, expected) < 1e-11);
@@ -37,7 +37,7 @@ static void condensed_matrices_are_those_of_dense_elimination(void **state)
                 assert_true(relative_difference((size_t)(nc * nc), mc, dense_congruence(*state, n, nc, full_m, expected)) <
                             1e-11);
                 double again_k[16], again_m[16]; /* t is optional */
-                assert_status(rotid_condense(&k, &m, nc, master, kind, NULL, again_k, again_m, NULL), ROTID_OK);
+                assert_status(rotid_condense(&k, &m, nc, master, kind, NULL, NULL, again_k, again_m, NULL), ROTID_OK);
                 assert_memory_equal(again_k, kc, (size_t)(nc * nc) * sizeof *kc);
                 assert_memory_equal(again_m, mc, (size_t)(nc * nc) * sizeof *mc);
             }
@@ -56,18 +56,18 @@ static void masters_everywhere_leave_the_matrices_as_they_are(void **state)
             double *dkc = numbers(*state, n * n), *dmc = numbers(*state, n * n);
             for (int i = 0; i < n; i++)
                 master[i] = i;
-            assert_status(rotid_condense(&k, &m, n, master, kind, NULL, kc, mc, t), ROTID_OK);
+            assert_status(rotid_condense(&k, &m, n, master, kind, NULL, NULL, kc, mc, t), ROTID_OK);
             assert_true(relative_difference((size_t)(n * n), kc, dense_of(*state, &k)) < 1e-14);
             assert_true(relative_difference((size_t)(n * n), mc, dense_of(*state, &m)) < 1e-14);
             for (int i = 0; i < n * n; i++)
                 assert_true(t[i] == (i % (n + 1) == 0));
-            assert_status(rotid_condense_derivative(&k, &m, &m, &k, n, master, kind, NULL, dkc, dmc), ROTID_OK);
+            assert_status(rotid_condense_derivative(&k, &m, &m, &k, n, master, kind, NULL, NULL, dkc, dmc), ROTID_OK);
             assert_true(relative_difference((size_t)(n * n), dkc, dense_of(*state, &m)) < 1e-13);
             assert_true(relative_difference((size_t)(n * n), dmc, dense_of(*state, &k)) < 1e-13);
         }
     rotid_matrix one = {.n = 1, .band = (double[]){4}}, mass = {.n = 1, .band = (double[]){3}};
     double kc, mc, t;
-    assert_status(rotid_condense(&one, &mass, 1, (int[]){0}, ROTID_IRS, NULL, &kc, &mc, &t), ROTID_OK);
+    assert_status(rotid_condense(&one, &mass, 1, (int[]){0}, ROTID_IRS, NULL, NULL, &kc, &mc, &t), ROTID_OK);
     assert_true(kc == 4 && mc == 3 && t == 1);
 }
 
@@ -82,22 +82,22 @@ static void springs_in_series(void **state)
     for (int i = 0; i < n - 1; i++) {
         double spring = 1e6 / (1 + i % 3);
         const double e[4] = {spring, -spring, -spring, spring};
-        assert_status(rotid_matrix_add_element(&k, 2, (int[]){i, i + 1}, e), ROTID_OK);
+        assert_status(rotid_matrix_add_element(&k, 2, (int[]){i, i + 1}, e, NULL), ROTID_OK);
         flexibility += 1 / spring;
         share[i + 1] = flexibility;
     }
     for (int i = 0; i < n; i++) {
         double mass = 1 + i % 2, right = share[i] / flexibility;
-        assert_status(rotid_matrix_add(&wide, i, i, mass), ROTID_OK);
-        assert_status(rotid_matrix_add(&m, i, i, mass), ROTID_OK);
+        assert_status(rotid_matrix_add(&wide, i, i, mass, NULL), ROTID_OK);
+        assert_status(rotid_matrix_add(&m, i, i, mass, NULL), ROTID_OK);
         expected[0] += mass * (1 - right) * (1 - right);
         expected[1] += mass * (1 - right) * right;
         expected[3] += mass * right * right;
     }
     expected[2] = expected[1];
     const int ends[2] = {0, n - 1};
-    assert_status(rotid_condense(&k, &m, 2, ends, ROTID_GUYAN, NULL, kc, mc, NULL), ROTID_ERROR_ARGUMENT); /* kd differs */
-    assert_status(rotid_condense(&k, &wide, 2, ends, ROTID_GUYAN, NULL, kc, mc, NULL), ROTID_OK);
+    assert_status(rotid_condense(&k, &m, 2, ends, ROTID_GUYAN, NULL, NULL, kc, mc, NULL), ROTID_ERROR_ARGUMENT); /* kd differs */
+    assert_status(rotid_condense(&k, &wide, 2, ends, ROTID_GUYAN, NULL, NULL, kc, mc, NULL), ROTID_OK);
     for (int i = 0; i < 4; i++) {
         assert_close(kc[i], (i % 3 ? -1 : 1) / flexibility, 1e-12, 0);
         assert_close(mc[i], expected[i], 1e-12, 0);
@@ -137,7 +137,7 @@ static void derivatives_of_guyan_are_those_of_dense_elimination(void **state)
         for (int j = 0; j < nc; j++)
             for (int i = 0; i < nc; i++)
                 expected_m[i + j * nc] += cross[i + j * nc] + cross[j + i * nc];
-        assert_status(rotid_condense_derivative(&k, &m, &dk, &dm, nc, master, ROTID_GUYAN, NULL, dkc, dmc), ROTID_OK);
+        assert_status(rotid_condense_derivative(&k, &m, &dk, &dm, nc, master, ROTID_GUYAN, NULL, NULL, dkc, dmc), ROTID_OK);
         assert_true(relative_difference(16, dkc, dense_congruence(*state, n, nc, full_dk, t)) < 1e-11);
         assert_true(relative_difference(16, dmc, expected_m) < 1e-10);
     }
@@ -168,13 +168,13 @@ static void derivatives_of_irs_match_differences(void **state)
                     moved_k.block[i] = k.block[i] + at[p] * h * dk.block[i];
                     moved_m.block[i] = m.block[i] + at[p] * h * dm.block[i];
                 }
-                assert_status(rotid_condense(&moved_k, &moved_m, 3, master, kind, NULL, kc, mc, NULL), ROTID_OK);
+                assert_status(rotid_condense(&moved_k, &moved_m, 3, master, kind, NULL, NULL, kc, mc, NULL), ROTID_OK);
                 for (int i = 0; i < 9; i++) {
                     expected_k[i] += weight[p] / h * kc[i];
                     expected_m[i] += weight[p] / h * mc[i];
                 }
             }
-            assert_status(rotid_condense_derivative(&k, &m, &dk, &dm, 3, master, kind, NULL, dkc, dmc), ROTID_OK);
+            assert_status(rotid_condense_derivative(&k, &m, &dk, &dm, 3, master, kind, NULL, NULL, dkc, dmc), ROTID_OK);
             assert_true(relative_difference(9, dkc, expected_k) < 1e-10);
             assert_true(relative_difference(9, dmc, expected_m) < 1e-10);
             for (int j = 0; j < 3; j++)
@@ -195,19 +195,20 @@ static void what_cannot_be_condensed_is_named(void **state)
     memcpy(keep, k.band, 80 * sizeof *keep);
     for (int d = 0; d < 4; d++) /* the last degree of freedom floats */
         k.band[d + 4 * 19] = d <= 3 ? k.band[3 - d + 4 * (16 + d)] = 0 : 0;
-    assert_status(rotid_condense(&k, &m, 2, master, ROTID_GUYAN, NULL, kc, mc, NULL), ROTID_ERROR_SLAVE);
-    assert_status(rotid_condense_derivative(&k, &m, &k, &m, 2, master, ROTID_IRS, NULL, kc, mc), ROTID_ERROR_SLAVE);
+    assert_status(rotid_condense(&k, &m, 2, master, ROTID_GUYAN, NULL, NULL, kc, mc, NULL), ROTID_ERROR_SLAVE);
+    assert_status(rotid_condense_derivative(&k, &m, &k, &m, 2, master, ROTID_IRS, NULL, NULL, kc, mc), ROTID_ERROR_SLAVE);
     memcpy(k.band, keep, 80 * sizeof *keep);
     for (int j = 0; j < 20; j++)
         m.band[4 * j] -= 1e3; /* negative definite */
-    assert_status(rotid_condense(&k, &m, 2, master, ROTID_IRS, NULL, kc, mc, NULL), ROTID_ERROR_MASS);
-    assert_status(rotid_condense(&k, &m, 2, master, ROTID_GUYAN, NULL, kc, mc, NULL), ROTID_OK); /* needs nothing of M */
+    assert_status(rotid_condense(&k, &m, 2, master, ROTID_IRS, NULL, NULL, kc, mc, NULL), ROTID_ERROR_MASS);
+    assert_status(rotid_condense(&k, &m, 2, master, ROTID_GUYAN, NULL, NULL, kc, mc, NULL), ROTID_OK); /* needs nothing of M */
     for (int which = 0; which < 2; which++)
         for (int bad = 0; bad < 2; bad++) {
             double *entry = &(which ? m : k).band[9], kept = *entry;
             *entry = bad ? INFINITY : NAN;
-            assert_status(rotid_condense(&k, &m, 2, master, ROTID_GUYAN, NULL, kc, mc, NULL), ROTID_ERROR_FINITE);
-            assert_status(rotid_condense_derivative(&k, &k, &m, &k, 2, master, ROTID_GUYAN, NULL, kc, mc), ROTID_ERROR_FINITE);
+            assert_status(rotid_condense(&k, &m, 2, master, ROTID_GUYAN, NULL, NULL, kc, mc, NULL), ROTID_ERROR_FINITE);
+            assert_status(rotid_condense_derivative(&k, &k, &m, &k, 2, master, ROTID_GUYAN, NULL, NULL, kc, mc),
+                          ROTID_ERROR_FINITE);
             *entry = kept;
         }
 }
@@ -246,15 +247,15 @@ static void arguments_out_of_range_are_refused(void **state)
         {&k, &m, 2, good, ROTID_GUYAN, kc, NULL},
     };
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
-        assert_status(rotid_condense(wrong[w].k, wrong[w].m, wrong[w].nmaster, wrong[w].master, wrong[w].kind, NULL, wrong[w].kc,
-                                     wrong[w].mc, NULL),
+        assert_status(rotid_condense(wrong[w].k, wrong[w].m, wrong[w].nmaster, wrong[w].master, wrong[w].kind, NULL, NULL,
+                                     wrong[w].kc, wrong[w].mc, NULL),
                       ROTID_ERROR_ARGUMENT);
         assert_status(rotid_condense_derivative(wrong[w].k, wrong[w].m, &k, &m, wrong[w].nmaster, wrong[w].master, wrong[w].kind,
-                                                NULL, wrong[w].kc, wrong[w].mc),
+                                                NULL, NULL, wrong[w].kc, wrong[w].mc),
                       ROTID_ERROR_ARGUMENT);
     }
-    assert_status(rotid_condense_derivative(&k, &m, NULL, &m, 2, good, ROTID_GUYAN, NULL, kc, mc), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_condense_derivative(&k, &m, &k, &other, 2, good, ROTID_GUYAN, NULL, kc, mc), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_condense_derivative(&k, &m, NULL, &m, 2, good, ROTID_GUYAN, NULL, NULL, kc, mc), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_condense_derivative(&k, &m, &k, &other, 2, good, ROTID_GUYAN, NULL, NULL, kc, mc), ROTID_ERROR_ARGUMENT);
 }
 
 static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
@@ -269,10 +270,10 @@ static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
         for (long fail = 1;; fail++) {
             struct failing_allocator failing;
             failing_allocator_open(&failing, fail);
-            rotid_environment environment = {.allocator = &failing.allocator};
+            rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
             int kind = which % 2 ? ROTID_IRS : ROTID_GUYAN;
-            int status = which < 2 ? rotid_condense(&k, &m, 3, master, kind, &environment, kc, mc, NULL)
-                                   : rotid_condense_derivative(&k, &m, &k, &m, 3, master, kind, &environment, kc, mc);
+            int status = which < 2 ? rotid_condense(&k, &m, 3, master, kind, &environment, NULL, kc, mc, NULL)
+                                   : rotid_condense_derivative(&k, &m, &k, &m, 3, master, kind, &environment, NULL, kc, mc);
             assert_int_equal(failing.in_use, 0);
             if (status == ROTID_OK) {
                 assert_true(fail > 10 && failing.served > 10);

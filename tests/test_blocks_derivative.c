@@ -21,7 +21,7 @@ static void open_pencil(struct pool *pool, struct random_stream *stream, size_t 
 static int derive(const struct pencil *p, int count, const double *lambda, const double *phi, int j, double *dlambda,
                   double *dphi)
 {
-    return rotid_eigenpair_derivative(&p->k, &p->m, &p->dk, &p->dm, count, lambda, phi, j, NULL, dlambda, dphi);
+    return rotid_eigenpair_derivative(&p->k, &p->m, &p->dk, &p->dm, count, lambda, phi, j, NULL, NULL, dlambda, dphi);
 }
 
 /* y := a + h b */
@@ -44,7 +44,7 @@ static void derivatives_satisfy_the_differentiated_equations(void **state)
         double *lambda = numbers(*state, count), *phi = numbers(*state, n * count), *dphi = numbers(*state, n);
         const double *k = dense_of(*state, &p.k), *m = dense_of(*state, &p.m);
         const double *dk = dense_of(*state, &p.dk), *dm = dense_of(*state, &p.dm);
-        assert_status(rotid_eigenpairs(&p.k, &p.m, count, NULL, lambda, phi), ROTID_OK);
+        assert_status(rotid_eigenpairs(&p.k, &p.m, count, NULL, NULL, lambda, phi), ROTID_OK);
         for (int j = 0; j < count; j++) {
             double dlambda, alone, constraint = 0, terms = 0, *vector = phi + (ptrdiff_t)j * n;
             assert_status(derive(&p, count, lambda, phi, j, &dlambda, dphi), ROTID_OK);
@@ -80,11 +80,11 @@ static void derivatives_match_differences(void **state)
         double *lambda = numbers(*state, count), *phi = numbers(*state, n * count), *dphi = numbers(*state, n), h = 5e-6;
         double *other = numbers(*state, count), *vectors = numbers(*state, n * count);
         double *dlambdas = numbers(*state, count), *differences = numbers(*state, n * count);
-        assert_status(rotid_eigenpairs(&p.k, &p.m, count, NULL, lambda, phi), ROTID_OK);
+        assert_status(rotid_eigenpairs(&p.k, &p.m, count, NULL, NULL, lambda, phi), ROTID_OK);
         for (int i = 0; i < 6; i++) {
             move(&p.k, at[i] * h, &p.dk, &moved.k);
             move(&p.m, at[i] * h, &p.dm, &moved.m);
-            assert_status(rotid_eigenpairs(&moved.k, &moved.m, count, NULL, other, vectors), ROTID_OK);
+            assert_status(rotid_eigenpairs(&moved.k, &moved.m, count, NULL, NULL, other, vectors), ROTID_OK);
             for (int j = 0; j < count; j++) {
                 double dot = 0;
                 for (int q = 0; q < n; q++)
@@ -112,7 +112,7 @@ static void scaled_matrices_have_scaled_pairs(void **state)
         open_pencil(*state, &stream, s, &p);
         int n = p.k.n;
         double *lambda = numbers(*state, 3), *phi = numbers(*state, 3 * n), *dphi = numbers(*state, n), dlambda;
-        assert_status(rotid_eigenpairs(&p.k, &p.m, 3, NULL, lambda, phi), ROTID_OK);
+        assert_status(rotid_eigenpairs(&p.k, &p.m, 3, NULL, NULL, lambda, phi), ROTID_OK);
         for (int j = 0; j < 3; j++)
             for (int of_mass = 0; of_mass < 2; of_mass++) {
                 double x = 2.5, zero[600] = {0}, largest = 0;
@@ -139,12 +139,12 @@ static void twins(double x, struct pencil *p)
     for (int i = 0; i < 6; i++) {
         double spring = i < 3 ? 2 - x : x, slope = i < 3 ? -1 : 1;
         int inner = i % 3 ? 1 : 0;
-        assert_status(rotid_matrix_add(&p->m, i, i, 1), ROTID_OK);
-        assert_status(rotid_matrix_add(&p->k, i, i, (1 + inner) * spring + (inner ? 0 : 1)), ROTID_OK);
-        assert_status(rotid_matrix_add(&p->dk, i, i, (1 + inner) * slope), ROTID_OK);
+        assert_status(rotid_matrix_add(&p->m, i, i, 1, NULL), ROTID_OK);
+        assert_status(rotid_matrix_add(&p->k, i, i, (1 + inner) * spring + (inner ? 0 : 1), NULL), ROTID_OK);
+        assert_status(rotid_matrix_add(&p->dk, i, i, (1 + inner) * slope, NULL), ROTID_OK);
         if (i % 3 < 2) {
-            assert_status(rotid_matrix_add(&p->k, i, i + 1, -spring), ROTID_OK);
-            assert_status(rotid_matrix_add(&p->dk, i, i + 1, -slope), ROTID_OK);
+            assert_status(rotid_matrix_add(&p->k, i, i + 1, -spring, NULL), ROTID_OK);
+            assert_status(rotid_matrix_add(&p->dk, i, i + 1, -slope, NULL), ROTID_OK);
         }
     }
 }
@@ -162,7 +162,7 @@ static void vectors_of_neighbours_are_not_differentiated(void **state)
             for (int count = 1; count <= 6; count++) /* the partner may lie just beyond what the caller has */
                 for (int j = 0; j < count; j++) {
                     double lambda[6], phi[36], dphi[6], dlambda = NAN;
-                    assert_status(rotid_eigenpairs(&p.k, &p.m, count, NULL, lambda, phi), ROTID_OK);
+                    assert_status(rotid_eigenpairs(&p.k, &p.m, count, NULL, NULL, lambda, phi), ROTID_OK);
                     int status = derive(&p, count, lambda, phi, j, &dlambda, dphi);
                     assert_string_equal(rotid_status_name(status), a < 2 ? "ROTID_ERROR_CLOSE" : "ROTID_OK");
                     assert_true(isnan(dlambda) == (a < 2));
@@ -185,13 +185,13 @@ static void rigid_modes_are_neighbours(void **state)
     rotid_element_mass(7, 1e-3, 12 * 100 / (1e6 * l * l), l, me);
     for (int e = 0; e < elements; e++) {
         const int dof[4] = {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3};
-        assert_status(rotid_matrix_add_element(&p.k, 4, dof, ke), ROTID_OK);
-        assert_status(rotid_matrix_add_element(&p.m, 4, dof, me), ROTID_OK);
+        assert_status(rotid_matrix_add_element(&p.k, 4, dof, ke, NULL), ROTID_OK);
+        assert_status(rotid_matrix_add_element(&p.m, 4, dof, me, NULL), ROTID_OK);
         if (e < elements / 2)
-            assert_status(rotid_matrix_add_element(&p.dm, 4, dof, me), ROTID_OK);
+            assert_status(rotid_matrix_add_element(&p.dm, 4, dof, me, NULL), ROTID_OK);
     }
     for (int count = 1; count <= 5; count++) {
-        assert_status(rotid_eigenpairs(&p.k, &p.m, count, NULL, lambda, phi), ROTID_OK);
+        assert_status(rotid_eigenpairs(&p.k, &p.m, count, NULL, NULL, lambda, phi), ROTID_OK);
         for (int j = 0; j < count; j++) {
             int status = derive(&p, count, lambda, phi, j, &dlambda, dphi);
             assert_string_equal(rotid_status_name(status), j < 2 ? "ROTID_ERROR_CLOSE" : "ROTID_OK");
@@ -206,11 +206,11 @@ static void arguments_out_of_range_are_refused(void **state)
     double lambda[3], phi[72], dphi[24], dlambda;
     open_pencil(*state, &stream, 0, &p);
     open_pencil(*state, &stream, 2, &other);
-    assert_status(rotid_eigenpairs(&p.k, &p.m, 3, NULL, lambda, phi), ROTID_OK);
+    assert_status(rotid_eigenpairs(&p.k, &p.m, 3, NULL, NULL, lambda, phi), ROTID_OK);
     for (int w = 0; w < 8; w++) {
         const rotid_matrix *a[4] = {&p.k, &p.m, &p.dk, &p.dm};
         a[w % 4] = w < 4 ? NULL : &other.k;
-        assert_status(rotid_eigenpair_derivative(a[0], a[1], a[2], a[3], 3, lambda, phi, 0, NULL, &dlambda, dphi),
+        assert_status(rotid_eigenpair_derivative(a[0], a[1], a[2], a[3], 3, lambda, phi, 0, NULL, NULL, &dlambda, dphi),
                       ROTID_ERROR_ARGUMENT);
     }
     assert_status(derive(&p, 0, lambda, phi, 0, &dlambda, dphi), ROTID_ERROR_ARGUMENT);
@@ -240,13 +240,14 @@ static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
     struct pencil p;
     double lambda[3], phi[72], dphi[24], dlambda;
     open_pencil(*state, &stream, 1, &p);
-    assert_status(rotid_eigenpairs(&p.k, &p.m, 3, NULL, lambda, phi), ROTID_OK);
+    assert_status(rotid_eigenpairs(&p.k, &p.m, 3, NULL, NULL, lambda, phi), ROTID_OK);
     for (int j = 0; j < 3; j += 2) /* the last one looks for a neighbour above it as well */
         for (long fail = 1;; fail++) {
             struct failing_allocator failing;
             failing_allocator_open(&failing, fail);
-            rotid_environment environment = {.allocator = &failing.allocator};
-            int status = rotid_eigenpair_derivative(&p.k, &p.m, &p.dk, &p.dm, 3, lambda, phi, j, &environment, &dlambda, dphi);
+            rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
+            int status =
+                rotid_eigenpair_derivative(&p.k, &p.m, &p.dk, &p.dm, 3, lambda, phi, j, &environment, NULL, &dlambda, dphi);
             assert_int_equal(failing.in_use, 0);
             if (status == ROTID_OK) {
                 assert_true(fail > 10);

@@ -9,7 +9,7 @@ static const double pi = 3.14159265358979323846;
 static double *lambda_of(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count, double **phi)
 {
     double *lambda = numbers(pool, count), *vectors = numbers(pool, (ptrdiff_t)k->n * count);
-    assert_status(rotid_eigenpairs(k, m, count, NULL, lambda, vectors), ROTID_OK);
+    assert_status(rotid_eigenpairs(k, m, count, NULL, NULL, lambda, vectors), ROTID_OK);
     if (phi)
         *phi = vectors;
     return lambda;
@@ -48,9 +48,9 @@ static void chain(struct pool *pool, int n, int kd, int fixed, rotid_matrix *k, 
     *m = new_matrix(pool, n, kd);
     const double spring[4] = {3e4, -3e4, -3e4, 3e4};
     for (int i = fixed ? -1 : 0; i < n - !fixed; i++)
-        assert_status(rotid_matrix_add_element(k, 2, (int[]){i, i + 1 < n ? i + 1 : -1}, spring), ROTID_OK);
+        assert_status(rotid_matrix_add_element(k, 2, (int[]){i, i + 1 < n ? i + 1 : -1}, spring, NULL), ROTID_OK);
     for (int i = 0; i < n; i++)
-        assert_status(rotid_matrix_add(m, i, i, 2.5), ROTID_OK);
+        assert_status(rotid_matrix_add(m, i, i, 2.5, NULL), ROTID_OK);
 }
 
 static void chains_of_masses_have_their_eigenvalues(void **state)
@@ -86,12 +86,12 @@ static void beams_have_their_beta_l(void **state)
         rotid_element_mass(rhos, 1e-12, 12 * ei / (kgs * l * l), l, me);
         for (int e = 0; e < elements; e++) {
             int hold = e == 0 && !is_free, dof[4] = {hold ? -1 : 2 * e, hold ? -1 : 2 * e + 1, 2 * e + 2, 2 * e + 3};
-            assert_status(rotid_matrix_add_element(&k, 4, dof, ke), ROTID_OK);
-            assert_status(rotid_matrix_add_element(&m, 4, dof, me), ROTID_OK);
+            assert_status(rotid_matrix_add_element(&k, 4, dof, ke, NULL), ROTID_OK);
+            assert_status(rotid_matrix_add_element(&m, 4, dof, me, NULL), ROTID_OK);
         }
         for (int d = 0; d < 2 && !is_free; d++) { /* the held ones stand alone, far above all others */
-            assert_status(rotid_matrix_add(&k, d, d, 1e12), ROTID_OK);
-            assert_status(rotid_matrix_add(&m, d, d, 1), ROTID_OK);
+            assert_status(rotid_matrix_add(&k, d, d, 1e12, NULL), ROTID_OK);
+            assert_status(rotid_matrix_add(&m, d, d, 1, NULL), ROTID_OK);
         }
         double *phi;
         const double *lambda = lambda_of(*state, &k, &m, first + 4, &phi);
@@ -115,9 +115,9 @@ static void rigid_modes_are_pairs_like_others(void **state)
                 rotid_matrix k = new_matrix(*state, n, dense ? n - 1 : 1), m = new_matrix(*state, n, dense ? n - 1 : 1);
                 const double spring[4] = {100, -100, -100, 100};
                 for (int i = 0; i < n; i++) {
-                    assert_status(rotid_matrix_add(&m, i, i, 2), ROTID_OK);
+                    assert_status(rotid_matrix_add(&m, i, i, 2, NULL), ROTID_OK);
                     if (i % each)
-                        assert_status(rotid_matrix_add_element(&k, 2, (int[]){i - 1, i}, spring), ROTID_OK);
+                        assert_status(rotid_matrix_add_element(&k, 2, (int[]){i - 1, i}, spring, NULL), ROTID_OK);
                 }
                 if (count > n)
                     break;
@@ -148,11 +148,11 @@ static void repeated_eigenvalues_come_as_often_as_they_are(void **state)
     rotid_matrix k = new_matrix(*state, 2 * n, 2), m = new_matrix(*state, 2 * n, 2);
     const double spring[4] = {3e4, -3e4, -3e4, 3e4}; /* two planes of one shaft: equal chains on every other degree of freedom */
     for (int i = 0; i < 2 * n; i++) {
-        assert_status(rotid_matrix_add(&m, i, i, 2.5), ROTID_OK);
-        assert_status(rotid_matrix_add_element(&k, 2, (int[]){i - 2 < 0 ? -1 : i - 2, i}, spring), ROTID_OK);
+        assert_status(rotid_matrix_add(&m, i, i, 2.5, NULL), ROTID_OK);
+        assert_status(rotid_matrix_add_element(&k, 2, (int[]){i - 2 < 0 ? -1 : i - 2, i}, spring, NULL), ROTID_OK);
     }
     for (int i = 2 * n - 2; i < 2 * n; i++)
-        assert_status(rotid_matrix_add(&k, i, i, 3e4), ROTID_OK);
+        assert_status(rotid_matrix_add(&k, i, i, 3e4, NULL), ROTID_OK);
     for (int count = 1; count < 9; count++) {
         double *phi;
         const double *lambda = lambda_of(*state, &k, &m, count, &phi);
@@ -182,8 +182,8 @@ static void storage_does_not_matter(void **state)
                 if (storage) {
                     stored_k = new_matrix(*state, n, storage == 1 ? 37 : n - 1);
                     stored_m = new_matrix(*state, n, storage == 1 ? 37 : n - 1);
-                    assert_status(rotid_matrix_set_dense(&stored_k, full_k, n), ROTID_OK);
-                    assert_status(rotid_matrix_set_dense(&stored_m, full_m, n), ROTID_OK);
+                    assert_status(rotid_matrix_set_dense(&stored_k, full_k, n, NULL), ROTID_OK);
+                    assert_status(rotid_matrix_set_dense(&stored_m, full_m, n, NULL), ROTID_OK);
                 }
                 double *phi;
                 const double *lambda = lambda_of(*state, &stored_k, &stored_m, count, &phi);
@@ -207,17 +207,17 @@ static void pencils_that_no_structure_has_are_named(void **state)
             unit[20] = 1;
             double *diagonal = &k.band[20 * (kd + 1)], kept = *diagonal;
             *diagonal -= 1.5 / dense_solution(*state, n, 1, dense_of(*state, &k), unit)[20];
-            assert_status(rotid_eigenpairs(&k, &m, count, NULL, lambda, phi), ROTID_ERROR_STIFFNESS);
+            assert_status(rotid_eigenpairs(&k, &m, count, NULL, NULL, lambda, phi), ROTID_ERROR_STIFFNESS);
             *diagonal = kept;
             diagonal = &m.band[20 * (kd + 1)];
             kept = *diagonal;
             *diagonal -= 1.5 / dense_solution(*state, n, 1, dense_of(*state, &m), unit)[20];
-            assert_status(rotid_eigenpairs(&k, &m, count, NULL, lambda, phi), ROTID_ERROR_MASS);
+            assert_status(rotid_eigenpairs(&k, &m, count, NULL, NULL, lambda, phi), ROTID_ERROR_MASS);
             *diagonal = NAN;
-            assert_status(rotid_eigenpairs(&k, &m, count, NULL, lambda, phi), ROTID_ERROR_FINITE);
+            assert_status(rotid_eigenpairs(&k, &m, count, NULL, NULL, lambda, phi), ROTID_ERROR_FINITE);
             *diagonal = kept;
             k.band[7] = -INFINITY;
-            assert_status(rotid_eigenpairs(&k, &m, count, NULL, lambda, phi), ROTID_ERROR_FINITE);
+            assert_status(rotid_eigenpairs(&k, &m, count, NULL, NULL, lambda, phi), ROTID_ERROR_FINITE);
         }
 }
 
@@ -229,16 +229,16 @@ static void arguments_out_of_range_are_refused(void **state)
     random_positive(*state, &stream, 10, 3, 0, NULL, 1, &k);
     random_positive(*state, &stream, 10, 3, 0, NULL, 1, &m);
     random_positive(*state, &stream, 10, 4, 0, NULL, 1, &other);
-    assert_status(rotid_eigenpairs(NULL, &m, 1, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_eigenpairs(&k, NULL, 1, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_eigenpairs(&k, &other, 1, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_eigenpairs(&k, &m, 0, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_eigenpairs(&k, &m, -1, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_eigenpairs(&k, &m, 11, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_eigenpairs(&k, &m, 1, NULL, NULL, phi), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_eigenpairs(&k, &m, 1, NULL, lambda, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(NULL, &m, 1, NULL, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(&k, NULL, 1, NULL, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(&k, &other, 1, NULL, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(&k, &m, 0, NULL, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(&k, &m, -1, NULL, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(&k, &m, 11, NULL, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(&k, &m, 1, NULL, NULL, NULL, phi), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(&k, &m, 1, NULL, NULL, lambda, NULL), ROTID_ERROR_ARGUMENT);
     k.kd = 10;
-    assert_status(rotid_eigenpairs(&k, &k, 1, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_eigenpairs(&k, &k, 1, NULL, NULL, lambda, phi), ROTID_ERROR_ARGUMENT);
 }
 
 static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
@@ -253,8 +253,8 @@ static void memory_that_runs_out_is_an_error_and_none_is_kept(void **state)
         for (long fail = 1;; fail++) {
             struct failing_allocator failing;
             failing_allocator_open(&failing, fail);
-            rotid_environment environment = {.allocator = &failing.allocator};
-            int status = rotid_eigenpairs(&k, &m, 3, &environment, lambda, phi);
+            rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
+            int status = rotid_eigenpairs(&k, &m, 3, &environment, NULL, lambda, phi);
             assert_int_equal(failing.in_use, 0);
             if (status == ROTID_OK) {
                 assert_true(fail > 8);

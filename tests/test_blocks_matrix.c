@@ -24,7 +24,7 @@ static void entries_go_where_the_structure_has_a_place(void **state)
             rotid_matrix before = bordered(*state);
             memcpy(before.band, a.band, 36 * sizeof(double));
             memcpy(before.block, a.block, 9 * sizeof(double));
-            int status = rotid_matrix_add(&a, i, j, value);
+            int status = rotid_matrix_add(&a, i, j, value, NULL);
             assert_string_equal(rotid_status_name(status), place ? "ROTID_OK" : "ROTID_ERROR_ARGUMENT");
             full[i + j * 12] += place ? value : 0;
             full[j + i * 12] += place && i != j ? value : 0;
@@ -34,7 +34,7 @@ static void entries_go_where_the_structure_has_a_place(void **state)
             }
         }
     double *got = numbers(*state, 144);
-    assert_status(rotid_matrix_get_dense(&a, got, 12), ROTID_OK);
+    assert_status(rotid_matrix_get_dense(&a, got, 12, NULL), ROTID_OK);
     assert_memory_equal(got, full, 144 * sizeof *got);
     assert_memory_equal(got, dense_of(*state, &a), 144 * sizeof *got);
 }
@@ -57,8 +57,8 @@ static void elements_add_what_their_definition_says(void **state)
         for (int j = 0; j < 4; j++) /* the lower triangle is all that may be read */
             for (int i = 0; i < j; i++)
                 e[i + 4 * j] = NAN;
-        assert_status(rotid_matrix_add_element(&a, 4, dof, e), ROTID_OK);
-        assert_status(rotid_matrix_get_dense(&a, got, 12), ROTID_OK);
+        assert_status(rotid_matrix_add_element(&a, 4, dof, e, NULL), ROTID_OK);
+        assert_status(rotid_matrix_get_dense(&a, got, 12, NULL), ROTID_OK);
         for (int i = 0; i < 144; i++)
             assert_close(got[i], full[i], 1e-15, 1e-15);
     }
@@ -70,7 +70,7 @@ static void an_element_without_a_place_changes_nothing(void **state)
     const double e[9] = {1, 2, 3, 2, 4, 5, 3, 5, 6};
     for (int c = 0; c < 4; c++) {
         rotid_matrix a = bordered(*state), zero = bordered(*state);
-        assert_status(rotid_matrix_add_element(&a, 3, places[c], e), ROTID_ERROR_ARGUMENT);
+        assert_status(rotid_matrix_add_element(&a, 3, places[c], e, NULL), ROTID_ERROR_ARGUMENT);
         assert_memory_equal(a.band, zero.band, 36 * sizeof(double));
         assert_memory_equal(a.block, zero.block, 9 * sizeof(double));
     }
@@ -91,8 +91,8 @@ static void dense_matrices_go_in_and_out(void **state)
         for (int j = 0; j < n; j++)
             for (int i = j; i < n; i++)
                 full[i + j * ld] = definition[i + j * n];
-        assert_status(rotid_matrix_set_dense(&b, full, ld), ROTID_OK);
-        assert_status(rotid_matrix_get_dense(&b, got, ld), ROTID_OK);
+        assert_status(rotid_matrix_set_dense(&b, full, ld, NULL), ROTID_OK);
+        assert_status(rotid_matrix_get_dense(&b, got, ld, NULL), ROTID_OK);
         for (int j = 0; j < n; j++)
             for (int i = 0; i < ld; i++)
                 assert_true(i < n ? got[i + j * ld] == definition[i + j * n] : isnan(got[i + j * ld]));
@@ -102,9 +102,9 @@ static void dense_matrices_go_in_and_out(void **state)
         kept.band = numbers(*state, n * (kd + 1));
         memcpy(kept.band, b.band, (size_t)(n * (kd + 1)) * sizeof(double));
         full[n - 1] = 1e-300; /* A(n - 1, 0) has no place */
-        assert_status(rotid_matrix_set_dense(&b, full, ld), ROTID_ERROR_ARGUMENT);
+        assert_status(rotid_matrix_set_dense(&b, full, ld, NULL), ROTID_ERROR_ARGUMENT);
         full[n - 1] = NAN;
-        assert_status(rotid_matrix_set_dense(&b, full, ld), ROTID_ERROR_ARGUMENT);
+        assert_status(rotid_matrix_set_dense(&b, full, ld, NULL), ROTID_ERROR_ARGUMENT);
         assert_memory_equal(kept.band, b.band, (size_t)(n * (kd + 1)) * sizeof(double));
     }
 }
@@ -124,7 +124,7 @@ static void products_are_those_of_the_dense_matrix(void **state)
         for (int j = 0; j < n; j++)
             for (int d = n - j; d <= a.kd; d++)
                 a.band[d + j * (a.kd + 1)] = NAN;
-        assert_status(rotid_matrix_multiply(&a, columns, x, y), ROTID_OK);
+        assert_status(rotid_matrix_multiply(&a, columns, x, y, NULL), ROTID_OK);
         assert_true(relative_difference((size_t)(n * columns), y, dense_product(*state, n, n, columns, full, x)) < 1e-14);
     }
 }
@@ -181,29 +181,29 @@ static void what_is_no_matrix_is_refused(void **state)
             break;
         }
         const char *expected = c < 0 ? "ROTID_OK" : "ROTID_ERROR_ARGUMENT";
-        assert_string_equal(rotid_status_name(rotid_matrix_add(which, 1, 1, 1)), expected);
-        assert_string_equal(rotid_status_name(rotid_matrix_add_element(which, 2, dof, e)), expected);
-        assert_string_equal(rotid_status_name(rotid_matrix_set_dense(which, full, 12)), expected);
-        assert_string_equal(rotid_status_name(rotid_matrix_get_dense(which, full, 12)), expected);
-        assert_string_equal(rotid_status_name(rotid_matrix_multiply(which, 1, full, other)), expected);
+        assert_string_equal(rotid_status_name(rotid_matrix_add(which, 1, 1, 1, NULL)), expected);
+        assert_string_equal(rotid_status_name(rotid_matrix_add_element(which, 2, dof, e, NULL)), expected);
+        assert_string_equal(rotid_status_name(rotid_matrix_set_dense(which, full, 12, NULL)), expected);
+        assert_string_equal(rotid_status_name(rotid_matrix_get_dense(which, full, 12, NULL)), expected);
+        assert_string_equal(rotid_status_name(rotid_matrix_multiply(which, 1, full, other, NULL)), expected);
     }
     rotid_matrix a = bordered(*state);
-    assert_status(rotid_matrix_add(&a, -1, 0, 1), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_add(&a, 0, -1, 1), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_add(&a, 12, 12, 1), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_add_element(&a, 0, dof, e), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_add_element(&a, 2, NULL, e), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_add_element(&a, 2, dof, NULL), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_set_dense(&a, NULL, 12), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_set_dense(&a, full, 11), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_get_dense(&a, NULL, 12), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_get_dense(&a, full, 11), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_multiply(&a, 0, full, other), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_multiply(&a, 1, NULL, other), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_multiply(&a, 1, full, NULL), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_multiply(&a, 1, full, full), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_multiply(&a, 2, full, full + 23), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_matrix_multiply(&a, 2, full, full + 24), ROTID_OK);
+    assert_status(rotid_matrix_add(&a, -1, 0, 1, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_add(&a, 0, -1, 1, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_add(&a, 12, 12, 1, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_add_element(&a, 0, dof, e, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_add_element(&a, 2, NULL, e, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_add_element(&a, 2, dof, NULL, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_set_dense(&a, NULL, 12, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_set_dense(&a, full, 11, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_get_dense(&a, NULL, 12, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_get_dense(&a, full, 11, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_multiply(&a, 0, full, other, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_multiply(&a, 1, NULL, other, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_multiply(&a, 1, full, NULL, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_multiply(&a, 1, full, full, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_multiply(&a, 2, full, full + 23, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_matrix_multiply(&a, 2, full, full + 24, NULL), ROTID_OK);
 }
 
 int main(void)

@@ -247,11 +247,11 @@ static void a_host_can_cancel(void **state)
     for (int after = 0; after < 12; after += 5)
         for (int threads = 1; threads < 5; threads += 3) {
             struct host host = {after};
-            const rotid_environment environment = {.cancelled = cancelled, .context = &host};
+            const rotid_environment environment = {.size = sizeof environment, .cancelled = cancelled, .context = &host};
             assert_status(bootstrap_run(&test_pool, &scan, 1000, 1, threads, &environment, &b), ROTID_STOP_CANCELLED);
         }
     struct host patient = {1000};
-    const rotid_environment environment = {.cancelled = cancelled, .context = &patient};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = cancelled, .context = &patient};
     assert_status(bootstrap_run(&test_pool, &scan, 1000, 1, 2, &environment, &b), ROTID_OK);
 }
 

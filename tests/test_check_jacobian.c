@@ -86,7 +86,7 @@ static int check(struct model *model, const double *scale)
     for (int j = 0; j < 3; j++)
         kept[j] = x[j] = model->unit[j] * at[j];
     assert_true(rotid_check_jacobian_workspace(M, 3) <= sizeof work / sizeof *work);
-    int status = rotid_check_jacobian(M, 3, three, model, x, scale, error, doubt, work);
+    int status = rotid_check_jacobian(M, 3, three, model, x, scale, NULL, error, doubt, work);
     assert_memory_equal(x, kept, sizeof x);
     assert_int_equal(model->misplaced, 0);
     return status;
@@ -115,7 +115,7 @@ static void right_jacobians_of_all_kinds_pass(void **state)
         for (int j = 0; j < problem->n; j++)
             x[j] = 1.1 * x[j] + 0.01;
         assert_true(rotid_check_jacobian_workspace(problem->m, problem->n) <= sizeof work / sizeof *work);
-        assert_status(rotid_check_jacobian(problem->m, problem->n, problem->residual, NULL, x, NULL, error, doubt, work),
+        assert_status(rotid_check_jacobian(problem->m, problem->n, problem->residual, NULL, x, NULL, NULL, error, doubt, work),
                       ROTID_OK);
         for (int j = 0; j < problem->n; j++) {
             if (!(error[j] < 1e-9))
@@ -227,12 +227,12 @@ static void columns_of_zeros_are_right_where_nothing_happens(void **state)
     (void)state;
     double x[2] = {3, 1};
     int claims = 1;
-    assert_status(rotid_check_jacobian(2, 2, idle, NULL, x, NULL, error, doubt, work), ROTID_OK);
+    assert_status(rotid_check_jacobian(2, 2, idle, NULL, x, NULL, NULL, error, doubt, work), ROTID_OK);
     assert_true(error[0] < 1e-12 && error[1] == 0 && doubt[1] == 0);
-    assert_status(rotid_check_jacobian(2, 2, idle, &claims, x, NULL, error, doubt, work), ROTID_OK);
+    assert_status(rotid_check_jacobian(2, 2, idle, &claims, x, NULL, NULL, error, doubt, work), ROTID_OK);
     assert_true(error[1] == 1 && doubt[1] == 0);
     x[0] = 0; /* its derivative vanishes there, and at 0 the scale is 1e-3 */
-    assert_status(rotid_check_jacobian(2, 2, idle, NULL, x, NULL, error, doubt, work), ROTID_OK);
+    assert_status(rotid_check_jacobian(2, 2, idle, NULL, x, NULL, NULL, error, doubt, work), ROTID_OK);
     assert_true(error[0] == 0 && error[1] == 0);
 }
 
@@ -248,23 +248,23 @@ static void arguments_out_of_range_are_refused_before_anything_is_called(void **
     (void)state;
     struct model model = {.unit = {1, 1, 1}};
     double x[3] = {1, 1, 1}, bad[3] = {1, NAN, 1}, scale[3] = {1, 0, 1}, one = 1, value;
-    assert_status(rotid_check_jacobian(0, 3, three, &model, x, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_check_jacobian(M, 0, three, &model, x, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_check_jacobian(M, 3, NULL, &model, x, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_check_jacobian(M, 3, three, &model, NULL, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_check_jacobian(M, 3, three, &model, x, NULL, NULL, doubt, work), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_check_jacobian(M, 3, three, &model, x, NULL, error, NULL, work), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_check_jacobian(M, 3, three, &model, x, NULL, error, doubt, NULL), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_check_jacobian(M, 3, three, &model, bad, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_check_jacobian(0, 3, three, &model, x, NULL, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_check_jacobian(M, 0, three, &model, x, NULL, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_check_jacobian(M, 3, NULL, &model, x, NULL, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_check_jacobian(M, 3, three, &model, NULL, NULL, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_check_jacobian(M, 3, three, &model, x, NULL, NULL, NULL, doubt, work), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_check_jacobian(M, 3, three, &model, x, NULL, NULL, error, NULL, work), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_check_jacobian(M, 3, three, &model, x, NULL, NULL, error, doubt, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_check_jacobian(M, 3, three, &model, bad, NULL, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
     for (int k = 0; k < 4; k++) {
         scale[1] = (double[]){0, -1, NAN, INFINITY}[k];
-        assert_status(rotid_check_jacobian(M, 3, three, &model, x, scale, error, doubt, work), ROTID_ERROR_ARGUMENT);
+        assert_status(rotid_check_jacobian(M, 3, three, &model, x, scale, NULL, error, doubt, work), ROTID_ERROR_ARGUMENT);
     }
     assert_int_equal(model.calls + model.jacobians, 0);
     value = 0;
-    assert_status(rotid_check_jacobian(1, 1, refused, &value, &one, NULL, error, doubt, work), ROTID_ERROR_CALLBACK);
+    assert_status(rotid_check_jacobian(1, 1, refused, &value, &one, NULL, NULL, error, doubt, work), ROTID_ERROR_CALLBACK);
     value = NAN;
-    assert_status(rotid_check_jacobian(1, 1, refused, &value, &one, NULL, error, doubt, work), ROTID_ERROR_FINITE);
+    assert_status(rotid_check_jacobian(1, 1, refused, &value, &one, NULL, NULL, error, doubt, work), ROTID_ERROR_FINITE);
 }
 
 int main(void)

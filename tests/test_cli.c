@@ -147,7 +147,7 @@ static void wrong_usage_exits_2_and_says_what_was_expected(void **state)
     assert_true(is(run("identity", PAPER), 2, NULL, "identity is no command, expected"));
     assert_true(is(run("check", PAPER, BRAKE), 2, NULL, "is one argument too many, expected one file"));
     assert_true(is(run("check", PAPER, "--fast"), 2, NULL, "--fast"));
-    assert_true(is(run("check", PAPER, "--json"), 2, NULL, "'--json' requires an argument"));
+    assert_true(is(run("check", PAPER, "--json"), 2, NULL, "--json: expected a value behind it"));
     assert_true(is(run("check", PAPER, "--threads", "0"), 2, NULL, "--threads 0: expected a whole number from 1"));
     assert_true(is(run("check", PAPER, "--threads", "1.5"), 2, NULL, "--threads 1.5: expected a whole number"));
     assert_true(is(run("check", PAPER, "--seed", "x"), 2, NULL, "--seed x: expected a whole number"));
@@ -165,6 +165,7 @@ static void help_and_version_exit_0(void **state)
     assert_true(is(run("--help"), 0, "usage: rotid COMMAND FILE", NULL));
     assert_true(is(run("identify", "--help"), 0, "usage: rotid COMMAND FILE", NULL));
     assert_true(is(run("--version"), 0, "rotid " ROTID_VERSION, NULL));
+    assert_int_equal(is(run("--version"), 0, ", without NLopt: identify has no baseline\n", NULL), !WITH_NLOPT);
 }
 
 static void quiet_commands_print_nothing(void **state)
@@ -186,7 +187,8 @@ static void json_of_identify_has_the_keys_of_the_interface(void **state)
     forget(&outcome);
     has_keys(json, "schema rotid commit blas seed threads command deck status functional reduction objective iterations "
                    "evaluations stop_reason parameters correlation condition_number modes reduction_error_percent "
-                   "mesh_error_percent history baseline seconds");
+                   "mesh_error_percent history nlopt baseline seconds");
+    assert_int_equal(cJSON_IsTrue(get(json, "nlopt")), WITH_NLOPT);
     assert_true(cJSON_GetArraySize(get(json, "parameters")) == 2 && cJSON_GetArraySize(get(json, "modes")) == 6);
     has_keys(cJSON_GetArrayItem(get(json, "parameters"), 1), "name unit value start lower upper std ci95 at_bound identifiable");
     has_keys(cJSON_GetArrayItem(get(json, "modes"), 5), "mode measured_hz predicted_hz error_percent residual mac nco holdout");

@@ -203,6 +203,30 @@ static void a_size_at_its_bound_is_refused(void **state)
     conclude_as(VERDICT_NAMED, 1);
 }
 
+/* Nothing is named as long as the parameters that end at bounds of the deck would do as much beyond them. */
+static void a_bound_of_the_deck_is_a_rival(void **state)
+{
+    (void)state;
+    open_round();
+    before.beyond_drop = 38;
+    add("density", "left", 1, 40);
+    conclude_as(VERDICT_AMBIGUOUS, 1);
+    open_round();
+    before.beyond_drop = 20;
+    add("density", "left", 1, 40);
+    conclude_as(VERDICT_NAMED, 1);
+}
+
+static void what_makes_the_fit_worse_is_refused(void **state)
+{
+    (void)state;
+    open_round();
+    add("tie_shear", "ties", 0, -237);
+    add("density", "left", 1, 40);
+    conclude_as(VERDICT_NAMED, 1);
+    assert_reason("tie_shear", "worse with it");
+}
+
 static void modes_held_out_speak(void **state)
 {
     (void)state;
@@ -347,6 +371,8 @@ int main(void)
         TEST(a_rival_too_weak_alone_still_makes_a_name_doubtful),
         TEST(what_was_not_fitted_is_no_candidate),
         TEST(a_size_at_its_bound_is_refused),
+        TEST(a_bound_of_the_deck_is_a_rival),
+        TEST(what_makes_the_fit_worse_is_refused),
         TEST(modes_held_out_speak),
         TEST(modes_left_out_in_turn_speak),
         TEST(the_margin_grows_with_what_is_left),

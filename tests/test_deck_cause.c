@@ -247,7 +247,8 @@ static int residuals(struct reading *r, double *residual, double predicted[MODES
     int failed;
     assert_status(client_open(&r->pool, &job->rotor, 0, NULL, 1, client, &failed), ROTID_OK);
     rotid_measured *measured = POOL_NEW(&r->pool, rotid_measured);
-    *measured = (rotid_measured){MODES, job->number, job->frequency_hz, job->frequency_std, job->shape, job->shape_std, NULL};
+    *measured = (rotid_measured){sizeof *measured,   MODES,      job->number,    job->frequency_hz,
+                                 job->frequency_std, job->shape, job->shape_std, NULL};
     assert_status(functional_new(&r->pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &client->model, measured, &f),
                   ROTID_OK);
     assert_status(functional_residual(&f, NULL, residual), ROTID_OK);

@@ -273,7 +273,7 @@ static void same(const double *a, const double *b, size_t count, const char *wha
             fail();
         }
 }
-#define SAME(member, count) same(&a->member, &b->member, (size_t)(count), #member)
+#define SAME(member, count)       same(&a->member, &b->member, (size_t)(count), #member)
 #define SAME_ARRAY(member, count) same(a->member, b->member, (size_t)(count), #member)
 
 static void both_say(const char *a, const char *b)
@@ -401,7 +401,7 @@ static void the_same_diagnosis_for_any_number_of_threads(void **state)
 #define MOST_STAGES 64
 
 struct host {
-    long polls, until; /* cancels at this poll; 0: never */
+    long polls, until;         /* cancels at this poll; 0: never */
     int nstage, stop_at_stage; /* cancels from this stage on; -1: never */
     char stage[MOST_STAGES][64];
 };
@@ -428,8 +428,11 @@ static void progress(void *context, const char *stage, int step)
 /* One thread, all memory by the allocator, which is asked afterwards. Returns the status. */
 static int run_in(const struct job *job, struct failing_allocator *failing, struct host *host, int *interrupted)
 {
-    const rotid_environment environment = {
-        .allocator = &failing->allocator, .cancelled = cancelled, .progress = progress, .context = host};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .allocator = &failing->allocator,
+                                           .cancelled = cancelled,
+                                           .progress = progress,
+                                           .context = host};
     const struct diagnose_options options = {.threads = 1, .seed = 1, .replicates = 100};
     struct pool pool;
     struct message_list notes;

@@ -149,7 +149,7 @@ static void it_can_be_cancelled(void **state)
 {
     struct frf_set set;
     struct ema ema;
-    rotid_environment environment = {.cancelled = always};
+    rotid_environment environment = {.size = sizeof environment, .cancelled = always};
     (void)state;
     measure(3, 0, 0, &set);
     assert_status(ema_compute(&test_pool, &set, NULL, &environment, &ema), ROTID_STOP_CANCELLED);

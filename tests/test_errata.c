@@ -136,7 +136,7 @@ static void eq6_plus_sign_is_the_outer_diameter_and_the_text_swaps_them(void **s
 {
     (void)state;
     double outer, inner, area = pi / 4 * (0.3 * 0.3 - 0.2 * 0.2), inertia = pi / 64 * (pow(0.3, 4) - pow(0.2, 4));
-    assert_status(rotid_equivalent_cylinder(area, inertia, &outer, &inner), ROTID_OK);
+    assert_status(rotid_equivalent_cylinder(area, inertia, NULL, &outer, &inner), ROTID_OK);
     assert_close(outer, 0.3, 1e-14, 0);
     assert_close(inner, 0.2, 1e-14, 0);
     double text_inner = sqrt(8 * inertia / area + 2 * area / pi), text_outer = sqrt(8 * inertia / area - 2 * area / pi);
@@ -153,7 +153,7 @@ static void eq6_has_no_annulus_for_overlapping_rods_where_printed_is_not_a_numbe
     double squared = 8 * (own + pitch) / area - 2 * area / pi;
     print_message("(6) inner diameter squared of overlapping rods %.6f m2\n", squared);
     assert_true(isnan(sqrt(squared)));
-    assert_status(rotid_equivalent_cylinder(area, own + pitch, &outer, &inner), ROTID_ERROR_SECTION);
+    assert_status(rotid_equivalent_cylinder(area, own + pitch, NULL, &outer, &inner), ROTID_ERROR_SECTION);
 }
 
 /* ---- (44) */

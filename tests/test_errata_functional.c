@@ -37,7 +37,8 @@ static int open_pool(void **state)
         for (int s = 0; s < SENSORS; s++)
             shape[s + k * SENSORS] = prediction_at_sensor(&p, client.model.nrigid + k, s);
     }
-    measured = (rotid_measured){.nmode = MODES, .number = number, .frequency_hz = hz, .shape = shape};
+    measured =
+        (rotid_measured){.size = sizeof(rotid_measured), .nmode = MODES, .number = number, .frequency_hz = hz, .shape = shape};
     return 0;
 }
 

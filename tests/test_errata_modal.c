@@ -127,7 +127,7 @@ static void eq37_takes_phi_j_from_the_left_where_the_text_takes_phi_k(void **sta
             double corrected[N], printed[N], c;
             open_mode(&d, mode, &e);
             const double *own = e.phi + N * mode;
-            modal_superposition(N, e.lambda, e.phi, mode, e.m_phi, e.p, e.q, corrected);
+            modal_superposition(N, e.lambda, e.phi, mode, mode, 1, e.m_phi, e.p, &e.q, corrected);
             worst = fmax(worst, relative_difference(N, corrected, e.difference));
             assert_close(dot(own, e.p), 0, 0, 1e-12 * sqrt(dot(own, own) * dot(e.p, e.p)));
             for (int i = 0; i < N; i++)
@@ -161,10 +161,10 @@ static void eq38_needs_the_transpose_that_is_not_printed(void **state)
             double corrected[N], printed[N], dropped[N], v[N], mv[N];
             open_mode(&d, mode, &e);
             const double *own = e.phi + N * mode;
-            assert_status(nelson_dense_prepare(&nelson, e.k, e.m, e.lambda[mode], own), ROTID_OK);
-            nelson_dense_solve(&nelson, own, e.m_phi, e.p, e.q, corrected);
+            assert_status(nelson_dense_prepare(&nelson, e.k, e.m, e.lambda[mode], 1, own), ROTID_OK);
+            nelson_dense_solve(&nelson, 1, own, e.m_phi, e.p, &e.q, corrected);
             for (int i = 0; i < N; i++) /* V has a zero where phi_k is largest */
-                v[i] = corrected[i] - corrected[nelson.left_out] / own[nelson.left_out] * own[i];
+                v[i] = corrected[i] - corrected[nelson.rows.left_out[0]] / own[nelson.rows.left_out[0]] * own[i];
             multiply(e.m, v, mv);
             for (int i = 0; i < N; i++) {
                 printed[i] = v[i] + (e.q - own[i] * mv[i]) * own[i];

@@ -1,6 +1,7 @@
 /* What the ROSS script states of sections, rods, joints and masses, by the formulas of ROSS; what it leaves out; names in it. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "export/ross.h"
@@ -194,6 +195,35 @@ static void test_memory_that_runs_out(void **state)
     }
 }
 
+/* Versions of ROSS differ in what they pass: frequency, synchronous. tests/peers/export_peer.py calls them with both. */
+static void test_matrices_take_further_arguments(void **state)
+{
+    (void)state;
+    static const char *const text[] = {MIXED, FREE TIES ", 4\n*SPRING, NAME=s\n0.2, 1e6, 1e4\n",
+                                       FREE "*CAUSE, NAME=c, TYPE=joint, AT=core.start\nflexibility, 1e-7\n"};
+    int methods = 0;
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
+        struct export_model model = model_of(text[i]);
+        struct message_list notes;
+        struct ross_model ross;
+        char *script = NULL;
+        size_t length;
+        FILE *stream = open_memstream(&script, &length);
+        assert_non_null(stream);
+        message_open(&notes, &test_pool);
+        assert_status(ross_open(&test_pool, &model, &notes, &ross), ROTID_OK);
+        assert_status(ross_write(&test_pool, stream, &ross), ROTID_OK);
+        (void)fclose(stream);
+        for (const char *at = script; (at = strstr(at, "    def ")); at++)
+            if (strchr("KMG", at[8]) && at[9] == '(') {
+                assert_int_equal(strncmp(at + 9, "(self, *args, **kwargs):", 24), 0);
+                methods++;
+            }
+        free(script);
+    }
+    assert_true(methods >= 6);
+}
+
 #define WITH_POOL(test) cmocka_unit_test_setup_teardown(test, open_test_pool, close_test_pool)
 
 int main(void)
@@ -202,6 +232,7 @@ int main(void)
         WITH_POOL(test_ross_sections_give_the_element),  WITH_POOL(test_ross_tie_rods_as_rods_and_as_tube),
         WITH_POOL(test_ross_matrices_of_joint_and_mass), WITH_POOL(test_what_ross_leaves_out_is_said),
         WITH_POOL(test_names_are_words_and_unlike),      WITH_POOL(test_memory_that_runs_out),
+        WITH_POOL(test_matrices_take_further_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

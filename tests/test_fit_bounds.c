@@ -46,7 +46,7 @@ static void test_optimum_beyond_a_bound_is_pressed_against_it_and_constrained_ot
 static void check_minimum(struct paper_fit *fit, const char *text)
 {
     rotid_fit_result *result = NULL;
-    int status = rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, &result);
+    int status = rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, NULL, &result);
     if (status || !result->converged || fabs(result->x[0] / scipy_optimum[0] - 1) > 1e-6)
         print_error("%s: from E %.3e G %.3e %s, objective %.6g instead of %.6g, %s\n", text, fit->parameter[0].start,
                     fit->parameter[1].start, rotid_status_name(status), status ? NAN : result->objective, scipy_objective,
@@ -142,7 +142,7 @@ static void test_converged_is_never_said_where_the_objective_falls_towards_the_i
 static void refused(struct paper_fit *fit, const char *expected)
 {
     rotid_fit_result *result = (void *)fit;
-    int status = rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, &result);
+    int status = rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, NULL, &result);
     assert_string_equal(rotid_status_name(status), expected);
     assert_null(result);
 }
@@ -238,12 +238,12 @@ static void test_options_and_models_that_make_no_sense_are_refused(void **state)
     }
     fit.client.model = model;
     rotid_fit_result *result = (void *)&fit;
-    assert_status(rotid_fit(NULL, fit.parameter, &fit.measured, &fit.options, NULL, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_fit(NULL, fit.parameter, &fit.measured, &fit.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
     assert_null(result);
-    assert_status(rotid_fit(&model, NULL, &fit.measured, &fit.options, NULL, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_fit(&model, fit.parameter, NULL, &fit.options, NULL, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_fit(&model, fit.parameter, &fit.measured, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_fit(&model, fit.parameter, &fit.measured, &fit.options, NULL, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_fit(&model, NULL, &fit.measured, &fit.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_fit(&model, fit.parameter, NULL, &fit.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_fit(&model, fit.parameter, &fit.measured, NULL, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_fit(&model, fit.parameter, &fit.measured, &fit.options, NULL, NULL, NULL), ROTID_ERROR_ARGUMENT);
     paper_fit_close(&fit);
 }
 

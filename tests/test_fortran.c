@@ -60,7 +60,7 @@ static void drift_is_told(void **state)
         {"frequency_std = c_null_ptr ! real [nmode]\n    type(c_ptr) :: shape =",
          "shape = c_null_ptr\n    type(c_ptr) :: frequency_std =", "rotid_deck: member 14 is shape, not frequency_std\n"},
         {"lower = 0, upper = 0", "upper = 0, lower = 0", "rotid_parameter: member 3 is upper, not lower\n"},
-        {"bijection_chi = 0", "bijection = 0", "rotid_fit_options: member 7 is bijection, not bijection_chi\n"},
+        {"bijection_chi = 0", "bijection = 0", "rotid_fit_options: member 9 is bijection, not bijection_chi\n"},
         {", mass = 0, centre = 0", ", mass = 0", "rotid_deck: member 7 is nsensor, not centre\n"},
         {"    integer(c_int) :: fixed = 0\n", "", "rotid_cause_value: member 7 is the end, not fixed\n"},
         {"    integer(c_int) :: fixed = 0\n", "    real(c_double) :: fixed = 0\n",
@@ -133,7 +133,7 @@ static void a_header_that_goes_on_is_told(void **state)
         {"ROTID_API double rotid_mac(", "ROTID_API int rotid_more(int n);\nROTID_API double rotid_mac(",
          "rotid_more is missing\n"},
         {"    double bijection_chi;", "    double more, bijection_chi;",
-         "rotid_fit_options: member 7 is bijection_chi, not more\n"},
+         "rotid_fit_options: member 9 is bijection_chi, not more\n"},
         {"ROTID_HYBRID_F, ", "ROTID_MORE, ROTID_HYBRID_F, ",
          "ROTID_MORE is missing\nROTID_HYBRID_F is 1, not 2\nROTID_LIKELIHOOD is 2, not 3\n"},
         {"X(ROTID_ERROR_IO, -14,", "X(ROTID_ERROR_IO, -24,", "ROTID_ERROR_IO is -14, not -24\n"},
@@ -214,13 +214,15 @@ static void both_compilers_give_the_same_values_sizes_and_offsets(void **state)
     run_witnesses(folder, &header, MODULE, &in_c, &in_fortran);
     assert_non_null(strstr(in_c, "\nrotid_deck 1")); /* sizes of three digits */
     assert_non_null(strstr(in_c, "\nROTID_ERROR_LIBRARY -15\n"));
+    assert_non_null(strstr(in_c, "\nrotid_lm_options says "));
     assert_string_equal(in_fortran, in_c);
 
     /* a module that has drifted is seen here, too */
     static const char *const drift[][2] = {{"integer(c_long) :: seed", "integer(c_int) :: seed"},
                                            {"lower = 0, upper = 0", "upper = 0, lower = 0"},
                                            {"ROTID_NAMED = 1", "ROTID_NAMED = 3"},
-                                           {"rigid_hz(2)", "rigid_hz(3)"}};
+                                           {"rigid_hz(2)", "rigid_hz(3)"},
+                                           {"size = 80", "size = 72"}};
     const char *text = shell_file(&test_pool, MODULE);
     for (size_t i = 0; i < sizeof drift / sizeof *drift; i++) {
         (void)write_file(&test_pool, folder, "rotid.f90", changed(text, drift[i][0], drift[i][1]));

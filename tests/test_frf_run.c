@@ -53,7 +53,7 @@ static void open_bench(struct bench *b, struct pool *pool, double factor)
         .frequency_std = b->std,
         .holdout = b->holdout,
         .frf = {.given = 1, .axis = 2, .quantity = FRF_ACCELERATION, .low_hz = 100, .high_hz = 1900, .nline = LINES}};
-    rotid_fit_defaults(&b->job.fit);
+    rotid_fit_defaults(sizeof b->job.fit, &b->job.fit);
     b->job.fit.functional = ROTID_HYBRID;
     for (int l = 0; l < LINES; l++)
         b->line[l] = 100 + 2.0 * l;
@@ -390,7 +390,7 @@ static void a_test_of_680_points_and_30000_lines_takes_seconds(void **state)
     assert_status(run(&bench, &test_pool), ROTID_OK);
     print_message("680 functions of 30000 lines, %d modes: %.2f s\n", bench.result.synthesis.nmode, clock_seconds() - start);
     assert_true(clock_seconds() - start < 60); /* on a loaded machine */
-    const rotid_environment environment = {.cancelled = cancel_at_the_third};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = cancel_at_the_third};
     polled = 0;
     assert_status(frf_run(&test_pool, &bench.job, &bench.identified, &bench.measured, &environment, &bench.notes, &bench.result),
                   ROTID_OK);

@@ -52,7 +52,8 @@ static const rotid_model *measure(struct pool *pool, double shape_noise, uint64_
         }
         data->holdout[k] = 0;
     }
-    data->measured = (rotid_measured){.nmode = nmode,
+    data->measured = (rotid_measured){.size = sizeof(rotid_measured),
+                                      .nmode = nmode,
                                       .number = numbers_of_modes,
                                       .frequency_hz = data->hz,
                                       .frequency_std = data->frequency_std,

@@ -15,7 +15,7 @@ static void make_bar(struct job *job, struct group *group, struct segment *segme
         sensor[i] = (struct sensor){i + 1, (double)i / (nsensor - 1)};
     *job = (struct job){
         .rotor = {.ngroup = 1, .nsegment = 1, .nsensor = nsensor, .group = group, .segment = segment, .sensor = sensor}};
-    rotid_fit_defaults(&job->fit);
+    rotid_fit_defaults(sizeof job->fit, &job->fit);
 }
 
 static void of_a_bar_it_is_that_of_its_modulus(void **state)
@@ -59,7 +59,7 @@ static void the_slope_tends_to_one_at_the_optimum(void **state)
     struct sensitivity result;
     const struct sensitivity_options options = {
         .step = 0.01, .range = 0.5, .points = 3, .modes = PAPER_MODES, .with_growth = 1, .seed = 3};
-    rotid_fit_defaults(&job.fit);
+    rotid_fit_defaults(sizeof job.fit, &job.fit);
     job.fit.reduction = ROTID_GUYAN;
     assert_status(sensitivity_run(&test_pool, &job, 2, paper_parameters, paper_start, &options, &result), ROTID_OK);
     const struct growth *growth = &result.growth;

@@ -21,12 +21,10 @@
 
 #define TRAPS (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW)
 
-int openblas_get_num_threads(void);
-void openblas_set_num_threads(int threads);
 
 static char directory[] = "/tmp/test_host_XXXXXX", deck_path[64];
 
-static const rotid_diagnose_options quick = {.replicates = 100, .threads = 2};
+static const rotid_diagnose_options quick = {.size = sizeof quick, .replicates = 100, .threads = 2};
 
 /* Everything the first layer does, as text. */
 struct results {
@@ -41,15 +39,15 @@ static struct results run_all(const rotid_environment *environment)
     rotid_identification *identification;
     rotid_diagnosis *diagnosis;
     static const char *const lower_case[] = {"fit.functional=likelihood", "fit.reduction=irs"};
-    assert_status(rotid_deck_read(deck_path, 2, lower_case, environment, &deck), ROTID_OK);
-    assert_status(rotid_spectrum_compute(deck, NULL, 5, environment, &spectrum), ROTID_OK);
+    assert_status(rotid_deck_read(deck_path, 2, lower_case, environment, NULL, &deck), ROTID_OK);
+    assert_status(rotid_spectrum_compute(deck, NULL, 5, environment, NULL, &spectrum), ROTID_OK);
     assert_status(rotid_identify(deck, 0, environment, NULL, &identification), ROTID_OK);
     assert_status(rotid_diagnose(deck, &quick, environment, NULL, &diagnosis), ROTID_OK);
-    struct host host; /* the texts of the numbers are to be those of one locale */
-    assert_int_equal(host_enter(&host), 0);
+    struct host_locale host; /* the texts of the numbers are to be those of one locale */
+    assert_int_equal(host_enter_locale(&host), 0);
     r = (struct results){dump_deck(deck), dump_spectrum(spectrum), dump_identification(identification),
                          dump_diagnosis(diagnosis)};
-    host_leave(&host);
+    host_leave_locale(&host);
     rotid_deck_free(deck);
     rotid_spectrum_free(spectrum);
     rotid_identification_free(identification);
@@ -118,7 +116,7 @@ static void a_host_with_traps_survives_the_first_layer(void **state)
     rotid_deck *deck;
     rotid_identification *identification;
     trap(); /* and the ways out of it that are errors */
-    int read = rotid_deck_read("/nowhere", 0, NULL, NULL, &deck),
+    int read = rotid_deck_read("/nowhere", 0, NULL, NULL, NULL, &deck),
         identified = rotid_identify(deck, 0, NULL, NULL, &identification);
     assert_trapping();
     assert_status(read, ROTID_ERROR_IO);
@@ -155,14 +153,14 @@ static void a_host_with_traps_survives_a_fit(void **state)
     fit.options.baseline = 1;
     rotid_fit_result *result, *none;
     trap();
-    int status = rotid_fit(&fit.client.model, fit.parameter, &fit.measured, &fit.options, NULL, &result);
+    int status = rotid_fit(&fit.client.model, fit.parameter, &fit.measured, &fit.options, NULL, NULL, &result);
     assert_trapping();
     assert_status(status, ROTID_OK);
     assert_true(result->converged);
     rotid_fit_free(result);
     fit.parameter[0].start = NAN;
     trap();
-    status = rotid_fit(&fit.client.model, fit.parameter, &fit.measured, &fit.options, NULL, &none);
+    status = rotid_fit(&fit.client.model, fit.parameter, &fit.measured, &fit.options, NULL, NULL, &none);
     assert_trapping();
     assert_status(status, ROTID_ERROR_ARGUMENT);
     paper_fit_close(&fit);
@@ -172,12 +170,12 @@ static void a_host_with_traps_survives_a_fit(void **state)
     rotid_lm_result lm;
     assert_true(rotid_lm_workspace(2, 1) <= sizeof work / sizeof *work);
     trap();
-    status = rotid_lm(2, 1, has_no_number, &calls, NULL, x, r, jacobian, work, &lm);
+    status = rotid_lm(2, 1, has_no_number, &calls, NULL, NULL, x, r, jacobian, work, &lm);
     assert_trapping();
     assert_true(status > 0 && calls > 2);
     x[0] = NAN;
     trap();
-    status = rotid_lm(2, 1, has_no_number, &calls, NULL, x, r, jacobian, work, &lm);
+    status = rotid_lm(2, 1, has_no_number, &calls, NULL, NULL, x, r, jacobian, work, &lm);
     assert_trapping();
     assert_status(status, ROTID_ERROR_ARGUMENT);
 }
@@ -218,7 +216,7 @@ static void run_in(const char *name, const char *text_of_number)
         const locale_t before = uselocale((locale_t)0);
         (void)snprintf(text, sizeof text, "%.1f", 1.5);
         assert_string_equal(text, text_of_number); /* it is what it says it is */
-        const rotid_environment environment = {.progress = say_number, .context = inside};
+        const rotid_environment environment = {.size = sizeof environment, .progress = say_number, .context = inside};
         struct results r = run_all(&environment);
         (void)snprintf(text, sizeof text, "%.1f", 1.5);
         int same = uselocale((locale_t)0) == before;
@@ -279,14 +277,17 @@ static void workers_compute_as_their_caller(void **state)
 {
     (void)state;
     struct seen seen = {.failed = {0}};
-    struct host outer;
+    struct host_locale outer;
+    fenv_t floating;
     (void)fesetround(FE_TOWARDZERO);
     if (traps_work())
         trap();
-    assert_int_equal(host_enter(&outer), 0);
+    host_enter_floating(&floating);
+    assert_int_equal(host_enter_locale(&outer), 0);
     seen.locale = uselocale((locale_t)0);
     (void)parallel_for(4, 64, look, &seen);
-    host_leave(&outer);
+    host_leave_locale(&outer);
+    host_leave_floating(&floating);
     (void)fedisableexcept(FE_ALL_EXCEPT);
     int rounding = fegetround();
     (void)fesetround(FE_TONEAREST);
@@ -299,28 +300,28 @@ static void workers_compute_as_their_caller(void **state)
 static void the_blas_keeps_the_number_of_threads_of_its_host(void **state)
 {
     (void)state;
-    int began_with = openblas_get_num_threads();
+    int began_with = blas_threads();
     for (int threads = 1; threads <= 2; threads++) {
         rotid_deck *deck;
         rotid_spectrum *spectrum;
         rotid_identification *identification;
         rotid_diagnosis *diagnosis;
-        openblas_set_num_threads(threads);
-        assert_int_equal(openblas_get_num_threads(), threads); /* or there would be nothing to see */
-        assert_status(rotid_deck_read(deck_path, 0, NULL, NULL, &deck), ROTID_OK);
-        assert_int_equal(openblas_get_num_threads(), threads);
-        assert_status(rotid_spectrum_compute(deck, NULL, 5, NULL, &spectrum), ROTID_OK);
-        assert_int_equal(openblas_get_num_threads(), threads);
+        set_blas_threads(threads);
+        assert_int_equal(blas_threads(), threads); /* or there would be nothing to see */
+        assert_status(rotid_deck_read(deck_path, 0, NULL, NULL, NULL, &deck), ROTID_OK);
+        assert_int_equal(blas_threads(), threads);
+        assert_status(rotid_spectrum_compute(deck, NULL, 5, NULL, NULL, &spectrum), ROTID_OK);
+        assert_int_equal(blas_threads(), threads);
         assert_status(rotid_identify(deck, 1, NULL, NULL, &identification), ROTID_OK);
-        assert_int_equal(openblas_get_num_threads(), threads);
+        assert_int_equal(blas_threads(), threads);
         assert_status(rotid_diagnose(deck, &quick, NULL, NULL, &diagnosis), ROTID_OK);
-        assert_int_equal(openblas_get_num_threads(), threads);
+        assert_int_equal(blas_threads(), threads);
         rotid_diagnosis_free(diagnosis);
         rotid_identification_free(identification);
         rotid_spectrum_free(spectrum);
         rotid_deck_free(deck);
     }
-    openblas_set_num_threads(began_with);
+    set_blas_threads(began_with);
 }
 
 static void an_error_of_the_system_has_a_text(void **state)
@@ -334,7 +335,7 @@ static void an_error_of_the_system_has_a_text(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1);
+    set_blas_threads(1);
     if (!mkdtemp(directory) || setenv("LOCPATH", directory, 1))
         return 1;
     (void)snprintf(deck_path, sizeof deck_path, "%s/deck.inp", directory);

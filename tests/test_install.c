@@ -76,6 +76,8 @@ static const char *expected_files(void)
 {
     static const char *const fixed[] = {"bin/rotid",
                                         "include/rotid.h",
+                                        "lib/cmake/rotid/rotid-config-version.cmake",
+                                        "lib/cmake/rotid/rotid-config.cmake",
                                         "lib/librotid.a",
                                         "lib/librotid.so",
                                         "lib/pkgconfig/rotid.pc",
@@ -130,6 +132,16 @@ static void a_package_is_staged_and_taken_away_again(void **state)
     assert_non_null(strstr(pc, "\nprefix=/usr\nlibdir=${prefix}/lib/some-triplet\nincludedir=${prefix}/include\n"));
     assert_null(strstr(pc, stage));
     assert_null(strstr(pc, "@"));
+    const char *cmake = shell_file(&test_pool, text("%s/usr/lib/some-triplet/cmake/rotid/rotid-config.cmake", stage));
+    assert_non_null(strstr(cmake, "rotid_LIBDIR \"${CMAKE_CURRENT_LIST_DIR}/../..\""));
+    assert_non_null(strstr(cmake, "rotid_INCLUDEDIR \"${CMAKE_CURRENT_LIST_DIR}/../../../../include\""));
+    assert_non_null(strstr(cmake, "librotid.so." ROTID_VERSION));
+    /* of what the program calls beside the library, and of the machine, nothing */
+    static const char *const never[] = {"@", "kiss", "cjson", "/usr/lib/", "/tmp"};
+    for (size_t i = 0; i < sizeof never / sizeof *never; i++)
+        assert_null(strstr(cmake, never[i]));
+    assert_null(strstr(pc, "kiss"));
+    assert_null(strstr(pc, "-L/usr"));
     const char *first = shell(&test_pool, "cd %s && find . | sort", stage);
     assert_non_null(strstr(first, "./usr/bin/rotid\n"));
     assert_non_null(strstr(first, "./usr/lib/some-triplet/librotid.so\n"));
@@ -202,6 +214,20 @@ static void hosts_link_statically_beside_routines_of_the_same_name(void **state)
     (void)shell(&test_pool, "cd %s && rm -r only static archive", prefix);
 }
 
+/* What it does not call is not in it. */
+static void a_host_of_the_minimiser_alone_stays_small(void **state)
+{
+    (void)state;
+    (void)shell(&test_pool, "cd %s && %s %s " SOURCES "/docs/examples/curve.c %s -lm -o curve", prefix, CC,
+                pkg_config("--cflags"), pkg_config("--variable=static_libs"));
+    const char *names = shell(&test_pool, "nm %s/curve | awk '$3 ~ /^rotid_/ { print $3 }'", prefix);
+    assert_non_null(strstr(names, "rotid_lm\n"));
+    static const char *const absent[] = {"rotid_fit\n", "rotid_deck_read\n", "rotid_eigenpairs\n", "rotid_private_job"};
+    for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
+        assert_null(strstr(names, absent[i]));
+    (void)shell(&test_pool, "rm %s/curve", prefix);
+}
+
 static void hosts_link_the_shared_library(void **state)
 {
     (void)state;
@@ -248,6 +274,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_package_is_staged_and_taken_away_again, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_place_that_cannot_be_written_to_is_named, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(hosts_link_statically_beside_routines_of_the_same_name, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_host_of_the_minimiser_alone_stays_small, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(hosts_link_the_shared_library, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_header_serves_c99_and_cpp, open_test_pool, close_test_pool),
     };

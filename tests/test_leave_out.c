@@ -34,8 +34,8 @@ static void open_rotor(struct rotor *rotor)
     }
     for (int s = 0; s < SENSORS; s++)
         sensors[s] = (struct sensor){10 + s, 1.8 * s / (SENSORS - 1)};
-    *rotor = (struct rotor){
-        .ngroup = 3, .group = groups, .nsegment = 3, .segment = segments, .nsensor = SENSORS, .sensor = sensors};
+    *rotor =
+        (struct rotor){.ngroup = 3, .group = groups, .nsegment = 3, .segment = segments, .nsensor = SENSORS, .sensor = sensors};
 }
 
 static struct job make_job(double noise)
@@ -303,7 +303,7 @@ static void a_host_can_cancel(void **state)
     (void)state;
     struct job job = make_job(0.02);
     double error, difference;
-    const rotid_environment environment = {.cancelled = at_once};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = at_once};
     assert_status(mode_out_fit(&job, number, holdout, 0, &environment, NULL, &error, &difference), ROTID_STOP_CANCELLED);
 }
 

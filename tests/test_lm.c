@@ -83,7 +83,7 @@ static void test_linear_problem_satisfies_the_normal_equations(void **state)
     (void)state;
     double a[15 + 5] = {1, 2, 0, 1, -1, 3, 0, 1, 1, 2, -1, 1, 4, 0, 1, 2, -3, 1, 5, 0.5}, x[3] = {10, -20, 30}, r[5];
     rotid_lm_result result;
-    assert_true(rotid_lm(5, 3, row, a, NULL, x, r, jacobian, work, &result) > 0);
+    assert_true(rotid_lm(5, 3, row, a, NULL, NULL, x, r, jacobian, work, &result) > 0);
     for (int k = 0; k < 3; k++) {
         double sum = 0;
         for (int i = 0; i < 5; i++)
@@ -100,7 +100,7 @@ static void test_fewer_residuals_than_parameters_give_the_step_of_least_norm(voi
     (void)state;
     double a[8] = {1, 0, 2, 1, -1, 4, 3, 5}, x[3] = {0}, r[2], w[3], g[4] = {0};
     rotid_lm_result result;
-    assert_true(rotid_lm(2, 3, row, a, NULL, x, r, jacobian, work, &result) > 0);
+    assert_true(rotid_lm(2, 3, row, a, NULL, NULL, x, r, jacobian, work, &result) > 0);
     for (int k = 0; k < 3; k++) {
         w[k] = 1 / (a[2 * k] * a[2 * k] + a[2 * k + 1] * a[2 * k + 1]);
         for (int i = 0; i < 4; i++)
@@ -117,7 +117,7 @@ static void test_parameter_without_influence_stays_where_it_is(void **state)
     (void)state;
     double a[12] = {1, 2, 3, 0, 0, 0, 1, -1, 1, 3, 1, 4}, x[3] = {1, 0.125, 1}, r[3];
     rotid_lm_result result;
-    assert_true(rotid_lm(3, 3, row, a, NULL, x, r, jacobian, work, &result) > 0);
+    assert_true(rotid_lm(3, 3, row, a, NULL, NULL, x, r, jacobian, work, &result) > 0);
     assert_true(x[1] == 0.125);
     assert_true(result.cosine < 1e-9);
 }
@@ -128,7 +128,7 @@ static void test_equal_columns_share_the_step(void **state)
     (void)state;
     double a[12] = {1, 2, 3, 1, 2, 3, 1, -1, 1, 3, 1, 4}, x[3] = {5, 5, 5}, r[3];
     rotid_lm_result result;
-    assert_true(rotid_lm(3, 3, row, a, NULL, x, r, jacobian, work, &result) > 0);
+    assert_true(rotid_lm(3, 3, row, a, NULL, NULL, x, r, jacobian, work, &result) > 0);
     assert_close(x[0], x[1], 1e-3, 0);
     /* least squares of [1 1; 2 -1; 3 1] (s, x3) = (3, 1, 4) by Cramer's rule: [14 2; 2 3] (s, x3) = (17, 6) */
     assert_close(x[0] + x[1], 39.0 / 38, 1e-9, 0);
@@ -141,12 +141,12 @@ static void test_refused_points_are_stepped_back_from(void **state)
     struct watch watch = {.residual = logarithm};
     double x = 10, r;
     rotid_lm_result result;
-    assert_true(rotid_lm(1, 1, watched, &watch, NULL, &x, &r, jacobian, work, &result) > 0);
+    assert_true(rotid_lm(1, 1, watched, &watch, NULL, NULL, &x, &r, jacobian, work, &result) > 0);
     assert_close(x, 0.01, 1e-9, 0);
     assert_true(watch.refused > 0);
     int nan_tells = 1;
     x = 10;
-    assert_true(rotid_lm(1, 1, logarithm, &nan_tells, NULL, &x, &r, jacobian, work, &result) > 0);
+    assert_true(rotid_lm(1, 1, logarithm, &nan_tells, NULL, NULL, &x, &r, jacobian, work, &result) > 0);
     assert_close(x, 0.01, 1e-9, 0);
 }
 
@@ -160,13 +160,12 @@ static int given(void *user, int m, int n, const double *x, double *r, double *j
 
 static void test_start_without_a_finite_residual_is_an_error(void **state)
 {
-    /* the last two: their squares are not finite */
-    static const double values[][2] = {{NAN, 1}, {INFINITY, 1}, {1, NAN}, {1, INFINITY}, {1e200, 1}, {1, 1e200}};
+    static const double values[][2] = {{NAN, 1}, {INFINITY, 1}, {1, NAN}, {1, INFINITY}};
     (void)state;
     for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
         double value[2] = {values[k][0], values[k][1]}, x = 1, r;
         rotid_lm_result result;
-        assert_status(rotid_lm(1, 1, given, value, NULL, &x, &r, jacobian, work, &result), ROTID_ERROR_FINITE);
+        assert_status(rotid_lm(1, 1, given, value, NULL, NULL, &x, &r, jacobian, work, &result), ROTID_ERROR_FINITE);
         assert_true(x == 1);
     }
 }
@@ -178,7 +177,7 @@ static void test_callback_that_fails_at_the_start_ends_the_call(void **state)
         struct watch watch = {.residual = decay, .fail_residual = !which, .fail_jacobian = which};
         double x[2] = {1, 0.3}, r[M];
         rotid_lm_result result;
-        assert_status(rotid_lm(M, 2, watched, &watch, NULL, x, r, jacobian, work, &result), ROTID_ERROR_CALLBACK);
+        assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_CALLBACK);
         assert_int_equal(result.status, ROTID_ERROR_CALLBACK);
         assert_true(x[0] == 1 && x[1] == 0.3);
     }
@@ -197,9 +196,9 @@ static void test_jacobian_without_a_column_is_an_error_at_the_start_and_a_minimu
     (void)state;
     double x = 0, r;
     rotid_lm_result result;
-    assert_status(rotid_lm(1, 1, ramp, NULL, NULL, &x, &r, jacobian, work, &result), ROTID_ERROR_RANK);
+    assert_status(rotid_lm(1, 1, ramp, NULL, NULL, NULL, &x, &r, jacobian, work, &result), ROTID_ERROR_RANK);
     x = 3;
-    assert_status(rotid_lm(1, 1, ramp, NULL, NULL, &x, &r, jacobian, work, &result), ROTID_STOP_GRADIENT);
+    assert_status(rotid_lm(1, 1, ramp, NULL, NULL, NULL, &x, &r, jacobian, work, &result), ROTID_STOP_GRADIENT);
     assert_true(x <= 1 && result.objective == 0.5 && result.iterations == 1);
 }
 
@@ -209,17 +208,17 @@ static void test_arguments_out_of_range_are_refused_before_anything_is_called(vo
     struct watch watch = {.residual = decay};
     double x[2] = {1, 0.3}, bad[2] = {1, NAN}, far[2] = {INFINITY, 1}, r[M];
     rotid_lm_result result;
-    assert_status(rotid_lm(0, 2, watched, &watch, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 0, watched, &watch, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, -1, watched, &watch, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 2, NULL, &watch, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 2, watched, &watch, NULL, x, NULL, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 2, watched, &watch, NULL, x, r, NULL, work, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 2, watched, &watch, NULL, x, r, jacobian, NULL, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 2, watched, &watch, NULL, x, r, jacobian, work, NULL), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 2, watched, &watch, NULL, bad, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
-    assert_status(rotid_lm(M, 2, watched, &watch, NULL, far, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(0, 2, watched, &watch, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 0, watched, &watch, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, -1, watched, &watch, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 2, NULL, &watch, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, NULL, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, x, NULL, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, x, r, NULL, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, x, r, jacobian, NULL, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, x, r, jacobian, work, NULL), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, bad, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, far, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
     assert_int_equal(watch.residuals + watch.jacobians, 0);
 }
 
@@ -247,10 +246,10 @@ static void test_cancelling_leaves_the_last_accepted_point(void **state)
     (void)state;
     for (int k = 1; k <= 5; k++) {
         struct diary diary = {.stop_at = k};
-        rotid_lm_options options = {.trace = write_down, .trace_user = &diary};
+        rotid_lm_options options = {.size = sizeof options, .trace = write_down, .trace_user = &diary};
         double x[2] = {1, 0.3}, r[M], again[M], sum = 0;
         rotid_lm_result result;
-        assert_status(rotid_lm(M, 2, decay, NULL, &options, x, r, jacobian, work, &result), ROTID_STOP_CANCELLED);
+        assert_status(rotid_lm(M, 2, decay, NULL, &options, NULL, x, r, jacobian, work, &result), ROTID_STOP_CANCELLED);
         assert_int_equal(diary.calls, k);
         assert_int_equal(result.iterations, k - 1);
         assert_memory_equal(x, diary.x, sizeof x);
@@ -266,10 +265,10 @@ static void test_trace_sees_every_accepted_point_and_the_last_one_is_the_result(
 {
     (void)state;
     struct diary diary = {0};
-    rotid_lm_options options = {.trace = write_down, .trace_user = &diary};
+    rotid_lm_options options = {.size = sizeof options, .trace = write_down, .trace_user = &diary};
     double x[2] = {1, 0.3}, r[M];
     rotid_lm_result result;
-    assert_true(rotid_lm(M, 2, decay, NULL, &options, x, r, jacobian, work, &result) > 0);
+    assert_true(rotid_lm(M, 2, decay, NULL, &options, NULL, x, r, jacobian, work, &result) > 0);
     assert_int_equal(diary.calls, result.iterations + 1);
     assert_memory_equal(x, diary.x, sizeof x);
     assert_true(diary.objective == result.objective && diary.cosine == result.cosine);
@@ -278,10 +277,10 @@ static void test_trace_sees_every_accepted_point_and_the_last_one_is_the_result(
 static void test_iteration_limit_is_kept(void **state)
 {
     (void)state;
-    rotid_lm_options options = {.max_iterations = 3};
+    rotid_lm_options options = {.size = sizeof options, .max_iterations = 3};
     double x[2] = {1, 0.3}, r[M];
     rotid_lm_result result;
-    assert_status(rotid_lm(M, 2, decay, NULL, &options, x, r, jacobian, work, &result), ROTID_STOP_ITERATIONS);
+    assert_status(rotid_lm(M, 2, decay, NULL, &options, NULL, x, r, jacobian, work, &result), ROTID_STOP_ITERATIONS);
     assert_int_equal(result.iterations, 3);
 }
 
@@ -297,7 +296,7 @@ static void test_evaluations_are_counted_as_they_are_made(void **state)
         struct watch watch = {.residual = runs[k].residual};
         double r[M];
         rotid_lm_result result;
-        assert_true(rotid_lm(runs[k].m, runs[k].n, watched, &watch, NULL, runs[k].x, r, jacobian, work, &result) > 0);
+        assert_true(rotid_lm(runs[k].m, runs[k].n, watched, &watch, NULL, NULL, runs[k].x, r, jacobian, work, &result) > 0);
         assert_int_equal(result.evaluations, watch.residuals);
         assert_int_equal(result.jacobians, watch.jacobians);
         assert_int_equal(watch.misplaced, 0);
@@ -318,8 +317,7 @@ static void test_jacobian_of_the_wrong_sign_ends_soon_and_changes_nothing(void *
     struct watch watch = {.residual = uphill};
     double x[2] = {1, 0.3}, r[M];
     rotid_lm_result result;
-    int status = rotid_lm(M, 2, watched, &watch, NULL, x, r, jacobian, work, &result);
-    assert_true(status == ROTID_STOP_STALLED || status == ROTID_STOP_STEP || status == ROTID_STOP_OBJECTIVE);
+    assert_status(rotid_lm(M, 2, watched, &watch, NULL, NULL, x, r, jacobian, work, &result), ROTID_STOP_STALLED);
     assert_true(x[0] == 1 && x[1] == 0.3 && watch.residuals < 30);
 }
 
@@ -340,7 +338,7 @@ static void test_iteration_allocates_nothing(void **state)
     double x[2] = {1, 0.3}, r[M];
     rotid_lm_result result;
     size_t before = mallinfo2().uordblks;
-    int status = rotid_lm(M, 2, weighed, NULL, NULL, x, r, jacobian, work, &result);
+    int status = rotid_lm(M, 2, weighed, NULL, NULL, NULL, x, r, jacobian, work, &result);
     size_t after = mallinfo2().uordblks;
     assert_true(status > 0);
     assert_int_equal(in_use_inside, before);

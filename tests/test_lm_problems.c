@@ -37,11 +37,11 @@ static void recompute(const struct mgh_problem *problem, const double *x, double
 
 static int solve(const struct mgh_problem *problem, double factor, struct outcome *out)
 {
-    rotid_lm_options options = {.max_iterations = 2000};
+    rotid_lm_options options = {.size = sizeof options, .max_iterations = 2000};
     assert_true(rotid_lm_workspace(problem->m, problem->n) <= sizeof work / sizeof *work);
     mgh_start(problem, factor, out->x);
     int m = problem->m, n = problem->n;
-    int status = rotid_lm(m, n, problem->residual, NULL, &options, out->x, out->r, out->jacobian, work, &out->result);
+    int status = rotid_lm(m, n, problem->residual, NULL, &options, NULL, out->x, out->r, out->jacobian, work, &out->result);
     recompute(problem, out->x, &out->objective, &out->cosine);
     return status;
 }
@@ -192,13 +192,14 @@ static void test_path_does_not_depend_on_the_units_of_x(void **state)
     for (int k = 0; k < mgh_count; k++) {
         struct mgh_problem problem = mgh_problems[k];
         struct outcome plain, other;
-        rotid_lm_options options = {.max_iterations = 8};
+        rotid_lm_options options = {.size = sizeof options, .max_iterations = 8};
         mgh_start(&problem, 1, plain.x);
         for (int j = 0; j < problem.n; j++)
             other.x[j] = ldexp(plain.x[j], -unit_of(j));
-        (void)rotid_lm(problem.m, problem.n, problem.residual, NULL, &options, plain.x, plain.r, plain.jacobian, work,
+        (void)rotid_lm(problem.m, problem.n, problem.residual, NULL, &options, NULL, plain.x, plain.r, plain.jacobian, work,
                        &plain.result);
-        (void)rotid_lm(problem.m, problem.n, rescaled, &problem, &options, other.x, other.r, other.jacobian, work, &other.result);
+        (void)rotid_lm(problem.m, problem.n, rescaled, &problem, &options, NULL, other.x, other.r, other.jacobian, work,
+                       &other.result);
         assert_int_equal(plain.result.evaluations, other.result.evaluations);
         for (int j = 0; j < problem.n; j++)
             assert_close(ldexp(other.x[j], unit_of(j)), plain.x[j], 1e-9, 1e-12);
@@ -233,7 +234,7 @@ static void test_gradient_is_judged_by_the_jacobian_where_x_stands(void **state)
     for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
         double x = starts[k];
         rotid_lm_result result;
-        assert_true(rotid_lm(10, 1, growth, NULL, NULL, &x, r, j, work, &result) > 0);
+        assert_true(rotid_lm(10, 1, growth, NULL, NULL, NULL, &x, r, j, work, &result) > 0);
         assert_close(x, low, 1e-8, 0);
     }
 }
@@ -267,15 +268,15 @@ static void test_gain_ratio_keeps_its_digits_beside_a_large_constant_residual(vo
         struct mgh_problem problem = mgh_problems[k];
         struct outcome out;
         double alone[6], beside[6];
-        rotid_lm_options options = {.max_iterations = 5, .trace = keep_gain, .trace_user = alone};
+        rotid_lm_options options = {.size = sizeof options, .max_iterations = 5, .trace = keep_gain, .trace_user = alone};
         if (strcmp(problem.name, "Bard") != 0)
             continue;
         mgh_start(&problem, 1, out.x);
-        (void)rotid_lm(15, 3, problem.residual, NULL, &options, out.x, out.r, out.jacobian, work, &out.result);
+        (void)rotid_lm(15, 3, problem.residual, NULL, &options, NULL, out.x, out.r, out.jacobian, work, &out.result);
         options.trace_user = beside;
         options.gradient_tolerance = options.objective_tolerance = 1e-30;
         mgh_start(&problem, 1, out.x);
-        (void)rotid_lm(16, 3, beside_a_constant, &problem, &options, out.x, out.r, out.jacobian, work, &out.result);
+        (void)rotid_lm(16, 3, beside_a_constant, &problem, &options, NULL, out.x, out.r, out.jacobian, work, &out.result);
         assert_int_equal(out.result.iterations, 5);
         for (int i = 1; i <= 5; i++)
             assert_close(beside[i], alone[i], 1e-6, 0);
@@ -319,7 +320,7 @@ static void test_noise_in_the_residual_neither_spoils_the_gradient_nor_burns_eva
         (void)solve(problem, 1, &clean);
         mgh_start(problem, 1, out.x);
         int m = problem->m, n = problem->n;
-        int status = rotid_lm(m, n, noisy_residual, &noisy, NULL, out.x, out.r, out.jacobian, work, &out.result);
+        int status = rotid_lm(m, n, noisy_residual, &noisy, NULL, NULL, out.x, out.r, out.jacobian, work, &out.result);
         recompute(problem, out.x, &out.objective, &out.cosine);
         print_message("%-18s with noise %.1e: %-21s cosine %.1e evaluations %d, without %d\n", problem->name, noisy.noise,
                       rotid_status_name(status), out.cosine, out.result.evaluations, clean.result.evaluations);

@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "json_value.h"
 #include "page_bench.h"
+#include "picture_check.h"
 #include "support.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
@@ -74,7 +75,7 @@ static void a_page_is_whole_and_says_what_the_result_holds(void **state)
     assert_says(html, "input/paper_rotor.inp");
     assert_says(html, "seed 1");
     assert_int_equal(page_times(html, "<figure "), 7);
-    assert_int_equal(page_times(html, "<svg "), 14);
+    assert_int_equal(page_times(html, "<img "), 14);
     assert_int_equal(page_times(html, "<h1>"), 1);
     assert_int_equal(page_count("one/figures", ""), 21); /* script, SVG and PDF of each */
     assert_int_equal(page_count("", "one"), 1);
@@ -182,7 +183,7 @@ static void without_gnuplot_the_numbers_stand_in_tables(void **state)
     const char *html = page_read("bare/index.html");
     assert_int_equal(page_problems(html), 0);
     assert_says(html, "apt-get install gnuplot-nox");
-    assert_null(strstr(html, "<svg"));
+    assert_null(strstr(html, "<img"));
     assert_null(strstr(html, "<details"));
     assert_int_equal(page_times(html, "<figure "), 7);
     assert_true(page_times(html, "<table>") >= 9);
@@ -213,7 +214,7 @@ static void a_figure_that_fails_costs_no_other(void **state)
     assert_non_null(strstr(page_err, "figure iterates is not drawn: line 7: stand-in fails on iterates"));
     const char *html = page_read("some/index.html");
     assert_int_equal(page_problems(html), 0);
-    assert_int_equal(page_times(html, "<svg "), 12);
+    assert_int_equal(page_times(html, "<img "), 12);
     assert_says(html, "Some figures are missing");
     assert_true(page_exists("some/figures/iterates.gp") && !page_exists("some/figures/iterates.svg"));
     assert_true(page_exists("some/figures/bijection.pdf"));
@@ -278,6 +279,60 @@ static void nothing_of_anybody_else_is_written_over(void **state)
     }
 }
 
+/* Another one who may write into the folder puts links there. */
+static void no_link_in_the_folder_is_followed(void **state)
+{
+    (void)state;
+    make_result("identify", PAPER, "paper.json");
+    const char *report = "%s %s report %s -o %s";
+    assert_int_equal(page_run("cd %s; mkdir elsewhere shared linked; ln -s ../elsewhere shared/figures", page_path("")), 0);
+    assert_int_equal(page_run(report, page_stand_in(NULL), ROTID_PROGRAM, page_path("paper.json"), page_path("shared")), 2);
+    assert_non_null(strstr(page_err, "shared: its figures is a symbolic link, which is not followed, expected a folder or none"));
+    assert_int_equal(page_count("elsewhere", ""), 0);
+    assert_int_equal(page_count("shared", ""), 1);
+    /* also where it comes behind the look at the folder, while the figures are drawn */
+    char text[1024];
+    (void)snprintf(text, sizeof text,
+                   "#!/bin/sh\n[ \"$1\" = --version ] && { echo gnuplot 5.4 patchlevel 0; exit 0; }\n"
+                   "ln -sfn ../elsewhere %s\nexit 0\n",
+                   page_path("linked/figures"));
+    page_write_file("linker", text);
+    assert_int_equal(page_run("chmod 755 %s; GNUPLOT=%s %s report %s -o %s", page_path("linker"), page_path("linker"),
+                              ROTID_PROGRAM, page_path("paper.json"), page_path("linked")),
+                     3);
+    assert_non_null(strstr(page_err, "cannot write"));
+    assert_int_equal(page_count("elsewhere", ""), 0);
+    assert_int_equal(page_count("linked", ""), 1);
+    /* a page that is a link to one of rotid, and pictures that are links */
+    assert_int_equal(page_run(report, page_stand_in(NULL), ROTID_PROGRAM, page_path("paper.json"), page_path("elsewhere/true")),
+                     0);
+    assert_int_equal(page_run("cd %s; mkdir page; ln -s ../elsewhere/true/index.html page/index.html", page_path("")), 0);
+    assert_int_equal(page_run(report, page_stand_in(NULL), ROTID_PROGRAM, page_path("paper.json"), page_path("page")), 2);
+    assert_non_null(strstr(page_err, "its index.html is no page of rotid"));
+    assert_int_equal(
+        page_run("cd %s/elsewhere/true/figures; echo mine > ../../mine; ln -sf ../../mine rotor.svg; ln -sf ../../mine "
+                 "rotor.gp; ln -sf ../../none rotor.pdf",
+                 page_path("")),
+        0);
+    /* the folder itself may be a link: its user says so */
+    assert_int_equal(page_run("cd %s; ln -s elsewhere/true by-link", page_path("")), 0);
+    assert_int_equal(page_run(report, page_stand_in(NULL), ROTID_PROGRAM, page_path("paper.json"), page_path("by-link")), 0);
+    assert_string_equal(page_read("elsewhere/mine"), "mine\n");
+    assert_false(page_exists("elsewhere/none"));
+    assert_int_equal(page_run("cd %s; find elsewhere -type l; ls elsewhere/true/figures | wc -l", page_path("")), 0);
+    assert_string_equal(page_out, "21\n");
+}
+
+/* gnuplot runs in the folder of the figures, wherever it was named from. */
+static void gnuplot_may_be_named_from_here(void **state)
+{
+    (void)state;
+    make_result("identify", PAPER, "paper.json");
+    (void)page_stand_in(NULL);
+    assert_int_equal(page_run("cd %s; GNUPLOT=./stand-in %s report paper.json -o from-here", page_path(""), ROTID_PROGRAM), 0);
+    assert_int_equal(page_times(page_read("from-here/index.html"), "<img "), 14);
+}
+
 static void a_folder_that_cannot_be_written_is_said(void **state)
 {
     (void)state;
@@ -303,7 +358,7 @@ static void a_folder_that_cannot_be_written_is_said(void **state)
                               page_path("it's a page")),
                      0);
     assert_int_equal(page_problems(page_read("it's a page/index.html")), 0);
-    assert_int_equal(page_times(page_read("it's a page/index.html"), "<svg "), 14);
+    assert_int_equal(page_times(page_read("it's a page/index.html"), "<img "), 14);
 }
 
 /* ------------------------------------------------------------------------------------------------ texts of others */
@@ -347,18 +402,29 @@ static void a_text_in_a_deck_stays_a_text(void **state)
         assert_null(strchr(html, 1));
         assert_null(strchr(html, 0xff));
         const char *script = page_read("hostile/figures/rotor.gp");
-        assert_non_null(strstr(script, "it''s"));
+        assert_non_null(strstr(script, "it\xe2\x80\x99s"));
         assert_null(strstr(script, "\n`touch"));
         assert_false(page_exists("pwned") || page_exists("hostile/pwned") || page_exists("hostile/figures/pwned"));
     }
-    /* a unit that would end a text of a script */
+    /* units that would end a text of a script, and that would name a typeface: gnuplot writes its name as it is */
+    static const char *const units[] = {"'\nsystem('touch pwned')\n#", "{/X\"><script>alert(1)</script> y}",
+                                        "{/X\" onload=\"alert(1) y}", "^{/:Bold a}_b"};
     make_result("frf", PAPER, "frf.json");
-    json = page_json("frf.json");
-    replace_text(json, "unit", "'\nsystem('touch pwned')\n#");
-    page_write_json("unit.json", json);
-    cJSON_Delete(json);
-    assert_int_equal(page_run("cd %s; %s %s report unit.json -o unit", page_path(""), page_stand_in(NULL), ROTID_PROGRAM), 0);
-    assert_null(strstr(page_read("unit/figures/transfer-19-1.gp"), "\nsystem"));
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        for (int real = 0; real < 1 + (page_run("gnuplot --version") == 0); real++) {
+            json = page_json("frf.json");
+            replace_text(json, "unit", units[i]);
+            page_write_json("unit.json", json);
+            cJSON_Delete(json);
+            assert_int_equal(
+                page_run("cd %s; %s %s report unit.json -o unit", page_path(""), real ? "" : page_stand_in(NULL), ROTID_PROGRAM),
+                0);
+            assert_int_equal(page_problems(page_read("unit/index.html")), 0);
+            assert_int_equal(picture_problems(page_read("unit/figures/transfer-19-1.svg")), 0);
+            assert_null(strstr(page_read("unit/figures/transfer-19-1.gp"), "\nsystem"));
+            if (real && i == 3) /* a text is drawn as it stands */
+                assert_says(page_read("unit/figures/transfer-19-1.svg"), "magnitude [^{/:Bold a}_b]");
+        }
 }
 
 /* ------------------------------------------------------------------------------------------------ size */
@@ -438,7 +504,7 @@ static void the_real_gnuplot_draws_every_figure(void **state)
         const char *html = page_read("real/index.html");
         assert_string_equal(page_err, "");
         assert_int_equal(page_problems(html), 0);
-        assert_int_equal(page_times(html, "<svg "), 2 * page_times(html, "<figure "));
+        assert_int_equal(page_times(html, "<img "), 2 * page_times(html, "<figure "));
         assert_true(page_count("real/figures", "") == 3 * page_times(html, "<figure ") || i > 0); /* the same folder four times */
     }
     /* a script is complete: a user runs it alone, where it stands; in the locale C gnuplot warns that it knows no degree sign */
@@ -459,6 +525,8 @@ int main(void)
         cmocka_unit_test(a_figure_that_fails_costs_no_other),
         cmocka_unit_test(an_interrupt_leaves_nothing_behind),
         cmocka_unit_test(nothing_of_anybody_else_is_written_over),
+        cmocka_unit_test(no_link_in_the_folder_is_followed),
+        cmocka_unit_test(gnuplot_may_be_named_from_here),
         cmocka_unit_test(a_folder_that_cannot_be_written_is_said),
         cmocka_unit_test(a_text_in_a_deck_stays_a_text),
         cmocka_unit_test(a_large_result_makes_a_page_of_less_than_five_megabytes),

@@ -425,7 +425,7 @@ static void the_real_gnuplot_draws_them(void **state)
         (void)snprintf(path, sizeof path, "real-%s/index.html", names[i]);
         const char *html = page_read(path);
         assert_int_equal(page_problems(html), 0);
-        assert_int_equal(page_times(html, "<svg "), 2 * page_times(html, "<figure "));
+        assert_int_equal(page_times(html, "<img "), 2 * page_times(html, "<figure "));
     }
 }
 

@@ -1,20 +1,23 @@
 /* The parts of a page: numbers for people, colours that can be told apart, texts in scripts, pictures made ready, programs run.
  */
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/clock.h"
 #include "page/document.h"
 #include "page/html.h"
 #include "page/human.h"
 #include "page/palette.h"
-#include "result/place.h"
+#include "page/picture.h"
 #include "page/plot.h"
 #include "page/process.h"
-#include "page/svg.h"
 #include "page_bench.h"
+#include "picture_check.h"
+#include "result/place.h"
 #include "support.h"
 
 #define MINUS "\xe2\x88\x92"
@@ -103,9 +106,10 @@ static void every_colour_reads_on_its_ground(void **state)
         assert_true(contrast(cell->light, number->light) >= 4.5);
         assert_true(contrast(cell->dark, number->dark) >= 4.5);
     }
-    /* a colour names one role: the page finds it again in a picture by that */
+    /* a colour names one role: a picture finds its dark one by that */
     for (const struct role *role = palette; role->name; role++)
-        assert_ptr_equal(palette_role(role->light), role);
+        for (const struct role *other = palette; other < role; other++)
+            assert_true(other->light != role->light);
     assert_string_equal(palette_ramp(NAN), "RAMP0");
     assert_string_equal(palette_ramp(7), "RAMP10");
 }
@@ -117,15 +121,19 @@ static void texts_are_escaped(void **state)
     size_t length;
     FILE *out = open_memstream(&text, &length);
     assert_non_null(out);
-    html_text(out, "<a href='x'>\"&\" \xc3\xa9 \xf0\x9f\x98\x80 \xc3 \xed\xa0\x80 \x01\x7f \xc2\x85 \t");
+    html_text(out, "<a href='x'>\"&\" \xc3\xa9 \xf0\x9f\x98\x80 \xc3 \xed\xa0\x80 \x01\x7f \xc2\x85 \t \xe2\x80\xae");
     (void)fclose(out);
     assert_string_equal(text, "&lt;a href=&#39;x&#39;&gt;&quot;&amp;&quot; \xc3\xa9 \xf0\x9f\x98\x80 \xef\xbf\xbd "
-                              "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd \t");
+                              "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd \t \xef\xbf\xbd");
     free(text);
     struct plot plot = {.pool = &test_pool};
-    assert_string_equal(plot_quote(&plot, "it's `rm` \"q\" \\"), "'it''s `rm` \"q\" \\'");
-    assert_string_equal(plot_quote(&plot, "a\nb\xff\r\xc3\xa9''"), "'a b? \xc3\xa9'''''");
+    assert_string_equal(plot_quote(&plot, "it's `rm` \"q\" \\"), "'it\xe2\x80\x99s `rm` \"q\" \\'");
+    assert_string_equal(plot_quote(&plot, "a\nb\xff\r\xc3\xa9''"), "'a b\xef\xbf\xbd \xc3\xa9\xe2\x80\x99\xe2\x80\x99'");
     assert_string_equal(plot_quote(&plot, ""), "''");
+    assert_string_equal(plot_quote(&plot, "\xe2\x80\xae\xc2\x9b\x7f\xef\xbf\xbe."), /* turned round, C1, DEL, no character */
+                        "'\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd.'");
+    assert_string_equal(plot_quote(&plot, "100 %"), "'100 %'");
+    assert_string_equal(plot_quote_tick(&plot, "it's 100 %s"), "'it\xe2\x80\x99s 100 %%s'");
     assert_string_equal(plot_number(&plot, NAN), "NaN");
     assert_string_equal(plot_number(&plot, -1.5e-7), "-1.5e-07");
 }
@@ -194,67 +202,71 @@ static void labels_at_the_end_of_lines_do_not_overlap(void **state)
 
 static const char picture[] =
     "<?xml version=\"1.0\"?>\n<svg \n viewBox=\"0 0 720 300\"\n xmlns=\"http://www.w3.org/2000/svg\"\n>\n<title>Gnuplot</title>\n"
-    "<desc>Produced</desc>\n<g id=\"gnuplot_canvas\">\n<rect x=\"0\" y=\"0\" width=\"720\" height=\"300\" "
-    "fill=\"#ffffff\"/>\n<defs>\n"
-    "<circle id='gpDot' r='0.5'/>\n<circle id='gpPt5' stroke='currentColor' cx='0' cy='0' r='1'/>\n"
-    "<use xlink:href='#gpPt5' id='gpPt6' fill='currentColor' stroke='none'/>\n<filter id='textbox'><feFlood "
-    "flood-color='white'/></filter>\n"
-    "</defs>\n<g fill=\"none\" color=\"white\" stroke=\"currentColor\" stroke-width=\"1.00\">\n</g>\n"
-    "<!-- a comment > -->\n<g fill=\"none\" color=\"black\" stroke=\"currentColor\" stroke-width=\"2.00\" "
-    "stroke-linecap=\"butt\">\n"
-    "<path stroke='rgb(  0, 114, 178)' stroke-dasharray=' 5,8' class=\"gridline\" d='M1,2 L3,4'/></g>\n"
-    "<g id=\"gnuplot_plot_1a\" ><title>a plot</title>\n<defs><pattern id='gpPat4' width='8' height='8'><path style='fill:none; "
-    "stroke:rgb(91,98,107)' d='M0,0 L8,8'/></pattern></defs>\n<polygon fill = 'url(#gpPat4)' points = '0,0 1,1'/>\n"
-    "<polygon fill = 'rgb(199, 214, 226)' fill-opacity = '0.3' points = '0,0 1,1'/>\n"
-    "<use xlink:href='#gpPt6' transform='translate(60.00,210.00) scale(2.25)' color='rgb(176,  74,   0)'/>\n</g>\n"
-    "<g transform=\"translate(1,2)\" stroke=\"none\" fill=\"black\" font-family=\"Arial\" font-size=\"12.00\" "
-    "text-anchor=\"end\">\n"
-    "<text><tspan font-family=\"Arial\" >x &lt; 1 &amp; y</tspan><tspan font-size=\"9.6\" "
-    "dy=\"-6px\">2</tspan></text>\n</g>\n</g>\n</svg>\n";
+    "<rect x=\"0\" y=\"0\" width=\"720\" height=\"300\" fill=\"#ffffff\"/>\n"
+    "<path stroke='rgb(  0, 114, 178)' d='M1,2 L3,4'/>\n<path style='fill:none; stroke:rgb(91,98,107)' d='M0,0 L8,8'/>\n"
+    "<polygon fill = 'rgb(199, 214, 226)' points = '0,0 1,1'/>\n"
+    "<g stroke=\"none\" fill=\"black\" font-family=\"Arial\"><text>x &lt; 1 \xc2\xb5</text></g>\n</svg>\n";
 
-static void a_picture_is_made_ready_for_a_page(void **state)
+static void a_picture_follows_light_and_dark(void **state)
 {
     (void)state;
-    struct figure figure = {.id = "test", .title = "A <title>", .alt = "What is \"there\"", .height = {300, 500}};
-    char *svg = svg_clean(&test_pool, picture, &figure, WIDE);
-    assert_non_null(svg);
-    static const char *const holds[] = {
-        "<svg viewBox=\"0 0 720 300\" role=\"img\" aria-labelledby=\"test-w-title test-w-desc\">",
-        "<title id=\"test-w-title\">A &lt;title&gt;</title>",
-        "<desc id=\"test-w-desc\">What is &quot;there&quot;</desc>",
-        "<circle id=\"test-w-gpPt5\"",
-        "href=\"#test-w-gpPt5\"",
-        "id=\"test-w-gpPt6\"",
-        "<use href=\"#test-w-gpPt6\" transform=\"translate(60.00,210.00) scale(2.25)\" class=\"k-vermilion\"/>",
-        "<pattern id=\"test-w-gpPat4\"",
-        "fill=\"url(#test-w-gpPat4)\"",
-        "class=\"s-muted\"",
-        "<g stroke-width=\"2.00\"><path stroke-dasharray=\"5,8\" d=\"M1,2 L3,4\" class=\"s-blue\"/></g>",
-        "fill=\"rgb(199, 214, 226)\"", /* one off the colour of steel: no role */
-        "class=\"f-ink\"",
-        "<text>x &lt; 1 &amp; y<tspan font-size=\"9.6\" dy=\"-6px\">2</tspan></text>"};
-    for (size_t i = 0; i < sizeof holds / sizeof *holds; i++) {
-        if (!strstr(svg, holds[i]))
-            print_error("not there: %s\nin: %s\n", holds[i], svg);
-        assert_non_null(strstr(svg, holds[i]));
+    const char *uri = picture_uri(&test_pool, picture);
+    assert_non_null(uri);
+    assert_int_equal(strspn(uri, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=:;,"), strlen(uri));
+    char *svg = picture_of_uri(uri), *style = svg ? strstr(svg, "<style>") : NULL,
+         *behind = style ? strstr(style, "</style>") : NULL;
+    assert_non_null(behind);
+    assert_int_equal(picture_problems(svg), 0);
+    /* what gnuplot drew, with a style behind its first tag */
+    assert_int_equal(strlen(svg), strlen(picture) + (size_t)(behind + 8 - style));
+    assert_memory_equal(svg, picture, (size_t)(style - svg));
+    assert_string_equal(behind + 8, picture + (style - svg));
+    *behind = 0;
+    static const char *const holds[] = {"@media screen and (prefers-color-scheme:dark){",
+                                        "[stroke=\"rgb(  0, 114, 178)\"]{stroke:#56b4e9}",
+                                        "[style*=\"stroke:rgb(91,98,107)\"]{stroke:#a3abb5!important}",
+                                        "[fill=\"#ffffff\"]{fill:#16181d}", "[fill=\"black\"]{fill:#e8eaed}"};
+    for (size_t i = 0; i < sizeof holds / sizeof *holds; i++)
+        page_says(style, "%s", holds[i]);
+    assert_null(strstr(style, "214"));     /* one off the colour of steel: no role */
+    assert_null(strstr(style, "#2bbf93")); /* nothing is green */
+    free(svg);
+    for (int more = 0; more < 4; more++) { /* any number of bytes */
+        char text[sizeof picture + 4];
+        (void)snprintf(text, sizeof text, "%s%.*s", picture, more, "\n\n\n");
+        char *again = picture_of_uri(picture_uri(&test_pool, text));
+        assert_non_null(again);
+        assert_string_equal(strstr(again, "<title>"), strstr(text, "<title>"));
+        free(again);
     }
-    static const char *const lacks[] = {"xmlns",    "xlink",   "gpDot", "filter", "textbox",  "Produced", "a plot",
-                                        "gnuplot_", "comment", "Arial", "<rect",  "gridline", "<?xml"};
-    for (size_t i = 0; i < sizeof lacks / sizeof *lacks; i++)
-        assert_null(strstr(svg, lacks[i]));
-    assert_true(strstr(svg_clean(&test_pool, picture, &figure, NARROW), "<svg viewBox=\"0 0 360 500\"") != NULL);
     /* cut off anywhere, or with anything behind it, it is no picture */
-    for (size_t cut = 0; cut < sizeof picture - 8; cut += 7) {
+    for (size_t cut = 0; cut < sizeof picture - 2; cut++) {
         char text[sizeof picture];
         memcpy(text, picture, cut);
         text[cut] = 0;
-        assert_null(svg_clean(&test_pool, text, &figure, WIDE));
+        assert_null(picture_uri(&test_pool, text));
     }
-    assert_null(svg_clean(&test_pool, "<svg><g></svg>", &figure, WIDE));
-    assert_null(svg_clean(&test_pool, "<svg></g></svg>", &figure, WIDE));
-    assert_null(svg_clean(&test_pool, "<svg><path d=1/></svg>", &figure, WIDE));
-    assert_null(svg_clean(&test_pool, "<svg></svg>more", &figure, WIDE));
-    assert_null(svg_clean(&test_pool, "", &figure, WIDE));
+    assert_null(picture_uri(&test_pool, "<svg></svg>more"));
+}
+
+/* The judge of all pictures finds what it is there for. */
+static void a_hostile_picture_is_seen(void **state)
+{
+    (void)state;
+    static const char *const hostile[] = {"<svg><script>1</script></svg>",
+                                          "<svg><g font-family=\"X\" onload=\"1\"/></svg>",
+                                          "<svg><use xlink:href='http://x/#a'/></svg>",
+                                          "<svg><path fill='url(//x)'/></svg>",
+                                          "<svg><a href='#x'/></svg>",
+                                          "<svg><g></svg>",
+                                          "<svg>\x01</svg>",
+                                          "<svg>&</svg>",
+                                          "<svg><g fill=none/></svg>",
+                                          "<svg><image href='#a'/></svg>"};
+    assert_int_equal(picture_problems(picture), 0);
+    print_message("ten pictures that are to be refused:\n");
+    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++)
+        assert_true(picture_problems(hostile[i]) > 0);
 }
 
 static void identifiers_of_a_page_occur_once(void **state)
@@ -298,24 +310,33 @@ static void a_program_is_run_waited_for_and_ended(void **state)
     (void)state;
     struct process_result run;
     const char *const say[] = {"sh", "-c", "echo out; echo err >&2; read x || echo eof; exit 3", NULL};
-    assert_status(process_run(say, 10, NULL, &run), ROTID_OK);
+    assert_status(process_run(say, PROCESS_HERE, 10, NULL, &run), ROTID_OK);
     assert_true(run.exit_code == 3 && !run.timed_out && !run.cancelled);
     assert_string_equal(run.out, "out\neof\n");
     assert_string_equal(run.err, "err\n");
     /* more than is kept, on both streams: neither blocks */
     const char *const flood[] = {"sh", "-c", "head -c 300000 /dev/zero | tr '\\0' a; head -c 300000 /dev/zero | tr '\\0' b >&2",
                                  NULL};
-    assert_status(process_run(flood, 20, NULL, &run), ROTID_OK);
+    assert_status(process_run(flood, PROCESS_HERE, 20, NULL, &run), ROTID_OK);
     assert_true(run.exit_code == 0 && strlen(run.out) == PROCESS_TEXT - 1 && strlen(run.err) == PROCESS_TEXT - 1);
     double begin = clock_seconds();
     const char *const sleeper[] = {"sleep", "20", NULL};
-    assert_status(process_run(sleeper, 0.2, NULL, &run), ROTID_OK);
+    assert_status(process_run(sleeper, PROCESS_HERE, 0.2, NULL, &run), ROTID_OK);
     assert_true(run.timed_out && run.exit_code == -1);
-    const rotid_environment impatient = {.cancelled = cancel_now};
-    assert_status(process_run(sleeper, 20, &impatient, &run), ROTID_OK);
+    const rotid_environment impatient = {.size = sizeof impatient, .cancelled = cancel_now};
+    assert_status(process_run(sleeper, PROCESS_HERE, 20, &impatient, &run), ROTID_OK);
     assert_true(run.cancelled && clock_seconds() - begin < 10);
+    const char *const where[] = {"pwd", NULL};
+    char before[4096], after[4096];
+    int root = open("/", O_RDONLY | O_DIRECTORY);
+    assert_non_null(getcwd(before, sizeof before));
+    assert_status(process_run(where, root, 10, NULL, &run), ROTID_OK);
+    assert_string_equal(run.out, "/\n");
+    assert_non_null(getcwd(after, sizeof after));
+    assert_string_equal(before, after);
+    (void)close(root);
     const char *const nobody[] = {"/nowhere/at/all", NULL};
-    assert_status(process_run(nobody, 1, NULL, &run), ROTID_ERROR_IO);
+    assert_status(process_run(nobody, PROCESS_HERE, 1, NULL, &run), ROTID_ERROR_IO);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
@@ -328,7 +349,8 @@ int main(void)
         TEST(texts_are_escaped),
         TEST(ranges_and_ticks_cover_what_is_drawn),
         TEST(labels_at_the_end_of_lines_do_not_overlap),
-        TEST(a_picture_is_made_ready_for_a_page),
+        TEST(a_picture_follows_light_and_dark),
+        TEST(a_hostile_picture_is_seen),
         TEST(identifiers_of_a_page_occur_once),
         TEST(a_program_is_run_waited_for_and_ended),
     };

@@ -8,8 +8,10 @@
 
 #include "json_value.h"
 #include "page/by_modes.h"
+#include "page/figures_study.h"
 #include "page/page.h"
 #include "page_bench.h"
+#include "study/stamp.h"
 #include "study_bench.h"
 #include "support.h"
 
@@ -213,6 +215,35 @@ static void many_decks_stand_beside_each_other(void **state)
 
 /* ------------------------------------------------------------------------------------------------------------ broken files */
 
+/* The file of results with its second line stamped anew. */
+static char *stamp_second(const char *text)
+{
+    struct pool pool;
+    struct header header;
+    char study[DIGEST_LETTERS + 1];
+    const char *line = strchr(text, '\n') + 1, *end = strchr(line, '\n') + 1, *stamp = strstr(line, ",\"study\":\"");
+    cJSON *json = cJSON_ParseWithLength(text, (size_t)(line - text));
+    pool_open(&pool, NULL);
+    assert_true(stamp && stamp < end && !results_header_read(&pool, json, &header));
+    cJSON_Delete(json);
+    stamp_study(&header, study);
+    char *stamped = stamp_line(study, pool_format(&pool, "%.*s}\n", (int)(stamp - line), line));
+    char *all = strdup(pool_format(&pool, "%.*s%s%s", (int)(line - text), text, stamped, end));
+    free(stamped);
+    pool_close(&pool);
+    return all;
+}
+
+static void assert_refused(const char *text, const char *says)
+{
+    page_write_file("broken.jsonl", text);
+    assert_int_equal(page_run("cd %s; %s report broken.jsonl -o broken", page_path(""), ROTID_PROGRAM), 2);
+    if (!strstr(page_err, says))
+        print_error("expected '%s', got '%s'\n", says, page_err);
+    assert_non_null(strstr(page_err, says));
+    assert_false(page_exists("broken"));
+}
+
 static void broken_lines_are_told_with_their_place(void **state)
 {
     (void)state;
@@ -220,10 +251,11 @@ static void broken_lines_are_told_with_their_place(void **state)
     static const struct {
         const char *from, *to, *says;
     } wrong[] = {
-        {"\"status\":\"converged\"", "\"status\":\"perhaps\"", "line 2.status: is 'perhaps', expected converged, at_bound"},
-        {"\"objective\":", "\"objective\":\"x\",\"y\":", "line 2.objective: is a text, expected a number"},
-        {"\"parameters\":[{", "\"parameters\":[7,{", "line 2.parameters[0]: is a number, expected an object"},
-        {"\"modes\":[", "\"modes\":7,\"y\":[", "line 2.modes: is a number, expected a list"},
+        {"\"status\":\"converged\"", "\"status\":\"perhaps\"",
+         "2:1: this line is no result: expected converged, at_bound, not_converged or failed as status"},
+        {"\"objective\":", "\"objective\":\"x\",\"y\":", "2:1: this line is no result: expected a number or null as objective"},
+        {"\"parameters\":[{", "\"parameters\":[7,{", "2:1: this line is no result: expected a text as name of a parameter"},
+        {"\"modes\":[", "\"modes\":7,\"y\":[", "2:1: this line is no result: expected a list as modes"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         const char *whole = page_read("truth.jsonl"), *at = strstr(strchr(whole, '\n'), wrong[i].from);
@@ -231,13 +263,11 @@ static void broken_lines_are_told_with_their_place(void **state)
         char *broken = malloc(strlen(whole) + strlen(wrong[i].to) + 1);
         assert_non_null(broken);
         (void)sprintf(broken, "%.*s%s%s", (int)(at - whole), whole, wrong[i].to, at + strlen(wrong[i].from)); /* NOLINT: fits */
-        page_write_file("broken.jsonl", broken);
+        char *forged = stamp_second(broken);
+        assert_refused(broken, "broken.jsonl:2:1: this line is not as rotid wrote it");
+        assert_refused(forged, wrong[i].says);
         free(broken);
-        assert_int_equal(page_run("cd %s; %s report broken.jsonl -o broken", page_path(""), ROTID_PROGRAM), 2);
-        if (!strstr(page_err, wrong[i].says))
-            print_error("expected '%s', got '%s'\n", wrong[i].says, page_err);
-        assert_non_null(strstr(page_err, wrong[i].says));
-        assert_false(page_exists("broken"));
+        free(forged);
     }
     page_write_file("other.jsonl", "{\"a\": 1}\n{\"b\": 2}\n");
     assert_int_equal(page_run("cd %s; %s report other.jsonl -o broken", page_path(""), ROTID_PROGRAM), 2);
@@ -260,10 +290,27 @@ static void broken_lines_are_told_with_their_place(void **state)
 static void runs_are_sorted_into_series_by_their_modes(void **state)
 {
     (void)state;
-    struct told_cell cell[] = {
-        {.deck = "a", .variant = "one", .modes = "1-4", .label = "one, modes 1-4", .noise_frequency = NAN, .noise_shape = NAN},
-        {.deck = "a", .variant = "one", .modes = "1-2", .label = "one, modes 1-2", .noise_frequency = NAN, .noise_shape = NAN},
-        {.deck = "a", .variant = "two", .modes = "1-2", .label = "two, modes 1-2", .noise_frequency = NAN, .noise_shape = NAN}};
+    struct told_cell cell[] = {{.deck = "a",
+                                .variant = "one",
+                                .modes = "1-4",
+                                .label = "one, modes 1-4",
+                                .but_modes = "one",
+                                .noise_frequency = NAN,
+                                .noise_shape = NAN},
+                               {.deck = "a",
+                                .variant = "one",
+                                .modes = "1-2",
+                                .label = "one, modes 1-2",
+                                .but_modes = "one",
+                                .noise_frequency = NAN,
+                                .noise_shape = NAN},
+                               {.deck = "a",
+                                .variant = "two",
+                                .modes = "1-2",
+                                .label = "two, modes 1-2",
+                                .but_modes = "two",
+                                .noise_frequency = NAN,
+                                .noise_shape = NAN}};
     struct told_run run[] = {{.cell = 0, .fitted = 4, .objective = 32},
                              {.cell = 0, .fitted = 4, .objective = 16},
                              {.cell = 1, .fitted = 2, .objective = 4},
@@ -283,6 +330,54 @@ static void runs_are_sorted_into_series_by_their_modes(void **state)
     study.nrun = 0; /* a summary */
     assert_status(by_modes_make(&test_pool, &study, &by), ROTID_OK);
     assert_int_equal(by.nseries, 0);
+}
+
+/* A name that reads like that of an axis is cut out of no label. */
+static void a_variant_may_be_named_like_an_axis(void **state)
+{
+    (void)state;
+    make_study("named", "*STUDY\n*DECKS\nbeam.inp\n*VARIANT, NAME=xmodes 1\n*VARIANT, NAME=of "
+                        "likelihood\nFIT.FUNCTIONAL=HYBRID_F\n*MODES\n1-3\n1-4\n");
+    const char *html = page_made("named.jsonl"),
+               *caption = strstr(html, "What is left of the functional for each pair of modes: xmodes 1 ");
+    assert_non_null(caption);
+    page_says(caption, " with 3 modes, ");
+    page_says(caption, "; of likelihood ");
+    assert_null(strstr(page_read("page-named.jsonl/figures/functional-by-modes.gp"), "'xmodes 1, modes"));
+}
+
+/* One parameter many times in a cell: no rotid writes that. The reader refuses it, and the figure has room for it all the same.
+ */
+static void a_parameter_that_stands_again_is_refused(void **state)
+{
+    (void)state;
+    enum { AGAIN = 2000 };
+    make_study("truth", truth_plan);
+    cJSON *json = page_json("truth.json"), *first = cJSON_GetArrayItem(get(json, "cells"), 0),
+          *list = cJSON_GetObjectItem(first, "parameters");
+    for (int i = 0; i < AGAIN; i++)
+        cJSON_AddItemToArray(list, cJSON_Duplicate(cJSON_GetArrayItem(list, 0), 1));
+    page_write_json("again.json", json);
+    cJSON_Delete(json);
+    assert_int_equal(page_run("cd %s; %s %s report again.json -o again", page_path(""), page_stand_in(NULL), ROTID_PROGRAM), 2);
+    assert_non_null(strstr(page_err, "again.json: cells[0].parameters[2]: name: is 'core.E' as in parameters[0], expected each "
+                                     "parameter once"));
+    assert_false(page_exists("again"));
+    static struct cell_parameter parameter[2][AGAIN];
+    struct told_cell cell[2] = {{.label = "one", .nparameter = AGAIN, .parameter = parameter[0]},
+                                {.label = "two", .nparameter = AGAIN, .parameter = parameter[1]}};
+    for (int i = 0; i < 2 * AGAIN; i++)
+        parameter[i / AGAIN][i % AGAIN] =
+            (struct cell_parameter){.name = i % 3 ? "a" : "b", .unit = "1", .coverage = i < AGAIN ? 0.9 : 0.875, .intervals = 40};
+    struct study_outcome study = {.ncell = 2, .cell = cell};
+    struct result result = {.file = "again.json", .study = &study};
+    struct document document;
+    document_open(&document, &test_pool);
+    document_section(&document, "study", "Study");
+    figure_coverage(&document, &result);
+    assert_false(document.failed);
+    const char *script = document_figures(&document)[0]->script;
+    assert_non_null(strstr(script, "$coverage1 << end\n90 2\n87.5 1\nend\n$coverage2 << end\n90 2\n87.5 1\nend\n"));
 }
 
 /* Memory of the pool that ends after n blocks, while the lines are read and composed. */
@@ -330,7 +425,7 @@ static void the_real_gnuplot_draws_them(void **state)
         assert_int_equal(page_run("cd %s; %s report %s.jsonl -o real-%s", page_path(""), ROTID_PROGRAM, names[i], names[i]), 0);
         assert_string_equal(page_err, "");
         (void)snprintf(path, sizeof path, "real-%s/index.html", names[i]);
-        assert_int_equal(page_times(page_read(path), "<svg "), 2 * page_times(page_read(path), "<figure "));
+        assert_int_equal(page_times(page_read(path), "<img "), 2 * page_times(page_read(path), "<figure "));
     }
 }
 
@@ -344,6 +439,8 @@ int main(void)
         cmocka_unit_test(many_decks_stand_beside_each_other),
         cmocka_unit_test(broken_lines_are_told_with_their_place),
         cmocka_unit_test_setup_teardown(runs_are_sorted_into_series_by_their_modes, open_test_pool, close_test_pool),
+        cmocka_unit_test(a_variant_may_be_named_like_an_axis),
+        cmocka_unit_test_setup_teardown(a_parameter_that_stands_again_is_refused, open_test_pool, close_test_pool),
         cmocka_unit_test(memory_that_runs_out_is_survived),
         cmocka_unit_test(the_real_gnuplot_draws_them),
     };

@@ -151,7 +151,8 @@ static void test_nlopt_agrees_and_needs_more_evaluations(void **state)
             struct paper_fit fit;
             int usable = 0;
             paper_fit_open(&fit, BUNDLE_TUBE);
-            fit.options = (rotid_fit_options){.functional = functional, .reduction = reduction, .baseline = 1};
+            fit.options = (rotid_fit_options){
+                .size = sizeof(rotid_fit_options), .functional = functional, .reduction = reduction, .baseline = 1};
             for (int k = 0; k < PAPER_MODES; k++)
                 fit.frequency_std[k] = 1e-4; /* makes f large, which is no reason for a solver to stop early */
             fit.measured.frequency_std = functional == ROTID_LIKELIHOOD ? fit.frequency_std : NULL;

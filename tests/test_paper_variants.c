@@ -1,6 +1,6 @@
-/* The paper's rotor with one thing hidden at a time (tools/hide: exact dynamic stiffness, 0.1 % on frequencies, 1.5 % on shapes, the
- * first seed for all): named, with place and size inside the stated interval; faults of channels found and not taken for physics,
- * also beside a physical cause; what cannot show is said not to. */
+/* The paper's rotor with one thing hidden at a time (tools/hide: exact dynamic stiffness, 0.1 % on frequencies, 1.5 % on shapes,
+ * the first seed for all): named, with place and size inside the stated interval; faults of channels found and not taken for
+ * physics, also beside a physical cause; what cannot show is said not to. */
 #include "support.h"
 
 #include <math.h>

@@ -40,7 +40,7 @@ static void make_job(struct pool *pool, int nmode, struct job *job)
     }
     for (ptrdiff_t i = 0; i < components; i++)
         job->shape_std[i] = 0.015;
-    rotid_fit_defaults(&job->fit);
+    rotid_fit_defaults(sizeof job->fit, &job->fit);
 }
 
 static int says(const struct message_list *notes, const char *text)
@@ -163,7 +163,7 @@ static void a_cancelled_identification_keeps_the_best_point(void **state)
     struct job job;
     struct message_list notes;
     struct identification result;
-    const rotid_environment environment = {.cancelled = stop_at_once};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = stop_at_once};
     pool_open(&pool, NULL);
     message_open(&notes, &pool);
     make_job(&pool, 4, &job);
@@ -217,7 +217,7 @@ static void no_allocation_that_fails_leaks_or_goes_unsaid(void **state)
         struct message_list notes;
         struct identification result;
         failing_allocator_open(&failing, n);
-        const rotid_environment environment = {.allocator = &failing.allocator};
+        const rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
         pool_open(&pool, &failing.allocator);
         message_open(&notes, &pool);
         int status = identify_run(&pool, &job, 0, &environment, &notes, &result);

@@ -126,7 +126,7 @@ static void equivalent_cylinder_gives_an_annulus_back(void **state)
         double ro = annulus[i][0] / 2, ri = annulus[i][1] / 2, outer, inner, area = ring_area(ro, ri),
                inertia = ring_inertia(ro, ri);
         struct section s;
-        assert_status(rotid_equivalent_cylinder(area, inertia, &outer, &inner), ROTID_OK);
+        assert_status(rotid_equivalent_cylinder(area, inertia, NULL, &outer, &inner), ROTID_OK);
         assert_close(outer, 2 * ro, 1e-14, 0);
         /* inner^2 is a difference, so its rounding is that of outer^2 */
         assert_close(inner, 2 * ri, 1e-15 + 1e-15 * ro * ro / (ri * ri), 0);
@@ -144,7 +144,7 @@ static void solid_disc_is_the_limit_of_the_equivalent_cylinder(void **state)
     (void)state;
     for (int i = 1; i <= 200; i++) { /* rounding must never make an error of a disc */
         double r = 0.0137 * i, outer, inner;
-        assert_status(rotid_equivalent_cylinder(ring_area(r, 0), ring_inertia(r, 0), &outer, &inner), ROTID_OK);
+        assert_status(rotid_equivalent_cylinder(ring_area(r, 0), ring_inertia(r, 0), NULL, &outer, &inner), ROTID_OK);
         assert_close(outer, 2 * r, 1e-14, 0);
         assert_close(inner, 0, 0, 1e-6 * r);
     }
@@ -155,13 +155,13 @@ static void section_softer_than_a_disc_of_its_area_is_refused(void **state)
     (void)state;
     double outer, inner, area = ring_area(0.1, 0), inertia = ring_inertia(0.1, 0);
     struct section s;
-    assert_status(rotid_equivalent_cylinder(area, inertia * (1 - 1e-9), &outer, &inner), ROTID_ERROR_SECTION);
-    assert_status(rotid_equivalent_cylinder(area, inertia / 2, &outer, &inner), ROTID_ERROR_SECTION);
+    assert_status(rotid_equivalent_cylinder(area, inertia * (1 - 1e-9), NULL, &outer, &inner), ROTID_ERROR_SECTION);
+    assert_status(rotid_equivalent_cylinder(area, inertia / 2, NULL, &outer, &inner), ROTID_ERROR_SECTION);
     assert_status(section_equivalent(area, inertia / 2, &s), ROTID_ERROR_SECTION);
     const double bad[] = {0, -1, NAN, INFINITY};
     for (int i = 0; i < 4; i++) {
-        assert_status(rotid_equivalent_cylinder(bad[i], inertia, &outer, &inner), ROTID_ERROR_ARGUMENT);
-        assert_status(rotid_equivalent_cylinder(area, bad[i], &outer, &inner), ROTID_ERROR_ARGUMENT);
+        assert_status(rotid_equivalent_cylinder(bad[i], inertia, NULL, &outer, &inner), ROTID_ERROR_ARGUMENT);
+        assert_status(rotid_equivalent_cylinder(area, bad[i], NULL, &outer, &inner), ROTID_ERROR_ARGUMENT);
     }
 }
 
@@ -187,7 +187,7 @@ static void rods_that_do_not_overlap_always_have_an_equivalent_cylinder(void **s
     for (int number = 3; number <= 60; number++) {
         double area, own, pitch, outer, inner, d = 0.02, touching = d / (2 * sin(pi / number));
         section_rods(number, d, touching, &area, &own, &pitch);
-        assert_status(rotid_equivalent_cylinder(area, own + pitch, &outer, &inner), ROTID_OK);
+        assert_status(rotid_equivalent_cylinder(area, own + pitch, NULL, &outer, &inner), ROTID_OK);
         assert_true(inner > 0);
     }
 }

@@ -164,6 +164,32 @@ static void an_interruption_keeps_what_is_finished(void **state)
     }
 }
 
+/* Whatever they do: a stopped one would not see that nobody listens any more. */
+static void workers_end_with_their_study(void **state)
+{
+    (void)state;
+    pid_t child[2];
+    (void)bench_write("slow.plan", SLOW);
+    bench_delete("orphan.jsonl");
+    pid_t process = bench_start("study slow.plan -o orphan.jsonl --threads 2 --quiet");
+    assert_int_equal(wait_for_children(process, 2, child), 2);
+    rest(0.2); /* they are at work */
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(kill(child[i], SIGSTOP), 0);
+    assert_int_equal(kill(process, SIGKILL), 0);
+    assert_int_equal(bench_wait(process).code, 128 + SIGKILL);
+    for (int i = 0; i < 2; i++) {
+        int tries = 0, there = 1;
+        for (; there && tries < 500; tries++) {
+            rest(0.01);
+            there = kill(child[i], 0) == 0;
+        }
+        if (there)
+            (void)kill(child[i], SIGKILL);
+        assert_false(there);
+    }
+}
+
 static void two_studies_do_not_write_one_file(void **state)
 {
     (void)state;
@@ -302,6 +328,7 @@ int main(void)
         cmocka_unit_test(a_worker_that_dies_costs_its_run),
         cmocka_unit_test(a_run_that_takes_too_long_has_failed),
         cmocka_unit_test(an_interruption_keeps_what_is_finished),
+        cmocka_unit_test(workers_end_with_their_study),
         cmocka_unit_test(two_studies_do_not_write_one_file),
         cmocka_unit_test(decks_are_identified_as_they_stand),
         cmocka_unit_test(wrong_usage_is_refused),

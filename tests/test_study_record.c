@@ -13,6 +13,7 @@
 
 #include "study/merge.h"
 #include "study/record.h"
+#include "study/stamp.h"
 #include "study/summary.h"
 #include "study_bench.h"
 #include "support.h"
@@ -37,16 +38,26 @@ static int setup(void **state)
 /* As study_run writes them: the time last. */
 static const char *line_of(long run, const char *status, double value)
 {
-    static char text[8][400];
+    static char text[8][500];
     static int next;
     next = (next + 1) % 8;
-    (void)snprintf(
-        text[next], sizeof text[next],
-        "{\"run\":%ld,\"cell\":{\"deck\":\"d\"},\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
-        "\"objective\":%g,\"parameters\":[{\"name\":\"a\",\"unit\":\"1\",\"value\":%g,\"std\":2,\"ci95\":[0,4],\"truth\":3}],"
-        "\"modes\":[],\"seconds\":%g}\n",
-        run, run, status, value, value, 0.001 * (double)run);
+    (void)snprintf(text[next], sizeof text[next],
+                   "{\"run\":%ld,\"cell\":{\"deck\":\"d\"},\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
+                   "\"objective\":%g,\"chi2_per_dof\":null,\"evaluations\":1,\"parameters\":[{\"name\":\"a\",\"unit\":\"1\","
+                   "\"value\":%g,\"std\":2,\"ci95\":[0,4],\"truth\":3}],"
+                   "\"modes\":[],\"seconds\":%g}\n",
+                   run, run, status, value, value, 0.001 * (double)run);
     return text[next];
+}
+
+/* As they stand in the file. */
+static const char *stamped(const char *line)
+{
+    char study_digest[DIGEST_LETTERS + 1];
+    stamp_study(&header, study_digest);
+    char *text = stamp_line(study_digest, line), *copy = pool_copy_text(&test_pool, text);
+    free(text);
+    return copy;
 }
 
 static int open_record(int retry, struct message_list *messages, struct study_record *record)
@@ -95,7 +106,7 @@ static void the_file_ends_in_order(void **state)
 {
     (void)state;
     static const long order[RUNS] = {3, 0, 5, 1, 4, 2};
-    char expected[4000] = "";
+    char expected[6000] = "";
     struct study_record record = opened(0);
     assert_true(record.wanted == RUNS && !record.done);
     for (int i = 0; i < RUNS; i++) {
@@ -117,7 +128,7 @@ static void the_file_ends_in_order(void **state)
     (void)snprintf(expected, sizeof expected, "%s", first);
     for (long run = 0; run < RUNS; run++)
         (void)snprintf(expected + strlen(expected), sizeof expected - strlen(expected), "%s",
-                       line_of(run, run == 4 ? "failed" : "converged", (double)run));
+                       stamped(line_of(run, run == 4 ? "failed" : "converged", (double)run)));
     assert_string_equal(text, expected);
     free(text);
     json_free(first);
@@ -158,7 +169,7 @@ static void a_cut_line_is_removed(void **state)
         size_t same = head;
         for (size_t i = head; i < cut; i++)
             same = whole[i] == '\n' ? i + 1 : same;
-        assert_true(!strncmp(text, whole, same) && !strcmp(text + same, line_of(5, "converged", 5)));
+        assert_true(!strncmp(text, whole, same) && !strcmp(text + same, stamped(line_of(5, "converged", 5))));
         free(text);
     }
     free(whole);
@@ -200,12 +211,10 @@ static void other_files_are_left_alone(void **state)
     refuses("*STUDY\n*DECKS\ndeck.inp\n", ROTID_ERROR_ARGUMENT, "no file of results of rotid study");
     refuses("{\"schema\":1}\n", ROTID_ERROR_ARGUMENT, "no file of results of rotid study");
     refuses("something", ROTID_ERROR_ARGUMENT, "no file of results of rotid study");
-    char *first = header_text(&header), text[3000];
+    char *first = header_text(&header), text[4000];
     (void)snprintf(text, sizeof text, "%shello\n", first);
-    refuses(text, ROTID_ERROR_ARGUMENT, "this line is no result");
-    (void)snprintf(text, sizeof text, "%s{\"run\":6,\"cell\":{},\"status\":\"converged\"}\n", first);
-    refuses(text, ROTID_ERROR_ARGUMENT, "of a run that the study");
-    (void)snprintf(text, sizeof text, "%s{\"run\":1.5,\"cell\":{},\"status\":\"converged\"}\n", first);
+    refuses(text, ROTID_ERROR_ARGUMENT, "this line does not end in its digest");
+    (void)snprintf(text, sizeof text, "%s%s", first, stamped(line_of(6, "converged", 1)));
     refuses(text, ROTID_ERROR_ARGUMENT, "of a run that the study");
     json_free(first);
 }
@@ -259,7 +268,7 @@ static void a_full_disk_leaves_whole_lines(void **state)
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
     assert_int_equal(sigaction(SIGXFSZ, &ignore, &old), 0);
     char *first = header_text(&header);
-    size_t head = strlen(first), one = strlen(line_of(0, "converged", 0));
+    size_t head = strlen(first), one = strlen(stamped(line_of(0, "converged", 0)));
     for (size_t size = 1; size < head + 2 * one; size += 13) {
         struct message_list messages;
         struct study_record record;
@@ -369,25 +378,25 @@ static void shards_share_the_runs(void **state)
 static void parts_that_contradict_each_other_are_refused(void **state)
 {
     (void)state;
-    char *first = header_text(&header), text[3000];
+    char *first = header_text(&header), text[4000];
     char *paths[2] = {pool_copy_text(&test_pool, bench_path("1.jsonl")), pool_copy_text(&test_pool, bench_path("2.jsonl"))};
     struct message_list messages;
     struct merge merge;
     const char *all = bench_path("all.jsonl");
     bench_delete("all.jsonl");
-    (void)snprintf(text, sizeof text, "%s%s%s", first, line_of(0, "converged", 1), line_of(1, "failed", 1));
+    (void)snprintf(text, sizeof text, "%s%s%s", first, stamped(line_of(0, "converged", 1)), stamped(line_of(1, "failed", 1)));
     (void)bench_write("1.jsonl", text);
-    (void)snprintf(text, sizeof text, "%s%s", first, line_of(0, "converged", 1.5));
+    (void)snprintf(text, sizeof text, "%s%s", first, stamped(line_of(0, "converged", 1.5)));
     (void)bench_write("2.jsonl", text);
     message_open(&messages, &test_pool);
     assert_status(merge_results(&test_pool, 2, paths, all, &messages, &merge), ROTID_ERROR_ARGUMENT);
     assert_non_null(strstr(messages.item[0].text, "run 0 has another result in"));
     assert_int_equal(access(all, F_OK), -1);
     /* another time is no contradiction, and what failed in one part is taken from the other */
-    char later[400];
+    char later[500];
     (void)snprintf(later, sizeof later, "%s", line_of(0, "converged", 1));
     strcpy(strstr(later, "\"seconds\":"), "\"seconds\":77}\n");
-    (void)snprintf(text, sizeof text, "%s%s%s", first, later, line_of(1, "converged", 2));
+    (void)snprintf(text, sizeof text, "%s%s%s", first, stamped(later), stamped(line_of(1, "converged", 2)));
     (void)bench_write("2.jsonl", text);
     message_open(&messages, &test_pool);
     assert_status(merge_results(&test_pool, 2, paths, all, &messages, &merge), ROTID_OK);
@@ -401,6 +410,103 @@ static void parts_that_contradict_each_other_are_refused(void **state)
     bench_delete("all.jsonl");
     assert_status(merge_results(&test_pool, 2, paths, all, &messages, &merge), ROTID_ERROR_ARGUMENT);
     assert_non_null(strstr(messages.item[messages.count - 1].text, "not of the same study"));
+    json_free(first);
+}
+
+/* text with the first `old` in it replaced; old is as long as the replacement, or the line is stamped anew behind it */
+static const char *changed(const char *text, const char *old, const char *new)
+{
+    const char *at = strstr(text, old);
+    assert_non_null(at);
+    return pool_format(&test_pool, "%.*s%s%s", (int)(at - text), text, new, at + strlen(old));
+}
+
+/* Whoever reads the file says where it is wrong and in what, and leaves it as it is. */
+static void assert_all_refuse(const char *text, int line, const char *words)
+{
+    struct message_list messages;
+    struct study_record record;
+    struct summary summary;
+    struct merge merge;
+    char *part = pool_copy_text(&test_pool, bench_path("r.jsonl"));
+    const char *all = bench_path("all.jsonl");
+    (void)bench_write("r.jsonl", text);
+    for (int reader = 0; reader < 3; reader++) {
+        message_open(&messages, &test_pool);
+        int status = reader == 0   ? record_open(&test_pool, part, &header, 0, &messages, &record)
+                     : reader == 1 ? summary_read(&test_pool, part, &messages, &summary)
+                                   : merge_results(&test_pool, 1, &part, all, &messages, &merge);
+        if (status >= 0 || messages.errors != 1 || messages.item[0].line != line || !strstr(messages.item[0].text, words) ||
+            !strstr(messages.item[0].text, "expected"))
+            fail_msg("reader %d: %s, line %d, \"%s\"; expected line %d, \"%s\"", reader, rotid_status_name(status),
+                     messages.count ? messages.item[0].line : 0, messages.count ? messages.item[0].text : "", line, words);
+    }
+    assert_int_equal(access(all, F_OK), -1);
+    char *after = bench_read("r.jsonl");
+    assert_string_equal(after, text);
+    free(after);
+}
+
+/* What accidents make of lines, and what somebody writes who also computes the digest. */
+static void a_line_that_is_wrong_is_never_kept(void **state)
+{
+    (void)state;
+    static const char changed_words[] = "is not as rotid wrote it";
+    bench_delete("all.jsonl");
+    struct study_record record = opened(0);
+    for (long run = 0; run < RUNS; run++)
+        append(&record, run, run == 2 ? "failed" : "converged");
+    record_close(&record);
+    char *whole = bench_read("r.jsonl"), *first = header_text(&header);
+    const char *line = line_of(1, "converged", 1), *good = stamped(line);
+    assert_all_refuse(changed(whole, "\"run\":5", "\"run\":4"), 7, changed_words);
+    assert_all_refuse(changed(whole, "\"replicate\":4", "\"replicate\":5"), 6, changed_words);
+    assert_all_refuse(changed(whole, "\"objective\":3,", "\"objective\":1e999,"), 5, changed_words);
+    assert_all_refuse(changed(whole, "\"objective\":3,", "\"objective\":\"3\","), 5, changed_words);
+    assert_all_refuse(changed(whole, "\"objective\":3,", "\"objective\":NaN,"), 5, changed_words);
+    assert_all_refuse(changed(whole, "\"seconds\":0.005", "\"seconds\":0.006"), 7, changed_words);
+    assert_all_refuse(changed(whole, ",\"digest\":\"", ",\"Digest\":\""), 2, "does not end in its digest");
+    /* every byte of a line, but its line feed */
+    for (size_t i = 0; good[i + 1]; i++) {
+        char *copy = pool_format(&test_pool, "%s%s", first, good);
+        copy[strlen(first) + i] ^= 1;
+        if (copy[strlen(first) + i] != '\n')
+            assert_all_refuse(copy, 2, "this line");
+    }
+    /* twice, cut in the middle of the file, and as early versions had them */
+    assert_all_refuse(pool_format(&test_pool, "%s%s", whole, good), 8, "run 1 stands in a line above already");
+    assert_all_refuse(pool_format(&test_pool, "%s%.60s\n%s", first, good, stamped(line_of(2, "converged", 2))), 2,
+                      "does not end in its digest");
+    assert_all_refuse(pool_format(&test_pool, "%s%s", first, line), 2, "does not end in its digest");
+    /* of another study: its digest is right */
+    const unsigned long seed = header.seed;
+    header.seed = 7;
+    const char *foreign = stamped(line);
+    header.seed = seed;
+    assert_all_refuse(pool_format(&test_pool, "%s%s", first, foreign), 2, "of another study than the first line");
+    /* with the right digest */
+    static const char *const forged[][3] = {
+        {"\"objective\":1,", "\"objective\":1e999,", "beyond what a number can be"},
+        {"\"value\":1,", "\"value\":-1e999,", "beyond what a number can be"},
+        {"\"objective\":1,", "\"objective\":NaN,", "no JSON"},
+        {"\"objective\":1,", "\"objective\":\"1\",", "a number or null as objective"},
+        {"\"std\":2", "\"std\":[2]", "a number or null as std of a parameter"},
+        {"\"ci95\":[0,4]", "\"ci95\":4", "a list as ci95"},
+        {"\"status\":\"converged\"", "\"status\":\"fine\"", "converged, at_bound, not_converged or failed"},
+        {"\"replicate\":1", "\"replicate\":null", "a number as replicate"},
+        {"\"run\":1,", "\"run\":1.5,", "of a run that the study"},
+        {"\"run\":1,", "\"run\":\"1\",", "a number as run"},
+        {"\"cell\":{\"deck\":\"d\"}", "\"cell\":null", "an object as cell"},
+    };
+    for (size_t i = 0; i < sizeof forged / sizeof *forged; i++)
+        assert_all_refuse(pool_format(&test_pool, "%s%s", first, stamped(changed(line, forged[i][0], forged[i][1]))), 2,
+                          forged[i][2]);
+    /* without a line that is wrong the study goes on: it computes that run */
+    (void)bench_write("r.jsonl", pool_format(&test_pool, "%s%s", first, good));
+    record = opened(0);
+    assert_true(record.done == 1 && record_take(&record) == 0 && record_take(&record) == 2);
+    record_close(&record);
+    free(whole);
     json_free(first);
 }
 
@@ -445,6 +551,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_full_disk_leaves_whole_lines, setup, close_test_pool),
         cmocka_unit_test_setup_teardown(shards_share_the_runs, setup, close_test_pool),
         cmocka_unit_test_setup_teardown(parts_that_contradict_each_other_are_refused, setup, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_line_that_is_wrong_is_never_kept, setup, close_test_pool),
         cmocka_unit_test_setup_teardown(summaries_add_up, setup, close_test_pool),
     };
     return cmocka_run_group_tests_name("study_record", tests, bench_make, bench_remove);

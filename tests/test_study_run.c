@@ -217,7 +217,7 @@ static int stop_at_once(void *context)
 static void a_cancelled_run_leaves_no_line(void **state)
 {
     (void)state;
-    const rotid_environment environment = {.cancelled = stop_at_once};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = stop_at_once};
     struct jobs jobs;
     char *line = (char *)"";
     open_study("*STUDY\n*DECKS\ndeck.inp\n");

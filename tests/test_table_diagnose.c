@@ -291,7 +291,7 @@ static void fill_named(void)
         .nstep = 2,
         .step = s.step,
     };
-    s.d.job.fit = (rotid_fit_options){.functional = ROTID_LIKELIHOOD};
+    s.d.job.fit = (rotid_fit_options){.size = sizeof(rotid_fit_options), .functional = ROTID_LIKELIHOOD};
     s.d.extended_job.fit = s.d.job.fit;
     s.d.extended_job.nparameter = 3;
     message_open(&notes, &test_pool);

@@ -1,9 +1,13 @@
 /* What a person sees: the tables of every command, judged by what they must say and by numbers that stand in two places. */
-#include "support.h"
-
+#include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "report/layout.h"
+#include "support.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"
 
@@ -65,7 +69,7 @@ static void identify_shows_measured_predicted_error_and_the_papers_own(void **st
     assert_int_equal(run("identify " INPUT "paper_rotor.inp"), 0);
     (void)line_with("converged, fit of 6 modes, functional HYBRID, reduction GUYAN");
     (void)line_with("core.E            1.15706e+11  Pa");
-    (void)line_with("NLopt LN_BOBYQA");
+    (void)line_with(WITH_NLOPT ? "NLopt LN_BOBYQA" : "no minimiser beside it: this rotid is built without NLopt");
     (void)line_with("the hybrid quotient equals the frequency of the condensed model");
     for (int k = 1; k <= 6; k++) {
         assert_close(cell(k, 2), 100 * (cell(k, 1) / cell(k, 0) - 1), 0, 0.006); /* the error is that of the two beside it */
@@ -156,6 +160,111 @@ static void check_shows_mass_mesh_and_groups(void **state)
     assert_non_null(strstr(line_with("core  "), "1.1570e+11"));
 }
 
+/* ---- numbers that are none */
+
+#define SHAFT   "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, %d\n"
+#define SENSORS "*SENSORS\n1, 0\n2, 0.2\n3, 0.4\n4, 0.6\n5, 0.8\n6, 1\n"
+
+/* Runs a command on the deck; standard error stands behind the tables. */
+static void run_deck(const char *command, const char *options, const char *deck)
+{
+    char path[] = "/tmp/test_tables_XXXXXX", arguments[256];
+    int descriptor = mkstemp(path);
+    FILE *stream = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
+    assert_non_null(stream);
+    assert_true(fputs(deck, stream) >= 0 && fclose(stream) == 0);
+    (void)snprintf(arguments, sizeof arguments, "%s %s %s 2>&1", command, path, options);
+    (void)run(arguments);
+    (void)unlink(path);
+}
+
+static void assert_no_such_word(void)
+{
+    static const char *const words[] = {"nan", "inf", NULL};
+    for (int w = 0; words[w]; w++)
+        for (const char *at = text; (at = strstr(at, words[w])); at++)
+            if ((at == text || !isalpha((unsigned char)at[-1])) && !isalpha((unsigned char)at[3]))
+                fail_msg("%s in:\n%s", words[w], text);
+}
+
+/* A free-free beam of constant section (Bishop and Johnson): mode number n from 1, z from 0 to 1. */
+static double free_shape(int n, double z)
+{
+    static const double roots[] = {4.730040744862704, 7.853204624095838, 10.995607838001671};
+    double b = roots[n - 1], s = (cosh(b) - cos(b)) / (sinh(b) - sin(b));
+    return cosh(b * z) + cos(b * z) - s * (sinh(b * z) + sin(b * z));
+}
+
+static void what_is_no_number_is_a_dash(void **state)
+{
+    (void)state;
+    enum { MANY = 1020 }; /* more masters than a condensation is made for: no NCO */
+    static char deck[1 << 17];
+    char first[512];
+    (void)snprintf(first, sizeof first, SHAFT SENSORS, 20);
+    /* one frequency for two parameters: no condition number; the first iteration has no gain */
+    (void)snprintf(deck, sizeof deck, "%s*MODES\n1, 448\n*IDENTIFY\ncore.E, 1e11, 4e11, 2e11\ncore.G, 1e10, 4e11, 8e10\n", first);
+    run_deck("identify", "--verbose", deck);
+    assert_no_such_word();
+    assert_non_null(strstr(text, "condition number -\n"));
+    run_deck("diagnose", "", deck);
+    assert_no_such_word();
+    /* as far from the model as the smallest noise makes it: every number keeps its column */
+    (void)snprintf(deck, sizeof deck,
+                   "%s*MODES\n1, 500\n2, 1300\n3, 2400\n*NOISE, FREQUENCY=1e-30\n*IDENTIFY\ncore.E, 1e11, 4e11, 2e11\n", first);
+    run_deck("diagnose", "--verbose --replicates 100", deck);
+    assert_no_such_word();
+    const char *head = strstr(text, "over noise"), *row = strstr(text, "     1            500 ");
+    assert_true(head && row);
+    assert_int_equal(strcspn(row, "|"), strcspn(strstr(row, "\n") + 1, "|"));
+    assert_non_null(strstr(row, "e+2"));
+    /* modes by their shapes, without an NCO */
+    int length = snprintf(deck, sizeof deck, SHAFT "*SENSORS\n", MANY);
+    for (int i = 0; i <= MANY; i++)
+        length += snprintf(deck + length, sizeof deck - (size_t)length, "%d, %.9f\n", i + 1, (double)i / MANY);
+    length += snprintf(deck + length, sizeof deck - (size_t)length, "*FIT, REDUCTION=NONE\n*MODES\n1, 1184\n2, 2199\n");
+    for (int n = 2; n <= 3; n++) {
+        length += snprintf(deck + length, sizeof deck - (size_t)length, "*SHAPE, MODE=%d\n", n - 1);
+        for (int i = 0; i <= MANY; i++)
+            length += snprintf(deck + length, sizeof deck - (size_t)length, "%d, %.5f\n", i + 1, free_shape(n, (double)i / MANY));
+    }
+    assert_true(length < (int)sizeof deck - 1);
+    run_deck("modes", "", deck);
+    assert_no_such_word();
+    assert_non_null(strstr(text, "measured mode 1 at 1184 Hz is mode 2 of the model by its shape\n"));
+}
+
+static const char *cell_text(void (*put)(FILE *, int, int, double), int width, int digits, double value)
+{
+    static char kept[512];
+    char *made = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&made, &length);
+    assert_non_null(stream);
+    put(stream, width, digits, value);
+    (void)fclose(stream);
+    (void)snprintf(kept, sizeof kept, "%s", made);
+    free(made);
+    return kept;
+}
+
+static void cells_keep_their_width(void **state)
+{
+    (void)state;
+    static const double values[] = {NAN, INFINITY, -INFINITY, 0, 1, -1, 1e20, -1e20, 1e300, -1e300, 1e-300};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        assert_int_equal(strlen(cell_text(number_cell, 12, 2, values[i])), 12);
+        assert_int_equal(strlen(cell_text(signed_cell, 12, 2, values[i])), 12);
+        assert_int_equal(strlen(cell_text(digits_cell, 12, 4, values[i])), 12);
+        assert_int_equal(strlen(cell_text(power_cell, 12, 4, values[i])), 12);
+    }
+    assert_string_equal(cell_text(number_cell, 8, 2, 1234.567), " 1234.57");
+    assert_string_equal(cell_text(number_cell, 8, 2, 123456789), " 1.2e+08");
+    assert_string_equal(cell_text(signed_cell, 9, 1, -2.5e20), " -2.5e+20");
+    assert_string_equal(cell_text(number_cell, 0, 2, 123456.789), "123456.79");
+    assert_string_equal(cell_text(digits_cell, 5, 3, NAN), "    -");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +273,8 @@ int main(void)
         cmocka_unit_test(what_is_not_determined_or_at_a_bound_is_said),
         cmocka_unit_test(modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error),
         cmocka_unit_test(sensitivity_shows_table_1_beside_the_paper),
+        cmocka_unit_test(what_is_no_number_is_a_dash),
+        cmocka_unit_test(cells_keep_their_width),
         cmocka_unit_test(check_shows_mass_mesh_and_groups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,8 +14,6 @@
 #define DIAGNOSERS  2 /* each asks for two threads; the second one works on that same deck */
 #define REPEATS     2
 
-void openblas_set_num_threads(int threads);
-
 static char directory[] = "/tmp/test_threads_XXXXXX", path[DECKS][64];
 
 struct task {
@@ -33,15 +31,15 @@ struct task {
 static void *run(void *argument)
 {
     struct task *task = argument;
-    const rotid_diagnose_options options = {.threads = 2, .replicates = 100};
+    const rotid_diagnose_options options = {.size = sizeof options, .threads = 2, .replicates = 100};
     char failure[512];
     if (task->begin)
         (void)pthread_barrier_wait(task->begin);
     if (task->path)
-        task->status = rotid_deck_read(task->path, 0, NULL, NULL, &task->own);
+        task->status = rotid_deck_read(task->path, 0, NULL, NULL, NULL, &task->own);
     const rotid_deck *deck = task->path ? task->own : task->deck;
     for (int i = 0; i < REPEATS && !task->status && !task->diagnoses; i++) {
-        task->status = rotid_spectrum_compute(deck, NULL, 5, NULL, &task->spectrum[i]);
+        task->status = rotid_spectrum_compute(deck, NULL, 5, NULL, NULL, &task->spectrum[i]);
         if (!task->status)
             task->status = rotid_identify(deck, 1, NULL, failure, &task->identification[i]);
     }
@@ -59,7 +57,7 @@ static struct expected run_alone(const char *deck_path, int diagnoses)
 {
     struct expected e = {.deck = NULL};
     struct task task = {.path = deck_path, .diagnoses = diagnoses};
-    const rotid_diagnose_options one = {.threads = 1, .replicates = 100};
+    const rotid_diagnose_options one = {.size = sizeof one, .threads = 1, .replicates = 100};
     (void)run(&task);
     assert_status(task.status, ROTID_OK);
     e.deck = dump_deck(task.own);
@@ -143,7 +141,7 @@ static void eight_identifications_and_two_diagnoses_at_once(void **state)
 static int open_directory(void **state)
 {
     (void)state;
-    openblas_set_num_threads(1);
+    set_blas_threads(1);
     if (!mkdtemp(directory))
         return 1;
     for (int d = 0; d < DECKS; d++) {

@@ -196,6 +196,38 @@ static void elements_and_traces(void **state)
     uff_fixture_close(&fixture);
 }
 
+/* As Test.Lab ends them: the last line filled with zeros, or a line of zeros behind one that is full. */
+static void traces_padded_with_zeros(void **state)
+{
+    (void)state;
+    static const char eight[] = "         1         2         3         4         5         6         7         8\n",
+                      zeros[] = "         0         0         0         0         0         0         0         0\n",
+                      one[] = "         1         0         0         0         0         0         0         0\n",
+                      late[] = "         0         0         0         0         0         0         0         7\n";
+    const struct {
+        int count, refused; /* line that is too much, 0: none */
+        const char *first, *second;
+    } table[] = {{8, 0, eight, ""},   {8, 0, eight, zeros}, {9, 0, eight, one},    {1, 0, one, zeros},
+                 {0, 0, zeros, ""},   {0, 0, "", ""},       {16, 0, eight, eight}, {16, 0, eight, zeros},
+                 {8, 6, eight, late}, {8, 6, eight, eight}, {9, 6, eight, late}};
+    for (size_t i = 0; i < sizeof table / sizeof *table; ++i) {
+        struct uff_fixture fixture;
+        struct uff_trace trace;
+        uff_fixture_text(&fixture, pool_format(&test_pool, SET(82) "         3%10d         8\nshaft\n%s%s" UFF_EDGE,
+                                               table[i].count, table[i].first, table[i].second));
+        (void)uff_fixture_next(&fixture, 82);
+        int status = uff_read_trace(fixture.reader, &fixture.pool, &trace);
+        if (table[i].refused) {
+            assert_int_equal(status, ROTID_ERROR_SYNTAX);
+        } else {
+            assert_int_equal(status, ROTID_OK);
+            assert_int_equal(trace.node_count, table[i].count);
+            uff_fixture_is_quiet(&fixture);
+        }
+        uff_fixture_close(&fixture);
+    }
+}
+
 #define TEXTS    "one\ntwo\nthree\nfour\nNONE\n"
 #define LOCATION "    1         0    0         0 NONE               1   3 NONE               0   0\n"
 #define FORM     "         4         3         1  0.00000E+00  1.00000E+00  0.00000E+00\n"
@@ -280,8 +312,11 @@ static void wrong_records(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(header),        cmocka_unit_test(units),
-        cmocka_unit_test(systems),       cmocka_unit_test(elements_and_traces),
+        cmocka_unit_test(header),
+        cmocka_unit_test(units),
+        cmocka_unit_test(systems),
+        cmocka_unit_test(elements_and_traces),
+        cmocka_unit_test_setup_teardown(traces_padded_with_zeros, open_test_pool, close_test_pool),
         cmocka_unit_test(wrong_records),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

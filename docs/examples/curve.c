@@ -42,18 +42,19 @@ int main(void)
     double b[N] = {1, 10, 500}, r[M], jacobian[M * N], error[N], doubt[N];
     size_t room = rotid_lm_workspace(M, N), room_to_check = rotid_check_jacobian_workspace(M, N);
     double *work = (double *)malloc((room > room_to_check ? room : room_to_check) * sizeof(double));
+    char failure[ROTID_FAILURE_LENGTH] = "";
     rotid_lm_result result;
-    int status = work ? rotid_check_jacobian(M, N, residual, NULL, b, NULL, error, doubt, work) : ROTID_ERROR_MEMORY;
+    int status = work ? rotid_check_jacobian(M, N, residual, NULL, b, NULL, failure, error, doubt, work) : ROTID_ERROR_MEMORY;
     for (int j = 0; j < N && status == ROTID_OK; j++)
         if (!(error[j] <= 1e-6 || error[j] <= doubt[j])) {
             fprintf(stderr, "column %d of the Jacobian is wrong by %.2g of its length\n", j + 1, error[j]);
             status = ROTID_ERROR_CALLBACK;
         }
     if (status == ROTID_OK)
-        status = rotid_lm(M, N, residual, NULL, NULL, b, r, jacobian, work, &result);
+        status = rotid_lm(M, N, residual, NULL, NULL, failure, b, r, jacobian, work, &result);
     free(work);
     if (status < 0 || status == ROTID_STOP_ITERATIONS) {
-        fprintf(stderr, "%s\n", rotid_status_text(status));
+        fprintf(stderr, "%s\n", *failure ? failure : rotid_status_text(status));
         return 1;
     }
     printf("b1 = %.8g, b2 = %.8g, b3 = %.8g\n", b[0], b[1], b[2]);

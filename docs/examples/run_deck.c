@@ -15,8 +15,8 @@ int main(int argc, char **argv)
 {
     rotid_deck *deck;
     rotid_identification *found = NULL;
-    char failure[512] = "";
-    int status = rotid_deck_read(argc > 1 ? argv[1] : "rotor.inp", 0, NULL, NULL, &deck);
+    char failure[ROTID_FAILURE_LENGTH] = "";
+    int status = rotid_deck_read(argc > 1 ? argv[1] : "rotor.inp", 0, NULL, NULL, NULL, &deck);
     if (deck)
         tell(deck->nmessage, deck->message);
     if (status == ROTID_OK && rotid_identify(deck, 0, NULL, failure, &found) != ROTID_OK)

@@ -11,7 +11,8 @@ ffi.cdef(subprocess.check_output(header, text=True))
 rotid = ffi.dlopen(pkg_config("libdir") + "/librotid.so")
 
 deck, found, failure = ffi.new("rotid_deck **"), ffi.new("rotid_identification **"), ffi.new("char[512]")
-rotid.rotid_deck_read(sys.argv[1].encode(), 0, ffi.NULL, ffi.NULL, deck)
+if rotid.rotid_deck_read(sys.argv[1].encode(), 0, ffi.NULL, ffi.NULL, failure, deck) != rotid.ROTID_OK:
+    sys.exit(ffi.string(failure).decode())
 if rotid.rotid_identify(deck[0], 0, ffi.NULL, failure, found) != rotid.ROTID_OK:
     sys.exit(ffi.string(failure).decode())
 for p in range(found[0].nparameter):

@@ -122,6 +122,7 @@ program stepped_beam
   type(rotid_parameter) :: parameter(2)
   type(rotid_fit_options) :: options
   type(rotid_fit_result), pointer :: fit
+  character(len=:), allocatable :: failure
   real(dp), pointer :: x(:), lower(:), upper(:), predicted(:)
   integer(c_int) :: status
   integer :: i
@@ -136,9 +137,9 @@ program stepped_beam
   options%functional = ROTID_LIKELIHOOD
 
   status = rotid_fit_model(model, parameter, [1, 2, 3, 4], hz, fit, frequency_std=hz_std, shape=shapes, shape_std=shape_std, &
-                           master=2 * sensor_node - 1, options=options)
+                           master=2 * sensor_node - 1, options=options, failure=failure)
   if (status < 0) then
-    print '(2a)', 'failed: ', rotid_status_message(status)
+    print '(2a)', 'failed: ', failure
     error stop 1
   end if
 

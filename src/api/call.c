@@ -1,12 +1,12 @@
 #include "api/call.h"
 
 #include <stdio.h>
-#include <string.h>
 
 static int cancelled(void *context)
 {
     struct call *call = context;
-    if (!atomic_load(&call->cancelled) && call->given->cancelled(call->given->context))
+    const rotid_environment *given = &call->entry.environment;
+    if (!atomic_load(&call->cancelled) && given->cancelled(given->context))
         atomic_store(&call->cancelled, 1);
     return atomic_load(&call->cancelled);
 }
@@ -15,64 +15,51 @@ static void progress(void *context, const char *stage, int step)
 {
     struct call *call = context;
     if (!atomic_load(&call->cancelled))
-        call->given->progress(call->given->context, stage, step);
+        call->entry.environment.progress(call->entry.environment.context, stage, step);
 }
 
-int call_open(struct call *call, const rotid_environment *given, const void *result)
+int call_open(struct call *call, const rotid_environment *given, char *failure, const void *result, const char *name)
 {
-    const rotid_allocator *allocator = given ? given->allocator : NULL;
-    call->given = given;
+    int status = entry_open(&call->entry, given, failure);
+    const rotid_environment *taken = &call->entry.environment;
     atomic_init(&call->cancelled, 0);
-    call->environment = (rotid_environment){.allocator = allocator,
-                                            .cancelled = given && given->cancelled ? cancelled : NULL,
-                                            .progress = given && given->progress ? progress : NULL,
+    call->environment = (rotid_environment){.size = sizeof call->environment,
+                                            .allocator = taken->allocator,
+                                            .cancelled = taken->cancelled ? cancelled : NULL,
+                                            .progress = taken->progress ? progress : NULL,
                                             .context = call};
-    pool_open(&call->scratch, allocator);
-    message_open(&call->notes, &call->scratch);
-    int status = result ? host_enter(&call->host) : ROTID_ERROR_ARGUMENT;
+    message_open(&call->notes, &call->entry.scratch);
+    if (!status && !result)
+        status = refuse(failure, "%s is NULL, expected the address of a pointer", name);
+    if (!status)
+        status = host_enter_locale(&call->locale);
     call->entered = status == ROTID_OK;
     return status;
 }
 
-void call_close(struct call *call)
-{
-    pool_close(&call->scratch);
-    if (call->entered)
-        host_leave(&call->host);
-}
-
-/* As much of the text as fits; returns the length then, and that of a full buffer once something was cut off. */
-static size_t append(char *failure, size_t length, const char *text)
-{
-    const size_t full = FAILURE_LENGTH - 1;
-    size_t count = strlen(text), room = full - length;
-    int cut = count > room;
-    if (cut)
-        for (count = room; count && ((unsigned char)text[count] & 0xc0) == 0x80;)
-            count--; /* not within a character of UTF-8 */
-    memcpy(failure + length, text, count);
-    failure[length + count] = 0;
-    return cut ? full : length + count;
-}
-
-void call_explain(const struct call *call, int status, char *failure)
+static void explain(const struct call *call, char *failure)
 {
     size_t length = 0;
-    if (!failure)
-        return;
-    *failure = 0;
-    for (size_t i = 0; i < call->notes.count && status; i++) {
+    for (size_t i = 0; i < call->notes.count; i++) {
         const struct message *m = &call->notes.item[i];
         char place[64];
         if (m->severity != SEVERITY_ERROR)
             continue;
-        length = append(failure, length, length ? "; " : "");
+        length = failure_append(failure, length, length ? "; " : "");
         if (m->file) {
             (void)snprintf(place, sizeof place, ":%d:%d: ", m->line, m->column);
-            length = append(failure, append(failure, length, m->file), place);
+            length = failure_append(failure, failure_append(failure, length, m->file), place);
         }
-        length = append(failure, length, m->text);
+        length = failure_append(failure, length, m->text);
     }
-    if (status && (!length || status == ROTID_ERROR_MEMORY))
-        (void)append(failure, 0, rotid_status_text(status));
+}
+
+int call_close(struct call *call, int status)
+{
+    char *failure = call->entry.failure;
+    if (failure && !*failure && status < 0)
+        explain(call, failure);
+    if (call->entered)
+        host_leave_locale(&call->locale);
+    return entry_close(&call->entry, status);
 }

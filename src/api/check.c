@@ -34,26 +34,26 @@ static int make_result(struct result_memory *memory, const struct job *job, cons
     return memory->missing ? ROTID_ERROR_MEMORY : ROTID_OK;
 }
 
-int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, rotid_check **check)
+int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, char *failure, rotid_check **check)
 {
     struct call call;
     struct spectrum found;
-    int status = call_open(&call, environment, check);
+    int status = call_open(&call, environment, failure, check, "check");
     if (check)
         *check = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
-        status = job ? spectrum_compute(&call.scratch, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &found) : ROTID_ERROR_ARGUMENT;
+        status = job ? spectrum_compute(&call.entry.scratch, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &found)
+                     : ROTID_ERROR_ARGUMENT;
     if (!status) {
-        struct result_memory *memory = result_memory_new(environment);
+        struct result_memory *memory = result_memory_new(&call.environment);
         status = make_result(memory, job, &found, check);
         if (status) {
             result_memory_free(memory);
             *check = NULL;
         }
     }
-    call_close(&call);
-    return status;
+    return call_close(&call, status);
 }
 
 void rotid_check_free(rotid_check *check)

@@ -9,19 +9,17 @@
 #include "deck/deck.h"
 
 struct deck_handle {
-    struct result_memory *memory;
+    struct result_memory *own;
     int usable; /* without errors */
     struct job job;
 };
 
-static int parse_overrides(struct result_memory *memory, int count, const char *const *text, struct message_list *messages,
+static int parse_overrides(struct result_memory *own, int count, const char *const *text, struct message_list *messages,
                            struct override *override)
 {
     for (int i = 0; i < count; i++) {
-        if (!text[i])
-            return ROTID_ERROR_ARGUMENT;
-        const char *copy = result_text(memory, text[i]); /* parts of it become part of the job */
-        int status = copy ? override_parse(&memory->pool, copy, &override[i]) : ROTID_ERROR_MEMORY;
+        const char *copy = result_text(own, text[i]); /* parts of it become part of the job */
+        int status = copy ? override_parse(&own->pool, copy, &override[i]) : ROTID_ERROR_MEMORY;
         if (status == ROTID_ERROR_SYNTAX)
             message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "override %s: expected CARD.OPTION=VALUE", copy);
         if (status)
@@ -54,17 +52,17 @@ static int weigh(const struct job *job, const rotid_environment *environment, ro
 }
 
 /* The job lives as long as the deck: what it holds as arrays is not copied. */
-static void show(struct job *job, struct result_memory *memory, rotid_deck *deck)
+static void show(const struct job *job, struct result_memory *own, rotid_deck *deck)
 {
-    int nsensor = job->rotor.nsensor, *id = result_room(memory, nsensor, sizeof *id);
-    double *z = result_room(memory, nsensor, sizeof *z), *stated = result_room(memory, job->nparameter, sizeof *stated);
+    int nsensor = job->rotor.nsensor, *id = result_room(own, nsensor, sizeof *id);
+    double *z = result_room(own, nsensor, sizeof *z), *stated = result_room(own, job->nparameter, sizeof *stated);
     for (int s = 0; s < nsensor && id && z; s++) {
         id[s] = job->rotor.sensor[s].id;
         z[s] = job->rotor.sensor[s].position;
     }
     for (int p = 0; p < job->nparameter && stated; p++)
         stated[p] = *parameter_value(&job->rotor, job->parameter[p]);
-    deck->nreferences = RESULT_LIST(memory, deck->references, job->nreference);
+    deck->nreferences = RESULT_LIST(own, deck->references, job->nreference);
     for (int i = 0; i < deck->nreferences; i++)
         deck->references[i] =
             (rotid_reference){job->reference[i].quantity, job->reference[i].count, job->reference[i].value};
@@ -85,61 +83,87 @@ static void show(struct job *job, struct result_memory *memory, rotid_deck *deck
     deck->heading = job->heading;
 }
 
-static int read_deck(struct result_memory *memory, const char *path, int noverride, const char *const *text,
-                     const rotid_environment *environment, rotid_deck *deck)
+static int read_deck(struct result_memory *own, const struct deck_memory *memory, const char *path, int noverride,
+                     const char *const *text, struct call *call, rotid_deck *deck)
 {
-    struct pool *pool = &memory->pool;
+    struct pool *pool = &own->pool;
+    struct message_list *messages = &call->notes;
     struct deck_handle *handle = POOL_NEW(pool, struct deck_handle);
     struct override *override = POOL_ARRAY(pool, struct override, noverride);
-    struct message_list messages;
-    message_open(&messages, pool);
     if (!handle || !override)
         return ROTID_ERROR_MEMORY;
-    *handle = (struct deck_handle){.memory = memory};
+    *handle = (struct deck_handle){.own = own};
     deck->memory = handle;
-    deck->path = result_text(memory, path);
+    deck->path = result_text(own, path);
     deck->length = deck->mass = deck->centre = NAN;
-    int status = parse_overrides(memory, noverride, text, &messages, override);
+    int status = parse_overrides(own, noverride, text, messages, override);
     if (!status)
-        status = deck_read(pool, path, noverride, override, &messages, &handle->job);
+        status = memory ? deck_read_memory(pool, memory, noverride, override, messages, &handle->job)
+                        : deck_read(pool, path, noverride, override, messages, &handle->job);
     if (!status)
-        status = weigh(&handle->job, environment, deck);
+        status = weigh(&handle->job, &call->environment, deck);
     if (!status)
-        show(&handle->job, memory, deck);
+        show(&handle->job, own, deck);
     handle->usable = status == ROTID_OK;
-    deck->nmessage = (int)messages.count;
-    deck->nerror = messages.errors;
-    deck->message = result_messages(memory, &messages);
-    return memory->missing ? ROTID_ERROR_MEMORY : status;
+    deck->nmessage = (int)messages->count;
+    deck->nerror = messages->errors;
+    deck->message = result_messages(own, messages);
+    return own->missing ? ROTID_ERROR_MEMORY : status;
+}
+
+static int make_deck(struct call *call, const struct deck_memory *memory, const char *path, int noverride,
+                     const char *const *override, rotid_deck **deck)
+{
+    if (noverride < 0)
+        return refuse(call->entry.failure, "noverride is %d, expected 0 or more", noverride);
+    if (noverride && !override)
+        return refuse(call->entry.failure, "override is NULL, expected noverride = %d texts", noverride);
+    for (int i = 0; i < noverride; i++)
+        if (!override[i])
+            return refuse(call->entry.failure, "override[%d] is NULL, expected CARD.OPTION=VALUE", i);
+    struct result_memory *own = result_memory_new(&call->environment);
+    rotid_deck *made = own ? POOL_NEW(&own->pool, rotid_deck) : NULL;
+    int status = made ? read_deck(own, memory, path, noverride, override, call, made) : ROTID_ERROR_MEMORY;
+    if (status == ROTID_ERROR_MEMORY)
+        result_memory_free(own);
+    else
+        *deck = made;
+    return status;
 }
 
 int rotid_deck_read(const char *path, int noverride, const char *const *override, const rotid_environment *environment,
-                    rotid_deck **deck)
+                    char *failure, rotid_deck **deck)
 {
-    struct host host;
-    if (!deck)
-        return ROTID_ERROR_ARGUMENT;
-    *deck = NULL;
-    if (!path || noverride < 0 || (noverride && !override))
-        return ROTID_ERROR_ARGUMENT;
-    int status = host_enter(&host);
-    if (status)
-        return status;
-    struct result_memory *memory = result_memory_new(environment);
-    rotid_deck *made = memory ? POOL_NEW(&memory->pool, rotid_deck) : NULL;
-    status = made ? read_deck(memory, path, noverride, override, environment, made) : ROTID_ERROR_MEMORY;
-    if (status == ROTID_ERROR_MEMORY || status == ROTID_ERROR_ARGUMENT)
-        result_memory_free(memory);
-    else
-        *deck = made;
-    host_leave(&host);
-    return status;
+    struct call call;
+    int status = call_open(&call, environment, failure, deck, "deck");
+    if (deck)
+        *deck = NULL;
+    if (!status && !path)
+        status = refuse(failure, "path is NULL, expected that of a deck");
+    if (!status)
+        status = make_deck(&call, NULL, path, noverride, override, deck);
+    return call_close(&call, status);
+}
+
+int rotid_deck_read_text(size_t length, const char *text, const char *name, const char *directory, int noverride,
+                         const char *const *override, const rotid_environment *environment, char *failure, rotid_deck **deck)
+{
+    struct call call;
+    const struct deck_memory memory = {name ? name : "deck", length, text, directory};
+    int status = call_open(&call, environment, failure, deck, "deck");
+    if (deck)
+        *deck = NULL;
+    if (!status && length && !text)
+        status = refuse(failure, "text is NULL, expected %zu characters", length);
+    if (!status)
+        status = make_deck(&call, &memory, memory.name, noverride, override, deck);
+    return call_close(&call, status);
 }
 
 void rotid_deck_free(rotid_deck *deck)
 {
     if (deck)
-        result_memory_free(((struct deck_handle *)deck->memory)->memory);
+        result_memory_free(((struct deck_handle *)deck->memory)->own);
 }
 
 const struct job *deck_job_of(const rotid_deck *deck)

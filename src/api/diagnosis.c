@@ -2,6 +2,7 @@
 #include "api/deck_handle.h"
 #include "api/result_diagnosis.h"
 #include "base/parallel.h"
+#include "base/sized.h"
 #include "deck/deck_extended.h"
 #include "diagnose/diagnose.h"
 
@@ -12,7 +13,7 @@ static int make_result(struct result_memory *memory, struct call *call, const st
     char *text = NULL;
     int status = memory ? ROTID_OK : ROTID_ERROR_MEMORY;
     if (!status && d->sentence && d->base.fit)
-        status = deck_write_extended(&call->scratch, d, path, &text);
+        status = deck_write_extended(&call->entry.scratch, d, path, &text);
     rotid_diagnosis *made = status == ROTID_ERROR_MEMORY ? NULL : result_diagnosis(memory, job, d);
     if (!made)
         return ROTID_ERROR_MEMORY;
@@ -26,16 +27,24 @@ static int make_result(struct result_memory *memory, struct call *call, const st
     return ROTID_OK;
 }
 
-/* 0 takes the default; false where a value is out of its range. */
-static int take_options(const rotid_diagnose_options *given, struct diagnose_options *options)
+/* 0 takes the default. */
+static int take_options(const rotid_diagnose_options *given, char *failure, struct diagnose_options *options)
 {
-    static const rotid_diagnose_options standard = {0, 0, 0};
-    const rotid_diagnose_options *o = given ? given : &standard;
+    rotid_diagnose_options o = {0};
+    int status = given ? sized_take(SIZED_DIAGNOSE_OPTIONS, given, failure, &o) : ROTID_OK;
+    if (status)
+        return status;
+    if (o.threads < 0)
+        return refuse(failure, "options->threads is %d, expected 0 or more", o.threads);
+    if (o.replicates < 0)
+        return refuse(failure, "options->replicates is %d, expected 0 or more", o.replicates);
+    if (o.seed < 0)
+        return refuse(failure, "options->seed is %ld, expected 0 or more", o.seed);
     *options = (struct diagnose_options){
-        .threads = o->threads ? o->threads : 1, .seed = o->seed ? (unsigned long)o->seed : 1, .replicates = o->replicates};
+        .threads = o.threads ? o.threads : 1, .seed = o.seed ? (unsigned long)o.seed : 1, .replicates = o.replicates};
     if (options->threads > PARALLEL_MOST)
         options->threads = PARALLEL_MOST;
-    return o->threads >= 0 && o->replicates >= 0 && o->seed >= 0;
+    return ROTID_OK;
 }
 
 static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagnose_options *given, rotid_diagnosis **result)
@@ -43,9 +52,10 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
     struct diagnose_options options;
     struct diagnosis d;
     const struct job *job = deck_job(deck, call);
-    if (!job || !take_options(given, &options))
-        return ROTID_ERROR_ARGUMENT;
-    int status = diagnose_run(&call->scratch, job, &options, &call->environment, &call->notes, &d);
+    int status = job ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
+    if (status)
+        return status;
+    status = diagnose_run(&call->entry.scratch, job, &options, &call->environment, &call->notes, &d);
     if (status)
         return status;
     struct result_memory *memory = result_memory_new(&call->environment);
@@ -60,14 +70,12 @@ int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options
                    char *failure, rotid_diagnosis **result)
 {
     struct call call;
-    int status = call_open(&call, environment, result);
+    int status = call_open(&call, environment, failure, result, "result");
     if (result)
         *result = NULL;
     if (!status)
         status = diagnose(&call, deck, options, result);
-    call_explain(&call, status, failure);
-    call_close(&call);
-    return status;
+    return call_close(&call, status);
 }
 
 void rotid_diagnosis_free(rotid_diagnosis *result)

@@ -27,7 +27,7 @@ static int identify(struct call *call, const rotid_deck *deck, int baseline, rot
     const struct job *job = deck_job(deck, call);
     if (!job)
         return ROTID_ERROR_ARGUMENT;
-    int status = identify_run(&call->scratch, job, baseline, &call->environment, &call->notes, &found);
+    int status = identify_run(&call->entry.scratch, job, baseline, &call->environment, &call->notes, &found);
     if (status)
         return status;
     identify_warn_of_mesh(job, &found, &call->notes);
@@ -43,14 +43,12 @@ int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment
                    rotid_identification **result)
 {
     struct call call;
-    int status = call_open(&call, environment, result);
+    int status = call_open(&call, environment, failure, result, "result");
     if (result)
         *result = NULL;
     if (!status)
         status = identify(&call, deck, baseline, result);
-    call_explain(&call, status, failure);
-    call_close(&call);
-    return status;
+    return call_close(&call, status);
 }
 
 void rotid_identification_free(rotid_identification *result)

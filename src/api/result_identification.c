@@ -188,7 +188,7 @@ static void fill_shapes(struct result_memory *memory, const struct job *job, con
 static double bijection_chi(const struct job *job)
 {
     rotid_fit_options standard;
-    rotid_fit_defaults(&standard);
+    rotid_fit_defaults(sizeof standard, &standard);
     return job->fit.bijection_chi > 0 ? job->fit.bijection_chi : standard.bijection_chi;
 }
 

@@ -8,8 +8,9 @@
 
 #define MODES_SHOWN 6 /* at least, where the caller does not say how many */
 
-static int compute(const struct job *job, const double *x, int nmode, struct pool *scratch, struct spectrum *spectrum)
+static int compute(const struct job *job, const double *x, int nmode, struct entry *entry, struct spectrum *spectrum)
 {
+    struct pool *scratch = &entry->scratch;
     int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
     double *at = POOL_ARRAY(scratch, double, job->nparameter);
     if (!at)
@@ -17,7 +18,7 @@ static int compute(const struct job *job, const double *x, int nmode, struct poo
     for (int p = 0; p < job->nparameter; p++) {
         at[p] = x ? x[p] : job->bounds[p].start;
         if (!isfinite(at[p]))
-            return ROTID_ERROR_ARGUMENT;
+            return refuse(entry->failure, "x[%d], the value of %s, is %g, expected a number", p, job->bounds[p].name, at[p]);
     }
     return spectrum_compute(scratch, &job->rotor, job->nparameter, job->parameter, at, reduction, nmode, spectrum);
 }
@@ -69,12 +70,14 @@ static int run(struct call *call, const struct job *job, const double *x, int nm
     struct spectrum found;
     struct comparison compared;
     int count = comparison_candidates(job);
+    if (nmode < 0)
+        return refuse(call->entry.failure, "nmode is %d, expected 0 or more", nmode);
     if (!nmode)
         nmode = count > MODES_SHOWN ? count : MODES_SHOWN;
-    int status = compute(job, x, nmode, &call->scratch, &found), paired;
+    int status = compute(job, x, nmode, &call->entry, &found), paired;
     if (status)
         return status;
-    paired = comparison_make(&call->scratch, job, &found, &call->notes, &compared);
+    paired = comparison_make(&call->entry.scratch, job, &found, &call->notes, &compared);
     if (paired && paired != ROTID_ERROR_UNPAIRED)
         return paired;
     struct result_memory *memory = result_memory_new(&call->environment);
@@ -87,17 +90,16 @@ static int run(struct call *call, const struct job *job, const double *x, int nm
 }
 
 int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
-                           rotid_spectrum **spectrum)
+                           char *failure, rotid_spectrum **spectrum)
 {
     struct call call;
-    int status = call_open(&call, environment, spectrum);
+    int status = call_open(&call, environment, failure, spectrum, "spectrum");
     if (spectrum)
         *spectrum = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
-        status = job && nmode >= 0 ? run(&call, job, x, nmode, spectrum) : ROTID_ERROR_ARGUMENT;
-    call_close(&call);
-    return status;
+        status = job ? run(&call, job, x, nmode, spectrum) : ROTID_ERROR_ARGUMENT;
+    return call_close(&call, status);
 }
 
 void rotid_spectrum_free(rotid_spectrum *spectrum)

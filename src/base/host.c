@@ -5,31 +5,29 @@
 
 #include "rotid.h"
 
-void host_enter_floating(struct host *host)
+void host_enter_floating(fenv_t *floating)
 {
-    (void)feholdexcept(&host->floating);
+    (void)feholdexcept(floating);
 }
 
-void host_leave_floating(const struct host *host)
+void host_leave_floating(const fenv_t *floating)
 {
-    (void)fesetenv(&host->floating);
+    (void)fesetenv(floating);
 }
 
-int host_enter(struct host *host)
+int host_enter_locale(struct host_locale *locale)
 {
-    host->own = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!host->own)
+    locale->own = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (!locale->own)
         return ROTID_ERROR_MEMORY;
-    host->locale = uselocale(host->own);
-    host_enter_floating(host);
+    locale->before = uselocale(locale->own);
     return ROTID_OK;
 }
 
-void host_leave(const struct host *host)
+void host_leave_locale(const struct host_locale *locale)
 {
-    host_leave_floating(host);
-    (void)uselocale(host->locale);
-    freelocale(host->own);
+    (void)uselocale(locale->before);
+    freelocale(locale->own);
 }
 
 const char *host_error_text(int number, char *text)

@@ -21,3 +21,22 @@ size_t text_utf8(const char *text)
         return 0;
     return bytes;
 }
+
+int text_is_control(const char *text, unsigned *code)
+{
+    const unsigned char *c = (const unsigned char *)text;
+    size_t bytes = text_utf8(text);
+    unsigned u = bytes == 1   ? c[0]
+                 : bytes == 2 ? (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu)
+                 : bytes == 3 ? (c[0] & 0x0fu) << 12 | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu)
+                              : ' '; /* none has four bytes */
+    *code = u;
+    return u < ' ' || (u >= 0x7f && u < 0xa0) || u == 0x61c || u == 0x200e || u == 0x200f || (u >= 0x2028 && u <= 0x202e) ||
+           (u >= 0x2066 && u <= 0x2069);
+}
+
+size_t text_visible(const char *text)
+{
+    unsigned code;
+    return text_is_control(text, &code) ? 0 : text_utf8(text);
+}

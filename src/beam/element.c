@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/host.h"
 #include "rotid.h"
 
 /* Each element matrix is s P(phi)/(1 + phi)^q with a polynomial P of degree <= 2 in phi and four different kinds of entries:
@@ -78,32 +79,56 @@ static double shear_factor(double ei, double kgs, double l)
     return 12 * ei / (kgs * l * l);
 }
 
-void rotid_element_stiffness(double ei, double kgs, double l, double *stiffness)
+HOST_COMPUTES void stiffness_matrix(double ei, double kgs, double l, double *stiffness)
 {
     memset(stiffness, 0, 16 * sizeof(double));
     add(stiffness_entries, shear_factor(ei, kgs, l), l, 1, ei / (l * l * l), stiffness);
 }
 
-void rotid_element_geometric(double force, double phi, double l, double *stiffness)
+HOST_COMPUTES void geometric_matrix(double force, double phi, double l, double *stiffness)
 {
     memset(stiffness, 0, 16 * sizeof(double));
     add(geometric_entries, phi, l, 2, force / (60 * l), stiffness);
 }
 
-void rotid_element_mass(double rhos, double rhoi, double phi, double l, double *mass)
+HOST_COMPUTES void mass_matrix(double rhos, double rhoi, double phi, double l, double *mass)
 {
     memset(mass, 0, 16 * sizeof(double));
     add(translation_entries, phi, l, 2, rhos * l / 840, mass);
     add(rotation_entries, phi, l, 2, rhoi * l / 840, mass);
 }
 
+void rotid_element_stiffness(double ei, double kgs, double l, double *stiffness)
+{
+    fenv_t floating;
+    host_enter_floating(&floating);
+    stiffness_matrix(ei, kgs, l, stiffness);
+    host_leave_floating(&floating);
+}
+
+void rotid_element_geometric(double force, double phi, double l, double *stiffness)
+{
+    fenv_t floating;
+    host_enter_floating(&floating);
+    geometric_matrix(force, phi, l, stiffness);
+    host_leave_floating(&floating);
+}
+
+void rotid_element_mass(double rhos, double rhoi, double phi, double l, double *mass)
+{
+    fenv_t floating;
+    host_enter_floating(&floating);
+    mass_matrix(rhos, rhoi, phi, l, mass);
+    host_leave_floating(&floating);
+}
+
 void element_matrices(const struct element *element, double *k, double *m)
 {
     double l = element->length, phi = shear_factor(element->ei, element->kgs, l);
-    rotid_element_stiffness(element->ei, element->kgs, l, k);
+    stiffness_matrix(element->ei, element->kgs, l, k);
     if (element->force != 0)
         add(geometric_entries, phi, l, 2, element->force / (60 * l), k);
-    rotid_element_mass(element->rhos, element->rhoi, phi, l, m);
+    mass_matrix(element->rhos, element->rhoi, phi, l, m);
 }
 
 void element_derivatives(const struct element *element, const struct element *d, double *dk, double *dm)

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/entry.h"
+#include "base/host.h"
 #include "rotid.h"
 
 static const double pi = 3.14159265358979323846;
@@ -31,10 +33,14 @@ void section_rectangular(double height, double width, struct section *section)
     *section = (struct section){area, inertia, area, inertia, 1, 0};
 }
 
-int rotid_equivalent_cylinder(double area, double inertia, double *outer, double *inner)
+HOST_COMPUTES int equivalent_cylinder(double area, double inertia, char *failure, double *outer, double *inner)
 {
-    if (!(area > 0 && inertia > 0 && isfinite(area) && isfinite(inertia)))
-        return ROTID_ERROR_ARGUMENT;
+    if (!(area > 0 && isfinite(area)))
+        return refuse(failure, "area is %g, expected a positive number of m2", area);
+    if (!(inertia > 0 && isfinite(inertia)))
+        return refuse(failure, "inertia is %g, expected a positive number of m4", inertia);
+    if (!outer || !inner)
+        return refuse(failure, "%s is NULL, expected room for a diameter", outer ? "inner" : "outer");
     double sum = 8 * inertia / area, difference = 2 * area / pi;
     if (sum < difference * (1 - 1e-14)) /* a solid disc has sum = difference and must not fail on rounding */
         return ROTID_ERROR_SECTION;
@@ -43,10 +49,19 @@ int rotid_equivalent_cylinder(double area, double inertia, double *outer, double
     return ROTID_OK;
 }
 
+int rotid_equivalent_cylinder(double area, double inertia, char *failure, double *outer, double *inner)
+{
+    struct entry entry;
+    int status = entry_open(&entry, NULL, failure);
+    if (!status)
+        status = equivalent_cylinder(area, inertia, failure, outer, inner);
+    return entry_close(&entry, status);
+}
+
 int section_equivalent(double area, double inertia, struct section *section)
 {
     double outer, inner;
-    int status = rotid_equivalent_cylinder(area, inertia, &outer, &inner);
+    int status = equivalent_cylinder(area, inertia, NULL, &outer, &inner);
     if (!status)
         *section = (struct section){area, inertia, area, inertia, 0, inner / outer};
     return status;
@@ -98,14 +113,28 @@ double section_shear_coefficient(const struct section *section, double nu, doubl
     return section->rectangular ? rectangle(nu, derivative) : annulus(nu, section->ratio, derivative);
 }
 
-double rotid_shear_coefficient_annulus(double nu, double a)
+HOST_COMPUTES void shear_coefficient(int rectangular, double nu, double a, double *coefficient)
 {
     double unused;
-    return annulus(nu, a, &unused);
+    *coefficient = rectangular ? rectangle(nu, &unused) : annulus(nu, a, &unused);
+}
+
+static double masked_shear_coefficient(int rectangular, double nu, double a)
+{
+    fenv_t floating;
+    double coefficient;
+    host_enter_floating(&floating);
+    shear_coefficient(rectangular, nu, a, &coefficient);
+    host_leave_floating(&floating);
+    return coefficient;
+}
+
+double rotid_shear_coefficient_annulus(double nu, double a)
+{
+    return masked_shear_coefficient(0, nu, a);
 }
 
 double rotid_shear_coefficient_rectangle(double nu)
 {
-    double unused;
-    return rectangle(nu, &unused);
+    return masked_shear_coefficient(1, nu, 0);
 }

@@ -9,6 +9,7 @@
 #include "cli/arguments_ema.h"
 #include "cli/arguments_study.h"
 #include "export/files.h"
+#include "fit/baseline.h"
 
 static void print_help(FILE *out)
 {
@@ -47,9 +48,9 @@ static void print_help(FILE *out)
 
 int arguments_wrong(const char *format, const char *value)
 {
-    (void)fprintf(stderr, "rotid: ");
-    (void)fprintf(stderr, format, value);
-    (void)fprintf(stderr, " (rotid --help lists what there is)\n");
+    terminal_say("rotid: ");
+    terminal_say(format, value);
+    terminal_say(" (rotid --help lists what there is)\n");
     return EXIT_USAGE;
 }
 
@@ -81,7 +82,7 @@ int arguments_number(const char *option, const char *text, double least, double 
     *value = strtod(text, &end);
     if (end != text && !*end && *value >= least && *value <= most && (!whole || *value == floor(*value)))
         return 0;
-    (void)fprintf(stderr, "rotid: %s %s: expected a %snumber from %g to %g\n", option, text, whole ? "whole " : "", least, most);
+    terminal_say("rotid: %s %s: expected a %snumber from %g to %g\n", option, text, whole ? "whole " : "", least, most);
     return 1;
 }
 
@@ -152,17 +153,33 @@ static int take_option(struct command *command, int option, const char *value)
         command->condensed = 1;
         return -1;
     case OPTION_VERSION:
-        (void)printf("rotid %s (%s), %s\n", ROTID_VERSION, build_commit, build_blas());
+        (void)fprintf(terminal_out(), "rotid %s (%s), %s%s\n", ROTID_VERSION, build_commit, build_blas(),
+                     baseline_exists() ? "" : ", without NLopt: identify has no baseline");
         return EXIT_DONE;
     case OPTION_HELP:
-        print_help(stdout);
+        print_help(terminal_out());
         return EXIT_DONE;
-    case '?':
-        (void)fprintf(stderr, "rotid --help lists the options\n");
-        return EXIT_USAGE;
     default:
         return option >= STUDY_OPTION_SHARD ? arguments_study(command, option, value) : arguments_ema(command, option, value);
     }
+}
+
+/* Says what getopt would have; word: where it stopped. */
+static int refuse_option(int why, const struct option *options, const char *word)
+{
+    const char *name = NULL;
+    for (; options->name; options++)
+        if (optopt && options->val == optopt)
+            name = options->name;
+    if (why == ':' && !name)
+        return arguments_wrong("-%s: expected a value behind it", (char[]){(char)optopt, 0});
+    if (why == ':')
+        return arguments_wrong("--%s: expected a value behind it", name);
+    if (name)
+        return arguments_wrong("--%s: expected no value", name);
+    if (optopt)
+        return arguments_wrong("-%s is no option", (char[]){(char)optopt, 0});
+    return arguments_wrong("%s is no option, or the beginning of several", word);
 }
 
 int arguments_parse(struct command *command, int argc, char **argv)
@@ -193,13 +210,16 @@ int arguments_parse(struct command *command, int argc, char **argv)
     command->override = POOL_ARRAY(&command->pool, struct override, argc);
     if (!command->override)
         return command_fail(command, ROTID_ERROR_MEMORY);
-    while ((option = getopt_long(argc, argv, "o:", options, NULL)) != -1) {
-        int code = take_option(command, option, optarg);
+    opterr = 0; /* getopt prints what it was given as it is */
+    while ((option = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
+        int code = option == '?' || option == ':' ? refuse_option(option, options, argv[optind - 1])
+                                                  : take_option(command, option, optarg);
         if (code >= 0)
             return code;
     }
     if (optind >= argc) {
-        print_help(stderr);
+        print_help(terminal_out());
+        terminal_to_error();
         return EXIT_USAGE;
     }
     command->name = argv[optind++];

@@ -27,10 +27,10 @@ static int word(const char *option, const char *value, const char *const *words,
     for (*index = 0; words[*index]; ++*index)
         if (same_text(value, words[*index]))
             return -1;
-    (void)fprintf(stderr, "rotid: %s %s: expected one of", option, value);
+    terminal_say("rotid: %s %s: expected one of", option, value);
     for (int i = 0; words[i]; i++)
-        (void)fprintf(stderr, "%s %s", i ? "," : "", words[i]);
-    (void)fputc('\n', stderr);
+        terminal_say("%s %s", i ? "," : "", words[i]);
+    terminal_say("\n");
     return EXIT_USAGE;
 }
 
@@ -48,7 +48,7 @@ static int frequencies(const char *option, const char *value, int most, double *
             return count;
         at = end;
     }
-    (void)fprintf(stderr, "rotid: %s %s: expected frequencies from 0 to %g Hz, separated by commas\n", option, value, MOST_HZ);
+    terminal_say("rotid: %s %s: expected frequencies from 0 to %g Hz, separated by commas\n", option, value, MOST_HZ);
     return 0;
 }
 

@@ -17,18 +17,18 @@ void command_print_messages(struct command *command)
         if (m->severity != SEVERITY_ERROR && (command->quiet || (m->severity == SEVERITY_NOTE && !command->verbose)))
             continue;
         if (m->file)
-            (void)fprintf(stderr, "%s:%d:%d: ", m->file, m->line, m->column);
-        (void)fprintf(stderr, "%s%s\n", words[m->severity], m->text);
+            terminal_say("%s:%d:%d: ", m->file, m->line, m->column);
+        terminal_say("%s%s\n", words[m->severity], m->text);
     }
     if (command->messages.errors > MESSAGE_LIMIT)
-        (void)fprintf(stderr, "%d errors in all, the first %d are shown\n", command->messages.errors, MESSAGE_LIMIT);
+        terminal_say("%d errors in all, the first %d are shown\n", command->messages.errors, MESSAGE_LIMIT);
 }
 
 int command_fail(struct command *command, int status)
 {
     command_print_messages(command);
     if (!command->messages.errors)
-        (void)fprintf(stderr, "rotid: %s: %s\n", command->deck, rotid_status_text(status));
+        terminal_say("rotid: %s: %s\n", command->deck, rotid_status_text(status));
     switch (status) { /* what the input causes, and what it does not */
     case ROTID_ERROR_SYNTAX:
     case ROTID_ERROR_SECTION:
@@ -71,7 +71,7 @@ int command_write_file(struct command *command, const char *path, const char *te
     int status = output_write(path, text);
     if (!status)
         return code;
-    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", path, strerror(errno));
+    terminal_say("rotid: cannot write %s: %s\n", path, output_error());
     return EXIT_INTERNAL;
 }
 
@@ -97,5 +97,5 @@ void command_show_progress(void *context, const char *stage, int step)
     if (seconds - *last < 0.2)
         return;
     *last = seconds;
-    (void)fprintf(stderr, "\rrotid: %s %d \033[K", stage, step);
+    terminal_progress("rotid: %s %d", stage, step);
 }

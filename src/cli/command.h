@@ -6,6 +6,7 @@
 #include "ema/ema.h"
 #include "import/measurement.h"
 #include "report/json.h"
+#include "report/terminal.h"
 #include "run/job.h"
 
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };
@@ -68,7 +69,8 @@ void command_show_progress(void *context, const char *stage, int step);
 /* Whether somebody would see it. */
 int command_wants_progress(const struct command *command);
 
-/* From now on SIGINT and SIGTERM end nothing but make command_cancelled say so. */
+/* From now on the first SIGINT or SIGTERM ends nothing but makes command_cancelled say so; a second one, not at the same time, ends
+ * the program. */
 void command_watch_signals(void);
 /* Polled by long computations: nonzero after SIGINT or SIGTERM. */
 int command_cancelled(void *unused);
@@ -89,5 +91,8 @@ int command_study(struct command *command);
 extern const char *const build_commit;
 const char *build_blas(void);
 void build_set_threads(int threads);
+/* How many threads, up to `wanted`, may call the BLAS at the same time; asked: no fewer than these will do. 0 after saying that
+ * there is no room for their buffers, without which OpenBLAS never returns. */
+int build_make_room(int wanted, int asked);
 
 #endif

@@ -15,8 +15,8 @@ int command_check(struct command *command)
         return command_fail(command, status);
     beam_mass_properties(&beam, &mass);
     if (command_wants_table(command)) {
-        table_check(stdout, job, &mass, &spectrum);
-        table_notes(stdout, &command->messages);
+        table_check(terminal_out(), job, &mass, &spectrum);
+        table_notes(terminal_out(), &command->messages);
     }
     char *text = command->json ? json_check(&command->provenance, job, &mass, &spectrum, &command->messages) : NULL;
     return command_write_json(command, text, EXIT_DONE);

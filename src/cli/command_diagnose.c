@@ -15,13 +15,12 @@ static int write_extended(struct command *command, const struct diagnosis *d, in
     if (!command->extended)
         return code;
     if (!d->sentence) {
-        (void)fprintf(stderr, "rotid: %s is not written: there is no verdict yet\n", command->extended);
+        terminal_say("rotid: %s is not written: there is no verdict yet\n", command->extended);
         return code;
     }
     int status = deck_write_extended(&command->pool, d, command->deck, &text);
     if (status) {
-        (void)fprintf(stderr, "rotid: cannot write %s: no deck can say this model (%s)\n", command->extended,
-                      rotid_status_text(status));
+        terminal_say("rotid: cannot write %s: no deck can say this model (%s)\n", command->extended, rotid_status_text(status));
         return EXIT_INTERNAL;
     }
     return command_write_file(command, command->extended, text, code);
@@ -33,21 +32,24 @@ int command_diagnose(struct command *command)
     int terminal = command_wants_progress(command), code = EXIT_DONE, written;
     const struct diagnose_options options = {
         .threads = command->threads, .seed = command->seed, .replicates = command->replicates};
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     struct diagnosis diagnosis;
     int status = diagnose_run(&command->pool, &command->job, &options, &environment, &command->messages, &diagnosis);
     if (terminal)
-        (void)fputs("\r\033[K", stderr);
+        terminal_progress_end();
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        const struct diagnosis_view view = {stdout, &command->provenance, &command->job, &diagnosis, command->verbose, WIDTH};
+        const struct diagnosis_view view = {terminal_out(), &command->provenance, &command->job,
+                                            &diagnosis,     command->verbose,     WIDTH};
         table_diagnose(&view);
-        table_notes(stdout, &command->messages);
+        table_notes(terminal_out(), &command->messages);
     }
     if (diagnosis.interrupted || command_cancelled(NULL)) {
-        (void)fprintf(stderr, "rotid: interrupted; the result holds what was finished\n");
+        terminal_say("rotid: interrupted; the result holds what was finished\n");
         code = EXIT_DOUBTFUL;
     }
     char *text = command->json ? json_diagnose(&command->provenance, &command->job, &diagnosis, &command->messages) : NULL;

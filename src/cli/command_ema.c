@@ -1,8 +1,6 @@
 #include "cli/command.h"
 
-#include <errno.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "import/modes.h"
@@ -22,7 +20,7 @@ static int write_modes(struct command *command, const struct measurement *measur
             status = output_close(&output);
     }
     if (status == ROTID_ERROR_IO) {
-        (void)fprintf(stderr, "rotid: %s: cannot be written: %s\n", command->output, strerror(errno));
+        terminal_say("rotid: %s: cannot be written: %s\n", command->output, output_error());
         return EXIT_INTERNAL;
     }
     return status ? command_fail(command, status) : EXIT_DONE;
@@ -42,8 +40,10 @@ int command_ema(struct command *command)
     struct ema ema;
     double last = 0, started = clock_seconds();
     int terminal = command_wants_progress(command);
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     struct measurement_options from = command->ema.measurement;
     struct ema_options options = command->ema.options;
     from.threads = options.threads = command->threads;
@@ -63,9 +63,9 @@ int command_ema(struct command *command)
     if (!status)
         status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
     if (terminal)
-        (void)fputs("\r\033[K", stderr);
+        terminal_progress_end();
     if (status == ROTID_STOP_CANCELLED) {
-        (void)fprintf(stderr, "rotid: interrupted; nothing was written\n");
+        terminal_say("rotid: interrupted; nothing was written\n");
         return EXIT_DOUBTFUL;
     }
     if (status == ROTID_ERROR_ARGUMENT && !command->messages.errors)
@@ -91,9 +91,9 @@ int command_ema(struct command *command)
             return failed;
     }
     if (command->output && !report.output)
-        (void)fprintf(stderr, "rotid: %s: not written, there is no mode\n", command->output);
+        terminal_say("rotid: %s: not written, there is no mode\n", command->output);
     if (command_wants_table(command))
-        table_ema(stdout, &report, command->verbose);
+        table_ema(terminal_out(), &report, command->verbose);
     char *text = command->json ? json_ema(&command->provenance, &report, &command->messages) : NULL;
     return command_write_json(command, text, code);
 }

@@ -1,13 +1,12 @@
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "export/dmig.h"
 #include "export/files.h"
 #include "export/summary.h"
+#include "report/output.h"
 #include "report/table.h"
 
 #define REDUCTION_DOUBTFUL 1 /* % of a frequency */
@@ -23,8 +22,10 @@ static int identify(struct command *command, struct identification *identified)
     struct job *job = &command->job;
     double last = 0;
     int terminal = command_wants_progress(command);
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     if (!job->nparameter || command->start)
         return ROTID_OK;
     if (!job->nmode) {
@@ -33,7 +34,7 @@ static int identify(struct command *command, struct identification *identified)
     }
     int status = identify_run(&command->pool, job, 0, &environment, &command->messages, identified);
     if (terminal)
-        (void)fputs("\r\033[K", stderr);
+        terminal_progress_end();
     return status;
 }
 
@@ -84,14 +85,14 @@ static int write_files(struct command *command, const struct export_files *files
     const char *failed;
     int status = export_files_write(&command->pool, files, model, ross, &failed);
     if (status == ROTID_ERROR_IO) {
-        (void)fprintf(stderr, "rotid: cannot write %s: %s; no file was written\n", failed, strerror(errno));
+        terminal_say("rotid: cannot write %s: %s; no file was written\n", failed, output_error());
         return EXIT_INTERNAL;
     }
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        table_export(stdout, files, model, ross);
-        table_notes(stdout, &command->messages);
+        table_export(terminal_out(), files, model, ross);
+        table_notes(terminal_out(), &command->messages);
     }
     char *text = command->json ? json_export(&command->provenance, files, model, ross, &command->messages) : NULL;
     return command_write_json(command, text, code);
@@ -128,7 +129,7 @@ int command_export(struct command *command)
     if (status)
         return command_fail(command, status);
     if (command_cancelled(NULL)) {
-        (void)fprintf(stderr, "rotid: interrupted, nothing was written\n");
+        terminal_say("rotid: interrupted, nothing was written\n");
         rotid_fit_free(identified.fit);
         return EXIT_DOUBTFUL;
     }

@@ -1,4 +1,3 @@
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -43,8 +42,8 @@ static int write_output(struct command *command, const struct frf_view *view, in
     }
     if (!status)
         return code;
-    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", command->output,
-                  status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+    terminal_say("rotid: cannot write %s: %s\n", command->output,
+                 status == ROTID_ERROR_IO ? output_error() : rotid_status_text(status));
     return EXIT_INTERNAL;
 }
 
@@ -56,8 +55,8 @@ static int report(struct command *command, const struct frf_view *view, int code
                     "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
                     view->result->ndone, view->result->nline, JSON_FRF_MOST_LINES);
     if (command_wants_table(command)) {
-        status = table_frf(stdout, view);
-        table_notes(stdout, &command->messages);
+        status = table_frf(terminal_out(), view);
+        table_notes(terminal_out(), &command->messages);
     }
     if (status)
         return command_fail(command, status);
@@ -72,8 +71,10 @@ int command_frf(struct command *command)
     struct job *job = &command->job;
     double last = 0;
     int terminal = command_wants_progress(command), status = ROTID_OK, code = EXIT_DONE;
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     struct identification identified = {0};
     struct measurement measurement;
     struct frf_measured measured;
@@ -90,7 +91,7 @@ int command_frf(struct command *command)
         status = frf_run(&command->pool, job, fit ? &identified : NULL, job->frf.file ? &measured : NULL, &environment,
                          &command->messages, &result);
     if (terminal)
-        (void)fputs("\r\033[K", stderr);
+        terminal_progress_end();
     if (status) {
         rotid_fit_free(identified.fit);
         return command_fail(command, status);
@@ -103,7 +104,7 @@ int command_frf(struct command *command)
     if (fit)
         identify_warn_of_reduction(job, &identified, "synthesised", &command->messages);
     if (result.ndone < result.nrow || command_cancelled(NULL)) {
-        (void)fprintf(stderr, "rotid: interrupted; %d of %d transfer functions were finished\n", result.ndone, result.nrow);
+        terminal_say("rotid: interrupted; %d of %d transfer functions were finished\n", result.ndone, result.nrow);
         code = EXIT_DOUBTFUL;
     }
     const struct frf_view view = {.pool = &command->pool,

@@ -6,8 +6,10 @@ int command_identify(struct command *command)
     struct job *job = &command->job;
     double last = 0;
     int terminal = command_wants_progress(command);
-    const rotid_environment environment = {
-        .cancelled = command_cancelled, .progress = terminal ? command_show_progress : NULL, .context = &last};
+    const rotid_environment environment = {.size = sizeof environment,
+                                           .cancelled = command_cancelled,
+                                           .progress = terminal ? command_show_progress : NULL,
+                                           .context = &last};
     struct identification result;
     if (!job->nparameter) {
         message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
@@ -16,20 +18,20 @@ int command_identify(struct command *command)
     }
     int status = identify_run(&command->pool, job, command->baseline, &environment, &command->messages, &result);
     if (terminal)
-        (void)fputs("\r\033[K", stderr);
+        terminal_progress_end();
     if (status)
         return command_fail(command, status);
     identify_warn_of_mesh(job, &result, &command->messages);
     const rotid_fit_result *fit = result.fit;
     int code = fit->converged && !fit->any_at_bound && !fit->any_undetermined ? EXIT_DONE : EXIT_DOUBTFUL;
     if (command_wants_table(command)) {
-        table_identify(stdout, job, &result, command->verbose);
-        table_notes(stdout, &command->messages);
+        table_identify(terminal_out(), job, &result, command->baseline, command->verbose);
+        table_notes(terminal_out(), &command->messages);
     }
     if (fit->status == ROTID_STOP_CANCELLED) {
-        (void)fprintf(stderr, "rotid: interrupted after %d iterations; the result is the best point so far\n", fit->iterations);
+        terminal_say("rotid: interrupted after %d iterations; the result is the best point so far\n", fit->iterations);
     } else if (command_cancelled(NULL)) {
-        (void)fprintf(stderr, "rotid: interrupted; the fit was complete, what comes after it is not\n");
+        terminal_say("rotid: interrupted; the fit was complete, what comes after it is not\n");
         code = EXIT_DOUBTFUL;
     }
     char *text = command->json ? json_identify(&command->provenance, job, &result, &command->messages) : NULL;

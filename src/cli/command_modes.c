@@ -16,8 +16,8 @@ int command_modes(struct command *command)
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        table_modes(stdout, job, &spectrum, &compared, command->verbose);
-        table_notes(stdout, &command->messages);
+        table_modes(terminal_out(), job, &spectrum, &compared, command->verbose);
+        table_notes(terminal_out(), &command->messages);
     }
     char *text = command->json ? json_modes(&command->provenance, job, &spectrum, &compared, &command->messages) : NULL;
     return command_write_json(command, text, EXIT_DONE);

@@ -16,7 +16,7 @@ int command_report(struct command *command)
 {
     struct pool *pool = &command->pool;
     struct result *result = POOL_ARRAY(pool, struct result, command->nfile);
-    const rotid_environment environment = {.cancelled = command_cancelled};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = command_cancelled};
     struct document document;
     struct page_written written;
     int status = result ? ROTID_OK : ROTID_ERROR_MEMORY;
@@ -34,7 +34,7 @@ int command_report(struct command *command)
     status = made_by ? page_write(&document, command->output, made_by, &environment, &command->messages, &written)
                      : ROTID_ERROR_MEMORY;
     if (status == ROTID_STOP_CANCELLED) {
-        (void)fprintf(stderr, "rotid: interrupted; %s is as it was\n", command->output);
+        terminal_say("rotid: interrupted; %s is as it was\n", command->output);
         return EXIT_DOUBTFUL;
     }
     if (status == ROTID_ERROR_IO) {
@@ -45,6 +45,6 @@ int command_report(struct command *command)
         return command_fail(command, status);
     command_print_messages(command);
     if (!command->quiet)
-        (void)printf("%s/index.html\n", command->output);
+        (void)fprintf(terminal_out(), "%s/index.html\n", command->output);
     return written.gnuplot && written.ndrawn < written.nfigure ? EXIT_DOUBTFUL : EXIT_DONE;
 }

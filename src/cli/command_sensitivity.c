@@ -97,7 +97,7 @@ int command_sensitivity(struct command *command)
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command))
-        table_sensitivity(stdout, job, selection.named, &options, &result);
+        table_sensitivity(terminal_out(), job, selection.named, &options, &result);
     char *text = command->json ? json_sensitivity(&command->provenance, job, selection.named, &options, &result) : NULL;
     return command_write_json(command, text, EXIT_DONE);
 }

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/arguments.h"
 #include "study/merge.h"
@@ -18,13 +19,15 @@ static void show_progress(void *context, const struct study_progress *now)
     if (now->seconds < 0.5 || !now->computed)
         return;
     double rate = (double)now->computed / now->seconds, left = (double)(now->wanted - now->done) / rate;
-    (void)fprintf(stderr, "\rrotid: %ld of %ld runs, %ld failed, %.3g a second, ", now->done, now->wanted, now->failed, rate);
-    if (left < 120)
-        (void)fprintf(stderr, "%.0f s left\033[K", left);
-    else if (left < 7200)
-        (void)fprintf(stderr, "%.0f min left\033[K", left / 60);
-    else
-        (void)fprintf(stderr, "%.1f h left\033[K", left / 3600);
+    int minutes = left >= 120, hours = left >= 7200;
+    terminal_progress("rotid: %ld of %ld runs, %ld failed, %.3g a second, %.*f %s left", now->done, now->wanted, now->failed,
+                      rate, hours,
+                      hours     ? left / 3600
+                      : minutes ? left / 60
+                                : left,
+                      hours     ? "h"
+                      : minutes ? "min"
+                                : "s");
 }
 
 static int in_processes(void *context, struct command *command, const struct study *study, struct study_record *record)
@@ -38,7 +41,7 @@ static int in_processes(void *context, struct command *command, const struct stu
     (void)fflush(NULL); /* before there are two of each buffer */
     int status = workers_run(&command->pool, study, &options, record), reason = errno;
     if (terminal)
-        (void)fputs("\r\033[K", stderr);
+        terminal_progress_end();
     errno = reason;
     return status;
 }
@@ -59,7 +62,7 @@ static int report(struct command *command, const char *path, int code)
     if (status)
         return refuse(command, status);
     if (command_wants_table(command))
-        summary_table(stdout, &summary);
+        summary_table(terminal_out(), &summary);
     command->provenance.seed = summary.header.seed;
     if (summary.failed || summary.there < summary.wanted)
         code = code > EXIT_DOUBTFUL ? code : EXIT_DOUBTFUL;
@@ -72,8 +75,12 @@ int study_prepare(struct command *command, struct study *study)
     int plans = 0;
     if (!plan)
         return command_fail(command, ROTID_ERROR_MEMORY);
-    for (int i = 0; i < command->nfile; i++)
+    for (int i = 0; i < command->nfile; i++) {
+        struct stat about;
+        if (stat(command->file[i], &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode))
+            return arguments_wrong("%s is no regular file, expected one, for it is read several times", command->file[i]);
         plans += plan_is(command->file[i]);
+    }
     if (plans && command->nfile > 1)
         return arguments_wrong("%s: a plan and another file, expected one plan, or decks", command->name);
     int status = plans ? plan_read(&command->pool, command->deck, &command->messages, plan)
@@ -94,8 +101,8 @@ static int finish(struct command *command, struct study_record *record, int code
     int status = record_finish(&command->pool, record);
     if (!status)
         return code;
-    (void)fprintf(stderr, "rotid: every run is in %s, but it cannot be put in order: %s\n", command->output,
-                  status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+    terminal_say("rotid: every run is in %s, but it cannot be put in order: %s\n", command->output,
+                 status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
     return EXIT_INTERNAL;
 }
 
@@ -114,16 +121,15 @@ int study_conduct(struct command *command, const struct study *study, study_comp
     command_print_messages(command);
     long before = record.done;
     if (before && command_wants_progress(command))
-        (void)fprintf(stderr, "rotid: %ld of %ld runs are in %s already\n", before, record.wanted, command->output);
+        terminal_say("rotid: %ld of %ld runs are in %s already\n", before, record.wanted, command->output);
     status = compute(context, command, study, &record);
     if (status < 0) {
-        (void)fprintf(stderr, "rotid: stopped, %ld of %ld runs are in %s, the same command goes on with the rest: %s\n",
-                      record.done, record.wanted, command->output,
-                      status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
+        terminal_say("rotid: stopped, %ld of %ld runs are in %s, the same command goes on with the rest: %s\n", record.done,
+                     record.wanted, command->output, status == ROTID_ERROR_IO ? strerror(errno) : rotid_status_text(status));
         code = EXIT_INTERNAL;
     } else if (record.done < record.wanted) {
-        (void)fprintf(stderr, "rotid: interrupted, %ld of %ld runs are in %s; the same command goes on with the rest\n",
-                      record.done, record.wanted, command->output);
+        terminal_say("rotid: interrupted, %ld of %ld runs are in %s; the same command goes on with the rest\n", record.done,
+                     record.wanted, command->output);
         code = EXIT_DOUBTFUL;
     } else {
         code = finish(command, &record, code);
@@ -139,8 +145,8 @@ static int merge(struct command *command)
     if (status)
         return refuse(command, status);
     if (merged.missing)
-        (void)fprintf(stderr, "rotid: %ld of %ld runs are missing in %s: %s; rotid study PLAN -o %s computes them\n",
-                      merged.missing, merged.runs, command->output, merged.list, command->output);
+        terminal_say("rotid: %ld of %ld runs are missing in %s: %s; rotid study PLAN -o %s computes them\n", merged.missing,
+                     merged.runs, command->output, merged.list, command->output);
     return report(command, command->output, merged.missing || merged.failed ? EXIT_DOUBTFUL : EXIT_DONE);
 }
 

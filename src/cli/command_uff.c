@@ -11,7 +11,7 @@
 
 static int fail_output(const struct command *command)
 {
-    (void)fprintf(stderr, "rotid: cannot write %s: %s\n", command->output, strerror(errno));
+    terminal_say("rotid: cannot write %s: %s\n", command->output, output_error());
     return EXIT_INTERNAL;
 }
 
@@ -32,7 +32,7 @@ static int convert(struct command *command)
         output_abandon(&output);
         errno = reason;
         if (status == ROTID_STOP_CANCELLED) {
-            (void)fprintf(stderr, "rotid: interrupted, %s was not written\n", command->output);
+            terminal_say("rotid: interrupted, %s was not written\n", command->output);
             return EXIT_DOUBTFUL;
         }
         return writing ? fail_output(command) : command_fail(command, status);
@@ -40,12 +40,12 @@ static int convert(struct command *command)
     if (output_close(&output))
         return fail_output(command);
     if (command_wants_table(command))
-        (void)printf("\n%s: %d function%s%s, %d other set%s, %d of them copied as they are\n", command->output, result.functions,
-                     result.functions == 1 ? "" : "s",
-                     !result.functions  ? ""
-                     : result.is_binary ? " in binary (58b, little endian)"
-                                        : " as text (58)",
-                     result.others + result.copied, result.others + result.copied == 1 ? "" : "s", result.copied);
+        (void)fprintf(terminal_out(), "\n%s: %d function%s%s, %d other set%s, %d of them copied as they are\n", command->output,
+                      result.functions, result.functions == 1 ? "" : "s",
+                      !result.functions  ? ""
+                      : result.is_binary ? " in binary (58b, little endian)"
+                                         : " as text (58)",
+                      result.others + result.copied, result.others + result.copied == 1 ? "" : "s", result.copied);
     return EXIT_DONE;
 }
 
@@ -57,7 +57,7 @@ int command_uff(struct command *command)
     const char **summary = NULL;
     int status = listing_read(&command->pool, command->deck, &options, &command->messages, &listing);
     if (status == ROTID_STOP_CANCELLED) {
-        (void)fprintf(stderr, "rotid: interrupted\n");
+        terminal_say("rotid: interrupted\n");
         return EXIT_DOUBTFUL;
     }
     if (!status)
@@ -67,7 +67,7 @@ int command_uff(struct command *command)
     command_print_messages(command);
     int code = listing.faulty_count ? EXIT_DOUBTFUL : EXIT_DONE;
     if (command_wants_table(command))
-        table_uff(stdout, command->deck, &listing, summary_count, summary, command->verbose);
+        table_uff(terminal_out(), command->deck, &listing, summary_count, summary, command->verbose);
     char *text = command->json ? json_uff(&command->provenance, command->deck, &listing, summary_count, summary, command->verbose,
                                           &command->messages)
                                : NULL;
@@ -75,7 +75,7 @@ int command_uff(struct command *command)
     if (code == EXIT_INTERNAL || !command->output)
         return code;
     if (listing.faulty_count) {
-        (void)fprintf(stderr, "rotid: %s is not written, for a part of %s cannot be read\n", command->output, command->deck);
+        terminal_say("rotid: %s is not written, for a part of %s cannot be read\n", command->output, command->deck);
         return EXIT_USAGE;
     }
     int converted = convert(command);

@@ -1,5 +1,4 @@
 #include <errno.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -32,16 +31,29 @@ static int processors(void)
     return online < 1 ? 1 : online > THREADS_MOST ? THREADS_MOST : (int)online;
 }
 
+/* Whether the BLAS is called at all: not to read files and make pages of them. */
+static int computes(const struct command *command, const struct command_entry *c)
+{
+    return c->flags & (READS_DECK | PARALLEL) && !command->study.merge && !command->study.summary;
+}
+
 static int run(struct command *command)
 {
     for (const struct command_entry *c = command_table; c->name; c++) {
         if (strcmp(command->name, c->name))
             continue;
-        int refused = arguments_refuse(command, c), parallel = c->flags & PARALLEL;
+        int refused = arguments_refuse(command, c), parallel = c->flags & PARALLEL, asked = command->threads > 0;
         if (refused >= 0)
             return refused;
-        if (!command->threads)
+        if (!asked)
             command->threads = parallel ? processors() : 1;
+        if (computes(command, c)) {
+            int processes = c->run == command_study; /* each with an address space of its own */
+            int room = build_make_room(processes ? 1 : command->threads, asked);
+            if (!room)
+                return EXIT_INTERNAL;
+            command->threads = processes ? command->threads : room;
+        }
         command->provenance =
             (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
         build_set_threads(parallel ? 1 : command->threads);
@@ -58,13 +70,15 @@ int main(int argc, char **argv)
 {
     struct command command = {.seed = 1, .step = 0.01, .range = 0.5, .points = 11, .baseline = 1};
     command_watch_signals();
+    if (terminal_open())
+        return EXIT_INTERNAL;
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
     int code = arguments_parse(&command, argc, argv);
     if (code < 0)
         code = run(&command);
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        (void)fprintf(stderr, "rotid: cannot write to standard output: %s\n", strerror(errno));
+    if (terminal_flush()) {
+        terminal_say("rotid: cannot write to standard output: %s\n", strerror(errno));
         code = EXIT_INTERNAL;
     }
     pool_close(&command.pool);

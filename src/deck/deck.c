@@ -261,13 +261,16 @@ int deck_read(struct pool *pool, const char *path, int noverride, const struct o
     return deck_read_with(pool, path, noverride, override, 0, NULL, messages, job);
 }
 
-int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
-                   const struct card *card, struct message_list *messages, struct job *job)
+/* `memory`: or NULL, a file */
+static int read_deck(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
+                     const struct override *override, int ncard, const struct card *card, struct message_list *messages,
+                     struct job *job)
 {
     struct deck_reader reader = {.pool = pool, .messages = messages, .job = job};
     *job = (struct job){.deck = pool_copy_text(pool, path), .frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
-    rotid_fit_defaults(&job->fit);
-    int status = deck_text_read(pool, path, messages, &reader.text);
+    rotid_fit_defaults(sizeof job->fit, &job->fit);
+    int status =
+        memory ? deck_text_read_memory(pool, memory, messages, &reader.text) : deck_text_read(pool, path, messages, &reader.text);
     if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !reader.text.ncard) {
         if (!messages->errors && status != ROTID_ERROR_MEMORY)
             deck_error(&reader, reader.text.end, "the deck is empty, expected cards such as *SHAFT");
@@ -284,4 +287,16 @@ int deck_read_with(struct pool *pool, const char *path, int noverride, const str
     if (messages->errors)
         return reader.no_section ? ROTID_ERROR_SECTION : ROTID_ERROR_SYNTAX;
     return ROTID_OK;
+}
+
+int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
+                   const struct card *card, struct message_list *messages, struct job *job)
+{
+    return read_deck(pool, path, NULL, noverride, override, ncard, card, messages, job);
+}
+
+int deck_read_memory(struct pool *pool, const struct deck_memory *memory, int noverride, const struct override *override,
+                     struct message_list *messages, struct job *job)
+{
+    return read_deck(pool, memory->name, memory, noverride, override, 0, NULL, messages, job);
 }

@@ -11,6 +11,10 @@
 int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
               struct job *job);
 
+/* The same of a deck that is no file. */
+int deck_read_memory(struct pool *pool, const struct deck_memory *memory, int noverride, const struct override *override,
+                     struct message_list *messages, struct job *job);
+
 /* The same with cards [ncard] of somebody else behind those of the deck. They keep their own places, which errors name. */
 int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
                    const struct card *card, struct message_list *messages, struct job *job);

@@ -36,6 +36,13 @@ void *deck_append(struct deck_reader *reader, void **array, int count, size_t *r
 
 enum range { ANY, NOT_NEGATIVE, POSITIVE };
 
+/* Sizes of numbers in SI units that leave room for what is computed of them: fourth powers of lengths, squares of stiffnesses,
+ * reciprocals of variances. Beyond, results would be zero, infinite or no numbers, without a place to blame. */
+#define DECK_LEAST 1e-30
+#define DECK_MOST  1e30
+/* Zero, or within these. */
+int deck_is_usual(double value);
+
 /* Number i of a data line within the range; `what` names it in the error ("outer diameter [m]"). 0, or 1 after an error. */
 int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range,
                 double *value);
@@ -57,8 +64,7 @@ int deck_option_word(struct deck_reader *reader, const struct card_option *optio
  * `most`. */
 int deck_lines(struct deck_reader *reader, const struct card *card, int least, int most, const char *layout);
 
-/* A path that an option names, as seen from where the program runs: relative ones are relative to the deck that names them, those
- * of --set to where the user stands. NULL where memory is out. */
+/* deck_text_path of an option of this deck. NULL after an error or where memory is out. */
 const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option);
 
 /* Index of a material, -1 where there is none of that name. */

@@ -47,6 +47,11 @@ static const char *range_text(enum range range)
     return range == POSITIVE ? "a number above zero" : range == NOT_NEGATIVE ? "a number not below zero" : "a number";
 }
 
+int deck_is_usual(double value)
+{
+    return value == 0 || (fabs(value) >= DECK_LEAST && fabs(value) <= DECK_MOST);
+}
+
 static int parse_number(struct deck_reader *reader, const char *text, struct place place, const char *what, enum range range,
                         double *value)
 {
@@ -58,6 +63,11 @@ static int parse_number(struct deck_reader *reader, const char *text, struct pla
     }
     if (!isfinite(number) || (range == POSITIVE && number <= 0) || (range == NOT_NEGATIVE && number < 0)) {
         deck_error(reader, place, "%s is %s, expected %s", what, text, isfinite(number) ? range_text(range) : "a finite number");
+        return 1;
+    }
+    if (!deck_is_usual(number) && (range != ANY || fabs(number) > DECK_MOST)) { /* a component of a shape may be rounding */
+        deck_error(reader, place, "%s is %s, expected a size from %g to %g%s", what, text, DECK_LEAST, DECK_MOST,
+                   range == POSITIVE ? "" : ", or zero");
         return 1;
     }
     *value = number; /* only now: what follows from a bad length would be reported as well */
@@ -156,9 +166,10 @@ const char *deck_option(struct deck_reader *reader, const struct card *card, con
 
 const char *deck_path(struct deck_reader *reader, const struct card *card, const struct card_option *option)
 {
-    const char *deck = card->place.file, *slash = option->overridden ? NULL : strrchr(deck, '/');
-    return *option->value == '/' || !slash ? option->value
-                                           : pool_format(reader->pool, "%.*s/%s", (int)(slash - deck), deck, option->value);
+    int errors = reader->messages->errors;
+    const char *path = deck_text_path(reader->pool, &reader->text, card, option, reader->messages);
+    reader->out_of_memory |= !path && reader->messages->errors == errors;
+    return path;
 }
 
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value)

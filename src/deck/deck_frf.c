@@ -13,16 +13,18 @@
 static const char *measured_file(struct deck_reader *reader, const struct card *card, const struct card_option *option)
 {
     char folder[4096], why[HOST_ERROR_TEXT];
-    const char *path = deck_path(reader, card, option);
     if (!*option->value) {
         deck_error(reader, option->place, "*FRF has an empty FILE, expected FILE=path of a universal file");
         return NULL;
     }
-    if (path && access(path, R_OK)) {
+    const char *path = deck_path(reader, card, option);
+    if (!path)
+        return NULL;
+    if (access(path, R_OK)) {
         deck_error(reader, option->value_place, "%s: %s, expected a universal file", path, host_error_text(errno, why));
         return NULL;
     }
-    if (path && *path != '/' && getcwd(folder, sizeof folder))
+    if (*path != '/' && getcwd(folder, sizeof folder))
         path = pool_format(reader->pool, "%s/%s", folder, path);
     reader->out_of_memory |= !path;
     return path;

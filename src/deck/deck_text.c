@@ -1,12 +1,11 @@
 #include "deck/deck_text.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/host.h"
+#include "file/open.h"
 #include "rotid.h"
 
 struct reader {
@@ -120,16 +119,23 @@ static void read_options(struct reader *reader, struct card *card, const char *l
     }
 }
 
-static int read_file(struct reader *reader, const char *path, struct place from);
-
-/* A relative path is relative to the file that names it. */
-static const char *beside(struct reader *reader, const char *path)
+const char *deck_text_path(struct pool *pool, const struct deck_text *text, const struct card *card,
+                           const struct card_option *option, struct message_list *messages)
 {
-    const char *here = reader->open_file[reader->depth], *slash = strrchr(here, '/');
-    if (*path == '/' || !slash)
+    const char *here = card->place.file, *slash = option->overridden ? NULL : strrchr(here, '/'), *path = option->value;
+    if (text->memory && !text->directory) {
+        message_add(messages, SEVERITY_ERROR, option->value_place.file, option->value_place.line, option->value_place.column,
+                    "%s is a file, and a deck from memory has no directory of its own, expected one beside its text", path);
+        return NULL;
+    }
+    if (*path == '/')
         return path;
-    return pool_format(reader->pool, "%.*s/%s", (int)(slash - here), here, path);
+    if (text->memory && (option->overridden || here == text->memory))
+        return pool_format(pool, "%s/%s", text->directory, path);
+    return slash ? pool_format(pool, "%.*s/%s", (int)(slash - here), here, path) : path;
 }
+
+static int read_file(struct reader *reader, const char *path, struct place from);
 
 static void include(struct reader *reader, struct card card)
 {
@@ -143,9 +149,10 @@ static void include(struct reader *reader, struct card card)
         if (!same_text(card.option[i].name, "FILE"))
             message_add(reader->messages, SEVERITY_ERROR, card.option[i].place.file, card.option[i].place.line,
                         card.option[i].place.column, "option %s of *INCLUDE is not known, expected FILE", card.option[i].name);
-    const char *path = beside(reader, file->value);
+    int errors = reader->messages->errors;
+    const char *path = deck_text_path(reader->pool, reader->text, &card, file, reader->messages);
     if (!path) {
-        reader->out_of_memory = 1;
+        reader->out_of_memory |= reader->messages->errors == errors;
         return;
     }
     struct stat information; /* the same file may have several paths */
@@ -218,9 +225,11 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     card->line[card->nline++] = data;
 }
 
-/* Returns 1 where the file is not text, which ends the reading of it. */
-static int read_line(struct reader *reader, const char *line_text, size_t length, int line)
+/* Overwrites what is behind the line. Returns 1 where the file is not text, which ends the reading of it. */
+static int read_line(struct reader *reader, char *whole, size_t length, int line)
 {
+    const char *line_text = whole;
+    whole[length] = 0;
     const char *file = reader->open_file[reader->depth], *end = line_text + length;
     for (const char *c = line_text; c < end; c++)
         if ((unsigned char)*c < ' ' && *c != '\t') {
@@ -228,6 +237,14 @@ static int read_line(struct reader *reader, const char *line_text, size_t length
                         "byte 0x%02x is not text, expected a deck of cards that begin with *", (unsigned char)*c);
             return 1;
         }
+    for (const char *c = line_text; c < end; c++) { /* what makes a line look like another one, in comments as well */
+        unsigned code;
+        if (*c != '\t' && text_is_control(c, &code)) {
+            message_add(reader->messages, SEVERITY_ERROR, file, line, (int)(c - line_text) + 1,
+                        "character U+%04X does not stand for itself, expected text without control characters", code);
+            break;
+        }
+    }
     if (line == 1 && length >= 3 && !memcmp(line_text, "\xef\xbb\xbf", 3))
         line_text += 3; /* byte-order mark of an editor */
     for (const char *c = line_text; c + 1 < end; c++)
@@ -266,34 +283,21 @@ static void too_large(struct reader *reader, const char *path)
                 DECK_MOST_BYTES >> 20);
 }
 
-static int read_file(struct reader *reader, const char *path, struct place from)
+/* `path`: the file of the places in it. */
+static int read_source(struct reader *reader, struct deck_source *source, const char *path)
 {
-    struct stat information;
-    FILE *stream = NULL;
     char why[HOST_ERROR_TEXT];
-    if (stat(path, &information) == 0) {
-        errno = EISDIR;
-        if (!S_ISDIR(information.st_mode))
-            stream = fopen(path, "rb");
-    }
-    if (!stream) {
-        message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
-                    "cannot read %s: %s, expected a deck", path, host_error_text(errno, why));
-        return ROTID_ERROR_IO;
-    }
-    if (S_ISREG(information.st_mode) && information.st_size > reader->bytes_left) {
+    if (deck_source_length(source) > reader->bytes_left) {
         too_large(reader, path);
-        (void)fclose(stream);
+        (void)deck_source_close(source);
         return ROTID_ERROR_SYNTAX;
     }
-    if (from.file)
-        reader->depth++;
     reader->open_file[reader->depth] = path;
-    reader->open_stat[reader->depth] = information;
+    reader->open_stat[reader->depth] = source->information;
     char line_text[DECK_LINE_LENGTH + 2] = ""; /* a carriage return may stand behind a full line, and no more */
     size_t length = 0;
     int line = 1, c, stop = 0;
-    while (!stop && !reader->out_of_memory && (c = getc(stream)) != EOF) {
+    while (!stop && !reader->out_of_memory && (c = deck_source_next(source)) != DECK_SOURCE_END) {
         if (--reader->bytes_left < 0) {
             too_large(reader, path);
             break;
@@ -319,23 +323,51 @@ static int read_file(struct reader *reader, const char *path, struct place from)
         (void)read_line(reader, line_text, length, line);
     if (length)
         reader->text->end = (struct place){path, line, (int)length + 1};
-    if (ferror(stream))
-        message_add(reader->messages, SEVERITY_ERROR, path, line, 1, "reading failed: %s", host_error_text(errno, why));
-    (void)fclose(stream);
+    int failed = deck_source_close(source);
+    if (failed)
+        message_add(reader->messages, SEVERITY_ERROR, path, line, 1, "reading failed: %s", host_error_text(failed, why));
     reader->continues = 0;
-    if (from.file)
-        reader->depth--;
     return ROTID_OK;
+}
+
+static int read_file(struct reader *reader, const char *path, struct place from)
+{
+    struct deck_source source;
+    char why[HOST_ERROR_TEXT];
+    int failed = deck_source_open(&source, path);
+    if (failed) {
+        message_add(reader->messages, SEVERITY_ERROR, from.file ? from.file : path, from.line, from.column,
+                    "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
+        return ROTID_ERROR_IO;
+    }
+    reader->depth += from.file != NULL;
+    int status = read_source(reader, &source, path);
+    reader->depth -= from.file != NULL;
+    return status;
+}
+
+static int conclude(const struct reader *reader, int status)
+{
+    if (reader->out_of_memory || reader->messages->out_of_memory)
+        return ROTID_ERROR_MEMORY;
+    return status ? status : reader->messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
 }
 
 int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text)
 {
     struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
     *text = (struct deck_text){.end = {path, 1, 1}};
-    int status = read_file(&reader, path, (struct place){NULL, 1, 1});
-    if (reader.out_of_memory || messages->out_of_memory)
-        return ROTID_ERROR_MEMORY;
-    return status ? status : messages->errors ? ROTID_ERROR_SYNTAX : ROTID_OK;
+    return conclude(&reader, read_file(&reader, path, (struct place){NULL, 1, 1}));
+}
+
+int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, struct message_list *messages,
+                          struct deck_text *text)
+{
+    struct reader reader = {.pool = pool, .messages = messages, .text = text, .bytes_left = DECK_MOST_BYTES};
+    struct deck_source source;
+    *text = (struct deck_text){.end = {memory->name, 1, 1}, .memory = memory->name, .directory = memory->directory};
+    deck_source_open_memory(&source, memory);
+    return conclude(&reader, read_source(&reader, &source, memory->name));
 }
 
 int override_parse(struct pool *pool, const char *text, struct override *override)

@@ -5,6 +5,7 @@
 #include "base/message.h"
 #include "base/pool.h"
 #include "base/text.h"
+#include "deck/deck_source.h"
 
 #define DECK_LINE_LENGTH   1024
 #define DECK_MOST_BYTES    (16l << 20) /* all files together: a rotor takes kilobytes */
@@ -48,6 +49,7 @@ struct deck_text {
     size_t card_room;
     struct card *card;
     struct place end;
+    const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
 };
 
 /* --set CARD.OPTION=VALUE; text: what stands for the file in messages */
@@ -58,6 +60,16 @@ struct override {
 /* Reads a deck and what it includes. Errors go to the list with their place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO or
  * ROTID_ERROR_MEMORY. */
 int deck_text_read(struct pool *pool, const char *path, struct message_list *messages, struct deck_text *text);
+
+/* The same of a deck that is no file; its name is kept, not copied. */
+int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, struct message_list *messages,
+                          struct deck_text *text);
+
+/* A path that an option names, as seen from where the program runs: relative ones are relative to the file that names them, those
+ * of an override to where the program runs; in a deck from memory both are relative to its directory. NULL: no memory, or, with
+ * an error in the list, a deck from memory that may name no files. */
+const char *deck_text_path(struct pool *pool, const struct deck_text *text, const struct card *card,
+                           const struct card_option *option, struct message_list *messages);
 
 /* Splits "CARD.OPTION=VALUE", parts of which are pointed to. ROTID_OK, ROTID_ERROR_SYNTAX where it has another form, or
  * ROTID_ERROR_MEMORY. */

@@ -209,6 +209,12 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
         imag[i] = shape->imag ? shape->imag[i * shape->component_count + component] : 0;
         largest = fmax(largest, hypot(real[i], imag[i]));
     }
+    if (!deck_is_usual(largest) || !deck_is_usual(shape->frequency_hz)) {
+        deck_error(reader, in_file(import, shape->line),
+                   "the shape has a frequency of %.6g Hz and a largest component of %.6g, expected sizes from %g to %g",
+                   shape->frequency_hz, largest, DECK_LEAST, DECK_MOST);
+        return 1;
+    }
     if (largest == 0) {
         deck_error(reader, in_file(import, shape->line),
                    "the shape at %.6g Hz is zero everywhere in this direction, expected another DIRECTION", shape->frequency_hz);
@@ -314,9 +320,11 @@ void deck_measured(struct deck_reader *reader, const struct card *card)
     if (read_options(&import) || !file)
         return;
     import.path = deck_path(reader, card, card_option(card, "FILE"));
+    if (!import.path)
+        return;
     struct message_list found;
     message_open(&found, reader->pool);
-    int status = import.path ? uff_read(reader->pool, import.path, &found, &import.file) : ROTID_ERROR_MEMORY;
+    int status = uff_read(reader->pool, import.path, &found, &import.file);
     if (status == ROTID_ERROR_MEMORY)
         reader->out_of_memory = 1;
     for (size_t i = 0; i < found.count; i++) {

@@ -88,7 +88,7 @@ static void read_frequency(const struct extra *extra)
     double hz, damping;
     int length = 0;
     if (sscanf(text, "FREQUENCY_HZ %lf DAMPING %lf%n", &hz, &damping, &length) != 2 || text[length] ||
-        !(isfinite(hz) && hz >= 0 && isfinite(damping) && damping >= 0)) {
+        !(isfinite(hz) && hz >= 0 && deck_is_usual(hz) && isfinite(damping) && damping >= 0)) {
         deck_error(extra->reader, id_line(extra, 1),
                    "the second line of text is '%s', expected FREQUENCY_HZ value DAMPING value, "
                    "two standard deviations",
@@ -137,7 +137,7 @@ static void read_values(const struct extra *extra)
                        set->id[0], set->node[i]);
             continue;
         }
-        if (!isfinite(value) || value < 0 ||
+        if (!isfinite(value) || value < 0 || !deck_is_usual(value) ||
             (value > 0 && extra->kind == AT_POINT && deck_point_is_far(job, extra->mode, value))) {
             deck_error(extra->reader, id_line(extra, 0), "'%s' has %.6g at node %d, expected %s", set->id[0], value, set->node[i],
                        expected[extra->kind]);

@@ -66,15 +66,20 @@ void deck_put_number(struct deck_writer *w, const char *separator, double value)
     deck_put(w, "%s%s", separator, number_text(value, text));
 }
 
-/* What the value of an option can be: no comma, no comment, nothing that trimming takes away. */
+/* What the value of an option can be: no comma, no comment, no control character, nothing that trimming takes away. */
 static int is_value(const char *text)
 {
     size_t length = text ? strlen(text) : 0;
     if (!length || isspace((unsigned char)text[0]) || isspace((unsigned char)text[length - 1]) || strstr(text, "**"))
         return 0;
-    for (size_t i = 0; i < length; i++)
-        if (text[i] == ',' || ((unsigned char)text[i] < ' ' && text[i] != '\t'))
+    for (size_t i = 0, bytes; i < length; i += bytes ? bytes : 1) {
+        unsigned char c = (unsigned char)text[i];
+        bytes = text_visible(text + i);
+        if (c == ',' || (!bytes && c != '\t' && c < 0xa0)) /* names in Latin-1 stay as they are: they may be those of files */
             return 0;
+        if (!bytes && text_utf8(text + i) > 1)
+            return 0;
+    }
     return 1;
 }
 
@@ -107,12 +112,20 @@ void deck_put_option_number(struct deck_writer *w, const char *name, double valu
 static void put_text(struct deck_writer *w, const char *text)
 {
     char line[DECK_LINE_LENGTH + 1];
-    size_t length = 0;
+    size_t length = 0, taken;
     text += strspn(text, "* \t\r\n");
-    for (; *text && length < DECK_LINE_LENGTH; text++)
-        line[length++] = (unsigned char)*text < ' ' || (*text == '*' && text[1] == '*') ? ' ' : *text;
-    while (*text && length && ((unsigned char)*text & 0xc0) == 0x80) /* not within a character of UTF-8 */
-        text--, length--;
+    for (; *text; text += taken) {
+        size_t bytes = text_visible(text);
+        taken = bytes ? bytes : text_utf8(text) ? text_utf8(text) : 1;
+        const char *shown = (*text == '*' && text[1] == '*') || (unsigned char)*text < ' ' ? " "
+                            : bytes                                                        ? text
+                                                                                           : TEXT_REPLACEMENT;
+        size_t count = shown == text ? bytes : strlen(shown);
+        if (length + count > DECK_LINE_LENGTH)
+            break;
+        memcpy(line + length, shown, count);
+        length += count;
+    }
     line[length] = 0;
     if (length)
         deck_put(w, "%s\n", line);

@@ -53,27 +53,28 @@ static void take_order(const struct rotor *rotor, double *order)
     }
 }
 
+/* One mode as the accelerometer turns it: with its cluster, within which it shows the same mass. */
+struct turning {
+    int members;
+    const double *phi, *m_phi; /* [size * members] */
+};
+
 /* out := (K - lambda M)^+ of the force that is `one` at dof `at` (-1: nowhere) plus M times `vector` (NULL: none), of all modes
- * but this one. work [size]. */
-static void answer_without(struct nelson_band *nelson, const struct prediction *p, const double *phi, const double *m_phi, int at,
+ * but this one and those close to it. work [size]. */
+static void answer_without(struct nelson_band *nelson, const struct prediction *p, const struct turning *mode, int at,
                            const double *vector, double *work, double *out)
 {
-    int n = p->size;
-    double own = at >= 0 ? phi[at] : 0;
-    const double zero = 0;
-    memset(work, 0, (size_t)n * sizeof *work);
-    if (vector) {
+    static const double zero[CLUSTER_MOST];
+    memset(work, 0, (size_t)p->size * sizeof *work);
+    if (vector)
         matrix_multiply(&p->m, 1, vector, work);
-        own += product_dot(n, phi, work);
-    }
     if (at >= 0)
         work[at] += 1;
-    for (int i = 0; i < n; i++)
-        work[i] -= own * m_phi[i];
-    nelson_band_solve(nelson, 1, phi, m_phi, work, &zero, out);
+    nelson_band_solve(nelson, 1, mode->members, mode->phi, mode->m_phi, work, zero, out);
 }
 
-/* phi, phi^2, what the other modes add at the sensors of one mode, and how that changes with lambda. vector [4 * size] */
+/* phi, phi^2, what the other modes add at the sensors of one mode, and how that changes with lambda. vector [(CLUSTER_MOST + 3) *
+ * size] */
 static void take_mode(struct weighing *w, int m, struct nelson_band *nelson, double *vector)
 {
     const struct prediction *p = &w->columns.functional.prediction;
@@ -81,14 +82,16 @@ static void take_mode(struct weighing *w, int m, struct nelson_band *nelson, dou
     const int *master = w->columns.client.model.master;
     int n = p->size;
     const double *phi = p->phi + (ptrdiff_t)mode->pair * n;
-    double lambda = p->lambda[mode->pair], *m_phi = vector, *work = vector + n, *answer = work + n, *second = answer + n;
-    matrix_multiply(&p->m, 1, phi, m_phi);
+    double lambda = p->lambda[mode->pair], *m_phi = vector, *work = m_phi + (ptrdiff_t)CLUSTER_MOST * n, *answer = work + n,
+           *second = answer + n;
+    const struct turning turning = {mode->members, p->phi + (ptrdiff_t)mode->first * n, m_phi};
+    matrix_multiply(&p->m, mode->members, turning.phi, m_phi);
     for (int s = 0; s < w->npoint; s++) {
         ptrdiff_t at = s + (ptrdiff_t)m * w->npoint;
         w->phi[at] = phi[master[s]];
         w->square[at] = phi[master[s]] * phi[master[s]];
-        answer_without(nelson, p, phi, m_phi, master[s], NULL, work, answer);
-        answer_without(nelson, p, phi, m_phi, -1, answer, work, second);
+        answer_without(nelson, p, &turning, master[s], NULL, work, answer);
+        answer_without(nelson, p, &turning, -1, answer, work, second);
         w->others[at] = lambda * answer[master[s]];
         for (int t = 0; t < w->npoint; t++)
             w->spread[t + (ptrdiff_t)m * w->npoint] += phi[master[s]] * lambda * answer[master[t]] / w->npoint;
@@ -105,7 +108,7 @@ static int take_modes(struct pool *pool, const struct engine *engine, struct wei
     const struct prediction *p = &w->columns.functional.prediction;
     const struct job *job = &engine->job;
     struct nelson_band nelson;
-    double *vector = POOL_ARRAY(pool, double, 4 * (size_t)p->size);
+    double *vector = POOL_ARRAY(pool, double, (CLUSTER_MOST + 3) * (size_t)p->size);
     if (!vector)
         return ROTID_ERROR_MEMORY;
     int status = nelson_band_new(pool, &p->k, 1, &nelson);
@@ -114,7 +117,8 @@ static int take_modes(struct pool *pool, const struct engine *engine, struct wei
         ptrdiff_t from = (ptrdiff_t)mode->k * w->npoint, to = (ptrdiff_t)m * w->npoint;
         memcpy(w->hz + to, job->point_frequency_hz + from, (size_t)w->npoint * sizeof *w->hz);
         memcpy(w->std + to, job->point_frequency_std + from, (size_t)w->npoint * sizeof *w->std);
-        status = nelson_band_prepare(&nelson, &p->k, &p->m, p->lambda[mode->pair], p->phi + (ptrdiff_t)mode->pair * p->size);
+        status = nelson_band_prepare(&nelson, &p->k, &p->m, p->lambda[mode->pair], mode->members,
+                                     p->phi + (ptrdiff_t)mode->first * p->size);
         if (!status)
             take_mode(w, m, &nelson, vector);
     }

@@ -93,6 +93,46 @@ static int drop_clash(struct engine *engine)
     return status;
 }
 
+/* A parameter at a bound may have been caught there: once more from inside, and the better fit counts. */
+static int leave_bound(struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    struct identification second;
+    struct message_list quiet;
+    struct job job;
+    message_open(&quiet, engine->pool);
+    int status = job_started_at(engine->pool, &engine->job, out->base.fit->x, &job);
+    if (!status)
+        status = identify_run(engine->pool, &job, 0, engine->environment, &quiet, &second);
+    if (status) /* the first one stands */
+        return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+    int better = second.fit->status != ROTID_STOP_CANCELLED && second.fit->chi2 < out->base.fit->chi2;
+    rotid_fit_free(better ? out->base.fit : second.fit);
+    if (better)
+        out->base = second;
+    return ROTID_OK;
+}
+
+/* A misfit may be nothing but a bound of *IDENTIFY that holds a parameter off. */
+static void note_bounds(struct engine *engine)
+{
+    for (int p = 0; p < engine->nown; p++)
+        if (engine->fit->at_bound[p]) {
+            const rotid_parameter *bounds = &engine->out->job.bounds[p];
+            message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+                        "without a cause %s ends at its %s bound %.4g %s: the bound itself may be what is wrong; widen it where "
+                        "physics allows",
+                        bounds->name, base_bound_side(engine, p), engine->fit->x[p], bounds->unit);
+        }
+}
+
+const char *base_bound_side(const struct engine *engine, int p)
+{
+    const rotid_parameter *bounds = &engine->out->job.bounds[p];
+    double x = engine->out->base.fit->x[p];
+    return x - bounds->lower < bounds->upper - x ? "lower" : "upper";
+}
+
 static int fit_base(struct engine *engine, int say)
 {
     struct diagnosis *out = engine->out;
@@ -110,6 +150,10 @@ static int fit_base(struct engine *engine, int say)
     }
     for (size_t i = 0; i < quiet.count && (say || status); i++)
         message_add(engine->notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
+    if (status)
+        return status;
+    if (out->base.fit->any_at_bound && out->base.fit->status != ROTID_STOP_CANCELLED)
+        status = leave_bound(engine);
     if (status)
         return status;
     engine->fit = out->base.fit;
@@ -210,6 +254,8 @@ int base_prepare(struct engine *engine)
                     engine->fit->nresidual, engine->fit->n);
         return ROTID_ERROR_ARGUMENT;
     }
+    if (!status)
+        note_bounds(engine);
     return status;
 }
 

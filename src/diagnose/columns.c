@@ -7,33 +7,24 @@
 #include "linalg/matrix.h"
 #include "linalg/product.h"
 
-/* (K - lambda M)^+ on M phi and on the unit vectors of the sensors; the component that Nelson leaves out stays zero, and with
- * zeros for M phi and Q nothing is added along phi: that is the caller's. */
-static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *unit,
+/* (K - lambda M)^+ on the unit vectors of the sensors, in what the cluster of the mode leaves of the space */
+static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *m_phi, double *unit,
                           struct columns_mode *mode)
 {
     const struct prediction *p = &c->functional.prediction;
     int n = p->size;
-    const double *phi = p->phi + (ptrdiff_t)mode->pair * n;
-    mode->m_phi = POOL_ARRAY(c->pool, double, n);
-    mode->adjoint_m = POOL_ARRAY(c->pool, double, n);
+    const double *phi = p->phi + (ptrdiff_t)mode->first * n;
     mode->adjoint = POOL_ARRAY(c->pool, double, (size_t)n *(size_t)mode->sensors);
-    mode->adjoint_at = POOL_ARRAY(c->pool, double, mode->sensors);
-    if (!mode->m_phi || !mode->adjoint_m || !mode->adjoint || !mode->adjoint_at)
+    if (!mode->adjoint)
         return ROTID_ERROR_MEMORY;
-    int status = nelson_band_prepare(nelson, &p->k, &p->m, p->lambda[mode->pair], phi);
-    if (status)
+    int status = nelson_band_prepare(nelson, &p->k, &p->m, p->lambda[mode->pair], mode->members, phi);
+    if (status || !mode->sensors)
         return status;
-    matrix_multiply(&p->m, 1, phi, mode->m_phi);
-    nelson_band_solve(nelson, 1, phi, zero, mode->m_phi, zero, mode->adjoint_m);
+    matrix_multiply(&p->m, mode->members, phi, m_phi);
     memset(unit, 0, (size_t)n * (size_t)mode->sensors * sizeof *unit);
     for (int i = 0; i < mode->sensors; i++)
         unit[c->client.model.master[mode->sensor[i]] + (ptrdiff_t)i * n] = 1;
-    if (mode->sensors)
-        nelson_band_solve(nelson, mode->sensors, phi, zero, unit, zero, mode->adjoint);
-    for (int i = 0; i < mode->sensors; i++)
-        mode->adjoint_at[i] = mode->adjoint_m[c->client.model.master[mode->sensor[i]]];
-    mode->m_adjoint_m = product_dot(n, mode->adjoint_m, mode->m_phi);
+    nelson_band_solve(nelson, mode->sensors, mode->members, phi, m_phi, unit, zero, mode->adjoint);
     return ROTID_OK;
 }
 
@@ -43,6 +34,7 @@ static int open_mode(struct pool *pool, struct columns *c, int k, struct columns
     const rotid_measured *measured = &c->measured;
     int nmaster = c->client.model.nmaster;
     *mode = (struct columns_mode){.k = k, .pair = f->pair[k]};
+    mode->members = eigenvalue_cluster(f->prediction.count, f->prediction.lambda, mode->pair, &mode->first);
     int *sensor = POOL_ARRAY(pool, int, nmaster);
     if (!sensor)
         return ROTID_ERROR_MEMORY;
@@ -126,10 +118,10 @@ int columns_prepare(struct columns *c)
     struct pool *pool = c->pool;
     const rotid_matrix *k = &c->functional.prediction.k;
     int n = c->client.model.n, most = c->client.model.nmaster > 1 ? c->client.model.nmaster : 1;
-    double *vectors = POOL_ARRAY(pool, double, 3 * (size_t)n), *zero = POOL_ARRAY(pool, double, n > most ? n : most),
-           *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
+    double *vectors = POOL_ARRAY(pool, double, 3 * (size_t)n), *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
+           *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n), *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
-    if (!c->dphi || !vectors || !zero || !unit)
+    if (!c->dphi || !vectors || !zero || !m_phi || !unit)
         return ROTID_ERROR_MEMORY;
     c->dk_phi = vectors;
     c->dm_phi = vectors + n;
@@ -141,7 +133,7 @@ int columns_prepare(struct columns *c)
     if (!status)
         status = nelson_band_new(pool, k, most, &nelson);
     for (int m = 0; m < c->nmode && !status; m++)
-        status = solve_adjoints(c, &nelson, zero, unit, &c->mode[m]);
+        status = solve_adjoints(c, &nelson, zero, m_phi, unit, &c->mode[m]);
     return status;
 }
 
@@ -171,9 +163,9 @@ static void shape_part(const struct columns *c, const struct columns_mode *mode,
         part[i] -= mode->weighted[i] * along / mode->square;
 }
 
-/* What of a mode moves with dK and dM: dlambda, and dphi at its sensors (Nelson's solution by the adjoints, plus the part along
- * phi). P = -(dK - dlambda M - lambda dM) phi is local but for the middle part, which is the same for all of them: most changes
- * touch a few elements. */
+/* What of a mode moves with dK and dM: dlambda, and dphi at its sensors: P by the adjoints, which do not see its middle part,
+ * plus the parts along the cluster. P = -(dK - dlambda M - lambda dM) phi is local but for that part: most changes touch a few
+ * elements. */
 static double mode_derivative(struct columns *c, const struct columns_mode *mode, double *dphi)
 {
     const rotid_model *model = &c->client.model;
@@ -183,19 +175,21 @@ static double mode_derivative(struct columns *c, const struct columns_mode *mode
     double lambda = prediction->lambda[mode->pair];
     matrix_multiply(&c->dk, 1, phi, c->dk_phi);
     matrix_multiply(&c->dm, 1, phi, c->dm_phi);
-    double mass = product_dot(n, phi, c->dm_phi), dlambda = product_dot(n, phi, c->dk_phi) - lambda * mass;
     for (int i = 0; i < n; i++)
         c->right[i] = c->dk_phi[i] - lambda * c->dm_phi[i];
     while (first < n && c->right[first] == 0)
         first++;
     while (last > first && c->right[last - 1] == 0)
         last--;
-    double along =
-        -0.5 * mass + product_dot(last - first, mode->adjoint_m + first, c->right + first) - dlambda * mode->m_adjoint_m;
     for (int i = 0; i < mode->sensors; i++)
-        dphi[i] = -product_dot(last - first, mode->adjoint + (ptrdiff_t)i * n + first, c->right + first) +
-                  dlambda * mode->adjoint_at[i] + along * phi[model->master[mode->sensor[i]]];
-    return dlambda;
+        dphi[i] = -product_dot(last - first, mode->adjoint + (ptrdiff_t)i * n + first, c->right + first);
+    for (int j = mode->first; j < mode->first + mode->members; j++) {
+        const double *member = prediction->phi + (ptrdiff_t)j * n;
+        double along = -0.5 * product_dot(n, member, c->dm_phi);
+        for (int i = 0; i < mode->sensors; i++)
+            dphi[i] += along * member[model->master[mode->sensor[i]]];
+    }
+    return product_dot(n, phi, c->right);
 }
 
 int columns_parameter(struct columns *c, int p, double *column)

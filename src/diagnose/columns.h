@@ -10,15 +10,13 @@
 #include "run/job.h"
 
 struct columns_mode {
-    int k, pair, sensors;      /* measured mode; pair of the prediction; components measured */
-    const int *sensor;         /* [sensors] indices */
-    double scale;              /* a: predicted shape times a is the best fit to the measured one */
-    double *m_phi, *adjoint_m; /* [n] M phi, (K - lambda M)^+ M phi */
-    double *adjoint;           /* [n * sensors] */
-    double *adjoint_at;        /* [sensors] adjoint_m at the sensors */
-    double m_adjoint_m;        /* (M phi)' adjoint_m */
-    double *weighted;          /* [sensors] phi_s/s_s: the direction of the scale */
-    double square;             /* its squared length */
+    int k, pair, sensors; /* measured mode; pair of the prediction; components measured */
+    const int *sensor;    /* [sensors] indices */
+    double scale;         /* a: predicted shape times a is the best fit to the measured one */
+    int first, members;   /* pairs of its cluster (modal/eigenvector_derivative.h) */
+    double *adjoint;      /* [n * sensors] */
+    double *weighted;     /* [sensors] phi_s/s_s: the direction of the scale */
+    double square;        /* its squared length */
 };
 
 struct columns {

@@ -113,6 +113,11 @@ static const char *open_parameters(struct engine *engine)
     const rotid_parameter *parameter = out->extended.fit ? out->extended_job.bounds : out->job.bounds;
     const char *text = "";
     for (int p = 0; p < fit->n && p < out->job.nparameter && text; p++) {
+        if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->kind != VERDICT_ADEQUATE)
+            text = pool_format(engine->pool, "%s %s ends at its %s bound %.4g %s, which may be the cause itself: widen it.", text,
+                               parameter[p].name, base_bound_side(engine, p), out->base.fit->x[p], parameter[p].unit);
+        if (!text)
+            break;
         double half = (fit->ci_upper[p] - fit->ci_lower[p]) / 2;
         if (!isfinite(half) || (fit->identifiable[p] && !(half > WIDE * fabs(fit->x[p])))) /* no interval: it lies at a bound */
             continue;
@@ -136,8 +141,15 @@ static const char *verdict_sentence(struct engine *engine)
     if (out->ndata_finding)
         faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->ndata_finding,
                              out->ndata_finding == 1 ? "" : "s", out->ndata_finding == 1 ? "was" : "were");
-    const char *chance = pool_format(pool, out->p_value < 1e-99 ? "p below 1e-99" : "p = %.2g", out->p_value);
-    if (!causes || !others || !open || !faults || !chance)
+    const char *chance = pool_format(pool,
+                                     !isfinite(out->p_value) ? "no chance of that can be stated"
+                                     : out->p_value < 1e-99  ? "p below 1e-99"
+                                                             : "p = %.2g",
+                                     out->p_value),
+               *misfit = last && isfinite(out->round[0].chi2)
+                             ? pool_format(pool, ", chi2 %.3g for %d degrees of freedom", out->round[0].chi2, out->round[0].dof)
+                             : "";
+    if (!misfit || !causes || !others || !open || !faults || !chance)
         return NULL;
     switch (out->kind) {
     case VERDICT_ADEQUATE:
@@ -159,9 +171,8 @@ static const char *verdict_sentence(struct engine *engine)
                            chance, others, engine->confident ? "" : ", nor with confidence that it is any", faults, open);
     default:
         return pool_format(pool,
-                           "The model does not explain the data (%s, chi2 %.3g for %d degrees of freedom), and nothing in the "
-                           "catalogue earns its parameters.%s%s",
-                           chance, last ? out->round[0].chi2 : NAN, last ? out->round[0].dof : 0, faults, open);
+                           "The model does not explain the data (%s%s), and nothing in the catalogue earns its parameters.%s%s",
+                           chance, misfit, faults, open);
     }
 }
 

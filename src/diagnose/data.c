@@ -216,6 +216,12 @@ int data_prepare(struct engine *engine, const struct job *job)
     if (status)
         return status;
     struct job *judged = &engine->job;
+    engine->nown = job->nparameter;
+    engine->deck_start = POOL_ARRAY(engine->pool, double, job->nparameter);
+    if (!engine->deck_start)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < job->nparameter; p++)
+        engine->deck_start[p] = job->bounds[p].start;
     judged->fit.functional = ROTID_LIKELIHOOD;
     judged->fit.reduction = ROTID_REDUCTION_NONE;
     judged->fit.derivative = ROTID_NELSON;

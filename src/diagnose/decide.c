@@ -70,7 +70,8 @@ static double frequency_noise(const struct job *job)
 
 static const char *chance(struct pool *pool, const struct candidate *c)
 {
-    return pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value);
+    return isfinite(c->p_value) ? pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value)
+                                : "gains no more than chance";
 }
 
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
@@ -81,7 +82,9 @@ static const char *reason(const struct engine *engine, const struct before *befo
     if (!c->refitted)
         return "promises too little";
     if (!isfinite(c->chi2))
-        return "no fit of it converged";
+        return "no fit of it got below the model without it";
+    if (c->chi2_drop < -REFIT_WORSE) /* it replaces something, or its size is fixed: no part of the model before */
+        return "the model is worse with it";
     if (c->at_bound)
         return pool_format(pool, "its size ends at the physical bound");
     double most = fmax(0, engine->moving.mass) + SURE * engine->moving.std;
@@ -172,9 +175,11 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         round->candidate[i].refitted = round->candidate[i].refitted != 0;
     /* the model as it is counts as one more rival, and noise that happens to look like one cause is the rule among weak ones */
     const struct candidate *first = &round->candidate[0];
-    int weak = round->nset &&
-               (!(first->chi2_drop > CLEAR * round->threshold) || /* or its place is open, or little is left over */
-                first->other_chi2 - first->chi2 < round->required_margin || before->dof - free_parameters(first) < LEAST_LEFT);
+    int weak =
+        round->nset &&
+        (before->chi2 - before->beyond_drop + PARAMETER_PENALTY <= limit || /* a bound of the deck may be all that is wrong */
+         !(first->chi2_drop > CLEAR * round->threshold) ||                  /* or its place is open, or little is left over */
+         first->other_chi2 - first->chi2 < round->required_margin || before->dof - free_parameters(first) < LEAST_LEFT);
     round->kind = round->nset == 0                                           ? VERDICT_UNEXPLAINED
                   : round->nset > 1 || !engine->confident || refused || weak ? VERDICT_AMBIGUOUS
                   : round->candidate[0].cause->class != CAUSE_PHYSICAL       ? VERDICT_UNEXPLAINED

@@ -16,6 +16,8 @@ struct engine {
     struct message_list *notes;
     struct diagnosis *out;
     struct job job;                      /* judged, with the causes named so far; its starts are the fitted values */
+    int nown;                            /* parameters of the deck: the first ones of the job */
+    double *deck_start;                  /* [nown] */
     int *number, *holdout;               /* [nmode] */
     rotid_fit_result *fit;               /* of that job */
     double mode_out_rms, mode_out_shape; /* of that job, NaN where unknown: modes left out in turn, percent and shape */
@@ -83,6 +85,8 @@ int base_prepare(struct engine *engine);
 /* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to
  * be a cause still moves a modulus by part of its interval. */
 int base_refine(struct engine *engine, struct job *job, const struct spectrum *spectrum);
+/* "lower" or "upper": the bound at which parameter p of the base ends. */
+const char *base_bound_side(const struct engine *engine, int p);
 /* What the condensation of the user's own fit costs. */
 int base_note_reduction(struct engine *engine);
 /* Residuals of the base by mode and by sensor. */
@@ -114,6 +118,7 @@ void round_free(struct round_result *result);
 struct before {
     int dof, nfrequency;
     double chi2, chi2_frequency, holdout_rms, mode_out_rms, sensor_out_rms;
+    double beyond_drop; /* of chi2, were its parameters free to pass the bounds they end at; 0 where none does */
 };
 
 double candidate_score(const struct candidate *candidate);

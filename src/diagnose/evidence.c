@@ -239,5 +239,8 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
     fitted_errors(&engine->job, engine->holdout, engine->fit, 1, &before.holdout_rms, &unused, &shape);
     if (!status)
         status = sensor_out(pool, &engine->job, engine->holdout, engine->fit, &before.sensor_out_rms, &shape);
+    if (!status && result->nrefit)
+        status = refit_beyond(pool, &engine->job, engine->nown, engine->fit, engine->number, engine->holdout, engine->environment,
+                              &before.beyond_drop);
     return status ? status : decide(engine, &before, round);
 }

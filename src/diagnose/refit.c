@@ -3,10 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "fit/bounds.h"
+
 #define STARTS     3    /* places a candidate is fitted from */
 #define APART      0.06 /* of the rotor's length: nearer ones lead to the same minimum */
 #define SAME_PLACE 0.03 /* of the rotor's length */
 #define OFF        0.02 /* of the distance between the bounds: the bijection is flat at them */
+#define WIDER      10.0
 
 static double inside(const rotid_parameter *bounds, double value)
 {
@@ -16,7 +19,8 @@ static double inside(const rotid_parameter *bounds, double value)
 
 static void set_start(rotid_parameter *bounds, double value)
 {
-    bounds->start = value > bounds->lower && value < bounds->upper ? value : inside(bounds, value);
+    int open = value > bounds->lower && value < bounds->upper && !bounds_pressed(bounds, value);
+    bounds->start = open ? value : inside(bounds, value);
     if (bounds->start == 0) /* its size is the scale of the parameter */
         bounds->start = 1e-3 * (bounds->upper > 0 ? bounds->upper : bounds->lower);
 }
@@ -83,7 +87,8 @@ int refit_job(struct pool *pool, const struct job *job, const int *number, const
               const rotid_environment *environment, rotid_fit_result **fit)
 {
     rotid_fit_options options = job->fit;
-    const rotid_environment quiet = {.cancelled = environment ? environment->cancelled : NULL,
+    const rotid_environment quiet = {.size = sizeof quiet,
+                                     .cancelled = environment ? environment->cancelled : NULL,
                                      .context = environment ? environment->context : NULL,
                                      .allocator = environment ? environment->allocator : NULL};
     options.baseline = 0;
@@ -146,13 +151,72 @@ static void note_place(const struct job *extended, const struct cause_kind *caus
     }
 }
 
-int refit_candidate(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
-                    const struct scan *scan, int candidate, const rotid_environment *environment, struct refit *refit)
+int fit_at_bound(const rotid_fit_result *fit, int nown)
 {
-    const struct scan_candidate *c = &scan->candidate[candidate];
+    int any = 0;
+    for (int p = 0; p < nown; p++)
+        any |= fit->at_bound[p];
+    return any;
+}
+
+int refit_again(struct pool *pool, const struct job *job, int nown, const double *own, const int *number, const int *holdout,
+                const rotid_environment *environment, rotid_fit_result **fit)
+{
+    struct job other = *job;
+    rotid_fit_result *second = NULL;
+    other.bounds = POOL_ARRAY(pool, rotid_parameter, job->nparameter);
+    if (!other.bounds)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < job->nparameter; p++) {
+        other.bounds[p] = job->bounds[p];
+        if (p < nown)
+            set_start(&other.bounds[p], own[p]);
+    }
+    int status = refit_job(pool, &other, number, holdout, environment, &second);
+    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+        return status;
+    int better = !status && second->chi2 < (*fit)->chi2;
+    rotid_fit_free(better ? *fit : second);
+    *fit = better ? second : *fit;
+    return ROTID_OK;
+}
+
+int refit_beyond(struct pool *pool, const struct job *job, int nown, const rotid_fit_result *fit, const int *number,
+                 const int *holdout, const rotid_environment *environment, double *drop)
+{
+    struct job wider;
+    rotid_fit_result *beyond = NULL;
+    int widened = 0, status = job_started_at(pool, job, fit->x, &wider);
+    *drop = 0;
+    for (int p = 0; p < nown && !status; p++) {
+        rotid_parameter *bounds = &wider.bounds[p];
+        if (!fit->at_bound[p] || job->parameter[p].kind == PARAMETER_NU) /* whose bounds are physical */
+            continue;
+        if (fit->x[p] - bounds->lower < bounds->upper - fit->x[p])
+            bounds->lower = bounds->lower > 0 ? bounds->lower / WIDER : bounds->lower * WIDER;
+        else
+            bounds->upper = bounds->upper > 0 ? bounds->upper * WIDER : bounds->upper / WIDER;
+        bounds->start = fit->x[p];
+        widened = 1;
+    }
+    if (status || !widened)
+        return status;
+    status = refit_job(pool, &wider, number, holdout, environment, &beyond);
+    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+        return status;
+    if (!status)
+        *drop = fmax(0, fit->chi2 - beyond->chi2);
+    rotid_fit_free(beyond);
+    return ROTID_OK;
+}
+
+/* Fits from the scan's places with the job's own parameters at x; the best is kept. Statuses of memory and cancellation only. */
+static int fit_from(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+                    const struct scan *scan, const struct scan_candidate *c, const rotid_environment *environment,
+                    struct refit *refit)
+{
     const struct cause_kind *cause = c->cause;
     int start[STARTS], count = choose_starts(scan, c, rotor_length(&job->rotor), start);
-    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
     for (int s = 0; s < count; s++) {
         const struct scan_item *item = &scan->item[start[s]];
         struct effect effect = item->effect;
@@ -183,5 +247,23 @@ int refit_candidate(struct pool *pool, const struct job *job, const int *number,
         refit->fit = fit;
         refit->chi2 = fit->chi2;
     }
+    return ROTID_OK;
+}
+
+int refit_candidate(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+                    const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
+                    struct refit *refit)
+{
+    const struct scan_candidate *c = &scan->candidate[candidate];
+    /* without its cause it is the model that the scan looked at, unless a user has fixed the size, or there is none */
+    int nested = c->cause->effect->nparameter && !c->fixed[c->cause->size];
+    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
+    int status = fit_from(pool, job, number, holdout, x, scan, c, environment, refit);
+    if (!status && deck && (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, job->nparameter)))
+        status = fit_from(pool, job, number, holdout, deck, scan, c, environment, refit);
+    if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)
+        return status;
+    rotid_fit_free(refit->fit);
+    *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
     return ROTID_OK;
 }

@@ -8,6 +8,8 @@
 /* Tolerances of the fits of a diagnosis: enough for chi2 to 1e-6; the final model is fitted to the end. */
 #define REFIT_GRADIENT 1e-5
 #define REFIT_STEP     1e-7
+/* Of chi2, well beyond those: so far above the model without its cause, a fit did not find what it contains. */
+#define REFIT_WORSE 0.01
 
 /* *to := the job `from` with the effect in its rotor and its parameters (those not fixed) behind the job's own, between their
  * physical bounds; starts are x [nparameter] (the job's own starts, where NULL) and the effect's values, moved off the bounds.
@@ -15,7 +17,8 @@
 int job_with_effect(struct pool *pool, const struct job *from, const double *x, const struct effect *effect,
                     const struct cause_kind *cause, const int *fixed, struct job *to);
 
-/* The job with its starts at x [nparameter], which are moved off the bounds. `to` may be the job itself. */
+/* The job with its starts at x [nparameter], moved inside where they press on a bound: the bijection of the fit is flat there,
+ * and a parameter that a missing cause has pushed to its bound would stay. `to` may be the job itself. */
 int job_started_at(struct pool *pool, const struct job *job, const double *x, struct job *to);
 
 struct refit {
@@ -26,10 +29,25 @@ struct refit {
         other_place; /* best fit that ended at another place, more than a width or 3 % of the length away; NaN: none */
 };
 
-/* Best of the fits from the most promising places of the candidate. Statuses of memory and cancellation only: a fit that fails
- * leaves fit NULL. */
+/* Best of the fits from the most promising places of the candidate, the job's own parameters starting at x [nparameter], which is
+ * where the scan was made; and at `deck` [nparameter] (NULL: none) as well where none of those fits succeeded or one of these
+ * parameters ends at a bound. Statuses of memory and cancellation only: where every fit fails, or ends above the model without
+ * the cause, which it contains, fit is NULL. */
 int refit_candidate(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
-                    const struct scan *scan, int candidate, const rotid_environment *environment, struct refit *refit);
+                    const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
+                    struct refit *refit);
+
+/* Does one of the first nown parameters end at a bound? */
+int fit_at_bound(const rotid_fit_result *fit, int nown);
+
+/* Fits the job once more with its first nown parameters starting at `own`; *fit is replaced where that is better. */
+int refit_again(struct pool *pool, const struct job *job, int nown, const double *own, const int *number, const int *holdout,
+                const rotid_environment *environment, rotid_fit_result **fit);
+
+/* *drop of chi2 that the job gains where the bounds at which the first nown parameters end in `fit` are ten times as far; 0 where
+ * none does, or where there is no such model. */
+int refit_beyond(struct pool *pool, const struct job *job, int nown, const rotid_fit_result *fit, const int *number,
+                 const int *holdout, const rotid_environment *environment, double *drop);
 
 /* One fit with the options of a diagnosis. */
 int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,

@@ -11,7 +11,8 @@
 struct refits {
     const struct engine *engine;
     struct round_result *result;
-    struct pool *pool; /* [nrefit] one a task: pools are not shared between threads */
+    const double *deck; /* [nparameter] the starts of the deck, of causes that were named their values */
+    struct pool *pool;  /* [nrefit] one a task: pools are not shared between threads */
 };
 
 static int refit_task(void *context, int index, int worker)
@@ -19,7 +20,7 @@ static int refit_task(void *context, int index, int worker)
     struct refits *refits = context;
     const struct engine *e = refits->engine;
     (void)worker;
-    return refit_candidate(&refits->pool[index], &e->job, e->number, e->holdout, e->fit->x, &refits->result->scan,
+    return refit_candidate(&refits->pool[index], &e->job, e->number, e->holdout, e->fit->x, refits->deck, &refits->result->scan,
                            refits->result->candidate[index], e->environment, &refits->result->refit[index]);
 }
 
@@ -54,12 +55,15 @@ static int choose(const struct scan *scan, double threshold, int *chosen)
 static int run_refits(struct engine *engine, struct round_result *result)
 {
     struct pool *pool = engine->pool;
-    struct refits refits = {engine, result, POOL_ARRAY(pool, struct pool, result->nrefit)};
+    double *deck = POOL_ARRAY(pool, double, engine->job.nparameter);
+    struct refits refits = {engine, result, deck, POOL_ARRAY(pool, struct pool, result->nrefit)};
     result->refit = POOL_ARRAY(pool, struct refit, result->nrefit);
-    if (!refits.pool || !result->refit) {
+    if (!deck || !refits.pool || !result->refit) {
         result->nrefit = 0;
         return ROTID_ERROR_MEMORY;
     }
+    for (int p = 0; p < engine->job.nparameter; p++)
+        deck[p] = p < engine->nown ? engine->deck_start[p] : engine->fit->x[p];
     for (int i = 0; i < result->nrefit; i++)
         pool_open(&refits.pool[i], pool->allocator);
     int status = parallel_for(engine->threads, result->nrefit, refit_task, &refits);

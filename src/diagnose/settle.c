@@ -146,6 +146,9 @@ static int confirm(struct engine *engine, struct diagnosis_round *round, struct 
         status = job_without(engine, c, &other.job);
         if (!status)
             status = refit_job(engine->pool, &other.job, engine->number, engine->holdout, engine->environment, &fit);
+        if (!status && fit_at_bound(fit, engine->nown)) /* with all causes it may lie elsewhere */
+            status = refit_again(engine->pool, &other.job, engine->nown, engine->fit->x, engine->number, engine->holdout,
+                                 engine->environment, &fit);
         other.fit = fit;
         if (!status)
             status = job_started_at(engine->pool, &other.job, fit->x, &other.job);

@@ -97,7 +97,7 @@ void ross_tierod_section(const struct beam *beam, int tierod, struct ross_sectio
     if (stretch->stiffness > 0)
         rods = rod->number; /* one rod with the moduli and the density of all */
     else
-        (void)rotid_equivalent_cylinder(area, own + pitch, &s->outer, &s->inner); /* the beam has it, so it exists */
+        (void)rotid_equivalent_cylinder(area, own + pitch, NULL, &s->outer, &s->inner); /* the beam has it, so it exists */
     s->e = rods * young * rod->material.e;
     s->g = rods * young * material_shear_modulus(&rod->material);
     s->nu = rod->material.nu;

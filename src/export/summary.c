@@ -34,7 +34,8 @@ void table_export(FILE *out, const struct export_files *files, const struct expo
                   job->nmode);
     for (int p = 0; p < job->nparameter; p++) {
         double std = export_parameter_std(model, p);
-        (void)fprintf(out, "%-15s %.6g %s", job->bounds[p].name, export_parameter(model, p), job->bounds[p].unit);
+        name_cell(out, 15, job->bounds[p].name);
+        (void)fprintf(out, " %.6g %s", export_parameter(model, p), job->bounds[p].unit);
         if (isfinite(std))
             (void)fprintf(out, ", standard deviation %.3g", std);
         (void)fputc('\n', out);

@@ -10,6 +10,11 @@
 #define WITH_NLOPT 1
 #endif
 
+int baseline_exists(void)
+{
+    return WITH_NLOPT;
+}
+
 #if !WITH_NLOPT
 
 int baseline_count(int nparam)

@@ -6,6 +6,9 @@
 #include "modal/functional.h"
 #include "rotid.h"
 
+/* 0 where this is built without NLopt. */
+int baseline_exists(void);
+
 /* Algorithms run: BOBYQA (from two parameters on), Sbplx, and SLSQP with the gradient. 0 where built without NLopt. */
 int baseline_count(int nparam);
 

@@ -1,6 +1,8 @@
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "base/entry.h"
 #include "rotid.h"
 
 #define STEPS  16  /* at most: the last is 2^-15 of the first */
@@ -103,14 +105,29 @@ static double extrapolate(struct check *check, int j, double scale)
     return isfinite(doubt) ? doubt : NAN;
 }
 
-int rotid_check_jacobian(int m, int n, rotid_residual residual, void *user, const double *x, const double *scale, double *error,
-                         double *doubt, double *work)
+static int check_arguments(int m, int n, rotid_residual residual, const double *x, const double *scale, const double *error,
+                           const double *doubt, const double *work, char *failure)
 {
-    if (m < 1 || n < 1 || !residual || !x || !error || !doubt || !work || !all_finite(n, x))
-        return ROTID_ERROR_ARGUMENT;
-    for (int j = 0; scale && j < n; j++)
-        if (!(scale[j] > 0) || !isfinite(scale[j]))
-            return ROTID_ERROR_ARGUMENT;
+    if (m < 1 || n < 1)
+        return refuse(failure, "m is %d and n is %d, expected 1 or more", m, n);
+    const char *missing = !residual ? "residual" : !x ? "x" : !error ? "error" : !doubt ? "doubt" : !work ? "work" : NULL;
+    if (missing)
+        return refuse(failure, "%s is NULL, expected one", missing);
+    for (int j = 0; j < n; j++) {
+        if (!isfinite(x[j]))
+            return refuse(failure, "x[%d] is %g, expected a number", j, x[j]);
+        if (scale && (!(scale[j] > 0) || !isfinite(scale[j])))
+            return refuse(failure, "scale[%d] is %g, expected a positive number", j, scale[j]);
+    }
+    return ROTID_OK;
+}
+
+static int run(int m, int n, rotid_residual residual, void *user, const double *x, const double *scale, char *failure,
+               double *error, double *doubt, double *work)
+{
+    int status = check_arguments(m, n, residual, x, scale, error, doubt, work, failure);
+    if (status)
+        return status;
     struct check check = {.m = m, .n = n, .residual = residual, .user = user, .x = work};
     check.jacobian = check.x + n;
     check.above = check.jacobian + (ptrdiff_t)m * n;
@@ -122,14 +139,17 @@ int rotid_check_jacobian(int m, int n, rotid_residual residual, void *user, cons
     if (residual(user, m, n, check.x, check.above, NULL))
         return ROTID_ERROR_CALLBACK;
     if (!all_finite(m, check.above))
-        return ROTID_ERROR_FINITE;
+        return failure_say(failure, ROTID_ERROR_FINITE, "the residual at x is not finite");
     if (residual(user, m, n, check.x, NULL, check.jacobian))
         return ROTID_ERROR_CALLBACK;
     if (!all_finite((ptrdiff_t)m * n, check.jacobian))
-        return ROTID_ERROR_FINITE;
+        return failure_say(failure, ROTID_ERROR_FINITE, "the Jacobian at x is not finite");
+    double rounding = DBL_EPSILON * length(m, check.above); /* of r: no difference is known any better */
     for (int j = 0; j < n; j++) {
         const double *column = check.jacobian + (ptrdiff_t)j * m;
-        double wrong_by = extrapolate(&check, j, scale ? scale[j] : fmax(fabs(x[j]), 1e-3));
+        double unit = scale ? scale[j] : fmax(fabs(x[j]), 1e-3), wrong_by = extrapolate(&check, j, unit);
+        if (wrong_by < rounding / (FIRST * unit) && length(m, check.best) > 0) /* 0: r does not change at all */
+            wrong_by = rounding / (FIRST * unit);
         error[j] = doubt[j] = wrong_by; /* where that is not NaN: */
         if (wrong_by >= 0) {
             double size = fmax(length(m, column), length(m, check.best));
@@ -138,4 +158,14 @@ int rotid_check_jacobian(int m, int n, rotid_residual residual, void *user, cons
         }
     }
     return ROTID_OK;
+}
+
+int rotid_check_jacobian(int m, int n, rotid_residual residual, void *user, const double *x, const double *scale, char *failure,
+                         double *error, double *doubt, double *work)
+{
+    struct entry entry;
+    int status = entry_open(&entry, NULL, failure);
+    if (!status)
+        status = run(m, n, residual, user, x, scale, failure, error, doubt, work);
+    return entry_close(&entry, status);
 }

@@ -3,12 +3,13 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/host.h"
+#include "base/entry.h"
 #include "base/pool.h"
+#include "base/sized.h"
 #include "fit/baseline.h"
 #include "fit/bounds.h"
 #include "fit/covariance.h"
-#include "linalg/matrix_check.h"
+#include "fit/fit_check.h"
 #include "modal/functional.h"
 #include "rotid.h"
 
@@ -21,23 +22,25 @@ struct fit {
     rotid_fit_options options;
     rotid_fit_result *result;
     int n, callback_status;
+    char *failure; /* of the host: why the last evaluation failed */
     double *x, *y, *r, *jacobian, *work;
-    int evaluated;  /* the modes are those at x */
-    int linearised; /* result->jacobian is dr/dx at linearised_at [n] */
-    double *linearised_at;
+    double *bounded;        /* dr/dx that was asked for last */
     const double *accepted; /* y of the last accepted point, NULL before the first */
     double begin;           /* on the clock */
 };
 
-void rotid_fit_defaults(rotid_fit_options *options)
+void rotid_fit_defaults(size_t size, rotid_fit_options *options)
 {
-    *options = (rotid_fit_options){.functional = ROTID_LIKELIHOOD,
-                                   .reduction = ROTID_REDUCTION_NONE,
-                                   .derivative = ROTID_NELSON,
-                                   .max_iterations = 100,
-                                   .gradient_tolerance = 1e-10,
-                                   .step_tolerance = 1e-12,
-                                   .bijection_chi = 0.05};
+    const rotid_fit_options standard = {.size = size,
+                                        .functional = ROTID_LIKELIHOOD,
+                                        .reduction = ROTID_REDUCTION_NONE,
+                                        .derivative = ROTID_NELSON,
+                                        .max_iterations = 100,
+                                        .gradient_tolerance = 1e-10,
+                                        .step_tolerance = 1e-12,
+                                        .bijection_chi = 0.05};
+    memset(options, 0, size);
+    memcpy(options, &standard, size < sizeof standard ? size : sizeof standard);
 }
 
 /* rotid_residual in the unbounded variables y */
@@ -45,6 +48,8 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
 {
     struct fit *fit = user;
     double chi = fit->options.bijection_chi;
+    if (fit->failure)
+        *fit->failure = 0; /* what is left at the end is of the evaluation that ended the call */
     for (int p = 0; r && fit->accepted && p < n; p++)
         if (!(fabs(chi * (y[p] - fit->accepted[p])) <= LEAP))
             return 1;
@@ -52,28 +57,54 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
         fit->x[p] = bounds_to_x(&fit->parameter[p], chi, y[p]);
     if (r) {
         fit->callback_status = functional_residual(&fit->functional, fit->x, r);
-        fit->evaluated = fit->callback_status == ROTID_OK;
         return fit->callback_status;
     }
-    double *bounded = fit->result->jacobian;
-    fit->callback_status = functional_jacobian(&fit->functional, fit->x, bounded);
-    fit->linearised = fit->callback_status == ROTID_OK;
-    memcpy(fit->linearised_at, fit->x, (size_t)n * sizeof *fit->x);
+    fit->callback_status = functional_jacobian(&fit->functional, fit->x, fit->bounded);
     for (int p = 0; p < n; p++) {
         double slope = bounds_slope(&fit->parameter[p], chi, y[p]);
         for (int i = 0; i < m; i++)
-            jacobian[i + (ptrdiff_t)p * m] = bounded[i + (ptrdiff_t)p * m] * slope;
+            jacobian[i + (ptrdiff_t)p * m] = fit->bounded[i + (ptrdiff_t)p * m] * slope;
     }
     return fit->callback_status;
 }
 
-/* Keeps the history in the variables x/|start|; polls the host. */
+/* Predicted frequencies, correlation and residual of every mode at the last evaluation. */
+static void compare_modes(struct fit *fit)
+{
+    struct functional *f = &fit->functional;
+    const rotid_measured *measured = f->measured;
+    int nmaster = f->prediction.model->nmaster;
+    for (int k = 0; k < measured->nmode; k++) {
+        fit->result->predicted_hz[k] = prediction_hz(&f->prediction, f->pair[k]);
+        fit->result->residual[k] = functional_frequency_residual(f, k);
+        fit->result->mac[k] = NAN;
+        if (!f->shape)
+            continue;
+        for (int s = 0; s < nmaster; s++)
+            f->work[s] = prediction_at_sensor(&f->prediction, f->pair[k], s);
+        fit->result->mac[k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
+    }
+}
+
+/* Everything that is known of an accepted point while the functional stands there: the host is not asked for it again, as it may
+ * have failed for good since. */
+static void keep_point(struct fit *fit)
+{
+    rotid_fit_result *result = fit->result;
+    memcpy(result->x, fit->x, (size_t)fit->n * sizeof *result->x);
+    memcpy(result->r, fit->r, (size_t)result->nresidual * sizeof *result->r);
+    memcpy(result->jacobian, fit->bounded, (size_t)result->nresidual * (size_t)fit->n * sizeof *result->jacobian);
+    compare_modes(fit);
+}
+
+/* Keeps the point, and the history in the variables x/|start|; polls the host. */
 static int trace(void *user, const rotid_lm_iteration *now)
 {
     struct fit *fit = user;
     rotid_fit_result *result = fit->result;
     int n = fit->n, row = result->nhistory;
     fit->accepted = now->x;
+    keep_point(fit);
     double *x = result->history_x + (ptrdiff_t)row * n, step = 0, gradient = 0;
     for (int p = 0; p < n; p++) {
         double unit = fabs(fit->parameter[p].start),
@@ -96,27 +127,6 @@ static int trace(void *user, const rotid_lm_iteration *now)
     if (environment && environment->progress)
         environment->progress(environment->context, "Levenberg-Marquardt, iteration", now->iteration);
     return environment && environment->cancelled && environment->cancelled(environment->context);
-}
-
-static int check_arguments(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
-                           const rotid_fit_options *options)
-{
-    if (!model || !measured || !options || model->n < 2 || model->kd < 0 || model->kd >= model->n || model->nparam < 0 ||
-        (model->nparam && !parameter) || model->nrigid < 0 || !model->matrices || measured->nmode < 1 || !measured->number ||
-        !measured->frequency_hz)
-        return ROTID_ERROR_ARGUMENT;
-    if (options->functional < ROTID_HYBRID || options->functional > ROTID_LIKELIHOOD ||
-        options->reduction < ROTID_REDUCTION_NONE || options->reduction > ROTID_IRS || options->derivative < ROTID_NELSON ||
-        options->derivative > ROTID_MODAL)
-        return ROTID_ERROR_ARGUMENT;
-    if (!indices_increase(model->nmaster, model->master, model->n) || !indices_increase(model->nfar, model->far, model->n))
-        return ROTID_ERROR_ARGUMENT;
-    for (int p = 0; p < model->nparam; p++) {
-        const rotid_parameter *q = &parameter[p];
-        if (!(isfinite(q->lower) && isfinite(q->upper) && q->lower < q->start && q->start < q->upper && q->start != 0))
-            return ROTID_ERROR_ARGUMENT;
-    }
-    return ROTID_OK;
 }
 
 static int new_result(struct pool *keep, int n, int m, int nresidual, int iterations, rotid_fit_result *result)
@@ -201,38 +211,6 @@ static double step_left(const struct fit *fit, const double *relative_gradient)
     return worst;
 }
 
-/* Predicted frequencies, correlation and residual of every mode at the last evaluation. */
-static void compare_modes(struct fit *fit)
-{
-    struct functional *f = &fit->functional;
-    const rotid_measured *measured = f->measured;
-    int nmaster = f->prediction.model->nmaster;
-    for (int k = 0; k < measured->nmode; k++) {
-        fit->result->predicted_hz[k] = prediction_hz(&f->prediction, f->pair[k]);
-        fit->result->residual[k] = functional_frequency_residual(f, k);
-        fit->result->mac[k] = NAN;
-        if (!f->shape)
-            continue;
-        for (int s = 0; s < nmaster; s++)
-            f->work[s] = prediction_at_sensor(&f->prediction, f->pair[k], s);
-        fit->result->mac[k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
-    }
-}
-
-/* The modes, r and dr/dx at the best point, where the iteration has not left them behind. */
-static int evaluate_best(struct fit *fit)
-{
-    rotid_fit_result *result = fit->result;
-    size_t size = (size_t)fit->n * sizeof *result->x;
-    int status = ROTID_OK, at_best = fit->evaluated && !memcmp(fit->x, result->x, size);
-    memcpy(result->r, fit->r, (size_t)result->nresidual * sizeof *result->r);
-    if (!at_best)
-        status = functional_residual(&fit->functional, result->x, result->r);
-    if (!status && (!fit->linearised || memcmp(fit->linearised_at, result->x, size) != 0))
-        status = functional_jacobian(&fit->functional, result->x, result->jacobian);
-    return status;
-}
-
 /* Everything about the best point. */
 static int conclude(struct fit *fit, const rotid_lm_result *lm)
 {
@@ -240,12 +218,6 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
     struct functional *f = &fit->functional;
     int n = fit->n, m = f->nresidual, pulled_inside = 0;
     double *noise = fit->work, *gradient = noise + m, *rest = gradient + n;
-    for (int p = 0; p < n; p++)
-        result->x[p] = bounds_to_x(&fit->parameter[p], fit->options.bijection_chi, fit->y[p]);
-    int status = evaluate_best(fit);
-    if (status)
-        return status;
-    compare_modes(fit);
     result->status = lm->status;
     result->iterations = lm->iterations;
     result->evaluations = lm->evaluations;
@@ -276,7 +248,7 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
                                      .nscale = count_scales(fit),
                                      .x = result->x,
                                      .fixed = result->at_bound};
-    status = covariance_compute(&input, result, rest);
+    int status = covariance_compute(&input, result, rest);
     /* a stop on the limit, or where rounding left no step that lowers f, may still be at the minimum: the step that is left
      * decides */
     result->converged = result->status != ROTID_STOP_CANCELLED && !pulled_inside &&
@@ -307,6 +279,7 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     int status =
         functional_new(pool, options->functional, options->reduction, options->derivative, model, measured, &fit->functional);
     int m = fit->functional.nresidual;
+    fit->functional.prediction.failure = fit->failure;
     if (!status)
         status = new_result(keep, n, measured->nmode, m, options->max_iterations, fit->result);
     if (status)
@@ -317,21 +290,22 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     fit->r = POOL_ARRAY(pool, double, m);
     fit->jacobian = POOL_ARRAY(pool, double, (size_t)m *(size_t)n);
     fit->work = POOL_ARRAY(pool, double, lm_work > end_work ? lm_work : end_work);
-    fit->linearised_at = POOL_ARRAY(pool, double, n);
-    if (!fit->linearised_at || !fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
+    fit->bounded = POOL_ARRAY(pool, double, (size_t)m *(size_t)n);
+    if (!fit->bounded || !fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n; p++)
         fit->y[p] = bounds_to_y(&fit->parameter[p], options->bijection_chi, fit->parameter[p].start);
 
-    rotid_lm_options lm_options = {.max_iterations = options->max_iterations,
+    rotid_lm_options lm_options = {.size = sizeof lm_options,
+                                   .max_iterations = options->max_iterations,
                                    .gradient_tolerance = options->gradient_tolerance,
                                    .step_tolerance = options->step_tolerance,
                                    .trace = trace,
                                    .trace_user = fit};
     rotid_lm_result lm;
     fit->begin = clock_seconds();
-    status =
-        n ? rotid_lm(m, n, residual, fit, &lm_options, fit->y, fit->r, fit->jacobian, fit->work, &lm) : compare_only(fit, &lm);
+    status = n ? rotid_lm(m, n, residual, fit, &lm_options, NULL, fit->y, fit->r, fit->jacobian, fit->work, &lm)
+               : compare_only(fit, &lm);
     fit->result->seconds = clock_seconds() - fit->begin;
     if (status < 0)
         return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
@@ -346,33 +320,34 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     return status;
 }
 
-static int make_result(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
-                       const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
+static int make_result(struct entry *entry, const rotid_model *model, const rotid_parameter *parameter,
+                       const rotid_measured *measured, const rotid_fit_options *options, rotid_fit_result **result)
 {
-    int status = check_arguments(model, parameter, measured, options);
+    int status = fit_check(model, parameter, measured, options, entry->failure);
     if (status)
         return status;
-    const rotid_allocator *allocator = environment ? environment->allocator : NULL;
-    struct pool first, scratch, *keep;
-    pool_open(&first, allocator);
-    pool_open(&scratch, allocator);
+    struct pool first, *keep;
+    pool_open(&first, entry->environment.allocator);
     rotid_fit_result *made = POOL_NEW(&first, rotid_fit_result);
     keep = made ? POOL_NEW(&first, struct pool) : NULL;
     status = ROTID_ERROR_MEMORY;
     if (keep) {
-        struct fit fit = {
-            .parameter = parameter, .environment = environment, .options = *options, .result = made, .n = model->nparam};
+        struct fit fit = {.parameter = parameter,
+                          .environment = &entry->environment,
+                          .options = *options,
+                          .result = made,
+                          .n = model->nparam,
+                          .failure = entry->failure};
         rotid_fit_options standard;
-        rotid_fit_defaults(&standard);
+        rotid_fit_defaults(sizeof standard, &standard);
         if (fit.options.max_iterations <= 0)
             fit.options.max_iterations = standard.max_iterations;
         if (!(fit.options.bijection_chi > 0))
             fit.options.bijection_chi = standard.bijection_chi;
-        status = run(&first, &scratch, &fit, model, measured);
+        status = run(&first, &entry->scratch, &fit, model, measured);
         *keep = first; /* the result carries the pool that it lives on */
         made->memory = keep;
     }
-    pool_close(&scratch);
     if (status)
         pool_close(&first);
     else
@@ -381,16 +356,30 @@ static int make_result(const rotid_model *model, const rotid_parameter *paramete
 }
 
 int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
-              const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **result)
+              const rotid_fit_options *options, const rotid_environment *environment, char *failure, rotid_fit_result **result)
 {
-    struct host host;
-    if (!result)
-        return ROTID_ERROR_ARGUMENT;
-    *result = NULL;
-    host_enter_floating(&host);
-    int status = make_result(model, parameter, measured, options, environment, result);
-    host_leave_floating(&host);
-    return status;
+    struct entry entry;
+    rotid_model own_model;
+    rotid_measured own_measured;
+    rotid_fit_options own_options;
+    int status = entry_open(&entry, environment, failure);
+    if (result)
+        *result = NULL;
+    if (!status && (!model || !measured || !options || !result))
+        status = refuse(failure, "%s is NULL, expected a struct",
+                        !model      ? "model"
+                        : !measured ? "measured"
+                        : !options  ? "options"
+                                    : "result");
+    if (!status)
+        status = sized_take(SIZED_MODEL, model, failure, &own_model);
+    if (!status)
+        status = sized_take(SIZED_MEASURED, measured, failure, &own_measured);
+    if (!status)
+        status = sized_take(SIZED_FIT_OPTIONS, options, failure, &own_options);
+    if (!status)
+        status = make_result(&entry, &own_model, parameter, &own_measured, &own_options, result);
+    return entry_close(&entry, status);
 }
 
 void rotid_fit_free(rotid_fit_result *result)

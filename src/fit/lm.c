@@ -1,7 +1,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/host.h"
+#include "base/entry.h"
+#include "base/sized.h"
 #include "linalg/least_squares.h"
 #include "rotid.h"
 
@@ -14,8 +15,11 @@
 #define FALL       3      /* mu falls by this factor behind a good step (Nielsen 1999), by twice as much behind the next one */
 #define NOISE      1e-12  /* rounding of J, 1e-16, over the part of x by which it may move what r does not determine */
 #define REGULAR    1e-28  /* keeps the QR regular where r is small */
-#define FLAT       1e-8 /* predicted decrease over objective below which the noise of a computed objective can hide the decrease */
-#define FLAT_TRIES 5    /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
+#define FLAT       1e-8   /* decrease over objective below which the noise of a computed objective can hide it */
+#define FLAT_TRIES 5      /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
+#define ROUNDED    1e-14  /* change of r over |D x| that the rounding of x makes: no step can be told from it */
+#define SHRUNK     1e-100 /* of J beside what it was: smaller, its square would have no double */
+#define EXPONENT   1000   /* of the unit, at most: its inverse has to have a double, too */
 
 struct lm {
     int m, n;
@@ -23,27 +27,25 @@ struct lm {
     void *user;
     rotid_lm_options options;
     double *x, *r, *jacobian; /* the caller's: the best point */
-    double *trial, *trial_r, *step, *gradient, *norm, *scale, *old, *work;
+    double unit;              /* a power of two: the largest component of unit r is between a half and one, and its square has a
+                                 double whatever the size of r. Below, what is "in units" is multiplied by it, without rounding */
+    double *scaled;           /* r in units */
+    double objective;         /* half the square of that */
+    double *trial, *trial_r, *trial_jacobian;
+    double *step, *gradient; /* in units */
+    double *norm, *scale, *scratch, *work;
     double *floor; /* of the damping: parts of the columns of J too small to tell from its rounding */
     rotid_lm_result *result;
     double mu;     /* relative to the present size of J */
     double size;   /* that: the largest |J_j|/D_j, 1 unless every column has shrunk */
     double fall;   /* factor of mu behind the next good step */
-    double radius; /* of |D h| */
+    double radius; /* of |D h|, in units */
     double length, gain;
 };
 
 size_t rotid_lm_workspace(int m, int n)
 {
-    return 8 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
-}
-
-static double half_square(int m, const double *r)
-{
-    double sum = 0;
-    for (int i = 0; i < m; i++)
-        sum += r[i] * r[i];
-    return sum / 2;
+    return 7 * (size_t)n + 2 * (size_t)m + (size_t)m * (size_t)n + least_squares_workspace(m, n);
 }
 
 static int all_finite(ptrdiff_t n, const double *x)
@@ -54,58 +56,94 @@ static int all_finite(ptrdiff_t n, const double *x)
     return 1;
 }
 
-/* |D x| */
-static double scaled_length(const struct lm *lm)
+/* unit, r in units and half its square, behind a change of r; the radius goes along. */
+static void measure(struct lm *lm)
 {
-    double sum = 0;
-    for (int j = 0; j < lm->n; j++)
-        sum += lm->scale[j] * lm->x[j] * lm->scale[j] * lm->x[j];
-    return sqrt(sum);
+    double largest = 0, before = lm->unit, sum = 0;
+    int exponent;
+    for (int i = 0; i < lm->m; i++)
+        largest = fmax(largest, fabs(lm->r[i]));
+    (void)frexp(largest, &exponent);
+    if (largest > 0)
+        lm->unit = ldexp(1, -(exponent > EXPONENT ? EXPONENT : exponent < -EXPONENT ? -EXPONENT : exponent));
+    lm->radius *= lm->unit / before;
+    for (int i = 0; i < lm->m; i++) {
+        lm->scaled[i] = lm->unit * lm->r[i];
+        sum += lm->scaled[i] * lm->scaled[i];
+    }
+    lm->objective = sum / 2;
+    lm->result->objective = sum / 2 / lm->unit / lm->unit;
 }
 
-/* Jacobian at x, gradient J'r, scale D = largest column norms so far, cosine. */
-static int linearise(struct lm *lm)
+/* |D x| in units */
+static double length_of_x(struct lm *lm)
+{
+    for (int j = 0; j < lm->n; j++)
+        lm->scratch[j] = lm->unit * lm->x[j];
+    return least_squares_length(lm->n, lm->scale, lm->scratch);
+}
+
+/* Largest cosine between r and a column of J: with the norm of the column here, not with D: where J has shrunk by 1e10 D would
+ * end the iteration. */
+static double largest_cosine(const struct lm *lm, const double *r, const double *jacobian)
+{
+    double largest = 0, length = lm->unit * least_squares_length(lm->m, NULL, r);
+    for (int j = 0; j < lm->n && length > 0; j++) {
+        const double *column = jacobian + (ptrdiff_t)j * lm->m;
+        double norm = least_squares_length(lm->m, NULL, column), product = 0;
+        for (int i = 0; i < lm->m; i++)
+            product += column[i] * (lm->unit * r[i]);
+        if (norm > 0)
+            largest = fmax(largest, fabs(product) / norm / length);
+    }
+    return largest;
+}
+
+/* The Jacobian at a point that has a residual, the last one that was asked for. Nonzero where there is none that can be used. */
+static int ask_jacobian(struct lm *lm, const double *x, double *jacobian)
 {
     lm->result->jacobians++;
-    if (lm->residual(lm->user, lm->m, lm->n, lm->x, NULL, lm->jacobian))
+    if (lm->residual(lm->user, lm->m, lm->n, x, NULL, jacobian))
         return ROTID_ERROR_CALLBACK;
-    if (!all_finite((ptrdiff_t)lm->m * lm->n, lm->jacobian))
-        return ROTID_ERROR_FINITE;
-    double length = sqrt(2 * lm->result->objective), size = 0;
-    lm->result->cosine = 0;
+    for (int j = 0; j < lm->n; j++)
+        if (!isfinite(least_squares_length(lm->m, NULL, jacobian + (ptrdiff_t)j * lm->m)))
+            return ROTID_ERROR_FINITE;
+    return ROTID_OK;
+}
+
+/* Gradient J'r, scale D = largest column norms so far, cosine, of the best point. Returns whether J has a column. */
+static int linearise(struct lm *lm)
+{
+    double length = sqrt(2 * lm->objective), largest = 0, size = 0;
     for (int j = 0; j < lm->n; j++) {
         const double *column = lm->jacobian + (ptrdiff_t)j * lm->m;
-        double square = 0;
+        lm->floor[j] = least_squares_length(lm->m, NULL, column);
         lm->gradient[j] = 0;
-        for (int i = 0; i < lm->m; i++) {
-            square += column[i] * column[i];
-            lm->gradient[j] += column[i] * lm->r[i];
-        }
-        if (!isfinite(square))
-            return ROTID_ERROR_FINITE;
-        double norm = lm->floor[j] = sqrt(square);
-        lm->norm[j] = fmax(lm->norm[j], norm);
-        lm->scale[j] =
-            lm->norm[j] > 0 ? lm->norm[j] : 1; /* where a column has been zero so far any scale keeps the system regular */
-        size = fmax(size, norm / lm->scale[j]);
-        if (length > 0 && norm > 0) /* with the norm of the column here, not with D: where J has shrunk by 1e10 D would end the
-                                       iteration */
-            lm->result->cosine = fmax(lm->result->cosine, fabs(lm->gradient[j]) / (norm * length));
+        for (int i = 0; i < lm->m; i++)
+            lm->gradient[j] += column[i] * lm->scaled[i];
+        lm->norm[j] = fmax(lm->norm[j], lm->floor[j]);
+        largest = fmax(largest, lm->norm[j]);
     }
-    lm->size = size > 0 ? size : 1;
-    double part = sqrt(fmax(REGULAR, length > 0 ? NOISE * length / fmax(length, scaled_length(lm)) : 0));
+    for (int j = 0; j < lm->n; j++) { /* where a column has been zero so far any scale keeps the system regular */
+        lm->scale[j] = lm->norm[j] > 0 ? lm->norm[j] : largest > 0 ? largest : 1;
+        size = fmax(size, lm->floor[j] / lm->scale[j]);
+    }
+    lm->result->cosine = largest_cosine(lm, lm->r, lm->jacobian);
+    lm->size = size > 0 ? fmax(size, SHRUNK) : 1;
+    double part = sqrt(fmax(REGULAR, length > 0 ? NOISE * length / fmax(length, length_of_x(lm)) : 0));
     for (int j = 0; j < lm->n; j++)
         lm->floor[j] *= part;
-    return size > 0 || length == 0 || lm->result->jacobians > 1 ? ROTID_OK
-                                                                : ROTID_ERROR_RANK; /* J = 0 later: the gradient has vanished */
+    return size > 0;
 }
 
 /* h'(F^2 h - g)/2, F what damped the step: the decrease that the linear model promises */
-static double predicted_decrease(const struct lm *lm)
+static double predicted_decrease(const struct lm *lm, double mu, const double *step)
 {
-    double sum = 0, mu = lm->mu * lm->size * lm->size;
-    for (int j = 0; j < lm->n; j++)
-        sum += lm->step[j] * ((mu * lm->scale[j] * lm->scale[j] + lm->floor[j] * lm->floor[j]) * lm->step[j] - lm->gradient[j]);
+    double sum = 0, root = sqrt(mu) * lm->size;
+    for (int j = 0; j < lm->n; j++) {
+        double damping = root * lm->scale[j] * step[j], floor = lm->floor[j] * step[j];
+        sum += damping * damping + floor * floor - step[j] * lm->gradient[j];
+    }
     return sum / 2;
 }
 
@@ -114,70 +152,76 @@ static double actual_decrease(const struct lm *lm)
 {
     double sum = 0;
     for (int i = 0; i < lm->m; i++)
-        sum += (lm->r[i] - lm->trial_r[i]) * (lm->r[i] + lm->trial_r[i]);
+        sum += (lm->scaled[i] - lm->unit * lm->trial_r[i]) * (lm->scaled[i] + lm->unit * lm->trial_r[i]);
     return sum / 2;
 }
 
-static int negligible(const struct lm *lm)
+static int negligible(const struct lm *lm, const double *step)
 {
     double eps = lm->options.step_tolerance;
     for (int j = 0; j < lm->n; j++)
-        if (!(fabs(lm->step[j]) <= eps * (fabs(lm->x[j]) + eps)))
+        if (!(fabs(step[j] / lm->unit) <= eps * (fabs(lm->x[j]) + eps)))
             return 0;
     return 1;
 }
 
-/* A damped step from x. Returns 0 with the trial point and its residual in place, a stop reason, or an error. *refused: the trial
- * has no residual. */
-static int try_step(struct lm *lm, double *predicted, int *refused)
+/* step [n] of damping mu >= what is given, within radius. */
+static int solve(struct lm *lm, double radius, double *mu, double *step)
 {
-    double square = lm->size * lm->size, mu = lm->mu * square;
-    if (least_squares_damped_step(lm->m, lm->n, lm->jacobian, lm->r, lm->scale, lm->floor, lm->radius, &mu, lm->step, &lm->length,
-                                  lm->work))
+    double square = lm->size * lm->size, damping = *mu * square;
+    if (least_squares_damped_step(lm->m, lm->n, lm->jacobian, lm->scaled, lm->scale, lm->floor, radius, &damping, step,
+                                  &lm->length, lm->work))
         return ROTID_ERROR_LIBRARY;
-    lm->mu = mu / square;
-    *predicted = predicted_decrease(lm);
-    if (negligible(lm))
+    *mu = damping / square;
+    return ROTID_OK;
+}
+
+/* Damping and radius make any step short and any promise small, so neither tells a minimum: the Gauss-Newton step does. Returns
+ * STOP_STEP where that is negligible; STOP_OBJECTIVE where what it promises drowns in the noise of f or in the rounding of x, or
+ * where no parameter alone would lower f by more than the noise, f cos^2 (at the minimum of m = n residuals that do not vanish J
+ * is singular, and the Gauss-Newton step promises all of f); STOP_STALLED where there is something to gain: J is not that of r,
+ * or r does not follow it as far as any step that can be told from none. */
+static int what_is_left(struct lm *lm)
+{
+    double mu = MU_LEAST, length = lm->length, rounded = ROUNDED * length_of_x(lm);
+    if (solve(lm, INFINITY, &mu, lm->scratch))
+        return ROTID_ERROR_LIBRARY;
+    lm->length = length;
+    double promise = predicted_decrease(lm, mu, lm->scratch);
+    if (negligible(lm, lm->scratch))
         return ROTID_STOP_STEP;
-    if (!(*predicted > lm->options.objective_tolerance * lm->result->objective))
-        return ROTID_STOP_OBJECTIVE;
+    return promise <= FLAT * lm->objective || 2 * promise <= rounded * rounded || lm->result->cosine * lm->result->cosine <= FLAT
+               ? ROTID_STOP_OBJECTIVE
+               : ROTID_STOP_STALLED;
+}
+
+/* A damped step from x, behind `failed` others from there. Returns 0 with the trial point and its residual in place, a stop
+ * reason, or an error. *refused: the trial has no residual. */
+static int try_step(struct lm *lm, int failed, double *predicted, int *refused)
+{
+    if (solve(lm, lm->radius, &lm->mu, lm->step))
+        return ROTID_ERROR_LIBRARY;
+    *predicted = predicted_decrease(lm, lm->mu, lm->step);
+    if (negligible(lm, lm->step) || !(*predicted > lm->options.objective_tolerance * lm->objective)) {
+        int reason = what_is_left(lm);
+        if (failed || reason != ROTID_STOP_STALLED) /* else damping is left from where it was due: the next steps may be longer */
+            return reason;
+    }
     for (int j = 0; j < lm->n; j++)
-        lm->trial[j] = lm->x[j] + lm->step[j];
+        lm->trial[j] = lm->x[j] + lm->step[j] / lm->unit;
     lm->result->evaluations++;
     *refused = lm->residual(lm->user, lm->m, lm->n, lm->trial, lm->trial_r, NULL) || !all_finite(lm->m, lm->trial_r);
     return ROTID_OK;
 }
 
-static void accept(struct lm *lm)
+/* To the trial, whose residual and Jacobian are there. */
+static void move(struct lm *lm)
 {
     memcpy(lm->x, lm->trial, (size_t)lm->n * sizeof *lm->x);
     memcpy(lm->r, lm->trial_r, (size_t)lm->m * sizeof *lm->r);
-    lm->result->objective = half_square(lm->m, lm->r);
-}
-
-/* Near the minimum the decrease drowns in the rounding of r long before the gradient does (Hager and Zhang 2005 make the same
- * point for line searches): the step is then judged by the gradient. Returns 0 with the trial accepted and linearised,
- * STOP_OBJECTIVE with everything as it was (but for scales, those of a neighbour), or an error. */
-static int accept_by_gradient(struct lm *lm)
-{
-    size_t m = (size_t)lm->m, n = (size_t)lm->n;
-    double *x = lm->old, *gradient = x + n, *r = gradient + n, *jacobian = r + m, cosine = lm->result->cosine,
-           f = lm->result->objective;
-    memcpy(x, lm->x, n * sizeof *x);
-    memcpy(gradient, lm->gradient, n * sizeof *x);
-    memcpy(r, lm->r, m * sizeof *x);
-    memcpy(jacobian, lm->jacobian, m * n * sizeof *x);
-    accept(lm);
-    int status = linearise(lm);
-    if (status || lm->result->cosine < cosine)
-        return status;
-    memcpy(lm->x, x, n * sizeof *x);
-    memcpy(lm->gradient, gradient, n * sizeof *x);
-    memcpy(lm->r, r, m * sizeof *x);
-    memcpy(lm->jacobian, jacobian, m * n * sizeof *x);
-    lm->result->cosine = cosine;
-    lm->result->objective = f;
-    return ROTID_STOP_OBJECTIVE;
+    memcpy(lm->jacobian, lm->trial_jacobian, (size_t)lm->m * (size_t)lm->n * sizeof *lm->jacobian);
+    measure(lm);
+    (void)linearise(lm); /* J = 0: the gradient has vanished */
 }
 
 /* Behind a step that was accepted: mu after Nielsen, and a radius. */
@@ -205,33 +249,41 @@ static void tighten(struct lm *lm, double actual, int refused)
     lm->fall = FALL;
 }
 
-/* Steps of growing damping until one lowers the objective; the accepted point is linearised. */
+/* Steps of growing damping until one lowers the objective and has a Jacobian; x moves there. */
 static int descend(struct lm *lm)
 {
-    for (int flat_steps = 0;;) {
-        double predicted, actual;
-        int refused, status = try_step(lm, &predicted, &refused);
+    for (int failed = 0, flat_steps = 0;; failed = 1) {
+        double predicted, actual, flat = FLAT * lm->objective;
+        int refused = 0, status = try_step(lm, failed, &predicted, &refused);
         if (status)
             return status;
         actual = refused ? -1 : actual_decrease(lm);
         lm->gain = refused ? -1 : actual / predicted;
-        double flat = FLAT * lm->result->objective;
         if (lm->gain > 0.25 || (lm->gain > 0 && predicted > flat)) {
-            accept(lm);
-            relax(lm);
-            return linearise(lm);
-        }
-        if (!refused && predicted < flat && fabs(actual) < flat) {
-            double before = lm->result->cosine;
-            status = accept_by_gradient(lm);
-            if (status == ROTID_OK && lm->result->cosine < before / 3)
-                lm->mu = fmax(lm->mu / FALL, MU_LEAST);
-            if (status != ROTID_STOP_OBJECTIVE || ++flat_steps == FLAT_TRIES)
-                return status;
+            refused = ask_jacobian(lm, lm->trial, lm->trial_jacobian);
+            if (!refused) {
+                relax(lm);
+                move(lm);
+                return ROTID_OK;
+            }
+        } else if (!refused && predicted < flat && fabs(actual) < flat && what_is_left(lm) != ROTID_STOP_STALLED) {
+            /* Near the minimum the decrease drowns in the rounding of r long before the gradient does (Hager and Zhang 2005 make
+             * the same point for line searches): the step is then judged by the gradient. */
+            double before = lm->result->cosine, now;
+            refused = ask_jacobian(lm, lm->trial, lm->trial_jacobian);
+            now = refused ? INFINITY : largest_cosine(lm, lm->trial_r, lm->trial_jacobian);
+            if (now < before) {
+                if (now < before / 3)
+                    lm->mu = fmax(lm->mu / FALL, MU_LEAST);
+                move(lm);
+                return ROTID_OK;
+            }
+            if (!refused && ++flat_steps == FLAT_TRIES)
+                return what_is_left(lm);
         }
         tighten(lm, actual, refused);
         if (lm->mu > MU_MOST)
-            return ROTID_STOP_STALLED;
+            return what_is_left(lm);
     }
 }
 
@@ -239,13 +291,15 @@ static int report(struct lm *lm)
 {
     if (!lm->options.trace)
         return 0;
+    for (int j = 0; j < lm->n; j++)
+        lm->scratch[j] = lm->gradient[j] / lm->unit;
     rotid_lm_iteration now = {.iteration = lm->result->iterations,
                               .objective = lm->result->objective,
                               .mu = lm->mu,
                               .gain_ratio = lm->gain,
                               .cosine = lm->result->cosine,
                               .x = lm->x,
-                              .gradient = lm->gradient};
+                              .gradient = lm->scratch};
     return lm->options.trace(lm->options.trace_user, &now);
 }
 
@@ -256,17 +310,17 @@ static int minimise(struct lm *lm)
         return ROTID_ERROR_CALLBACK;
     if (!all_finite(lm->m, lm->r))
         return ROTID_ERROR_FINITE;
-    lm->result->objective = half_square(lm->m, lm->r);
-    if (!isfinite(lm->result->objective))
-        return ROTID_ERROR_FINITE;
-    int status = linearise(lm);
+    measure(lm);
+    int status = ask_jacobian(lm, lm->x, lm->jacobian);
+    if (!status && !linearise(lm) && lm->objective > 0)
+        status = ROTID_ERROR_RANK;
     /* where x says how far away things are, a part of that; but x may happen to be near zero: then as far as would take all of r
      */
-    lm->radius = fmax(FIRST * scaled_length(lm), sqrt(2 * lm->result->objective));
+    lm->radius = fmax(FIRST * length_of_x(lm), sqrt(2 * lm->objective));
     while (!status) {
         if (report(lm))
             return ROTID_STOP_CANCELLED;
-        if (lm->result->objective == 0 || lm->result->cosine <= lm->options.gradient_tolerance)
+        if (lm->objective == 0 || lm->result->cosine <= lm->options.gradient_tolerance)
             return ROTID_STOP_GRADIENT;
         if (lm->result->iterations >= lm->options.max_iterations)
             return ROTID_STOP_ITERATIONS;
@@ -281,44 +335,68 @@ static double or_default(double value, double standard)
     return value > 0 ? value : standard;
 }
 
-static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
-               double *jacobian, double *work, rotid_lm_result *result)
+static int check_arguments(int m, int n, rotid_residual residual, const double *x, const double *r, const double *jacobian,
+                           const double *work, const rotid_lm_result *result, char *failure)
 {
-    if (m < 1 || n < 1 || !residual || !x || !r || !jacobian || !work || !result || !all_finite(n, x))
-        return ROTID_ERROR_ARGUMENT;
-    *result = (rotid_lm_result){0};
+    if (m < 1 || n < 1)
+        return refuse(failure, "m is %d and n is %d, expected 1 or more", m, n);
+    const char *missing = !residual   ? "residual"
+                          : !x        ? "x"
+                          : !r        ? "r"
+                          : !jacobian ? "jacobian"
+                          : !work     ? "work"
+                          : !result   ? "result"
+                                      : NULL;
+    if (missing)
+        return refuse(failure, "%s is NULL, expected one", missing);
+    for (int j = 0; j < n; j++)
+        if (!isfinite(x[j]))
+            return refuse(failure, "x[%d] is %g, expected a number to start from", j, x[j]);
+    return ROTID_OK;
+}
+
+static int run(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure, double *x,
+               double *r, double *jacobian, double *work, rotid_lm_result *result)
+{
     struct lm lm = {.m = m, .n = n, .residual = residual, .user = user, .x = x, .r = r, .jacobian = jacobian, .result = result};
-    if (options)
-        lm.options = *options;
+    int status = check_arguments(m, n, residual, x, r, jacobian, work, result, failure);
+    if (!status && options)
+        status = sized_take(SIZED_LM_OPTIONS, options, failure, &lm.options);
+    if (status)
+        return status;
+    *result = (rotid_lm_result){0};
     if (lm.options.max_iterations <= 0)
-        lm.options.max_iterations = 100;
+        lm.options.max_iterations = 1000;
     lm.options.gradient_tolerance = or_default(lm.options.gradient_tolerance, 1e-10);
     lm.options.step_tolerance = or_default(lm.options.step_tolerance, 1e-12);
     lm.options.objective_tolerance = or_default(lm.options.objective_tolerance, 1e-16);
     lm.mu = or_default(lm.options.initial_damping, 1e-14);
     lm.fall = FALL;
     lm.gain = NAN;
+    lm.unit = 1;
     lm.trial = work;
     lm.step = lm.trial + n;
     lm.gradient = lm.step + n;
     lm.norm = lm.gradient + n;
     lm.scale = lm.norm + n;
     lm.floor = lm.scale + n;
-    lm.trial_r = lm.floor + n;
-    lm.old = lm.trial_r + m;
-    lm.work = lm.old + 2 * (size_t)n + (size_t)m + (size_t)m * (size_t)n;
+    lm.scratch = lm.floor + n;
+    lm.scaled = lm.scratch + n;
+    lm.trial_r = lm.scaled + m;
+    lm.trial_jacobian = lm.trial_r + m;
+    lm.work = lm.trial_jacobian + (size_t)m * (size_t)n;
     memset(lm.norm, 0, (size_t)n * sizeof *lm.norm);
     result->status = minimise(&lm);
     result->mu = lm.mu;
     return result->status;
 }
 
-int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, double *x, double *r,
-             double *jacobian, double *work, rotid_lm_result *result)
+int rotid_lm(int m, int n, rotid_residual residual, void *user, const rotid_lm_options *options, char *failure, double *x,
+             double *r, double *jacobian, double *work, rotid_lm_result *result)
 {
-    struct host host;
-    host_enter_floating(&host);
-    int status = run(m, n, residual, user, options, x, r, jacobian, work, result);
-    host_leave_floating(&host);
-    return status;
+    struct entry entry;
+    int status = entry_open(&entry, NULL, failure);
+    if (!status)
+        status = run(m, n, residual, user, options, failure, x, r, jacobian, work, result);
+    return entry_close(&entry, status);
 }

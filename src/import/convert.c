@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file/open.h"
 #include "uff/uff_read.h"
 #include "uff/uff_write.h"
 
@@ -195,7 +196,8 @@ int convert_file(const char *path, const struct convert_options *options, FILE *
     job.imag = POOL_ARRAY(&job.pool, double, PIECE);
     int status = job.x && job.real && job.imag ? uff_open(&job.pool, path, messages, &job.reader) : ROTID_ERROR_MEMORY;
     if (!status) {
-        job.source = fopen(path, "rb");
+        struct stat about;
+        job.source = file_open(path, 0, &about);
         status = job.source ? convert_sets(&job) : ROTID_ERROR_IO;
         int reason = errno;
         if (job.source)

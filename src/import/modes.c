@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "uff/uff_write.h"
 
 enum { SET_NODES = 2411, NORMAL_MODE = 2, UNKNOWN_ANALYSIS = 0, VECTOR = 2, DISPLACEMENT = 8, REAL_DATA = 2 };
@@ -28,10 +29,21 @@ static int only_reference(const struct measurement *measurement, const struct em
     return ema->roving_force || !set->nfrf ? 0 : set->frf[0].reference_node;
 }
 
-static const char *base_name(const char *path)
+#define NAME_MOST 50 /* bytes of a name in a line of text, which has 80 */
+
+/* The name of the file without its folder, as far as it can stand in a line of text: no control characters. */
+static const char *base_name(const char *path, char name[NAME_MOST + 1])
 {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
+    const char *slash = strrchr(path, '/'), *from = slash ? slash + 1 : path;
+    size_t length = 0, taken;
+    for (; *from && length + text_visible(from) < NAME_MOST; from += taken) {
+        size_t bytes = text_visible(from);
+        taken = bytes ? bytes : text_utf8(from) ? text_utf8(from) : 1;
+        memcpy(name + length, bytes ? from : "?", bytes ? bytes : 1);
+        length += bytes ? bytes : 1;
+    }
+    name[length] = 0;
+    return name;
 }
 
 static int compare_ids(const void *left, const void *right)
@@ -136,6 +148,7 @@ static int write_points(struct writing *w, int number, const struct ema_mode *mo
 static int write_mode(struct writing *w, const char *source, int k)
 {
     const struct ema_mode *mode = &w->ema->mode[k];
+    char name[NAME_MOST + 1];
     struct uff_shape shape = {.analysis_type = NORMAL_MODE,
                               .specific_type = DISPLACEMENT,
                               .number = k + 1,
@@ -143,7 +156,7 @@ static int write_mode(struct writing *w, const char *source, int k)
                               .damping = isfinite(mode->damping) ? mode->damping : 0,
                               .modal_mass = isfinite(mode->modal_mass) ? mode->modal_mass : 0};
     (void)snprintf(shape.id[0], sizeof shape.id[0], "mode %d, %.6g Hz, real normal mode", k + 1, mode->frequency_hz);
-    (void)snprintf(shape.id[1], sizeof shape.id[1], "from %.70s", base_name(source));
+    (void)snprintf(shape.id[1], sizeof shape.id[1], "from %s", base_name(source, name));
     (void)snprintf(shape.id[2], sizeof shape.id[2], "MPC %.4f MPD %.2f deg", mode->mpc, mode->mpd);
     (void)snprintf(shape.id[4], sizeof shape.id[4], "ROTID FREQUENCY_HZ %.12g", mode->frequency_hz);
     if (w->reference)
@@ -163,10 +176,11 @@ int modes_write(FILE *stream, const char *source, const char *program, const str
 {
     static const struct uff_units si = {1, "SI", 2, 1, 1, 1, 273.15};
     struct uff_header header = {.version = {0, 0}};
+    char name[NAME_MOST + 1];
     struct writing w = {.stream = stream, .ema = ema, .reference = only_reference(measurement, ema)};
     pool_open(&w.scratch, NULL);
     (void)snprintf(header.model, sizeof header.model, "modes");
-    (void)snprintf(header.description, sizeof header.description, "modal extraction from %.50s", base_name(source));
+    (void)snprintf(header.description, sizeof header.description, "modal extraction from %s", base_name(source, name));
     (void)snprintf(header.program, sizeof header.program, "%.70s", program);
     int status = collect_nodes(&w);
     if (!status)

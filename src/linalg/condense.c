@@ -1,41 +1,54 @@
 /* Condensation of a host's matrices. */
 #include <string.h>
 
+#include "base/entry.h"
 #include "linalg/matrix_check.h"
 #include "linalg/reduction.h"
 
 static int check(int count, const rotid_matrix *const *a, int nmaster, const int *master, int kind, const double *k_out,
-                 const double *m_out)
+                 const double *m_out, char *failure)
 {
-    int status = matrices_check(count, a);
-    if (status == ROTID_ERROR_ARGUMENT || !k_out || !m_out || nmaster < 1 || nmaster > a[0]->n ||
-        !indices_increase(nmaster, master, a[0]->n) || (kind != ROTID_GUYAN && kind != ROTID_IRS))
-        return ROTID_ERROR_ARGUMENT;
-    return status;
+    int status = matrices_check(count, a, failure);
+    if (status)
+        return status;
+    if (nmaster < 1)
+        return refuse(failure, "nmaster is %d, expected 1 ... %d (n)", nmaster, a[0]->n);
+    if (kind != ROTID_GUYAN && kind != ROTID_IRS)
+        return refuse(failure, "kind is %d, expected ROTID_GUYAN (%d) or ROTID_IRS (%d)", kind, ROTID_GUYAN, ROTID_IRS);
+    if (!k_out || !m_out)
+        return refuse(failure, "the %s to be written is NULL, expected room for nmaster x nmaster entries",
+                      k_out ? "mass" : "stiffness");
+    return indices_check("master", nmaster, master, a[0]->n, failure);
+}
+
+static int condense(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
+                    double *kc, double *mc, double *t)
+{
+    struct reduction r;
+    size_t square = (size_t)nmaster * (size_t)nmaster;
+    int status = reduction_new(pool, kind, k, nmaster, master, &r);
+    if (!status)
+        status = reduction_compute(&r, k, m);
+    if (status)
+        return status;
+    memcpy(kc, r.kc, square * sizeof *kc);
+    memcpy(mc, r.mc, square * sizeof *mc);
+    if (t)
+        memcpy(t, r.t, (size_t)k->n * (size_t)nmaster * sizeof *t);
+    return ROTID_OK;
 }
 
 int rotid_condense(const rotid_matrix *k, const rotid_matrix *m, int nmaster, const int *master, int kind,
-                   const rotid_environment *environment, double *kc, double *mc, double *t)
+                   const rotid_environment *environment, char *failure, double *kc, double *mc, double *t)
 {
     const rotid_matrix *all[] = {k, m};
-    struct pool pool;
-    struct reduction r;
-    int status = check(2, all, nmaster, master, kind, kc, mc);
-    if (status)
-        return status;
-    pool_open(&pool, environment ? environment->allocator : NULL);
-    status = reduction_new(&pool, kind, k, nmaster, master, &r);
+    struct entry entry;
+    int status = entry_open(&entry, environment, failure);
     if (!status)
-        status = reduction_compute(&r, k, m);
-    if (!status) {
-        size_t square = (size_t)nmaster * (size_t)nmaster;
-        memcpy(kc, r.kc, square * sizeof *kc);
-        memcpy(mc, r.mc, square * sizeof *mc);
-        if (t)
-            memcpy(t, r.t, (size_t)k->n * (size_t)nmaster * sizeof *t);
-    }
-    pool_close(&pool);
-    return status;
+        status = check(2, all, nmaster, master, kind, kc, mc, failure);
+    if (!status)
+        status = condense(&entry.scratch, k, m, nmaster, master, kind, kc, mc, t);
+    return entry_close(&entry, status);
 }
 
 /* Symmetric but for rounding */
@@ -63,24 +76,23 @@ static int differentiate(struct pool *pool, const rotid_matrix *const *a, int nm
         reduction_derivative_multiply(&r, a[2], a[3], unit, dkc + column, dmc + column, work);
         unit[c] = 0;
     }
-    return status;
-}
-
-int rotid_condense_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk, const rotid_matrix *dm,
-                              int nmaster, const int *master, int kind, const rotid_environment *environment, double *dkc,
-                              double *dmc)
-{
-    const rotid_matrix *all[] = {k, m, dk, dm};
-    struct pool pool;
-    int status = check(4, all, nmaster, master, kind, dkc, dmc);
-    if (status)
-        return status;
-    pool_open(&pool, environment ? environment->allocator : NULL);
-    status = differentiate(&pool, all, nmaster, master, kind, dkc, dmc);
     if (!status) {
         symmetrise(nmaster, dkc);
         symmetrise(nmaster, dmc);
     }
-    pool_close(&pool);
     return status;
+}
+
+int rotid_condense_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk, const rotid_matrix *dm,
+                              int nmaster, const int *master, int kind, const rotid_environment *environment, char *failure,
+                              double *dkc, double *dmc)
+{
+    const rotid_matrix *all[] = {k, m, dk, dm};
+    struct entry entry;
+    int status = entry_open(&entry, environment, failure);
+    if (!status)
+        status = check(4, all, nmaster, master, kind, dkc, dmc, failure);
+    if (!status)
+        status = differentiate(&entry.scratch, all, nmaster, master, kind, dkc, dmc);
+    return entry_close(&entry, status);
 }

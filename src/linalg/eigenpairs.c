@@ -1,4 +1,5 @@
 /* The lowest eigenpairs of a host's matrices. */
+#include "base/entry.h"
 #include "linalg/eigen.h"
 #include "linalg/matrix_check.h"
 
@@ -18,18 +19,27 @@ static int solve(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m
     return status ? status : eigen_full_solve(&e, k, m, lambda, phi);
 }
 
-int rotid_eigenpairs(const rotid_matrix *k, const rotid_matrix *m, int count, const rotid_environment *environment,
-                     double *lambda, double *phi)
+static int check(const rotid_matrix *k, const rotid_matrix *m, int count, const double *lambda, const double *phi, char *failure)
 {
     const rotid_matrix *all[] = {k, m};
-    struct pool pool;
-    int status = matrices_check(2, all);
-    if (status == ROTID_ERROR_ARGUMENT || count < 1 || count > k->n || !lambda || !phi)
-        return ROTID_ERROR_ARGUMENT;
+    int status = matrices_check(2, all, failure);
     if (status)
         return status;
-    pool_open(&pool, environment ? environment->allocator : NULL);
-    status = solve(&pool, k, m, count, lambda, phi);
-    pool_close(&pool);
-    return status;
+    if (count < 1 || count > k->n)
+        return refuse(failure, "count is %d, expected 1 ... %d (n)", count, k->n);
+    if (!lambda || !phi)
+        return refuse(failure, "%s is NULL, expected room for the result", lambda ? "phi" : "lambda");
+    return ROTID_OK;
+}
+
+int rotid_eigenpairs(const rotid_matrix *k, const rotid_matrix *m, int count, const rotid_environment *environment, char *failure,
+                     double *lambda, double *phi)
+{
+    struct entry entry;
+    int status = entry_open(&entry, environment, failure);
+    if (!status)
+        status = check(k, m, count, lambda, phi, failure);
+    if (!status)
+        status = solve(&entry.scratch, k, m, count, lambda, phi);
+    return entry_close(&entry, status);
 }

@@ -40,12 +40,21 @@ static int solve_damped(int m, int n, const double *jacobian, const double *r, c
     return 0;
 }
 
-static double scaled_length(int n, const double *scale, const double *h)
+double least_squares_length(int n, const double *scale, const double *h)
 {
-    double sum = 0;
-    for (int j = 0; j < n; j++)
-        sum += scale[j] * h[j] * scale[j] * h[j];
-    return sqrt(sum);
+    double largest = 0, sum = 0;
+    for (int j = 0; j < n; j++) {
+        double part = fabs(scale ? scale[j] * h[j] : h[j]);
+        if (!(part <= largest)) /* a NaN stays */
+            largest = part;
+    }
+    if (!(largest > 0) || !isfinite(largest))
+        return largest;
+    for (int j = 0; j < n; j++) {
+        double part = (scale ? scale[j] * h[j] : h[j]) / largest;
+        sum += part * part;
+    }
+    return largest * sqrt(sum);
 }
 
 /* (D^2 h)' (R'R)^-1 (D^2 h) = -|D h| d|D h|/dmu, with R of the last solution */
@@ -54,7 +63,7 @@ static double length_slope(int m, int n, const double *scale, const double *h, d
     int rows = m + n;
     double *q = work + (ptrdiff_t)rows * n, sum = 0;
     for (int j = 0; j < n; j++)
-        q[j] = scale[j] * scale[j] * h[j];
+        q[j] = scale[j] * (scale[j] * h[j]);
     if (LAPACKE_dtrtrs_work(LAPACK_COL_MAJOR, 'U', 'T', 'N', n, 1, work, rows, q, n))
         return 0;
     for (int j = 0; j < n; j++)
@@ -68,7 +77,7 @@ int least_squares_damped_step(int m, int n, const double *jacobian, const double
     for (int turn = 0;; turn++) {
         if (solve_damped(m, n, jacobian, r, scale, floor, *mu, h, work))
             return 1;
-        *length = scaled_length(n, scale, h);
+        *length = least_squares_length(n, scale, h);
         if (!(*length > LONGER * radius))
             return 0;
         double raise = *length * *length / length_slope(m, n, scale, h, work) * (*length - radius) / radius;

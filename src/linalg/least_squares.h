@@ -4,6 +4,9 @@
 
 #include <stddef.h>
 
+/* |D h|, D = diag(scale [n]), NULL: 1; of any size that has a double, as its square may not. NaN where a component is. */
+double least_squares_length(int n, const double *scale, const double *h);
+
 size_t least_squares_workspace(int m, int n);
 
 /* h [n]: min |J h + r|^2 + mu |D h|^2 + |F h|^2, D = diag(scale), F = diag(floor), by QR of the three on top of each other, which

@@ -1,6 +1,7 @@
 /* How an eigenpair of a host's matrices changes with them. */
 #include <math.h>
 
+#include "base/entry.h"
 #include "linalg/matrix.h"
 #include "linalg/matrix_check.h"
 #include "linalg/product.h"
@@ -24,7 +25,8 @@ static int is_close(struct pool *pool, const struct pair *pair, int *close)
     for (int i = 0; i < n; i++)
         largest = fmax(largest, fabs(pair->k->band[(ptrdiff_t)i * stride] / pair->m->band[(ptrdiff_t)i * stride]));
     double zero = ZERO * largest;
-    *close = eigenvalue_is_close(pair->count, pair->lambda, pair->j);
+    int first;
+    *close = eigenvalue_cluster(pair->count, pair->lambda, pair->j, &first) > 1;
     for (int i = 0; i < pair->count; i++) /* both are zero, and their distance is nothing but rounding */
         *close |= i != pair->j && fabs(pair->lambda[i]) < zero && fabs(here) < zero;
     if (*close || pair->j + 1 < pair->count || pair->count == n)
@@ -42,7 +44,7 @@ static int is_close(struct pool *pool, const struct pair *pair, int *close)
     return ROTID_OK;
 }
 
-static int differentiate(struct pool *pool, const struct pair *pair, double *dlambda, double *dphi)
+static int differentiate(struct pool *pool, const struct pair *pair, char *failure, double *dlambda, double *dphi)
 {
     int n = pair->n, close;
     struct nelson_band nelson;
@@ -53,8 +55,10 @@ static int differentiate(struct pool *pool, const struct pair *pair, double *dla
     matrix_multiply(pair->m, 1, pair->phi, m_phi);
     matrix_multiply(pair->dk, 1, pair->phi, dk_phi);
     matrix_multiply(pair->dm, 1, pair->phi, dm_phi);
-    if (!(fabs(product_dot(n, pair->phi, m_phi) - 1) < NORMALISED))
-        return ROTID_ERROR_ARGUMENT;
+    double norm = product_dot(n, pair->phi, m_phi);
+    if (!(fabs(norm - 1) < NORMALISED))
+        return refuse(failure, "phi' M phi of column %d of phi is %.10g, expected 1, as rotid_eigenpairs gives it", pair->j,
+                      norm);
     double slope = nelson_right_side(n, pair->lambda[pair->j], pair->phi, m_phi, dk_phi, dm_phi, p, &q);
     if (dphi) {
         int status = is_close(pool, pair, &close);
@@ -63,38 +67,50 @@ static int differentiate(struct pool *pool, const struct pair *pair, double *dla
         if (!status)
             status = nelson_band_new(pool, pair->k, 1, &nelson);
         if (!status)
-            status = nelson_band_prepare(&nelson, pair->k, pair->m, pair->lambda[pair->j], pair->phi);
+            status = nelson_band_prepare(&nelson, pair->k, pair->m, pair->lambda[pair->j], 1, pair->phi);
         if (status)
             return status;
-        nelson_band_solve(&nelson, 1, pair->phi, m_phi, p, &q, dphi);
+        nelson_band_solve(&nelson, 1, 1, pair->phi, m_phi, p, &q, dphi);
     }
     *dlambda = slope;
     return ROTID_OK;
 }
 
+static int check(int n, int count, const double *lambda, const double *phi, int j, const double *dlambda, char *failure)
+{
+    if (count < 1 || count > n)
+        return refuse(failure, "count is %d, expected 1 ... %d (n)", count, n);
+    if (j < 0 || j >= count)
+        return refuse(failure, "j is %d, expected 0 ... %d (count - 1)", j, count - 1);
+    if (!lambda || !phi || !dlambda)
+        return refuse(failure, "%s is NULL, expected an array", !lambda ? "lambda" : !phi ? "phi" : "dlambda");
+    for (int i = 0; i < count; i++)
+        if (!isfinite(lambda[i]))
+            return failure_say(failure, ROTID_ERROR_FINITE, "lambda[%d] is %g, expected a number", i, lambda[i]);
+    for (int i = 0; i < n; i++)
+        if (!isfinite(phi[i + (ptrdiff_t)j * n]))
+            return failure_say(failure, ROTID_ERROR_FINITE, "component %d of column %d of phi is %g, expected a number", i, j,
+                               phi[i + (ptrdiff_t)j * n]);
+    for (int i = 1; i < count; i++)
+        if (lambda[i] < lambda[i - 1])
+            return refuse(failure, "lambda[%d] is %g behind %g, expected ascending values", i, lambda[i], lambda[i - 1]);
+    return ROTID_OK;
+}
+
 int rotid_eigenpair_derivative(const rotid_matrix *k, const rotid_matrix *m, const rotid_matrix *dk, const rotid_matrix *dm,
                                int count, const double *lambda, const double *phi, int j, const rotid_environment *environment,
-                               double *dlambda, double *dphi)
+                               char *failure, double *dlambda, double *dphi)
 {
     const rotid_matrix *all[] = {k, m, dk, dm};
-    int status = matrices_check(4, all);
-    if (status == ROTID_ERROR_ARGUMENT || count < 1 || count > k->n || j < 0 || j >= count || !lambda || !phi || !dlambda)
-        return ROTID_ERROR_ARGUMENT;
-    for (int i = 0; i < count && !status; i++)
-        if (!isfinite(lambda[i]))
-            status = ROTID_ERROR_FINITE;
-    for (int i = 0; i < k->n && !status; i++)
-        if (!isfinite(phi[i + (ptrdiff_t)j * k->n]))
-            status = ROTID_ERROR_FINITE;
-    for (int i = 1; i < count && !status; i++)
-        if (lambda[i] < lambda[i - 1])
-            status = ROTID_ERROR_ARGUMENT;
-    if (status)
-        return status;
-    struct pool pool;
-    const struct pair pair = {k, m, dk, dm, k->n, count, j, lambda, phi + (ptrdiff_t)j * k->n};
-    pool_open(&pool, environment ? environment->allocator : NULL);
-    status = differentiate(&pool, &pair, dlambda, dphi);
-    pool_close(&pool);
-    return status;
+    struct entry entry;
+    int status = entry_open(&entry, environment, failure);
+    if (!status)
+        status = matrices_check(4, all, failure);
+    if (!status)
+        status = check(k->n, count, lambda, phi, j, dlambda, failure);
+    if (!status) {
+        const struct pair pair = {k, m, dk, dm, k->n, count, j, lambda, phi + (ptrdiff_t)j * k->n};
+        status = differentiate(&entry.scratch, &pair, failure, dlambda, dphi);
+    }
+    return entry_close(&entry, status);
 }

@@ -8,10 +8,16 @@
 
 #define ENOUGH 1e-9 /* relative change of V by a step of refinement whose square is below rounding */
 
-int eigenvalue_is_close(int count, const double *lambda, int k)
+int eigenvalue_cluster(int count, const double *lambda, int k, int *first)
 {
     double reach = CLOSE_EIGENVALUES * fabs(lambda[k]);
-    return (k > 0 && lambda[k] - lambda[k - 1] < reach) || (k + 1 < count && lambda[k + 1] - lambda[k] < reach);
+    int low = k, high = k;
+    while (low > 0 && lambda[low] - lambda[low - 1] < reach && high - low + 1 < CLUSTER_MOST)
+        low--;
+    while (high + 1 < count && lambda[high + 1] - lambda[high] < reach && high - low + 1 < CLUSTER_MOST)
+        high++;
+    *first = low;
+    return high - low + 1;
 }
 
 double nelson_right_side(int n, double lambda, const double *phi, const double *m_phi, const double *dk_phi, const double *dm_phi,
@@ -24,70 +30,121 @@ double nelson_right_side(int n, double lambda, const double *phi, const double *
     return dlambda;
 }
 
-static int largest_component(int n, const double *phi)
+static int rows_new(struct pool *pool, int n, struct nelson_rows *rows)
 {
-    int best = 0;
-    for (int i = 1; i < n; i++)
-        if (fabs(phi[i]) > fabs(phi[best]))
-            best = i;
-    return best;
+    rows->kept = POOL_ARRAY(pool, int, n);
+    rows->pivot = POOL_ARRAY(pool, double, (size_t)n *CLUSTER_MOST);
+    return rows->kept && rows->pivot ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* dphi := V + (Q - phi' M V) phi, V in dphi */
-static void complete(int n, const double *phi, const double *m_phi, double q, double *dphi)
+/* Leaves out the rows where an elimination of the vectors with complete pivoting has its pivots: those of one vector at its
+ * largest component, and no combination of several is zero in all of them. */
+static void choose_rows(int n, int members, const double *phi, struct nelson_rows *rows)
 {
-    double c = q;
-    for (int i = 0; i < n; i++)
-        c -= m_phi[i] * dphi[i];
-    for (int i = 0; i < n; i++)
-        dphi[i] += c * phi[i];
+    double *w = rows->pivot;
+    int done[CLUSTER_MOST] = {0};
+    memcpy(w, phi, (size_t)n * (size_t)members * sizeof *w);
+    for (int step = 0; step < members; step++) {
+        int row = 0, column = -1;
+        for (int c = 0; c < members; c++)
+            for (int i = 0; i < n && !done[c]; i++)
+                if (column < 0 || fabs(w[i + (ptrdiff_t)c * n]) > fabs(w[row + (ptrdiff_t)column * n])) {
+                    row = i;
+                    column = c;
+                }
+        const double *of = w + (ptrdiff_t)column * n;
+        done[column] = 1;
+        for (int c = 0; c < members; c++) {
+            double *other = w + (ptrdiff_t)c * n, part = done[c] ? 0 : other[row] / of[row];
+            for (int i = 0; i < n && part != 0; i++)
+                other[i] -= part * of[i];
+            if (!done[c])
+                other[row] = 0;
+        }
+        int at = step;
+        for (; at > 0 && rows->left_out[at - 1] > row; at--)
+            rows->left_out[at] = rows->left_out[at - 1];
+        rows->left_out[at] = row;
+    }
+    for (int i = 0, left = 0, kept = 0; i < n; i++)
+        if (left < members && rows->left_out[left] == i)
+            left++;
+        else
+            rows->kept[kept++] = i;
 }
 
-/* out [n] := in [n - 1] with a zero at left_out; in may be out */
-static void insert_zero(int n, int left_out, double *x)
+/* x [n - members] -> [n] in place, zero in the rows that are left out */
+static void spread(const struct nelson_rows *rows, int n, int members, double *x)
 {
-    memmove(x + left_out + 1, x + left_out, (size_t)(n - 1 - left_out) * sizeof *x);
-    x[left_out] = 0;
+    for (int i = n - members - 1; i >= 0; i--)
+        x[rows->kept[i]] = x[i];
+    for (int j = 0; j < members; j++)
+        x[rows->left_out[j]] = 0;
 }
 
-static void leave_out(int n, int left_out, const double *x, double *shorter)
+static void gather(const struct nelson_rows *rows, int n, int members, const double *x, double *shorter)
 {
-    memcpy(shorter, x, (size_t)left_out * sizeof *x);
-    memcpy(shorter + left_out, x + left_out + 1, (size_t)(n - 1 - left_out) * sizeof *x);
+    for (int i = 0; i < n - members; i++)
+        shorter[i] = x[rows->kept[i]];
+}
+
+/* x := x - sum over the members of b_j (a_j' x - q_j); q NULL: zero */
+static void set_components(int n, int members, const double *a, const double *b, const double *q, double *x)
+{
+    for (int j = 0; j < members; j++) {
+        double c = q ? q[j] : 0;
+        c -= product_dot(n, a + (ptrdiff_t)j * n, x);
+        for (int i = 0; i < n; i++)
+            x[i] += c * b[i + (ptrdiff_t)j * n];
+    }
 }
 
 int nelson_dense_new(struct pool *pool, int n, struct nelson_dense *d)
 {
     *d = (struct nelson_dense){.n = n};
-    return symmetric_new(pool, n, &d->factor);
+    int status = rows_new(pool, n, &d->rows);
+    return status ? status : symmetric_new(pool, n, &d->factor);
 }
 
-int nelson_dense_prepare(struct nelson_dense *d, const double *k, const double *m, double lambda, const double *phi)
+static int factor_dense(struct nelson_dense *d, const double *k, const double *m, double lambda, int members)
+{
+    int n = d->n, size = n - members;
+    const int *kept = d->rows.kept;
+    double *target = d->factor.a;
+    for (int j = 0; j < size; j++)
+        for (int i = 0; i < size; i++) {
+            ptrdiff_t at = kept[i] + (ptrdiff_t)kept[j] * n;
+            *target++ = k[at] - lambda * m[at];
+        }
+    return symmetric_factor(&d->factor, size);
+}
+
+int nelson_dense_prepare(struct nelson_dense *d, const double *k, const double *m, double lambda, int members, const double *phi)
+{
+    choose_rows(d->n, members, phi, &d->rows);
+    if (!factor_dense(d, k, m, lambda, members) || !factor_dense(d, k, m, lambda * (1 + CLOSE_EIGENVALUES), members))
+        return ROTID_OK;
+    return ROTID_ERROR_CLOSE;
+}
+
+void nelson_dense_solve(struct nelson_dense *d, int members, const double *phi, const double *m_phi, const double *p,
+                        const double *q, double *dphi)
 {
     int n = d->n;
-    double *target = d->factor.a;
-    d->left_out = largest_component(n, phi);
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < n; i++)
-            if (i != d->left_out && j != d->left_out)
-                *target++ = k[i + (ptrdiff_t)j * n] - lambda * m[i + (ptrdiff_t)j * n];
-    return symmetric_factor(&d->factor, n - 1) ? ROTID_ERROR_CLOSE : ROTID_OK;
+    memcpy(dphi, p, (size_t)n * sizeof *p);
+    set_components(n, members, phi, m_phi, NULL, dphi);
+    gather(&d->rows, n, members, dphi, dphi);
+    symmetric_solve(&d->factor, n - members, dphi);
+    spread(&d->rows, n, members, dphi);
+    set_components(n, members, m_phi, phi, q, dphi);
 }
 
-void nelson_dense_solve(struct nelson_dense *d, const double *phi, const double *m_phi, const double *p, double q, double *dphi)
-{
-    leave_out(d->n, d->left_out, p, dphi);
-    symmetric_solve(&d->factor, d->n - 1, dphi);
-    insert_zero(d->n, d->left_out, dphi);
-    complete(d->n, phi, m_phi, q, dphi);
-}
-
-void modal_superposition(int n, const double *lambda, const double *phi, int k, const double *m_phi, const double *p, double q,
-                         double *dphi)
+void modal_superposition(int n, const double *lambda, const double *phi, int k, int first, int members, const double *m_phi,
+                         const double *p, const double *q, double *dphi)
 {
     memset(dphi, 0, (size_t)n * sizeof *dphi);
     for (int j = 0; j < n; j++) {
-        if (j == k)
+        if (j >= first && j < first + members)
             continue;
         const double *other = phi + (ptrdiff_t)j * n;
         double c = 0;
@@ -97,7 +154,7 @@ void modal_superposition(int n, const double *lambda, const double *phi, int k, 
         for (int i = 0; i < n; i++)
             dphi[i] += c * other[i];
     }
-    complete(n, phi + (ptrdiff_t)k * n, m_phi, q, dphi);
+    set_components(n, members, m_phi, phi + (ptrdiff_t)first * n, q, dphi);
 }
 
 int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, struct nelson_band *b)
@@ -105,37 +162,43 @@ int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, 
     int n = structure->n;
     size_t columns = (size_t)n * (size_t)most;
     *b = (struct nelson_band){.n = n};
-    b->kept = POOL_ARRAY(pool, int, n);
     b->residual = POOL_ARRAY(pool, double, columns);
     b->shorter = POOL_ARRAY(pool, double, columns);
-    if (!b->kept || !b->residual || !b->shorter)
-        return ROTID_ERROR_MEMORY;
+    int status = b->residual && b->shorter ? rows_new(pool, n, &b->rows) : ROTID_ERROR_MEMORY;
+    if (status)
+        return status;
     for (int i = 0; i < n; i++)
-        b->kept[i] = i;
-    int status = matrix_new(pool, n, structure->kd, structure->nfar, structure->far, &b->shifted);
-    return status ? status : factor_new(pool, FACTOR_LU, structure, n, b->kept, &b->factor);
+        b->rows.kept[i] = i;
+    status = matrix_new(pool, n, structure->kd, structure->nfar, structure->far, &b->shifted);
+    return status ? status : factor_new(pool, FACTOR_LU, structure, n, b->rows.kept, &b->factor);
 }
 
-int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda, const double *phi)
+static int factor_band(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda)
 {
-    b->left_out = largest_component(b->n, phi);
-    for (int i = 0; i < b->n - 1; i++)
-        b->kept[i] = i + (i >= b->left_out);
     matrix_combine(1, k, -lambda, m, &b->shifted);
-    factor_keep(&b->factor, k, b->n - 1, b->kept);
-    return factor_compute(&b->factor, &b->shifted) ? ROTID_ERROR_CLOSE : ROTID_OK;
+    return factor_compute(&b->factor, &b->shifted);
 }
 
-/* x [n * columns] := A^-1 x without the row and column left out, zero there */
-static void solve_columns(struct nelson_band *b, int columns, double *x)
+int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda, int members,
+                        const double *phi)
 {
-    int n = b->n;
+    choose_rows(b->n, members, phi, &b->rows);
+    factor_keep(&b->factor, k, b->n - members, b->rows.kept);
+    if (!factor_band(b, k, m, lambda) || !factor_band(b, k, m, lambda * (1 + CLOSE_EIGENVALUES)))
+        return ROTID_OK;
+    return ROTID_ERROR_CLOSE;
+}
+
+/* x [n * columns] := A^-1 x without the rows and columns left out, zero there */
+static void solve_columns(struct nelson_band *b, int columns, int members, double *x)
+{
+    int n = b->n, size = n - members;
     for (int c = 0; c < columns; c++)
-        leave_out(n, b->left_out, x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * (n - 1));
+        gather(&b->rows, n, members, x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * size);
     factor_solve(&b->factor, columns, b->shorter);
     for (int c = 0; c < columns; c++) {
-        memcpy(x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * (n - 1), (size_t)(n - 1) * sizeof *x);
-        insert_zero(n, b->left_out, x + (ptrdiff_t)c * n);
+        memcpy(x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * size, (size_t)size * sizeof *x);
+        spread(&b->rows, n, members, x + (ptrdiff_t)c * n);
     }
 }
 
@@ -149,14 +212,17 @@ static double largest(ptrdiff_t count, const double *x)
 
 /* dphi holds V of A V = P for `columns` right-hand sides; one step of refinement. Returns how much it changed V, the worst of the
  * columns. */
-static double refine(struct nelson_band *b, int columns, const double *p, double *dphi)
+static double refine(struct nelson_band *b, int columns, int members, const double *phi, const double *m_phi, const double *p,
+                     double *dphi)
 {
     int n = b->n;
     double worst = 0;
     matrix_multiply(&b->shifted, columns, dphi, b->residual);
     for (ptrdiff_t i = 0; i < (ptrdiff_t)n * columns; i++)
         b->residual[i] = p[i] - b->residual[i];
-    solve_columns(b, columns, b->residual);
+    for (int c = 0; c < columns; c++)
+        set_components(n, members, phi, m_phi, NULL, b->residual + (ptrdiff_t)c * n);
+    solve_columns(b, columns, members, b->residual);
     for (int c = 0; c < columns; c++) {
         double *x = dphi + (ptrdiff_t)c * n, *change = b->residual + (ptrdiff_t)c * n, size = largest(n, x);
         for (int i = 0; i < n; i++)
@@ -166,17 +232,19 @@ static double refine(struct nelson_band *b, int columns, const double *p, double
     return worst;
 }
 
-void nelson_band_solve(struct nelson_band *b, int columns, const double *phi, const double *m_phi, const double *p,
+void nelson_band_solve(struct nelson_band *b, int columns, int members, const double *phi, const double *m_phi, const double *p,
                        const double *q, double *dphi)
 {
     int n = b->n;
     memcpy(dphi, p, (size_t)n * (size_t)columns * sizeof *p);
-    solve_columns(b, columns, dphi);
-    /* the bordered factors may lose digits where a clamped mode lies near; a second step would change V by the square of the
-     * first
-     */
-    if (refine(b, columns, p, dphi) > ENOUGH)
-        (void)refine(b, columns, p, dphi);
     for (int c = 0; c < columns; c++)
-        complete(n, phi, m_phi, q[c], dphi + (ptrdiff_t)c * n);
+        set_components(n, members, phi, m_phi, NULL, dphi + (ptrdiff_t)c * n);
+    solve_columns(b, columns, members, dphi);
+    /* the bordered factors may lose digits where a clamped mode lies near, and a cluster counts as one eigenvalue in them; a
+     * second step would change V by the square of the first
+     */
+    if (refine(b, columns, members, phi, m_phi, p, dphi) > ENOUGH)
+        (void)refine(b, columns, members, phi, m_phi, p, dphi);
+    for (int c = 0; c < columns; c++)
+        set_components(n, members, m_phi, phi, q + (ptrdiff_t)c * members, dphi + (ptrdiff_t)c * n);
 }

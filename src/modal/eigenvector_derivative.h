@@ -1,7 +1,13 @@
 /* Derivatives of eigenvectors: (K - lambda M) dphi = P, phi' M dphi = Q (34, 35), for phi' M phi = 1,
  *   P = -(dK - dlambda M - lambda dM) phi,  Q = -1/2 phi' dM phi.
  * Nelson (1976): leave out the row and column where phi is largest, solve for V, dphi = V + c phi, c = Q - phi' M V.
- * Modal superposition (37, 38 corrected): V = sum over j != k of phi_j (phi_j' P)/(lambda_j - lambda_k), needing every vector. */
+ * Modal superposition (37, 38 corrected): V = sum over j != k of phi_j (phi_j' P)/(lambda_j - lambda_k), needing every vector.
+ *
+ * Pairs whose eigenvalues are close form a cluster C. Its subspace has a derivative that is well conditioned; the vectors turn in
+ * it by (phi_j' P)/(lambda_j - lambda_k), which says nothing beyond steps of the relative distance. So they are taken not to
+ * turn: dphi = V + sum over j in C of q_j phi_j,  phi_j' M V = 0,  q_j = -1/2 phi_j' dM phi, where V solves with P less its part
+ * in C, and as many rows and columns are left out as C has members. The derivative of sum over C of phi phi', and with it that of
+ * the subspace, is exact; a cluster of one is Nelson's method. */
 #ifndef ROTID_MODAL_EIGENVECTOR_DERIVATIVE_H
 #define ROTID_MODAL_EIGENVECTOR_DERIVATIVE_H
 
@@ -12,35 +18,49 @@
 
 /* Eigenvalues nearer than this part of themselves have vectors that a change of parameter can turn at will. */
 #define CLOSE_EIGENVALUES 1e-6
+#define CLUSTER_MOST      8 /* pairs */
 
-int eigenvalue_is_close(int count, const double *lambda, int k);
+/* The cluster of pair k: neighbours in a row, each that near to the next. Returns how many, 1 where k stands alone; *first: the
+ * lowest. */
+int eigenvalue_cluster(int count, const double *lambda, int k, int *first);
 
 /* P [n] and *q from M phi, dK phi and dM phi [n]. Returns dlambda = phi' (dK - lambda dM) phi. */
 double nelson_right_side(int n, double lambda, const double *phi, const double *m_phi, const double *dk_phi, const double *dm_phi,
                          double *p, double *q);
 
+/* In what follows phi and m_phi [n * members] are the vectors of the cluster and M times them, q [members] the components of dphi
+ * along them: q_j = phi_j' M dphi. A preparation is for one mode of it, with eigenvalue lambda. Where a pair that is none of the
+ * members makes the matrix singular, it is prepared for an eigenvalue beside; ROTID_ERROR_CLOSE where that is no better. */
+
+struct nelson_rows {
+    int left_out[CLUSTER_MOST]; /* where the vectors differ most, increasing */
+    int *kept;                  /* [n] the others */
+    double *pivot;              /* [n * CLUSTER_MOST] */
+};
+
 /* ---- dense: the condensed problem */
 
 struct nelson_dense {
-    int n, left_out;
+    int n;
+    struct nelson_rows rows;
     struct symmetric factor;
 };
 
 int nelson_dense_new(struct pool *pool, int n, struct nelson_dense *d);
-/* Prepares for the mode (lambda, phi) of K, M [n * n]. ROTID_OK or ROTID_ERROR_CLOSE. */
-int nelson_dense_prepare(struct nelson_dense *d, const double *k, const double *m, double lambda, const double *phi);
-/* dphi [n] from P [n] (kept), Q and M phi [n]. */
-void nelson_dense_solve(struct nelson_dense *d, const double *phi, const double *m_phi, const double *p, double q, double *dphi);
+int nelson_dense_prepare(struct nelson_dense *d, const double *k, const double *m, double lambda, int members, const double *phi);
+/* dphi [n] from P [n] (kept). */
+void nelson_dense_solve(struct nelson_dense *d, int members, const double *phi, const double *m_phi, const double *p,
+                        const double *q, double *dphi);
 
-/* All n pairs: lambda [n], phi [n * n]. */
-void modal_superposition(int n, const double *lambda, const double *phi, int k, const double *m_phi, const double *p, double q,
-                         double *dphi);
+/* All n pairs: lambda [n], phi [n * n]; of pair k, whose cluster begins at `first`. m_phi: of the members. */
+void modal_superposition(int n, const double *lambda, const double *phi, int k, int first, int members, const double *m_phi,
+                         const double *p, const double *q, double *dphi);
 
 /* ---- banded: the full chain */
 
 struct nelson_band {
-    int n, left_out;
-    int *kept;
+    int n;
+    struct nelson_rows rows;
     rotid_matrix shifted;
     struct factor factor;
     double *residual, *shorter; /* [n * most] */
@@ -48,9 +68,11 @@ struct nelson_band {
 
 /* For at most `most` right-hand sides at once. */
 int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, struct nelson_band *b);
-int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda, const double *phi);
-/* dphi [n * columns] from P [n * columns] (kept), Q [columns] and M phi [n]. */
-void nelson_band_solve(struct nelson_band *b, int columns, const double *phi, const double *m_phi, const double *p,
+int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda, int members,
+                        const double *phi);
+/* dphi [n * columns] from P [n * columns] (kept), q [members * columns]. A P that has a part in the cluster loses it: the columns
+ * of (K - lambda M)^+ come from unit vectors and q = 0. */
+void nelson_band_solve(struct nelson_band *b, int columns, int members, const double *phi, const double *m_phi, const double *p,
                        const double *q, double *dphi);
 
 #endif

@@ -3,30 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "modal/measured_check.h"
+
 static const double two_pi = 6.28318530717958647692;
 
 static int is_fitted(const rotid_measured *measured, int mode)
 {
     return !measured->holdout || !measured->holdout[mode];
-}
-
-static int check(const rotid_model *model, const rotid_measured *measured, int kind)
-{
-    int fitted = 0;
-    for (int k = 0; k < measured->nmode; k++) {
-        fitted += is_fitted(measured, k);
-        if (!(isfinite(measured->frequency_hz[k]) && measured->frequency_hz[k] > 0) || measured->number[k] < 1)
-            return ROTID_ERROR_ARGUMENT;
-        if (measured->frequency_std && !(measured->frequency_std[k] > 0))
-            return ROTID_ERROR_ARGUMENT;
-    }
-    if (!fitted || (kind == ROTID_LIKELIHOOD && (!measured->frequency_std || (measured->shape && !measured->shape_std))))
-        return ROTID_ERROR_ARGUMENT;
-    ptrdiff_t components = (ptrdiff_t)model->nmaster * measured->nmode;
-    for (ptrdiff_t i = 0; measured->shape && measured->shape_std && i < components; i++)
-        if (isfinite(measured->shape[i]) && !(measured->shape_std[i] > 0))
-            return ROTID_ERROR_ARGUMENT;
-    return ROTID_OK;
 }
 
 /* Each mode divided by its largest component: the stated noise is relative to it. */
@@ -56,14 +39,12 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
 {
     int nmode = measured->nmode, nmaster = model->nmaster, highest = 0;
     *f = (struct functional){.kind = kind, .measured = measured};
-    int status = check(model, measured, kind);
+    int status = measured_check(model, measured, kind, reduction, NULL);
     if (status)
         return status;
     for (int k = 0; k < nmode; k++)
         highest = measured->number[k] > highest ? measured->number[k] : highest;
-    int count = model->nrigid + highest, size = reduction == ROTID_REDUCTION_NONE ? model->n : nmaster;
-    if (count > size)
-        return ROTID_ERROR_UNPAIRED;
+    int count = model->nrigid + highest;
     /* condensed, the hybrid quotient is formed with the measured shape as (15) has it; of the full model no measured shape is
      * known at every degree of freedom, and the quotient is the eigenvalue either way */
     f->with_vectors = measured->shape && (kind == ROTID_LIKELIHOOD || reduction != ROTID_REDUCTION_NONE);
@@ -124,8 +105,10 @@ static int hybrid_quotient(struct functional *f, int mode)
 static double hybrid_quotient_derivative(const struct functional *f, int mode, int q)
 {
     const struct prediction *p = &f->prediction;
-    int k = f->pair[mode], n = p->size;
-    if (!uses_shape(f, mode))
+    int k = f->pair[mode], n = p->size, first;
+    /* R* is the eigenvalue whatever the measured shape is; the bracket needs how phi~ turns in a cluster, which dphi~ leaves out
+     */
+    if (!uses_shape(f, mode) || eigenvalue_cluster(p->count, p->lambda, k, &first) > 1)
         return p->dlambda[k + (ptrdiff_t)q * p->count];
     ptrdiff_t place = prediction_place(p, k, q);
     const double *measured = f->shape + (ptrdiff_t)mode * n, *phi = p->phi + (ptrdiff_t)k * n, *dphi = p->dphi + place;

@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/failure.h"
 #include "linalg/matrix.h"
+#include "linalg/matrix_check.h"
 #include "linalg/product.h"
 
 static int new_matrices(struct pool *pool, const rotid_model *model, struct prediction *p)
@@ -50,14 +52,14 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     if (with_vectors && derivative == ROTID_MODAL)
         p->count = p->size;
     else if (with_vectors && count < p->size)
-        p->count++; /* the neighbour above the last: a vector is differentiated only where none is close */
+        p->count++; /* the neighbour above the last may be close to it */
     size_t vectors = (size_t)p->size * (size_t)p->count, nparam = (size_t)model->nparam;
     p->lambda = POOL_ARRAY(pool, double, p->count);
     p->phi = POOL_ARRAY(pool, double, vectors);
     p->dlambda = POOL_ARRAY(pool, double, (size_t)p->count *nparam);
     p->dphi = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
     p->right = POOL_ARRAY(pool, double, with_vectors ? vectors *nparam : 0);
-    p->constant = POOL_ARRAY(pool, double, with_vectors ? (size_t)p->count *nparam : 0);
+    p->constant = POOL_ARRAY(pool, double, with_vectors ? CLUSTER_MOST *(size_t)p->count *nparam : 0);
     p->m_phi = POOL_ARRAY(pool, double, with_vectors ? vectors : 0);
     p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
@@ -70,18 +72,21 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     return status ? status : new_solvers(pool, model, with_vectors, p);
 }
 
-static int evaluate(const rotid_model *model, const double *x, rotid_matrix *k, rotid_matrix *m)
+static int evaluate(struct prediction *p, const double *x, rotid_matrix *k, rotid_matrix *m)
 {
+    const rotid_model *model = p->model;
     matrix_zero(k);
     matrix_zero(m);
-    if (model->matrices(model->user, x, k, m))
-        return ROTID_ERROR_CALLBACK;
-    return matrix_is_finite(k) && matrix_is_finite(m) ? ROTID_OK : ROTID_ERROR_FINITE;
+    int failed = model->matrices(model->user, x, k, m);
+    if (failed)
+        return failure_say(p->failure, ROTID_ERROR_CALLBACK, "model->matrices returned %d", failed);
+    int status = matrix_check_entries("the stiffness of model->matrices", k, p->failure);
+    return status ? status : matrix_check_entries("the mass of model->matrices", m, p->failure);
 }
 
 int prediction_compute(struct prediction *p, const double *x)
 {
-    int status = evaluate(p->model, x, &p->k, &p->m);
+    int status = evaluate(p, x, &p->k, &p->m);
     if (status)
         return status;
     if (p->reduction == ROTID_REDUCTION_NONE)
@@ -90,35 +95,48 @@ int prediction_compute(struct prediction *p, const double *x)
     return status ? status : eigen_dense_solve(&p->dense, p->condensed.kc, p->condensed.mc, p->lambda, p->phi);
 }
 
-/* dK and dM by central differences of fourth order, for a host that gives none. The wide step is for parameters that change
- * little of a stiff matrix: rounding of what they leave alone is divided by it. */
+/* dK and dM by differences of fourth order over steps of h, for a host that gives none: of A(x + h) - A(x), K and M at x being
+ * the last that were computed, so that entries that x_q leaves alone come out as zeros. The wide step is for parameters that
+ * change little of a stiff entry: its rounding is divided by the step. Where the host has no model on one side of x, those of the
+ * other side, whose error is six times as large. */
 static int difference(struct prediction *p, const double *x, int q)
 {
-    static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
+    static const struct {
+        int at[4];
+        double weight[4];
+    } side[] = {{{-2, -1, 1, 2}, {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12}},
+                {{1, 2, 3, 4}, {4, -3, 4.0 / 3, -1.0 / 4}},
+                {{-1, -2, -3, -4}, {-4, 3, -4.0 / 3, 1.0 / 4}}};
     double h = 2e-3 * (x[q] != 0 ? fabs(x[q]) : 1);
+    int status = ROTID_OK;
     memcpy(p->x, x, (size_t)p->model->nparam * sizeof *x);
-    matrix_zero(&p->dk);
-    matrix_zero(&p->dm);
-    for (int i = 0; i < 4; i++) {
-        p->x[q] = x[q] + at[i] * h;
-        int status = evaluate(p->model, p->x, &p->other_k, &p->other_m);
-        if (status)
-            return status;
-        matrix_combine(1, &p->dk, weight[i] / h, &p->other_k, &p->dk);
-        matrix_combine(1, &p->dm, weight[i] / h, &p->other_m, &p->dm);
+    for (size_t s = 0; s < sizeof side / sizeof *side && (!s || status); s++) {
+        matrix_zero(&p->dk);
+        matrix_zero(&p->dm);
+        status = ROTID_OK;
+        for (int i = 0; i < 4 && !status; i++) {
+            p->x[q] = x[q] + side[s].at[i] * h;
+            status = evaluate(p, p->x, &p->other_k, &p->other_m);
+            matrix_combine(1, &p->other_k, -1, &p->k, &p->other_k);
+            matrix_combine(1, &p->other_m, -1, &p->m, &p->other_m);
+            matrix_combine(1, &p->dk, side[s].weight[i] / h, &p->other_k, &p->dk);
+            matrix_combine(1, &p->dm, side[s].weight[i] / h, &p->other_m, &p->dm);
+        }
     }
-    return ROTID_OK;
+    return status;
 }
 
-static int matrix_derivatives(struct prediction *p, const double *x, int q)
+int prediction_matrix_derivatives(struct prediction *p, const double *x, int q)
 {
     if (!p->model->derivatives)
         return difference(p, x, q);
     matrix_zero(&p->dk);
     matrix_zero(&p->dm);
-    if (p->model->derivatives(p->model->user, x, q, &p->dk, &p->dm))
-        return ROTID_ERROR_CALLBACK;
-    return matrix_is_finite(&p->dk) && matrix_is_finite(&p->dm) ? ROTID_OK : ROTID_ERROR_FINITE;
+    int failed = p->model->derivatives(p->model->user, x, q, &p->dk, &p->dm);
+    if (failed)
+        return failure_say(p->failure, ROTID_ERROR_CALLBACK, "model->derivatives returned %d for p = %d", failed, q);
+    int status = matrix_check_entries("the stiffness of model->derivatives", &p->dk, p->failure);
+    return status ? status : matrix_check_entries("the mass of model->derivatives", &p->dm, p->failure);
 }
 
 /* (36) with the derivatives of the matrices in place */
@@ -147,6 +165,12 @@ ptrdiff_t prediction_place(const struct prediction *p, int k, int q)
     return ((ptrdiff_t)k * p->model->nparam + q) * p->size;
 }
 
+/* [members * nparam] of mode k */
+static double *constants_of(const struct prediction *p, int k)
+{
+    return p->constant + (ptrdiff_t)k * p->model->nparam * CLUSTER_MOST;
+}
+
 /* P, Q and dlambda of mode k, with dK and dM of parameter q in place */
 static void form_right_side(struct prediction *p, int k, int q)
 {
@@ -162,31 +186,36 @@ static void form_right_side(struct prediction *p, int k, int q)
         dk_phi = p->kx + place;
         dm_phi = p->mx + place;
     }
-    p->dlambda[k + (ptrdiff_t)q * p->count] = nelson_right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, p->right + place,
-                                                                &p->constant[q + (ptrdiff_t)k * p->model->nparam]);
+    int first, members = eigenvalue_cluster(p->count, p->lambda, k, &first);
+    double *constant = constants_of(p, k) + (ptrdiff_t)q * members;
+    for (int j = 0; j < members; j++)
+        constant[j] = -0.5 * product_dot(n, p->phi + (ptrdiff_t)(first + j) * n, dm_phi);
+    p->dlambda[k + (ptrdiff_t)q * p->count] =
+        nelson_right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, p->right + place, &constant[k - first]);
 }
 
 /* dphi of mode k for every parameter */
 static int solve_vectors(struct prediction *p, int k)
 {
-    int n = p->size, nparam = p->model->nparam, status = ROTID_OK;
+    int n = p->size, nparam = p->model->nparam, status = ROTID_OK, first;
+    int members = eigenvalue_cluster(p->count, p->lambda, k, &first);
     ptrdiff_t place = prediction_place(p, k, 0);
-    const double *phi = p->phi + (ptrdiff_t)k * n, *m_phi = p->m_phi + (ptrdiff_t)k * n, *right = p->right + place,
-                 *constant = p->constant + (ptrdiff_t)k * nparam;
+    const double *phi = p->phi + (ptrdiff_t)first * n, *m_phi = p->m_phi + (ptrdiff_t)first * n, *right = p->right + place,
+                 *constant = constants_of(p, k);
     double *dphi = p->dphi + place;
     if (p->reduction == ROTID_REDUCTION_NONE) {
-        status = nelson_band_prepare(&p->nelson_band, &p->k, &p->m, p->lambda[k], phi);
+        status = nelson_band_prepare(&p->nelson_band, &p->k, &p->m, p->lambda[k], members, phi);
         if (!status)
-            nelson_band_solve(&p->nelson_band, nparam, phi, m_phi, right, constant, dphi);
+            nelson_band_solve(&p->nelson_band, nparam, members, phi, m_phi, right, constant, dphi);
         return status;
     }
     if (p->derivative == ROTID_NELSON)
-        status = nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, p->lambda[k], phi);
-    for (int q = 0; q < nparam && !status; q++, right += n, dphi += n)
+        status = nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, p->lambda[k], members, phi);
+    for (int q = 0; q < nparam && !status; q++, right += n, dphi += n, constant += members)
         if (p->derivative == ROTID_MODAL)
-            modal_superposition(n, p->lambda, p->phi, k, m_phi, right, constant[q], dphi);
+            modal_superposition(n, p->lambda, p->phi, k, first, members, m_phi, right, constant, dphi);
         else
-            nelson_dense_solve(&p->nelson_dense, phi, m_phi, right, constant[q], dphi);
+            nelson_dense_solve(&p->nelson_dense, members, phi, m_phi, right, constant, dphi);
     return status;
 }
 
@@ -195,18 +224,17 @@ static int differentiate_vectors(struct prediction *p, const double *x, const in
 {
     int n = p->size, status = ROTID_OK;
     for (int k = 0; k < p->count; k++) {
-        const double *phi = p->phi + (ptrdiff_t)k * n;
-        if (!wanted[k])
-            continue;
-        if (eigenvalue_is_close(p->count, p->lambda, k))
-            return ROTID_ERROR_CLOSE;
-        if (p->reduction == ROTID_REDUCTION_NONE)
-            matrix_multiply(&p->m, 1, phi, p->m_phi + (ptrdiff_t)k * n);
-        else
-            multiply_dense(n, p->condensed.mc, phi, p->m_phi + (ptrdiff_t)k * n);
+        int first, members = wanted[k] ? eigenvalue_cluster(p->count, p->lambda, k, &first) : 0;
+        for (int j = 0; j < members; j++) {
+            ptrdiff_t at = (ptrdiff_t)(first + j) * n;
+            if (p->reduction == ROTID_REDUCTION_NONE)
+                matrix_multiply(&p->m, 1, p->phi + at, p->m_phi + at);
+            else
+                multiply_dense(n, p->condensed.mc, p->phi + at, p->m_phi + at);
+        }
     }
     for (int q = 0; q < p->model->nparam && !status; q++) {
-        status = matrix_derivatives(p, x, q);
+        status = prediction_matrix_derivatives(p, x, q);
         for (int k = 0; k < p->count && !status; k++)
             if (wanted[k])
                 form_right_side(p, k, q);
@@ -226,7 +254,7 @@ int prediction_differentiate(struct prediction *p, const double *x, const int *w
         if (wanted[k])
             reduction_mode_prepare(&p->condensed, p->lambda[k], p->phi + (ptrdiff_t)k * p->size, &p->mode[k]);
     for (int q = 0; q < p->model->nparam && !status; q++) {
-        status = matrix_derivatives(p, x, q);
+        status = prediction_matrix_derivatives(p, x, q);
         for (int k = 0; k < p->count && !status; k++)
             if (wanted[k])
                 p->dlambda[k + (ptrdiff_t)q * p->count] = eigenvalue_derivative(p, k);

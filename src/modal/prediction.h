@@ -11,6 +11,7 @@
 struct prediction {
     const rotid_model *model;
     int reduction, derivative;
+    char *failure; /* NULL, or where the model's part in an error is told, as in rotid.h */
     int count; /* pairs computed, rigid ones included */
     int size;  /* length of a vector: nmaster when condensed, n when full */
     rotid_matrix k, m, dk, dm, other_k, other_m;
@@ -25,7 +26,7 @@ struct prediction {
     double *dlambda;  /* [count * nparam]; only where differentiated */
     double *dphi;     /* [size * nparam * count]: the parameters of a mode beside each other */
     double *right;    /* [size * nparam * count] P of (34) */
-    double *constant; /* [nparam * count] Q of (35) */
+    double *constant; /* [CLUSTER_MOST * nparam * count] Q of (35), and phi_j' M dphi_k along the other members of a cluster */
     double *m_phi;    /* [size * count] */
     double *kx, *mx;  /* [size * nparam * count]: dK phi_k and dM phi_k of the condensed matrices */
     double *x, *work;
@@ -38,8 +39,14 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
 /* K, M and the pairs at x [nparam]. Allocates nothing. Statuses: CALLBACK, FINITE, SLAVE, STIFFNESS, MASS, EIGEN. */
 int prediction_compute(struct prediction *p, const double *x);
 
+/* dk, dm := dK/dx_q, dM/dx_q at the x of the last prediction_compute: the host's, or differences where it has none. Statuses:
+ * CALLBACK, FINITE. */
+int prediction_matrix_derivatives(struct prediction *p, const double *x, int q);
+
 /* Derivatives of eigenvalues of the pairs with wanted [count] nonzero, and of their vectors where asked for, at the x of the last
- * prediction_compute. Statuses: CALLBACK, FINITE, CLOSE. */
+ * prediction_compute. Vectors of a cluster (modal/eigenvector_derivative.h) are taken not to turn in it, as long as it ends
+ * within the pairs that are known: those asked for and one more. Statuses: CALLBACK, FINITE, CLOSE (a third one right behind
+ * them). */
 int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors);
 
 /* Frequency of pair k [Hz]; 0 where its eigenvalue is not above zero. */

@@ -116,7 +116,7 @@ static int is_waiting(const struct office *office)
 
 static void compute_own(struct office *office, struct jobs *jobs)
 {
-    const rotid_environment environment = {.cancelled = serve_meanwhile, .context = office};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = serve_meanwhile, .context = office};
     char *line;
     long run = record_take(office->record);
     if (run < 0)
@@ -178,7 +178,7 @@ static int lead(struct command *command, const struct study *study, int size)
 
 static void follow(const struct study *study)
 {
-    const rotid_environment environment = {.cancelled = command_cancelled};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = command_cancelled};
     struct jobs jobs;
     jobs_open(study, &jobs);
     for (;;) {
@@ -213,8 +213,7 @@ static int is_one_study(const struct command *command, const struct study *study
     same = text && !strncmp(text, first, sizeof first - 1);
     json_free(text);
     if (!same)
-        (void)fprintf(stderr, "rotid-study: rank %d has read other files or is another program than rank 0, expected the same\n",
-                      rank);
+        terminal_say("rotid-study: rank %d has read other files or is another program than rank 0, expected the same\n", rank);
     MPI_Allreduce(&same, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     return all;
 }
@@ -236,6 +235,8 @@ static int prepare(struct command *command, int argc, char **argv, int rank, int
             command->provenance =
                 (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, size};
             build_set_threads(1);
+            if (code < 0 && !build_make_room(1, 1))
+                code = EXIT_INTERNAL;
             if (code < 0 && !command->study.merge && !command->study.summary) {
                 int wrong = study_prepare(command, study);
                 code = wrong ? wrong : -1;
@@ -275,14 +276,14 @@ int main(int argc, char **argv)
     pool_open(&command.pool, NULL);
     message_open(&command.messages, &command.pool);
     char **words = POOL_ARRAY(&command.pool, char *, argc + 2); /* rotid-study PLAN is rotid study PLAN */
-    if (!words)
+    if (!words || terminal_open())
         MPI_Abort(MPI_COMM_WORLD, EXIT_INTERNAL);
     words[0] = argv[0];
     words[1] = (char[]){"study"};
     memcpy(words + 2, argv + 1, (size_t)argc * sizeof *words);
     int code = run(&command, argc + 1, words);
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        (void)fprintf(stderr, "rotid-study: cannot write to standard output: %s\n", strerror(errno));
+    if (terminal_flush()) {
+        terminal_say("rotid-study: cannot write to standard output: %s\n", strerror(errno));
         code = EXIT_INTERNAL;
     }
     pool_close(&command.pool);

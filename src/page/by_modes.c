@@ -11,22 +11,6 @@ static int same_but_modes(const struct told_cell *a, const struct told_cell *b)
            axis_same_number(a->noise_shape, b->noise_shape);
 }
 
-/* "orthotropic, modes 1-4" without the modes. */
-static const char *name_of(struct pool *pool, const struct told_cell *cell)
-{
-    char *name = pool_copy_text(pool, cell->label), *modes = name ? strstr(name, "modes ") : NULL;
-    if (!modes || !cell->modes)
-        return name;
-    char *rest = modes + strlen("modes ") + strlen(cell->modes);
-    if (*rest == ',')
-        memmove(modes, rest + 2, strlen(rest + 2) + 1);
-    else if (modes > name)
-        modes[-2] = 0;
-    else
-        *modes = 0;
-    return name;
-}
-
 static struct modes_point point_of(const struct study_outcome *study, int cell)
 {
     struct modes_point point = {.cell = cell};
@@ -68,11 +52,10 @@ int by_modes_make(struct pool *pool, const struct study_outcome *study, struct b
         }
         struct modes_series *series = &by->series[s];
         if (s == by->nseries) {
-            *series =
-                (struct modes_series){name_of(pool, &study->cell[i]), 0, POOL_ARRAY(pool, struct modes_point, study->ncell)};
+            *series = (struct modes_series){study->cell[i].but_modes, 0, POOL_ARRAY(pool, struct modes_point, study->ncell)};
             by->nseries++;
         }
-        if (!series->name || !series->point)
+        if (!series->point)
             return ROTID_ERROR_MEMORY;
         insert(series, point);
     }

@@ -7,6 +7,11 @@
 #include "page/html.h"
 #include "page/style.h"
 
+/* Nothing runs and nothing is loaded, whatever should get into a page: its style and its pictures stand in it. */
+#define POLICY                                                                                                                   \
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; "      \
+    "base-uri 'none'; form-action 'none'\">\n"
+
 void document_open(struct document *document, struct pool *pool)
 {
     *document = (struct document){.pool = pool, .title = "", .subtitle = "", .answer = ""};
@@ -202,7 +207,8 @@ struct figure **document_figures(const struct document *document)
 
 static void write_head(FILE *out, const struct document *document)
 {
-    (void)fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" DOCUMENT_MARK " " ROTID_VERSION "\">\n"
+    (void)fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" POLICY DOCUMENT_MARK " " ROTID_VERSION
+                "\">\n"
                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                 "<meta name=\"color-scheme\" content=\"light dark\">\n",
                 out);

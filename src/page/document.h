@@ -31,7 +31,7 @@ struct document {
     const char *headline; /* over the answer; NULL: what the tone says */
     const char *answer;   /* the result in a sentence or two */
     const char *next;     /* what to do with it, NULL: nothing */
-    const char *of; /* whose sections are added, told in their headings; NULL: that of the page */
+    const char *of;       /* whose sections are added, told in their headings; NULL: that of the page */
     struct page_section *first, *last;
     int nfigure, ntable;
     struct figure lost; /* what is written into where memory was out */

@@ -17,14 +17,14 @@ enum { WIDE, NARROW, LAYOUTS }; /* for a page 720 px wide, and for a phone */
 #define NARROW_PX 360
 
 struct figure {
-    const char *id;             /* [a-z0-9-]: name of its files and of its place on the page */
-    const char *title;          /* over it */
-    const char *caption;        /* what it shows for this result */
-    const char *alt;            /* what there is to see, for those who do not */
-    char *script;               /* for gnuplot, complete */
-    int height[LAYOUTS];        /* px */
-    struct number_table *table; /* of its numbers, NULL: they stand elsewhere on the page */
-    const char *svg[LAYOUTS];   /* for the page, NULL: not drawn */
+    const char *id;               /* [a-z0-9-]: name of its files and of its place on the page */
+    const char *title;            /* over it */
+    const char *caption;          /* what it shows for this result */
+    const char *alt;              /* what there is to see, for those who do not */
+    char *script;                 /* for gnuplot, complete */
+    int height[LAYOUTS];          /* px */
+    struct number_table *table;   /* of its numbers, NULL: they stand elsewhere on the page */
+    const char *picture[LAYOUTS]; /* for the page, as a data URI; NULL: not drawn */
     int has_pdf;
 };
 

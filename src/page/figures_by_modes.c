@@ -69,8 +69,8 @@ static int functional_script(struct document *document, struct figure *figure, c
     plot_panel(&plot, 0);
     plot_legend(&plot, entry, nentry);
     plot_line(&plot, "set yrange [0:%.6g]", most > 0 ? 1.08 * most / power : 1);
-    const char *axis =
-        power < 1 ? pool_format(document->pool, "mean functional f/m^2 [10^{%.0f}]", log10(power)) : "mean functional f/m^2 [1]";
+    const char *unit = power < 1 ? human_power(document->pool, (int)floor(log10(power) + 0.5)) : "1",
+               *axis = pool_format(document->pool, "mean functional f/m\xc2\xb2 [%s]", unit);
     axis_of_modes(&plot, by, axis ? axis : "");
     (void)fputs("plot ", plot.out);
     for (int s = 0; s < by->nseries; s++)

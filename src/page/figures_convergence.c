@@ -80,10 +80,8 @@ static int script(struct document *document, struct figure *figure, const struct
     plot_begin(&plot, &(struct plot_layout){
                           .panels = 1, .columns = {1, 1}, .height = 330, .left = 62, .right = 84, .top = 12, .bottom = 48});
     plot_panel(&plot, 0);
-    int every = (int)ceil((range.to - range.from) / 8);
-    plot_line(&plot, "set logscale y\nset format y '10^{%%T}'\nset ytics 1e%d", every);
-    plot_line(&plot, "set xrange [%g:%g]\nset yrange [1e%g:1e%g]", fit->history[0].iteration - 0.02 * (steps + 1),
-              steps * 1.02 + 0.02, range.from, range.to);
+    plot_decades_axis(&plot, 'y', &range, 8);
+    plot_line(&plot, "set xrange [%g:%g]", fit->history[0].iteration - 0.02 * (steps + 1), steps * 1.02 + 0.02);
     if (steps <= 12)
         plot_line(&plot, "set xtics 1");
     plot_axes(&plot, "iteration [1]", "value [1]");

@@ -10,9 +10,8 @@
 #define NOMINAL   95.0
 
 struct dot {
-    const char *name; /* of a parameter */
-    int count;
-    double row[ROWS_MOST], percent[ROWS_MOST], intervals[ROWS_MOST];
+    const char *name;          /* of a parameter */
+    double percent[ROWS_MOST]; /* of each row, NaN: the cell has no interval of it */
 };
 
 struct coverage {
@@ -33,10 +32,10 @@ static void add_dot(struct coverage *c, const struct cell_parameter *p)
     if (k == c->ndot) {
         dot->name = p->name;
         c->ndot++;
+        for (int row = 0; row < ROWS_MOST; row++)
+            dot->percent[row] = NAN;
     }
-    dot->row[dot->count] = c->rows; /* from the top, turned round when it is drawn */
-    dot->percent[dot->count] = 100 * p->coverage;
-    dot->intervals[dot->count++] = p->intervals;
+    dot->percent[c->rows] = 100 * p->coverage;
     c->least = fmin(c->least, 100 * p->coverage);
     c->fewest = fmin(c->fewest, p->intervals);
 }
@@ -56,11 +55,15 @@ static void collect_coverage(const struct study_outcome *s, struct coverage *c)
     }
 }
 
-static int coverage_script(struct document *document, struct figure *figure, const struct result *result, struct coverage *c)
+static int coverage_script(struct document *document, struct figure *figure, const struct result *result,
+                           const struct coverage *c)
 {
     struct plot_layout layout = rows_layout(c->rows);
     struct plot_entry entry[MOST_DOTS + 1];
+    double row[ROWS_MOST];
     struct plot plot;
+    for (int i = 0; i < c->rows; i++)
+        row[i] = c->rows - i;
     for (int k = 0; k < c->ndot; k++)
         entry[k] = (struct plot_entry){.text = c->dot[k].name, .style = k + 1, .keys = KEY_MARK};
     entry[c->ndot] = (struct plot_entry){.text = "95 %", .style = 11, .keys = KEY_LINE};
@@ -70,11 +73,8 @@ static int coverage_script(struct document *document, struct figure *figure, con
     plot_line(&plot, "set style line 11 lc rgb INK lw 1 dt (8,4)\n# columns: intervals that hold the truth [%%], row from below");
     for (int k = 0; k < c->ndot; k++) {
         char name[32];
-        struct dot *dot = &c->dot[k];
-        for (int i = 0; i < dot->count; i++)
-            dot->row[i] = c->rows - dot->row[i];
         (void)snprintf(name, sizeof name, "coverage%d", k + 1);
-        plot_data(&plot, name, dot->count, 2, (const double *const[]){dot->percent, dot->row});
+        plot_data(&plot, name, c->rows, 2, (const double *const[]){c->dot[k].percent, row});
     }
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);

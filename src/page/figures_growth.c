@@ -6,6 +6,8 @@
 #include "page/palette.h"
 #include "page/plot.h"
 
+#define MOST_TICKS 8 /* numbered decades of an axis */
+
 static struct number_table *growth_table(struct pool *pool, const struct growth_outcome *growth)
 {
     struct number_table *table = table_new(pool, growth->points, 4);
@@ -45,9 +47,8 @@ static int script(struct document *document, struct figure *figure, const struct
               plot_number(&plot, growth->intercept[1]), plot_number(&plot, growth->slope[1]));
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
-    plot_line(&plot,
-              "set logscale xy\nset format x '10^{%%T}'\nset format y '10^{%%T}'\nset xrange [1e%g:1e%g]\nset yrange [1e%g:1e%g]",
-              x.from, x.to, y.from, y.to);
+    plot_decades_axis(&plot, 'x', &x, MOST_TICKS);
+    plot_decades_axis(&plot, 'y', &y, MOST_TICKS);
     plot_axes(&plot, "square of the perturbation [1]", "functional [1]");
     plot_legend(&plot, entry, 2);
     plot_line(&plot, "plot E(x) with lines ls 1, F(x) with lines ls 2, $growth using 1:2 with points ls 1, $growth using 1:3 "

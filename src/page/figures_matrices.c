@@ -22,7 +22,7 @@ static int *pairs(struct pool *pool, const struct fitted *fit, int rows, int col
     for (int i = 0; i < rows && column; i++) {
         column[i] = -1;
         for (int j = 0; j < columns && i < fit->nmode; j++)
-            if ((int)fit->matrix_column[j] == fit->mode[i].mode)
+            if (fit->matrix_column[j] == fit->mode[i].mode)
                 column[i] = j;
     }
     return column;

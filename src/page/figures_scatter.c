@@ -31,8 +31,7 @@ static struct histogram count_errors(const struct study_outcome *s, int cell, in
         double z = (v->value - v->truth) / v->std;
         if (!isfinite(z))
             continue;
-        int bin = (int)floor((z + REACH) / BIN);
-        h.bin[bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin] += 1;
+        h.bin[(int)fmin(fmax(floor((z + REACH) / BIN), 0), BINS - 1)] += 1;
         h.held += v->ci[0] <= v->truth && v->truth <= v->ci[1];
         h.count++;
         sum += z;

@@ -75,8 +75,8 @@ static int sensitivity_script(struct document *document, struct figure *figure, 
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
     struct plot_range range = plot_decades(2 * count * m, value + m, 8);
-    plot_line(&plot, "set logscale y\nset format y '10^{%%T}'\nset xrange [0.7:%g]\nset yrange [1e%g:1e%g]\nset xtics %d",
-              m + 0.3, range.from, range.to, 1 + m / 20);
+    plot_decades_axis(&plot, 'y', &range, 8);
+    plot_line(&plot, "set xrange [0.7:%g]\nset xtics %d", m + 0.3, 1 + m / 20);
     plot_axes(&plot, "mode of the model [1]", "size of the sensitivity [1]");
     plot_legend(&plot, entry, count + referenced);
     plot_line(

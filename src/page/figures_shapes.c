@@ -105,7 +105,7 @@ static int shapes_script(struct document *document, struct figure *figure, const
     struct plot_layout layout = {.panels = count,
                                  .columns = {count < 3 ? count : 3, 1},
                                  .height = 170,
-                                 .left = 42,
+                                 .left = 46,
                                  .right = 12,
                                  .top = TITLE_ROOM,
                                  .bottom = 47};

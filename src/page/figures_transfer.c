@@ -109,8 +109,8 @@ static int script(struct document *document, struct figure *figure, const struct
         plot_panel(&plot, i);
         plot_line(&plot, "set xrange [%.6g:%.6g]", out->low_hz, out->high_hz);
         if (i == 0) {
-            (void)snprintf(unit, sizeof unit, "magnitude [%s]", strcmp(out->unit, "m/(s2 N)") ? out->unit : "m/(s^2 N)");
-            plot_line(&plot, "set logscale y\nset format y '10^{%%T}'\nset yrange [1e%g:1e%g]", range.from, range.to);
+            (void)snprintf(unit, sizeof unit, "magnitude [%s]", strcmp(out->unit, "m/(s2 N)") ? out->unit : "m/(s\xc2\xb2 N)");
+            plot_decades_axis(&plot, 'y', &range, MOST_DECADES + 1);
             plot_legend(&plot, entry, n);
             axes_of_modes(&plot, out);
         } else {

@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST 1000000 /* of anything that is counted */
+#define MOST     1000000    /* of anything that is counted in one place */
+#define MOST_SUM 1000000000 /* over all places: an int holds it */
 
 static void read_material(const struct json_place *owner, struct drawn_material *material)
 {
@@ -130,10 +131,16 @@ static void read_causes(const struct json_place *at, struct geometry *geometry)
 static void check(const struct json_place *at, const struct geometry *geometry)
 {
     int good = geometry->length > 0;
+    double elements = 0, members = 0;
     for (int s = 0; s < geometry->nsegment; s++) {
         const struct drawn_segment *segment = &geometry->segment[s];
         good &= segment->to > segment->from && segment->outer > 0 && segment->inner >= 0 && segment->inner < segment->outer;
+        elements += segment->elements;
     }
+    for (int b = 0; b < geometry->nbundle; b++)
+        members += geometry->bundle[b].number;
+    if (fmax(elements, members) > MOST_SUM && !at->reader->status)
+        place_wrong(at, "has %.0f elements, %.0f tie rods and bars, expected fewer than %d", elements, members, MOST_SUM);
     if (!good && !at->reader->status)
         place_wrong(at, "has a length or a section of no size, expected a rotor that can be drawn");
 }

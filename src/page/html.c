@@ -9,10 +9,9 @@ void html_text(FILE *out, const char *text)
 {
     while (*text) {
         size_t bytes = text_utf8(text);
-        unsigned char c = (unsigned char)*text;
-        int is_control = (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f || (c == 0xc2 && (unsigned char)text[1] < 0xa0);
-        if (!bytes || is_control)
-            (void)fputs("\xef\xbf\xbd", out);
+        char c = *text;
+        if (!text_visible(text) && c != '\n' && c != '\t')
+            (void)fputs(TEXT_REPLACEMENT, out);
         else if (c == '&')
             (void)fputs("&amp;", out);
         else if (c == '<')
@@ -95,10 +94,10 @@ static void write_numbers(FILE *out, const struct figure *figure)
     if (!figure->table)
         return;
     (void)snprintf(id, sizeof id, "%s-numbers", figure->id);
-    if (figure->svg[WIDE])
+    if (figure->picture[WIDE])
         (void)fputs("<details><summary>Numbers of this figure</summary>\n", out);
     html_table(out, id, figure->title, figure->table);
-    if (figure->svg[WIDE])
+    if (figure->picture[WIDE])
         (void)fputs("</details>\n", out);
 }
 
@@ -107,17 +106,19 @@ void html_figure(FILE *out, int number, const struct figure *figure)
     (void)fprintf(out, "<div class=\"set\">\n<figure id=\"%s\">\n<h3>", figure->id);
     html_text(out, figure->title);
     (void)fputs("</h3>\n", out);
-    if (figure->svg[WIDE]) {
+    for (int l = 0; l < LAYOUTS && figure->picture[WIDE]; l++) {
         static const char *const names[LAYOUTS] = {"wide", "narrow"};
-        for (int l = 0; l < LAYOUTS; l++)
-            (void)fprintf(out, "<div class=\"%s\">%s</div>\n", names[l], figure->svg[l]);
+        (void)fprintf(out, "<img class=\"%s\" width=\"%d\" height=\"%d\" alt=\"", names[l], l == WIDE ? WIDE_PX : NARROW_PX,
+                      figure->height[l]);
+        html_text(out, figure->alt);
+        (void)fprintf(out, "\" src=\"%s\">\n", figure->picture[l]);
     }
     (void)fprintf(out, "<figcaption><b>Figure %d.</b> ", number);
     html_text(out, figure->caption);
     (void)fputs("</figcaption>\n</figure>\n", out);
     write_numbers(out, figure);
     (void)fprintf(out, "<p class=\"files\">%s: <a href=\"figures/%s.gp\">gnuplot script</a>", figure->id, figure->id);
-    if (figure->svg[WIDE])
+    if (figure->picture[WIDE])
         (void)fprintf(out, ", <a href=\"figures/%s.svg\">SVG</a>", figure->id);
     if (figure->has_pdf)
         (void)fprintf(out, ", <a href=\"figures/%s.pdf\">PDF</a>", figure->id);

@@ -6,7 +6,8 @@
 
 #include "page/figure.h"
 
-/* A text of anybody: & < > and quotes as references; what is not UTF-8, or no character of XML, as U+FFFD. */
+/* A text of anybody: & < > and quotes as references; what is not UTF-8, and controls (of direction as
+ * well, which would show another text than there is), as U+FFFD. */
 void html_text(FILE *out, const char *text);
 
 /* <NAME>text</NAME> and a line feed. */

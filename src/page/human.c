@@ -71,7 +71,7 @@ const char *human_signed(struct pool *pool, double value, int decimals)
     return fixed(pool, value, decimals, "+");
 }
 
-static const char *superscript(struct pool *pool, int exponent)
+const char *human_power(struct pool *pool, int exponent)
 {
     static const char *const digit[] = {"\xe2\x81\xb0", "\xc2\xb9",     "\xc2\xb2",     "\xc2\xb3",     "\xe2\x81\xb4",
                                         "\xe2\x81\xb5", "\xe2\x81\xb6", "\xe2\x81\xb7", "\xe2\x81\xb8", "\xe2\x81\xb9"};
@@ -94,7 +94,7 @@ const char *human_digits(struct pool *pool, double value, int digits)
     if (exponent >= -3 && exponent < 6)
         return fixed(pool, value, exponent >= digits ? 0 : digits - 1 - exponent, "");
     *e = 0;
-    return or_nothing(pool_format(pool, "%s%s" TIMES "%s", value < 0 ? MINUS : "", text, superscript(pool, exponent)));
+    return or_nothing(pool_format(pool, "%s%s" TIMES "%s", value < 0 ? MINUS : "", text, human_power(pool, exponent)));
 }
 
 const char *human_trimmed(struct pool *pool, double value, int digits)

@@ -19,6 +19,8 @@ int human_decimals(double value, double spread);
 /* With a number of decimals; "\u2013" where there is none (not finite). Signed: a plus in front too. */
 const char *human_fixed(struct pool *pool, double value, int decimals);
 const char *human_signed(struct pool *pool, double value, int decimals);
+/* 10^exponent: "10\u207b\u00b3". */
+const char *human_power(struct pool *pool, int exponent);
 /* With a number of significant digits; very large and small ones as 1.2 x 10^-7. */
 const char *human_digits(struct pool *pool, double value, int digits);
 

@@ -33,8 +33,8 @@ static void ticks(struct plot *plot, const char *axis, int count, const char *co
     int every = (int)ceil(20 / room), k = 0;
     (void)fprintf(plot->out, "set %stics scale 0 (", axis);
     for (int i = 0; i<count; i += every> 1 ? every : 1)
-        (void)fprintf(plot->out, "%s%s %d", k++ ? ", " : "", plot_quote(plot, name[i]), i + 1);
-    (void)fputs(") noenhanced\n", plot->out);
+        (void)fprintf(plot->out, "%s%s %d", k++ ? ", " : "", plot_quote_tick(plot, name[i]), i + 1);
+    (void)fputs(")\n", plot->out);
 }
 
 static void draw(struct plot *plot, const struct matrix_panel *panel, double cell_px)

@@ -12,8 +12,9 @@ static int write_scripts(struct document *document, const struct folder *folder,
 {
     int status = ROTID_OK;
     for (int i = 0; i < document->nfigure && !status; i++) {
-        const char *name = pool_format(document->pool, "figures/%s.gp", figure[i]->id);
-        status = name && figure[i]->script ? folder_write(folder, name, figure[i]->script, messages) : ROTID_ERROR_MEMORY;
+        const char *name = pool_format(document->pool, "%s.gp", figure[i]->id);
+        status = name && figure[i]->script ? folder_write(folder, folder->figures, name, figure[i]->script, messages)
+                                           : ROTID_ERROR_MEMORY;
     }
     return status;
 }
@@ -41,10 +42,10 @@ static int draw(struct document *document, const struct folder *folder, struct f
     }
     status = gnuplot_draw(pool, &gnuplot, environment, folder->figures, count, figure, why);
     for (int i = 0; i < count && !status; i++) {
-        const char *narrow = pool_format(pool, "%s/%s-narrow.svg", folder->figures, figure[i]->id);
-        written->ndrawn += figure[i]->svg[WIDE] != NULL;
+        const char *narrow = pool_format(pool, "%s-narrow.svg", figure[i]->id);
+        written->ndrawn += figure[i]->picture[WIDE] != NULL;
         if (narrow)
-            (void)unlink(narrow); /* it stands in the page */
+            (void)unlinkat(folder->figures, narrow, 0); /* it stands in the page */
         if (!why[i])
             continue;
         message_add(messages, SEVERITY_WARNING, NULL, 0, 0, "figure %s is not drawn: %s", figure[i]->id, why[i]);
@@ -66,7 +67,7 @@ static int write_page(struct document *document, const struct folder *folder, co
     document_write(out, document, made_by, hint);
     int failed = ferror(out);
     if (fclose(out) == 0 && !failed)
-        status = folder_write(folder, "index.html", text, messages);
+        status = folder_write(folder, folder->work, "index.html", text, messages);
     free(text);
     return status;
 }

@@ -36,14 +36,6 @@ const struct role palette[] = {
 
 const char *const series_color[SERIES] = {"BLUE", "VERMILION", "GREEN", "PURPLE", "OCHRE"};
 
-const struct role *palette_role(unsigned light)
-{
-    for (const struct role *role = palette; role->name; role++)
-        if (role->light == light)
-            return role;
-    return NULL;
-}
-
 static int step_of(double share)
 {
     return share > 0 ? share < 1 ? (int)floor(10 * share + 0.5) : 10 : 0; /* NaN is none */
@@ -80,21 +72,4 @@ void palette_style(FILE *out, int dark)
         print_name(out, role->name);
         (void)fprintf(out, ":#%06x;", dark ? role->dark : role->light);
     }
-}
-
-void palette_rules(FILE *out)
-{
-    static const struct {
-        char letter;
-        const char *property;
-    } uses[] = {{'s', "stroke"}, {'f', "fill"}, {'k', "color"}};
-    for (const struct role *role = palette; role->name; role++)
-        for (size_t u = 0; u < sizeof uses / sizeof *uses; u++) {
-            (void)fprintf(out, ".%c-", uses[u].letter);
-            print_name(out, role->name);
-            (void)fprintf(out, "{%s:var(--", uses[u].property);
-            print_name(out, role->name);
-            (void)fputs(")}", out);
-        }
-    (void)fputc('\n', out);
 }

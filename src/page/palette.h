@@ -1,5 +1,5 @@
-/* Colours by what they are for. Scripts name them (BLUE); files that stand alone carry the light values; the page replaces each
- * by a variable of its style, so that figures follow light and dark. After Okabe and Ito (2008), darkened or lightened until each
+/* Colours by what they are for. Scripts name them (BLUE); files that stand alone carry the light values, by which a picture in
+ * a page finds the dark ones. After Okabe and Ito (2008), darkened or lightened until each
  * has a contrast of 4.5 against both grounds of its scheme: they tell apart without red and green, and read as text. */
 #ifndef ROTID_PAGE_PALETTE_H
 #define ROTID_PAGE_PALETTE_H
@@ -12,15 +12,11 @@ struct role {
     unsigned light, dark; /* 0xrrggbb */
 };
 
-#define ROLES 32
 extern const struct role palette[]; /* ended by one without a name */
 
 /* Series in this order; from the sixth on they repeat, told apart by their dashes. */
 #define SERIES 5
 extern const char *const series_color[SERIES];
-
-/* The role of a colour as a file that stands alone has it, or NULL. */
-const struct role *palette_role(unsigned light);
 
 /* The name of the k-th of 0 ... 10 steps of the ramp from nothing to much; and of what is written on it. */
 const char *palette_ramp(double share);
@@ -30,7 +26,4 @@ const char *palette_on_ramp(double share);
 void palette_script(FILE *out);
 /* --name: #rrggbb for a style. */
 void palette_style(FILE *out, int dark);
-/* Rules that colour lines, faces and marks. */
-void palette_rules(FILE *out);
-
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "page/human.h"
 #include "page/palette.h"
 
 #define TYPEFACE "Arial" /* Liberation Sans and Helvetica have the same widths: what fits here fits elsewhere */
@@ -29,8 +30,10 @@ int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const
         return ROTID_ERROR_MEMORY;
     FILE *out = plot->out;
     (void)fprintf(out, "# rotid %s, figure %s of ", ROTID_VERSION, figure->id);
-    for (const char *c = source; *c; c++)
-        (void)fputc((unsigned char)*c < 0x20 ? '?' : *c, out);
+    for (const char *c = source; *c; c += text_utf8(c) ? text_utf8(c) : 1) { /* a comment, which a backslash at its end continues */
+        int is_kept = text_visible(c) && *c != '\\';
+        (void)fwrite(is_kept ? c : "?", 1, is_kept ? text_visible(c) : 1, out);
+    }
     (void)fprintf(out,
                   "\n# Change what you like, then run:  gnuplot %s.gp\n"
                   "# It writes %s.svg and %s.pdf. Colours and styles come first, then the data, then what is drawn.\n"
@@ -62,27 +65,63 @@ const char *plot_number(struct plot *plot, double value)
     return text ? text : "NaN";
 }
 
-const char *plot_quote(struct plot *plot, const char *text)
+/* What may stand in a picture: XML has no U+FFFE and U+FFFF. */
+static size_t drawable(const char *text)
+{
+    return strncmp(text, "\xef\xbf\xbe", 3) != 0 && strncmp(text, "\xef\xbf\xbf", 3) != 0 ? text_visible(text) : 0;
+}
+
+#define APOSTROPHE "\xe2\x80\x99" /* U+2019 */
+
+/* What stands for the character at `text` in a text of quotes. A quote within one is written twice, but gnuplot 5.4 takes one at
+ * the beginning for the end: an apostrophe is another character, so none has to be written. */
+static const char *shown(const char *text, int is_tick)
+{
+    if (*text == '\'')
+        return APOSTROPHE;
+    if (strchr("\n\r\t", *text)) /* a line feed would end the text, and the command */
+        return " ";
+    if (*text == '%' && is_tick)
+        return "%%";
+    return drawable(text) ? NULL : TEXT_REPLACEMENT;
+}
+
+static const char *quote(struct plot *plot, const char *text, int is_tick)
 {
     char *quoted = POOL_ARRAY(plot->pool, char, 3 * strlen(text) + 3), *end = quoted;
     if (!quoted)
         return "''";
     *end++ = '\'';
     while (*text) {
-        size_t bytes = text_utf8(text);
-        if (*text == '\'')
-            *end++ = '\'';
-        if (!bytes || (unsigned char)*text < 0x20) { /* a line feed would end the text, and the command */
-            *end++ = bytes ? ' ' : '?';
-            text++;
-            continue;
-        }
-        memcpy(end, text, bytes);
-        end += bytes;
+        size_t bytes = text_utf8(text) ? text_utf8(text) : 1;
+        const char *other = shown(text, is_tick);
+        size_t kept = other ? strlen(other) : bytes;
+        memcpy(end, other ? other : text, kept);
+        end += kept;
         text += bytes;
     }
     *end = '\'';
     return quoted;
+}
+
+const char *plot_quote(struct plot *plot, const char *text)
+{
+    return quote(plot, text, 0);
+}
+
+const char *plot_quote_tick(struct plot *plot, const char *text)
+{
+    return quote(plot, text, 1);
+}
+
+void plot_decades_axis(struct plot *plot, char axis, const struct plot_range *range, int most)
+{
+    int from = (int)range->from, to = (int)range->to, every = (to - from + most - 1) / most;
+    plot_line(plot, "set logscale %c\nset %crange [1e%d:1e%d]", axis, axis, from, to);
+    (void)fprintf(plot->out, "set %ctics (", axis);
+    for (int e = from; e <= to; e += every > 1 ? every : 1)
+        (void)fprintf(plot->out, "%s'%s' 1e%d", e > from ? ", " : "", human_power(plot->pool, e), e);
+    (void)fputs(")\n", plot->out);
 }
 
 void plot_data(struct plot *plot, const char *name, int rows, int columns, const double *const column[])
@@ -123,8 +162,8 @@ void plot_begin(struct plot *plot, const struct plot_layout *layout)
         "W = narrow ? %d.0 : %d.0; H = narrow ? %d.0 : %d.0; COLUMNS = narrow ? %d : %d; HEAD = narrow ? %g : %g; HEIGHT = "
         "narrow ? %g : %g\n"
         "if (layout eq 'pdf' && strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) { continue }\n"
-        "if (layout eq 'pdf') { set terminal pdfcairo enhanced color font typeface.',9' size W/96, H/96 linewidth 0.75 } \\\n"
-        "else { set terminal svg size W, H dynamic enhanced font typeface.',12' background rgb 'white' }\n"
+        "if (layout eq 'pdf') { set terminal pdfcairo noenhanced color font typeface.',9' size W/96, H/96 linewidth 0.75 } \\\n"
+        "else { set terminal svg size W, H dynamic noenhanced font typeface.',12' background rgb 'white' }\n"
         "set output name.(narrow ? '-narrow.svg' : '.'.layout)\n"
         "set multiplot\n",
         NARROW_PX, WIDE_PX, plot->figure->height[NARROW], plot->figure->height[WIDE], layout->columns[NARROW],
@@ -155,8 +194,7 @@ void plot_axes(struct plot *plot, const char *x, const char *y)
 
 void plot_label(struct plot *plot, const char *text, const char *where, const char *color, const char *more)
 {
-    plot_line(plot, "set label %d %s at %s noenhanced front tc rgb %s %s", ++plot->labels, plot_quote(plot, text), where, color,
-              more);
+    plot_line(plot, "set label %d %s at %s front tc rgb %s %s", ++plot->labels, plot_quote(plot, text), where, color, more);
 }
 
 /* Apart by a line of text, as near to where they belong as that allows: neighbours in conflict share the way. */

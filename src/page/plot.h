@@ -12,8 +12,9 @@
  *     plot_line(&plot, "plot $curve using 1:2 with linespoints ls 1 notitle");
  *     return plot_close(&plot);                             // the script hangs on the figure
  *
- * Texts of a user (names of groups, parameters, files) go through plot_quote or plot_label alone: gnuplot runs what stands in
- * backquotes in a text of double quotes, and reads _ and ^ as marks. */
+ * Texts of a user (names of groups, parameters, units, files) go through plot_quote, plot_quote_tick, plot_axes or plot_label
+ * alone: gnuplot runs what stands in backquotes in a text of double quotes. The enhanced mode of gnuplot, whose marks name
+ * typefaces that gnuplot copies into its SVG unescaped, is off: ^ and _ stand for themselves, and exponents are characters. */
 #ifndef ROTID_PAGE_PLOT_H
 #define ROTID_PAGE_PLOT_H
 
@@ -56,7 +57,7 @@ void plot_data(struct plot *plot, const char *name, int rows, int columns, const
 void plot_begin(struct plot *plot, const struct plot_layout *layout);
 /* Room of panel i; what was set for the one before is gone. */
 void plot_panel(struct plot *plot, int i);
-/* What the axes of the current panel show, with units; _ and ^ are marks. NULL where an axis has none. */
+/* What the axes of the current panel show, with units. NULL where an axis has none. */
 void plot_axes(struct plot *plot, const char *x, const char *y);
 /* A line of the script. */
 void plot_line(struct plot *plot, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -64,6 +65,8 @@ void plot_line(struct plot *plot, const char *format, ...) __attribute__((format
 const char *plot_number(struct plot *plot, double value);
 /* A text of a user as a script can hold it, with its quotes: 'text'. */
 const char *plot_quote(struct plot *plot, const char *text);
+/* The same as the label of a tick, in which gnuplot would take % for a format of the number there. */
+const char *plot_quote_tick(struct plot *plot, const char *text);
 /* set label TEXT at X, Y: `where` is "graph 0, graph 1" and the like; more: "right", "offset ...", or "". */
 void plot_label(struct plot *plot, const char *text, const char *where, const char *color, const char *more);
 /* Labels of lines at the right edge, at heights 0 ... 1 of the panel, moved apart where they would overlap. */
@@ -83,6 +86,9 @@ void plot_range_join(struct plot_range *range, double value);
 double plot_share(const struct plot_range *range, double value); /* 0 ... 1 */
 /* Whole decades around what is above zero, as exponents; at most `most` decades, the upper ones. */
 struct plot_range plot_decades(int count, const double *value, int most);
+
+/* Axis 'x' or 'y' is logarithmic over these decades, with at most about `most` of them numbered. */
+void plot_decades_axis(struct plot *plot, char axis, const struct plot_range *range, int most);
 
 /* A round distance of ticks that puts about `count` of them on a length: 1, 2 or 5 times a power of ten. */
 double plot_tic(double length, int count);

@@ -51,8 +51,8 @@ static void draw_entry(struct plot *plot, const struct plot_entry *entry, int nu
                   y, entry->style);
     if (entry->keys & KEY_MARK)
         plot_line(plot, "set label %d '' at screen %g/W, 1-%g/H point ls %d", number, x + SAMPLE_PX / 2, y, entry->style);
-    plot_line(plot, "set label %d %s at screen %g/W, 1-%g/H left noenhanced tc rgb INK", number + 1,
-              plot_quote(plot, entry->text), x + SAMPLE_PX + 6, y);
+    plot_line(plot, "set label %d %s at screen %g/W, 1-%g/H left tc rgb INK", number + 1, plot_quote(plot, entry->text),
+              x + SAMPLE_PX + 6, y);
 }
 
 void plot_legend(struct plot *plot, const struct plot_entry *entry, int count)

@@ -37,6 +37,18 @@ static int open_streams(struct stream stream[2])
     return ROTID_OK;
 }
 
+/* Goes into a folder: the descriptor of the one before, -1 where it cannot. */
+static int enter(int folder)
+{
+    int before = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (before < 0 || fchdir(folder) == 0)
+        return before;
+    int reason = errno;
+    (void)close(before);
+    errno = reason;
+    return -1;
+}
+
 static int start(const char *const argv[], struct stream stream[2], pid_t *child)
 {
     posix_spawn_file_actions_t actions;
@@ -86,7 +98,23 @@ static void attend(struct stream stream[2], pid_t child, double until, const rot
     }
 }
 
-int process_run(const char *const argv[], double seconds, const rotid_environment *environment, struct process_result *result)
+/* posix_spawn changes no folder before POSIX.1-2024. */
+static int start_in(int folder, const char *const argv[], struct stream stream[2], pid_t *child)
+{
+    int before = folder == PROCESS_HERE ? -1 : enter(folder);
+    if (folder != PROCESS_HERE && before < 0)
+        return ROTID_ERROR_IO;
+    int status = start(argv, stream, child), reason = errno;
+    if (before >= 0) {
+        (void)!fchdir(before);
+        (void)close(before);
+    }
+    errno = reason;
+    return status;
+}
+
+int process_run(const char *const argv[], int folder, double seconds, const rotid_environment *environment,
+                struct process_result *result)
 {
     struct stream stream[2] = {{.text = result->out}, {.text = result->err}};
     pid_t child;
@@ -94,7 +122,7 @@ int process_run(const char *const argv[], double seconds, const rotid_environmen
     memset(result, 0, sizeof *result);
     if (open_streams(stream))
         return ROTID_ERROR_IO;
-    int status = start(argv, stream, &child), reason = errno;
+    int status = start_in(folder, argv, stream, &child), reason = errno;
     for (int i = 0; i < 2; i++)
         (void)close(stream[i].descriptor[1]);
     if (!status) {

@@ -183,7 +183,8 @@ void section_study(struct document *document, const struct result *result)
             "made: starts and ends, what depends on the number of modes, errors of the runs.",
             result->file);
     for (int i = 0; i < s->nfailure && i < MOST_FAILURES; i++)
-        document_paragraph(document, "%s failed: %s", words_sentence(pool, human_count(pool, (int)fmin(s->failure[i].runs, 1e9))),
+        document_paragraph(document, "%s failed: %s",
+                           words_sentence(pool, human_count(pool, (int)fmin(fmax(s->failure[i].runs, 0), 1e9))),
                            s->failure[i].text);
     figure_starts(document, result);
     figure_functional_by_modes(document, result);

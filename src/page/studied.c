@@ -29,6 +29,11 @@ static void read_parameters(const struct json_place *at, struct told_cell *cell)
          item = place_next(&item, PLACE_OBJECT)) {
         struct cell_parameter *p = &cell->parameter[item.index];
         p->name = place_string(&item, "name");
+        for (int k = 0; k < item.index; k++)
+            if (cell->parameter[k].name && !strcmp(cell->parameter[k].name, p->name)) {
+                place_wrong(&item, "name: is '%s' as in parameters[%d], expected each parameter once", p->name, k);
+                break;
+            }
         p->unit = place_string(&item, "unit");
         p->count = place_number(&item, "count");
         p->mean = place_number(&item, "mean");
@@ -94,6 +99,16 @@ static const char *name_of_file(const char *path)
     return slash ? slash + 1 : path;
 }
 
+/* "orthotropic, modes 1-4": the parts that vary but one. NULL: memory is out. */
+static const char *join(struct pool *pool, int count, const int *varies, const char *const part[], int but)
+{
+    const char *text = "";
+    for (int i = 0; i < count && text; i++)
+        if (varies[i] && part[i] && i != but)
+            text = pool_format(pool, "%s%s%s", text, *text ? ", " : "", part[i]);
+    return text;
+}
+
 /* What varies among the cells, as the name of each. */
 static int name_cells(struct pool *pool, struct study_outcome *out)
 {
@@ -117,11 +132,9 @@ static int name_cells(struct pool *pool, struct study_outcome *out)
                    *modes = pool_format(pool, "modes %s", cell->modes ? cell->modes : "all"),
                    *sensors = pool_format(pool, "sensors %s", cell->sensors ? cell->sensors : "all");
         const char *const part[AXES] = {name_of_file(cell->deck), cell->variant, modes, sensors, cell->hide, noise};
-        cell->label = "";
-        for (int axis = 0; axis < AXES && cell->label; axis++)
-            if (varies[axis] && part[axis])
-                cell->label = pool_format(pool, "%s%s%s", cell->label, *cell->label ? ", " : "", part[axis]);
-        if (!cell->label || !noise || !modes || !sensors)
+        cell->label = join(pool, AXES, varies, part, AXES);
+        cell->but_modes = join(pool, AXES, varies, part, MODES);
+        if (!cell->label || !cell->but_modes || !noise || !modes || !sensors)
             return ROTID_ERROR_MEMORY;
     }
     return ROTID_OK;

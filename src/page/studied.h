@@ -18,7 +18,8 @@ struct cell_parameter { /* over the runs of a cell; NaN where there is nothing t
 struct told_cell {
     const char *deck, *variant, *modes, *sensors, *hide; /* NULL of an axis that the plan does not have, but for the deck */
     double noise_frequency, noise_shape;
-    const char *label; /* what tells it from the others, "" where there is one */
+    const char *label;     /* what tells it from the others, "" where there is one */
+    const char *but_modes; /* the same without its modes */
     double runs, converged, at_bound, not_converged, failed, reached_best; /* NaN: one start each */
     double rms_percent, held_percent, evaluations;
     int nparameter;

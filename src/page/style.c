@@ -24,9 +24,7 @@ static const char layout[] =
     "dl div{display:grid;grid-template-columns:11rem 1fr;gap:1rem;padding:.25rem 0;border-bottom:1px solid var(--grid)}\n"
     "dt{color:var(--muted)}\ndd{margin:0;overflow-wrap:anywhere}\n"
     ".set{margin:2rem 0}\nfigure{margin:0}\nfigure h3{margin:0 0 .5rem}\nfigcaption{margin:.4rem 0}\n"
-    "figure svg{display:block;width:100%;height:auto;fill:none;stroke:currentColor;stroke-width:1;font-size:12px}\n"
-    "figure svg text{white-space:pre}\n"
-    ".narrow{display:none}\n"
+    "figure img{width:100%;height:auto}\n.wide{display:block}\n.narrow{display:none}\n"
     ".files,details{font-size:.875rem;color:var(--muted);margin:.3rem 0}\nsummary{cursor:pointer}\n"
     ".scroll{overflow-x:auto;margin:.75rem 0}\n"
     "table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums;color:var(--ink)}\n"
@@ -56,7 +54,6 @@ void style_write(FILE *out)
     (void)fputs("}\n@media screen and (prefers-color-scheme:dark){:root{", out);
     palette_style(out, 1);
     (void)fputs("}}\n", out);
-    palette_rules(out);
     (void)fputs(layout, out);
     (void)fprintf(out, "@media print{\n%s}\n", paper);
 }

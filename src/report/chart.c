@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "report/layout.h"
 
 void chart_bar(FILE *out, int half, double scale, double value)
@@ -65,30 +66,36 @@ void strip_density(struct strip *strip, int count, const double *z, const double
     }
 }
 
-/* Writes over blanks only, as far as the strip reaches. */
-static void write_at(struct strip *strip, int column, const char *text, size_t bytes)
+#define LETTER '\1' /* in a column whose character has several bytes, or none that is shown */
+
+/* Writes over blanks only, as far as the strip reaches; a character a column. */
+static void write_at(struct strip *strip, int column, const char *text, int most)
 {
-    for (size_t i = 0; i < bytes && text[i] && column + (int)i < strip->columns; i++)
-        if (column + (int)i >= 0 && strip->line[column + (int)i] == ' ')
-            strip->line[column + (int)i] = text[i];
+    for (size_t bytes; most > 0 && *text && column < strip->columns; most--, column++, text += bytes) {
+        bytes = text_utf8(text) ? text_utf8(text) : 1;
+        if (column < 0 || strip->line[column] != ' ')
+            continue;
+        strip->line[column] = (char)(bytes == 1 && text_visible(text) ? *text : LETTER);
+        strip->letter[column] = text;
+    }
 }
 
 void strip_mark(struct strip *strip, double from, double to, const char *label)
 {
-    int first = column_of(strip, from), last = column_of(strip, to), bytes = (int)strlen(label);
+    int first = column_of(strip, from), last = column_of(strip, to), columns = text_columns(label);
     for (int c = first; c <= last; c++)
         strip->line[c] = c == first || c == last ? '^' : '-';
-    if (last + 2 + bytes <= strip->columns || first < bytes + 1)
-        write_at(strip, last + 2, label, strlen(label));
+    if (last + 2 + columns <= strip->columns || first < columns + 1)
+        write_at(strip, last + 2, label, columns);
     else
-        write_at(strip, first - 1 - bytes, label, strlen(label));
+        write_at(strip, first - 1 - columns, label, columns);
 }
 
 void strip_name(struct strip *strip, double from, double to, const char *name)
 {
     int first = column_of(strip, from), room = column_of(strip, to) - first - 1;
     strip->line[first] = '|';
-    write_at(strip, first + 1, name, room > 0 ? (size_t)room : 0);
+    write_at(strip, first + 1, name, room);
 }
 
 void strip_ticks(struct strip *strip)
@@ -101,7 +108,7 @@ void strip_ticks(struct strip *strip)
         int bytes = snprintf(text, sizeof text, "%.4g", i * step), column = column_of(strip, i * step);
         if (column + bytes > strip->columns)
             column = strip->columns - bytes;
-        write_at(strip, column, text, sizeof text);
+        write_at(strip, column, text, bytes);
     }
 }
 
@@ -111,5 +118,10 @@ void strip_print(const struct strip *strip, FILE *out, int width, const char *la
     while (last > 0 && strip->line[last - 1] == ' ')
         last--;
     text_cell(out, width, label);
-    (void)fprintf(out, "%.*s\n", last, strip->line);
+    for (int c = 0; c < last; c++)
+        if (strip->line[c] == LETTER)
+            text_character(out, strip->letter[c]);
+        else
+            (void)fputc(strip->line[c], out);
+    (void)fputc('\n', out);
 }

@@ -13,6 +13,7 @@ struct strip {
     double length; /* of the axis [m], begins at 0 */
     int columns;
     char line[STRIP_MOST + 1];
+    const char *letter[STRIP_MOST]; /* of columns that no char holds, in the labels, which are the caller's */
 };
 
 void strip_open(struct strip *strip, double length, int columns);

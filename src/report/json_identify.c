@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/order.h"
+#include "fit/baseline.h"
 #include "report/json_geometry.h"
 #include "report/json_shapes.h"
 
@@ -82,6 +83,7 @@ static void add_history(struct json_tree *tree, cJSON *object, const struct iden
         json_number(tree, item, "seconds", now->seconds);
         json_list(tree, item, "x", fit->n, fit->history_x + (ptrdiff_t)i * fit->n);
     }
+    json_flag(tree, object, "nlopt", baseline_exists());
     baseline = json_array(tree, object, "baseline");
     for (int i = 0; i < fit->nbaseline; i++) {
         const rotid_baseline *b = &fit->baseline[i];
@@ -102,7 +104,7 @@ static void add_history(struct json_tree *tree, cJSON *object, const struct iden
 static double bijection_chi(const struct job *job)
 {
     rotid_fit_options standard;
-    rotid_fit_defaults(&standard);
+    rotid_fit_defaults(sizeof standard, &standard);
     return job->fit.bijection_chi > 0 ? job->fit.bijection_chi : standard.bijection_chi;
 }
 

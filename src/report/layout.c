@@ -4,61 +4,112 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/text.h"
+
+static void put_number(FILE *out, int width, const char *text)
+{
+    (void)fprintf(out, "%*s", width, text);
+}
+
+/* A text of a number, and one of few digits where that is wider than its cell. */
+static void put_wide(FILE *out, int width, const char *text, double value)
+{
+    char few[32];
+    (void)snprintf(few, sizeof few, "%.1e", value);
+    put_number(out, width, width > 0 && (int)strlen(text) > width ? few : text);
+}
+
 void number_cell(FILE *out, int width, int decimals, double value)
 {
-    if (isfinite(value))
-        (void)fprintf(out, "%*.*f", width, decimals, value);
-    else
-        (void)fprintf(out, "%*s", width, "-");
+    char text[400]; /* the largest number has 309 digits before its point */
+    (void)snprintf(text, sizeof text, "%.*f", decimals, value);
+    put_wide(out, width, isfinite(value) ? text : "-", value);
 }
 
 void signed_cell(FILE *out, int width, int decimals, double value)
 {
-    if (isfinite(value))
-        (void)fprintf(out, "%+*.*f", width, decimals, value);
-    else
-        (void)fprintf(out, "%*s", width, "-");
+    char text[400];
+    (void)snprintf(text, sizeof text, "%+.*f", decimals, value);
+    put_wide(out, width, isfinite(value) ? text : "-", value);
 }
 
 void digits_cell(FILE *out, int width, int digits, double value)
 {
+    char text[64];
+    put_number(out, width, number_text(text, digits, value));
+}
+
+void power_cell(FILE *out, int width, int decimals, double value)
+{
+    char text[64];
+    (void)snprintf(text, sizeof text, "%.*e", decimals, value);
+    put_number(out, width, isfinite(value) ? text : "-");
+}
+
+const char *number_text(char text[64], int digits, double value)
+{
     if (isfinite(value))
-        (void)fprintf(out, "%*.*g", width, digits, value);
+        (void)snprintf(text, 64, "%.*g", digits, value);
     else
-        (void)fprintf(out, "%*s", width, "-");
+        (void)strcpy(text, "-");
+    return text;
 }
 
 void chance_cell(FILE *out, int width, double value)
 {
     if (value < 0.001)
-        (void)fprintf(out, "%*s", width, "<0.001");
+        put_number(out, width, "<0.001");
     else
         number_cell(out, width, 3, value);
 }
 
-static int begins_character(char c)
+/* Bytes of the next column: of a character, or one that is shown in its place. */
+static size_t next_column(const char *text)
 {
-    return ((unsigned char)c & 0xc0) != 0x80;
+    size_t bytes = text_utf8(text);
+    return bytes ? bytes : 1;
 }
 
 static int columns_of(const char *text, size_t bytes)
 {
     int columns = 0;
-    for (size_t i = 0; i < bytes; i++)
-        columns += begins_character(text[i]);
+    for (const char *end = text + bytes; text < end; text += next_column(text))
+        columns++;
     return columns;
+}
+
+void text_character(FILE *out, const char *text)
+{
+    size_t bytes = text_visible(text);
+    if (bytes)
+        (void)fwrite(text, 1, bytes, out);
+    else
+        (void)fputs(TEXT_REPLACEMENT, out); /* a line feed among them: it would end the row */
+}
+
+int text_columns(const char *text)
+{
+    return columns_of(text, strlen(text));
+}
+
+static void put_columns(FILE *out, int columns, const char *text)
+{
+    for (; columns > 0; columns--, text += next_column(text))
+        text_character(out, text);
 }
 
 void text_cell(FILE *out, int width, const char *text)
 {
-    int columns = columns_of(text, strlen(text)), shown = columns > width ? width - 1 : columns, column = 0;
-    for (; *text; text++) {
-        column += begins_character(*text);
-        if (column > shown)
-            break;
-        (void)fputc(*text, out);
-    }
+    int columns = text_columns(text), shown = columns > width ? width - 1 : columns;
+    put_columns(out, shown, text);
     (void)fprintf(out, "%*s", width - shown, columns > width ? "~" : "");
+}
+
+void name_cell(FILE *out, int width, const char *text)
+{
+    int columns = text_columns(text);
+    put_columns(out, columns, text);
+    (void)fprintf(out, "%*s", columns < width ? width - columns : 0, "");
 }
 
 static void new_line(struct wrap *wrap)
@@ -88,13 +139,11 @@ static void put(struct wrap *wrap, const char *text, size_t bytes)
         (void)fputc(' ', wrap->out);
         wrap->column++;
     }
-    for (size_t i = 0; i < bytes; i++) {
-        if (begins_character(text[i])) {
-            if (wrap->column >= wrap->width - 1)
-                new_line(wrap);
-            wrap->column++;
-        }
-        (void)fputc(text[i], wrap->out);
+    for (const char *end = text + bytes; text < end; text += next_column(text)) {
+        if (wrap->column >= wrap->width - 1)
+            new_line(wrap);
+        wrap->column++;
+        text_character(wrap->out, text);
     }
     wrap->fresh = 0;
 }
@@ -123,7 +172,7 @@ void wrap_item(struct wrap *wrap, const char *format, ...)
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    if (columns_of(text, strlen(text)) < wrap->width - wrap->indent)
+    if (text_columns(text) < wrap->width - wrap->indent)
         put(wrap, text, strlen(text));
     else
         wrap_words(wrap, text);

@@ -5,15 +5,26 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* A number in the width given, or a dash where there is none. */
+/* A number in the width given, or a dash where there is none; one that is too large for it with an exponent. Width 0:
+ * as wide as it is. */
 void number_cell(FILE *out, int width, int decimals, double value);
 void signed_cell(FILE *out, int width, int decimals, double value);
-/* The same with a number of significant digits. */
+/* The same with a number of significant digits, and with decimals before a power of ten. */
 void digits_cell(FILE *out, int width, int digits, double value);
+void power_cell(FILE *out, int width, int decimals, double value);
+/* A number within a sentence, or a dash. Returns text. */
+const char *number_text(char text[64], int digits, double value);
+#define NUMBER(digits, value) number_text((char[64]){""}, (digits), (value))
 /* A probability: three decimals, "<0.001" below. */
 void chance_cell(FILE *out, int width, double value);
-/* A text to the left; what does not fit ends in '~'. */
+/* A text to the left; what does not fit ends in '~'. Control characters, line feeds among them, become U+FFFD. */
 void text_cell(FILE *out, int width, const char *text);
+/* The same of any length, with at least `width` columns. */
+void name_cell(FILE *out, int width, const char *text);
+
+int text_columns(const char *text);
+/* The character that begins here, or U+FFFD. */
+void text_character(FILE *out, const char *text);
 
 /* Running text: lines of `width` columns, all but the first indented. */
 struct wrap {

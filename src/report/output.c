@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "file/open.h"
+#include "report/terminal.h"
 #include "rotid.h"
 
 /* A device or a pipe is written to as it is: there is nothing to keep whole, and a rename would put a file in its place. */
@@ -33,7 +35,7 @@ int output_open(struct output *output, const char *path)
 {
     *output = (struct output){.path = path};
     if (is_special(path)) {
-        output->stream = fopen(path, "wb");
+        output->stream = file_open_device(path);
         return output->stream ? ROTID_OK : ROTID_ERROR_IO;
     }
     output->beside = malloc(strlen(path) + sizeof ".XXXXXX");
@@ -181,10 +183,15 @@ void output_abandon(struct output *output)
     *output = (struct output){0};
 }
 
+const char *output_error(void)
+{
+    return errno == ENXIO ? FILE_NOBODY : strerror(errno);
+}
+
 int output_write(const char *path, const char *text)
 {
     if (!strcmp(path, "-"))
-        return fputs(text, stdout) < 0 || fflush(stdout) != 0 ? ROTID_ERROR_IO : ROTID_OK;
+        return terminal_print(text);
     struct output output;
     int status = output_open(&output, path);
     if (status)

@@ -21,6 +21,8 @@ int output_close(struct output *output);
 /* The same for several files, all of them or none: those that had taken their names when one could not are put back as they were
  * (where the file system has hard links). *failed is the index of that one. */
 int output_close_all(int count, struct output *output, int *failed);
+/* Why one of these failed, by errno. */
+const char *output_error(void);
 /* Removes it. */
 void output_abandon(struct output *output);
 

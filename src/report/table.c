@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fit/baseline.h"
 #include "fit/quantile.h"
 #include "report/layout.h"
 
@@ -48,7 +49,8 @@ static void print_target(FILE *out, const struct rotor *rotor, const struct effe
 
 static void print_effect(FILE *out, const struct rotor *rotor, const struct effect *effect, const char *role)
 {
-    (void)fprintf(out, "%-12s %s, %s", effect->name, role, effect->kind->id);
+    name_cell(out, 12, effect->name);
+    (void)fprintf(out, " %s, %s", role, effect->kind->id);
     print_target(out, rotor, effect);
     for (int p = 0; p < effect_parameters(effect); p++) {
         const struct effect_parameter_name *parameter = &effect->kind->parameter[p];
@@ -69,7 +71,8 @@ static void print_causes(FILE *out, const struct job *job)
         print_effect(out, &job->rotor, &job->suspect[i].effect, "suspected");
     for (int i = 0; i < job->ncorrection; i++) {
         const struct correction *correction = &job->correction[i];
-        (void)fprintf(out, "%-12s taken out of the data, %s", correction->name, correction->id);
+        name_cell(out, 12, correction->name);
+        (void)fprintf(out, " taken out of the data, %s", correction->id);
         for (int s = 0; s < correction->nsensor; s++)
             (void)fprintf(out, "%s%d", s ? " and " : " of sensor ", correction->sensor[s]);
         (void)fprintf(out, "%s%s, value %.6g\n", correction->block ? " of " : "", correction->block ? correction->block : "",
@@ -99,7 +102,8 @@ void table_check(FILE *out, const struct job *job, const struct mass_properties 
         const struct material *material = &rotor->group[g].material;
         double from, to;
         rotor_group_span(rotor, g, &from, &to);
-        (void)fprintf(out, "%-12s %10.6f %10.6f  %10.4e  %10.4e  %5.3f  %12.2f\n", rotor->group[g].name, from, to, material->e,
+        name_cell(out, 12, rotor->group[g].name);
+        (void)fprintf(out, " %10.6f %10.6f  %10.4e  %10.4e  %5.3f  %12.2f\n", from, to, material->e,
                       material_shear_modulus(material), material->nu, material->rho);
     }
     print_causes(out, job);
@@ -138,9 +142,18 @@ void table_modes(FILE *out, const struct job *job, const struct spectrum *s, con
     for (int i = 0; i < s->nmaster; i++) {
         (void)fprintf(out, "%9.5f", s->master_z[i]);
         for (int j = 0; j < s->count; j++)
-            (void)fprintf(out, " %9.5f", s->shape[i + (ptrdiff_t)j * s->nmaster]);
+            number_cell(out, 10, 5, s->shape[i + (ptrdiff_t)j * s->nmaster]);
         (void)fputc('\n', out);
     }
+}
+
+/* 11 columns */
+static void signed_power(FILE *out, double value)
+{
+    if (isfinite(value))
+        (void)fprintf(out, "%+.4e", value);
+    else
+        (void)fprintf(out, "%11s", "-");
 }
 
 void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter,
@@ -158,8 +171,12 @@ void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *
                       strcmp(parameter[p].unit, "1") ? parameter[p].unit : "");
         (void)fprintf(out, "mode   frequency [Hz]   step        limit       %s\n", paper ? "paper (magnitude)" : "");
         for (int k = 0; k < r->m; k++) {
-            (void)fprintf(out, "%3d  %14.4f  %+.4e %+.4e", k + 1, r->hz[k], r->difference[k + (ptrdiff_t)p * r->m],
-                          r->derivative[k + (ptrdiff_t)p * r->m]);
+            (void)fprintf(out, "%3d", k + 1);
+            number_cell(out, 16, 4, r->hz[k]);
+            (void)fputs("  ", out);
+            signed_power(out, r->difference[k + (ptrdiff_t)p * r->m]);
+            (void)fputc(' ', out);
+            signed_power(out, r->derivative[k + (ptrdiff_t)p * r->m]);
             if (isfinite(reference_value(paper, k)))
                 (void)fprintf(out, "  %.3e", reference_value(paper, k));
             (void)fputc('\n', out);
@@ -171,7 +188,7 @@ void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *
         for (int i = 0; i < r->points; i++) {
             (void)fprintf(out, "%6.3f", r->relative[i]);
             for (int k = 0; k < r->m; k++)
-                (void)fprintf(out, " %9.2e", r->curve[k + (ptrdiff_t)r->m * (i + (ptrdiff_t)r->points * p)]);
+                power_cell(out, 10, 2, r->curve[k + (ptrdiff_t)r->m * (i + (ptrdiff_t)r->points * p)]);
             (void)fputc('\n', out);
         }
         (void)fputc('\n', out);
@@ -211,9 +228,14 @@ static void print_modes(FILE *out, const struct job *job, const struct identific
         *(is_held ? &held : &sum) += error * error;
         *(is_held ? &nheld : &count) += 1;
     }
-    (void)fprintf(out, "rms error of the fitted modes %.2f %%", sqrt(sum / count));
-    if (nheld)
-        (void)fprintf(out, ", of the modes held out %.2f %%", sqrt(held / nheld));
+    (void)fputs("rms error of the fitted modes ", out);
+    number_cell(out, 0, 2, sqrt(sum / count));
+    (void)fputs(" %", out);
+    if (nheld) {
+        (void)fputs(", of the modes held out ", out);
+        number_cell(out, 0, 2, sqrt(held / nheld));
+        (void)fputs(" %", out);
+    }
     (void)fprintf(out, "\n");
 }
 
@@ -224,7 +246,8 @@ static void print_parameters(FILE *out, const struct job *job, const rotid_fit_r
         double ratio = fabs(fit->x[p]) / (fit->ci_upper[p] - fit->ci_lower[p]); /* an interval shows two digits of its width */
         int digits = ratio > 1e3 && isfinite(ratio) ? (int)ceil(log10(ratio)) + 2 : 5;
         digits = digits < 5 ? 5 : digits > 8 ? 8 : digits;
-        (void)fprintf(out, "%-14s %14.*g  %-8s ", job->bounds[p].name, digits > 6 ? digits : 6, fit->x[p], job->bounds[p].unit);
+        name_cell(out, 14, job->bounds[p].name);
+        (void)fprintf(out, " %14.*g  %-8s ", digits > 6 ? digits : 6, fit->x[p], job->bounds[p].unit);
         if (isfinite(fit->ci_lower[p]))
             (void)fprintf(out, "%12.*g ...%12.*g", digits, fit->ci_lower[p], digits, fit->ci_upper[p]);
         else
@@ -242,7 +265,7 @@ static void print_parameters(FILE *out, const struct job *job, const rotid_fit_r
         (void)fprintf(out, " (relative changes)\n");
     }
     if (fit->n > 1) {
-        (void)fprintf(out, "condition number %.3g", fit->condition_number);
+        (void)fprintf(out, "condition number %s", NUMBER(3, fit->condition_number));
         if (fit->n == 2 && isfinite(fit->correlation[1]))
             (void)fprintf(out, ", correlation %.3f", fit->correlation[1]);
         (void)fprintf(out, "\n");
@@ -254,7 +277,8 @@ static void print_parameters(FILE *out, const struct job *job, const rotid_fit_r
                       fit->dof);
     if (fit->widened_by > 1) {
         double chance = chi_square_tail(fit->chi2, fit->dof); /* half of all adequate models have a misfit above the noise */
-        (void)fprintf(out, "the misfit is %.3g times the stated noise: the intervals are widened by that", fit->widened_by);
+        (void)fprintf(out, "the misfit is %s times the stated noise: the intervals are widened by that",
+                      NUMBER(3, fit->widened_by));
         if (chance < 0.01)
             (void)fprintf(out, ", and the model is not adequate for these data\n");
         else
@@ -265,9 +289,26 @@ static void print_parameters(FILE *out, const struct job *job, const rotid_fit_r
 static void print_history(FILE *out, const rotid_fit_result *fit)
 {
     (void)fprintf(out, "\niteration   objective         gradient    mu         gain      step\n");
-    for (int i = 0; i < fit->nhistory; i++)
-        (void)fprintf(out, "%6d      %.10e  %.2e    %.2e  %8.3f  %.2e\n", fit->history[i].iteration, fit->history[i].objective,
-                      fit->history[i].gradient, fit->history[i].mu, fit->history[i].gain_ratio, fit->history[i].step);
+    for (int i = 0; i < fit->nhistory; i++) {
+        (void)fprintf(out, "%6d", fit->history[i].iteration);
+        power_cell(out, 22, 10, fit->history[i].objective);
+        power_cell(out, 10, 2, fit->history[i].gradient);
+        power_cell(out, 12, 2, fit->history[i].mu);
+        number_cell(out, 10, 3, fit->history[i].gain_ratio);
+        power_cell(out, 10, 2, fit->history[i].step);
+        (void)fputc('\n', out);
+    }
+}
+
+/* The objective of one that failed may be none. */
+static void print_minimiser(FILE *out, const char *library, const char *name, double objective, int evaluations, double seconds,
+                            int n, const double *x)
+{
+    (void)fprintf(out, "%s%-*s", library, 20 - (int)strlen(library), name);
+    power_cell(out, 15, 8, objective);
+    (void)fprintf(out, " %11d %9.2f", evaluations, 1e3 * seconds);
+    for (int p = 0; p < n; p++)
+        digits_cell(out, 14, 7, x[p]);
 }
 
 static void print_baseline(FILE *out, const struct job *job, const rotid_fit_result *fit)
@@ -275,34 +316,34 @@ static void print_baseline(FILE *out, const struct job *job, const rotid_fit_res
     (void)fprintf(out, "\n%-20s %14s %11s %9s", "minimiser", "objective", "evaluations", "ms");
     for (int p = 0; p < fit->n; p++)
         (void)fprintf(out, " %13s", job->bounds[p].name);
-    (void)fprintf(out, "   result\n%-20s %14.8e %11d %9.2f", "Levenberg-Marquardt", fit->objective, fit->evaluations,
-                  1e3 * fit->seconds);
-    for (int p = 0; p < fit->n; p++)
-        (void)fprintf(out, " %13.7g", fit->x[p]);
+    (void)fprintf(out, "   result\n");
+    print_minimiser(out, "", "Levenberg-Marquardt", fit->objective, fit->evaluations, fit->seconds, fit->n, fit->x);
     (void)fprintf(out, "   %s\n", rotid_status_text(fit->status));
     for (int i = 0; i < fit->nbaseline; i++) {
         const rotid_baseline *b = &fit->baseline[i];
-        (void)fprintf(out, "NLopt %-14s %14.8e %11d %9.2f", b->algorithm, b->objective, b->evaluations, 1e3 * b->seconds);
-        for (int p = 0; p < fit->n; p++)
-            (void)fprintf(out, " %13.7g", b->x[p]);
+        print_minimiser(out, "NLopt ", b->algorithm, b->objective, b->evaluations, b->seconds, fit->n, b->x);
         (void)fprintf(out, "   %s\n", b->result);
     }
 }
 
-void table_identify(FILE *out, const struct job *job, const struct identification *result, int history)
+void table_identify(FILE *out, const struct job *job, const struct identification *result, int baseline, int history)
 {
     const rotid_fit_result *fit = result->fit;
     int fitted = fit->m;
     for (int k = 0; k < fit->m; k++)
         fitted -= job->holdout && job->holdout[k];
     table_heading(out, job);
-    (void)fprintf(out, "%s, fit of %d mode%s, functional %s, reduction %s, objective %.10g, gradient %.1e\n\n",
+    (void)fprintf(out, "%s, fit of %d mode%s, functional %s, reduction %s, objective %s, gradient ",
                   fit->converged ? (fit->any_at_bound ? "converged AT A BOUND" : "converged") : "NOT CONVERGED", fitted,
                   fitted == 1 ? "" : "s", functional_name(job->fit.functional), reduction_name(job->fit.reduction),
-                  fit->objective, fit->gradient);
+                  NUMBER(10, fit->objective));
+    power_cell(out, 0, 1, fit->gradient);
+    (void)fputs("\n\n", out);
     print_parameters(out, job, fit);
     if (fit->nbaseline)
         print_baseline(out, job, fit);
+    else if (baseline && !baseline_exists())
+        (void)fprintf(out, "\nno minimiser beside it: this rotid is built without NLopt (WITH_NLOPT=0)\n");
     if (history)
         print_history(out, fit);
     (void)fputc('\n', out);

@@ -16,7 +16,7 @@ void table_modes(FILE *out, const struct job *job, const struct spectrum *spectr
                  int shapes);
 void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter,
                        const struct sensitivity_options *options, const struct sensitivity *result);
-/* history: with the iterations. */
-void table_identify(FILE *out, const struct job *job, const struct identification *result, int history);
+/* baseline: NLopt was asked for; history: with the iterations. */
+void table_identify(FILE *out, const struct job *job, const struct identification *result, int baseline, int history);
 
 #endif

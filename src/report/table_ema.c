@@ -187,7 +187,7 @@ static void print_mac(FILE *out, const struct ema *ema)
     for (int i = 0; i < count; i++) {
         (void)fprintf(out, "\n%5d", i + 1);
         for (int j = 0; j <= i; j++)
-            (void)fprintf(out, "%5.0f", 100 * ema->mac[i + (ptrdiff_t)j * ema->nmode]);
+            number_cell(out, 5, 0, 100 * ema->mac[i + (ptrdiff_t)j * ema->nmode]);
     }
     (void)fprintf(out, "\n");
 }
@@ -229,8 +229,10 @@ static void print_poles(FILE *out, const struct ema *ema)
     (void)fprintf(out, "\norder  frequency [Hz]  damping [%%]  stable\n");
     for (int i = 0; i < ema->npole; i++) {
         const struct ema_pole *p = &ema->pole[i];
-        (void)fprintf(out, "%5d  %14.8g  %11.4g  %s%s", p->order, p->frequency_hz, 100 * p->damping,
-                      p->stable_frequency ? "f" : "", p->stable_damping ? "d" : "");
+        (void)fprintf(out, "%5d", p->order);
+        digits_cell(out, 16, 8, p->frequency_hz);
+        digits_cell(out, 13, 4, 100 * p->damping);
+        (void)fprintf(out, "  %s%s", p->stable_frequency ? "f" : "", p->stable_damping ? "d" : "");
         if (p->mode >= 0)
             (void)fprintf(out, "  mode %d", p->mode + 1);
         (void)fprintf(out, "\n");

@@ -13,7 +13,7 @@ static void print_values(struct wrap *wrap, const struct candidate *candidate)
     const struct effect_parameter_name *parameter;
     for (int p = 0; (parameter = candidate_parameter(candidate, p)); p++) {
         int pure = !parameter->unit || !strcmp(parameter->unit, "1");
-        wrap_item(wrap, "%s%s %.4g%s%s%s", p ? ", " : "", parameter->name, candidate->effect.value[p], pure ? "" : " ",
+        wrap_item(wrap, "%s%s %s%s%s%s", p ? ", " : "", parameter->name, NUMBER(4, candidate->effect.value[p]), pure ? "" : " ",
                   pure ? "" : parameter->unit, candidate->fixed[p] ? " fixed" : "");
         if (!candidate->fixed[p] && isfinite(candidate->ci_lower[p]) && isfinite(candidate->ci_upper[p]))
             wrap_item(wrap, "(%.3g ... %.3g)", candidate->ci_lower[p], candidate->ci_upper[p]);

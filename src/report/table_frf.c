@@ -59,7 +59,7 @@ static void print_model(FILE *out, const struct frf_view *view)
         (void)fprintf(out, "%s%.4f Hz",
                       i ? ", " : "modes on the supports: ", sqrt(fmax(s->lambda[i], 0)) / 6.28318530717958647692);
     if (s->nrigid)
-        (void)fprintf(out, ", damping %.4g %% (%s)\n", 100 * r->zeta[0], source_text(r->damping[0]));
+        (void)fprintf(out, ", damping %s %% (%s)\n", NUMBER(4, 100 * r->zeta[0]), source_text(r->damping[0]));
     if (r->decay > 0)
         (void)fprintf(out, "exponential window of the measurement: %.5g 1/s, synthesised with it\n", r->decay);
 }
@@ -85,9 +85,11 @@ static void print_modes(FILE *out, const struct frf_view *view)
             number_cell(out, 10, 3, frf_sums_frac(&band->moved));
             signed_cell(out, 10, 2, frf_sums_level(&band->resonance));
             signed_cell(out, 9, 1, carg(band->resonance.cross) * 57.295779513082321);
-            if (band->worst >= 0)
-                (void)fprintf(out, "   %.2f at %d over %d", r->at[b + (ptrdiff_t)band->worst * r->nband].deviation,
-                              r->row[band->worst].response, r->row[band->worst].reference);
+            if (band->worst >= 0) {
+                (void)fputs("   ", out);
+                number_cell(out, 0, 2, r->at[b + (ptrdiff_t)band->worst * r->nband].deviation);
+                (void)fprintf(out, " at %d over %d", r->row[band->worst].response, r->row[band->worst].reference);
+            }
         }
         (void)fprintf(out, "%s%s\n", r->damping[m] == FRF_DAMPING_MEASURED ? "" : "   damping: ",
                       r->damping[m] == FRF_DAMPING_MEASURED ? "" : source_text(r->damping[m]));
@@ -180,6 +182,14 @@ static int print_rows(FILE *out, const struct frf_view *view)
 
 /* ------------------------------------------------------------------------------------------------ the first function */
 
+/* " line [Hz]   modulus   phase [deg]" */
+static void print_peak(FILE *out, double hz, double complex at)
+{
+    number_cell(out, 11, 2, hz);
+    power_cell(out, 14, 4, cabs(at));
+    number_cell(out, 14, 1, carg(at) * 57.295779513082321);
+}
+
 static int print_first(FILE *out, const struct frf_view *view)
 {
     const struct frf_result *r = view->result;
@@ -201,13 +211,10 @@ static int print_first(FILE *out, const struct frf_view *view)
     for (int b = 0; b < r->nband; b++) {
         const struct frf_band *band = &r->band[b];
         double complex at = h[band->at_model];
-        (void)fprintf(out, "%4d %10.2f %13.4e %13.1f", band->mode, r->frequency_hz[band->at_model], cabs(at),
-                      carg(at) * 57.295779513082321);
-        if (measured) {
-            at = measured[band->at_measured];
-            (void)fprintf(out, " %10.2f %13.4e %13.1f", r->frequency_hz[band->at_measured], cabs(at),
-                          carg(at) * 57.295779513082321);
-        }
+        (void)fprintf(out, "%4d", band->mode);
+        print_peak(out, r->frequency_hz[band->at_model], at);
+        if (measured)
+            print_peak(out, r->frequency_hz[band->at_measured], measured[band->at_measured]);
         (void)fputc('\n', out);
     }
     return ROTID_OK;

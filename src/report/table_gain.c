@@ -102,7 +102,7 @@ static void print_parameter(const struct diagnosis_view *view, const rotid_param
     if (extended)
         value_cell(out, both ? VALUE : 0, extended, after, name->unit);
     if (both)
-        (void)fprintf(out, "%+6.1f", 100 * (extended->x[after] / base->x[before] - 1));
+        signed_cell(out, 6, 1, 100 * (extended->x[after] / base->x[before] - 1));
     (void)fputc('\n', out);
 }
 
@@ -123,10 +123,11 @@ static void print_parameters(const struct diagnosis_view *view)
         if (fitted_parameter(&d->job, base, d->extended_job.bounds[p].name) < 0)
             print_parameter(view, &d->extended_job.bounds[p], -1, p);
     if (base && base->widened_by > 1)
-        (void)fprintf(view->out, "  intervals%s are widened by %.3g: the misfit exceeds the noise\n", extended ? " before" : "",
-                      base->widened_by);
+        (void)fprintf(view->out, "  intervals%s are widened by %s: the misfit exceeds the noise\n", extended ? " before" : "",
+                      NUMBER(3, base->widened_by));
     if (extended && extended->widened_by > 1)
-        (void)fprintf(view->out, "  intervals after are widened by %.3g: the misfit exceeds the noise\n", extended->widened_by);
+        (void)fprintf(view->out, "  intervals after are widened by %s: the misfit exceeds the noise\n",
+                      NUMBER(3, extended->widened_by));
 }
 
 void table_gain(const struct diagnosis_view *view)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "import/names.h"
 #include "report/layout.h"
 
@@ -35,17 +36,13 @@ static struct row take_row(const struct listing *listing, int first, int all)
     return row;
 }
 
-/* Texts in Latin-1, with a superscript of two or a micro, would spoil a terminal that expects UTF-8. */
+/* A unit in Latin-1, such as m/s with a superscript of two, can still be read. */
 static void print_clean(FILE *out, const char *text)
 {
-    for (const unsigned char *c = (const unsigned char *)text; *c; ++c) {
-        int pair = *c >= 0xc2 && *c < 0xe0 && (c[1] & 0xc0) == 0x80;
-        if (*c < 0x80 || pair)
-            (void)fputc(*c, out);
-        else
-            (void)fputs(*c == 0xb2 ? "2" : "?", out);
-        if (pair)
-            (void)fputc(*++c, out);
+    for (size_t bytes; *text; text += bytes) {
+        int is_two = !text_utf8(text) && (unsigned char)*text == 0xb2;
+        bytes = text_utf8(text) ? text_utf8(text) : 1;
+        (void)fwrite(is_two ? "2" : text, 1, bytes, out);
     }
 }
 
@@ -89,7 +86,7 @@ static void print_function(FILE *out, const struct listing *listing, struct row 
     if (*unit || *f->function.denominator.unit)
         print_unit(out, unit, f->function.denominator.unit);
     if (f->si_factor != 1)
-        (void)fprintf(out, ", times %.6g in SI", f->si_factor);
+        (void)fprintf(out, ", times %s in SI", NUMBER(6, f->si_factor));
 }
 
 static void print_rest(FILE *out, const struct listing *listing, struct row row)
@@ -106,9 +103,9 @@ static void print_rest(FILE *out, const struct listing *listing, struct row row)
         (void)fprintf(out, " %s, %d points, %s", name_of_analysis(first->analysis_type), first->node_count,
                       first->is_complex ? "complex" : "real");
         if (row.first == row.last)
-            (void)fprintf(out, ", %.6g Hz, damping %.4g", first->frequency_hz, first->damping);
+            (void)fprintf(out, ", %s Hz, damping %s", NUMBER(6, first->frequency_hz), NUMBER(4, first->damping));
         else
-            (void)fprintf(out, ", %.6g to %.6g Hz", first->frequency_hz, last->frequency_hz);
+            (void)fprintf(out, ", %s to %s Hz", NUMBER(6, first->frequency_hz), NUMBER(6, last->frequency_hz));
     } else if (set->set.number == 164 && listing->units) {
         (void)fprintf(out, " %s ", name_of_units(listing->units->code));
         print_clean(out, listing->units->description);

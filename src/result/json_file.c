@@ -5,19 +5,19 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "file/open.h"
+
 /* The whole file with a zero byte behind it. */
 static int read_text(struct pool *pool, const char *file, struct message_list *messages, char **text, size_t *length)
 {
     struct stat is = {.st_size = 0};
-    FILE *stream = fopen(file, "rb");
+    FILE *stream = file_open_regular(file, &is);
     int status = ROTID_ERROR_IO;
     const char *why = NULL;
-    if (!stream || fstat(fileno(stream), &is) != 0)
-        why = strerror(errno);
-    else if (S_ISDIR(is.st_mode))
-        why = "is a folder, expected a file that rotid wrote with --json";
-    else if (!S_ISREG(is.st_mode))
-        why = "is no regular file, expected one that rotid wrote with --json";
+    if (!stream)
+        why = errno == EISDIR   ? "is a folder, expected a file that rotid wrote with --json"
+              : errno == EINVAL ? "is no regular file, expected one that rotid wrote with --json"
+                                : strerror(errno);
     else if (is.st_size > JSON_FILE_MOST)
         why = "is larger than 512 MiB, more than any result of rotid";
     if (!why) {

@@ -50,17 +50,7 @@ void json_text(struct json_tree *tree, cJSON *parent, const char *key, const cha
         json_null(tree, parent, key);
         return;
     }
-    char *clean = malloc(3 * strlen(text) + 1), *end = clean;
-    while (clean && *text) {
-        size_t bytes = text_utf8(text);
-        memcpy(end, bytes ? text : "\xef\xbf\xbd", bytes ? bytes : 3);
-        end += bytes ? bytes : 3;
-        text += bytes ? bytes : 1;
-    }
-    if (clean)
-        *end = 0;
-    (void)put(tree, parent, key, clean ? cJSON_CreateString(clean) : NULL);
-    free(clean);
+    (void)put(tree, parent, key, cJSON_CreateString(text)); /* what is no UTF-8 in it is replaced at the end */
 }
 
 void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value)
@@ -160,26 +150,47 @@ void json_notes(struct json_tree *tree, const struct message_list *notes)
             json_text(tree, array, NULL, notes->item[i].text);
 }
 
-char *json_close(struct json_tree *tree)
+/* A copy with `behind` at its end, in which control characters are escaped: cJSON does so with those of ASCII alone, and a file
+ * is shown on terminals too. They stand within texts only, but for the blanks between values. */
+static char *escape(const char *text, const char *behind)
 {
-    char *text = tree->failed ? NULL : cJSON_Print(tree->root);
+    unsigned code;
+    size_t room = strlen(text) + strlen(behind) + 1;
+    for (const char *c = text; *c; c += text_utf8(c) ? text_utf8(c) : 1)
+        room += text_visible(c) ? 0 : 6; /* of an escape, or of what stands for a byte that is no UTF-8 */
+    char *copy = cJSON_malloc(room), *end = copy;
+    while (copy && *text) {
+        size_t bytes = text_utf8(text);
+        if (text_is_control(text, &code) && *text != '\n' && *text != '\t') {
+            end += snprintf(end, 7, "\\u%04x", code & 0xffff);
+        } else {
+            memcpy(end, bytes ? text : TEXT_REPLACEMENT, bytes ? bytes : 3);
+            end += bytes ? bytes : 3;
+        }
+        text += bytes ? bytes : 1;
+    }
+    if (copy)
+        (void)strcpy(end, behind);
+    return copy;
+}
+
+static char *finish(struct json_tree *tree, char *text, const char *behind)
+{
+    char *escaped = text ? escape(text, behind) : NULL;
+    cJSON_free(text);
     cJSON_Delete(tree->root);
     tree->root = NULL;
-    return text;
+    return escaped;
+}
+
+char *json_close(struct json_tree *tree)
+{
+    return finish(tree, tree->failed ? NULL : cJSON_Print(tree->root), "");
 }
 
 char *json_close_line(struct json_tree *tree)
 {
-    char *bare = tree->failed ? NULL : cJSON_PrintUnformatted(tree->root), *line = NULL;
-    size_t length = bare ? strlen(bare) : 0;
-    cJSON_Delete(tree->root);
-    tree->root = NULL;
-    if (bare && (line = cJSON_malloc(length + 2))) {
-        memcpy(line, bare, length);
-        memcpy(line + length, "\n", 2);
-    }
-    cJSON_free(bare);
-    return line;
+    return finish(tree, tree->failed ? NULL : cJSON_PrintUnformatted(tree->root), "\n");
 }
 
 void json_free(char *text)

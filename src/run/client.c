@@ -43,7 +43,8 @@ int client_open(struct pool *pool, const struct rotor *rotor, int nparameter, co
     if (status)
         return status;
     const struct mesh *mesh = &client->beam.mesh;
-    client->model = (rotid_model){.n = mesh->ndof,
+    client->model = (rotid_model){.size = sizeof client->model,
+                                  .n = mesh->ndof,
                                   .kd = mesh->kd,
                                   .nfar = mesh->nfar,
                                   .far = mesh->far,

@@ -50,7 +50,10 @@ static void say_what_is_odd(const struct job *job, const struct spectrum *spectr
     int highest = 0;
     for (int k = 0; k < c->nmode; k++) {
         highest = c->number[k] > highest ? c->number[k] : highest;
-        if (c->number[k] != job->number[k])
+        if (c->number[k] != job->number[k] && !isfinite(c->nco[k]))
+            message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "measured mode %d at %.6g Hz is mode %d of the model by its shape",
+                        job->number[k], job->frequency_hz[k], c->number[k]);
+        else if (c->number[k] != job->number[k])
             note(notes, "measured mode %d at %.6g Hz is mode %d of the model by its shape (NCO %.2f)", job->number[k],
                  job->frequency_hz[k], c->number[k], c->nco[k]);
         else if (isfinite(c->nco[k]) && c->nco[k] < PAIRING_LEAST && components(job, k) >= comparison_candidates(job))

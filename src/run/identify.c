@@ -34,14 +34,15 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
     if (status)
         return status;
     int shapes = uses_shapes(job);
-    rotid_measured measured = {.nmode = job->nmode,
+    rotid_measured measured = {.size = sizeof measured,
+                               .nmode = job->nmode,
                                .number = number,
                                .frequency_hz = job->frequency_hz,
                                .frequency_std = job_knows_frequency_noise(job) ? job->frequency_std : NULL,
                                .shape = shapes ? job->shape : NULL,
                                .shape_std = shapes && job_knows_shape_noise(job) ? job->shape_std : NULL,
                                .holdout = holdout};
-    status = rotid_fit(&client->model, job->bounds, &measured, options, environment, fit);
+    status = rotid_fit(&client->model, job->bounds, &measured, options, environment, NULL, fit);
     if (!status && mass) { /* the beam stands at the last point that was evaluated; the mass wants the best one */
         for (int p = 0; p < job->nparameter; p++)
             *parameter_value(&client->beam.rotor, job->parameter[p]) = (*fit)->x[p];

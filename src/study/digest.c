@@ -7,7 +7,7 @@
 #define BASIS 0xcbf29ce484222325u
 #define PRIME 0x100000001b3u
 
-static void feed(struct digest *digest, size_t count, const void *bytes)
+void digest_bytes(struct digest *digest, size_t count, const void *bytes)
 {
     const unsigned char *byte = bytes;
     for (size_t i = 0; i < count; i++)
@@ -24,7 +24,7 @@ void digest_integer(struct digest *digest, long long value)
     unsigned char byte[8]; /* by value: the same on every machine */
     for (int i = 0; i < 8; i++)
         byte[i] = (unsigned char)((unsigned long long)value >> (8 * i));
-    feed(digest, sizeof byte, byte);
+    digest_bytes(digest, sizeof byte, byte);
 }
 
 void digest_doubles(struct digest *digest, size_t count, const double *value)
@@ -40,7 +40,7 @@ void digest_doubles(struct digest *digest, size_t count, const double *value)
 void digest_text(struct digest *digest, const char *text)
 {
     digest_integer(digest, text ? (long long)strlen(text) : -1);
-    feed(digest, text ? strlen(text) : 0, text);
+    digest_bytes(digest, text ? strlen(text) : 0, text);
 }
 
 void digest_cards(struct digest *digest, const struct deck_text *text)

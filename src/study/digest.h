@@ -15,6 +15,7 @@ struct digest {
 };
 
 void digest_open(struct digest *digest);
+void digest_bytes(struct digest *digest, size_t count, const void *bytes);
 /* Numbers by their bits. */
 void digest_doubles(struct digest *digest, size_t count, const double *value);
 void digest_integer(struct digest *digest, long long value);

@@ -28,7 +28,7 @@ static void begin(struct json_tree *tree, const struct line *line)
     json_number(tree, tree->root, "start", (double)line->point.start);
 }
 
-/* seconds stand last, so that two lines can be compared without them */
+/* seconds stand last, before the stamp: so two lines can be compared without them */
 static char *end(struct json_tree *tree, double seconds)
 {
     json_number(tree, tree->root, "seconds", round(seconds * 1e6) / 1e6);

@@ -1,11 +1,11 @@
 #include "study/merge.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "file/open.h"
 #include "report/json.h"
 #include "report/output.h"
 #include "study/results.h"
@@ -31,9 +31,10 @@ struct merger {
 
 static int open_part(struct merger *m, const char *path, struct part *part)
 {
+    struct stat about;
     size_t most;
     part->path = path;
-    part->descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    part->descriptor = file_descriptor(path, &about);
     if (part->descriptor < 0) {
         message_add(m->messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));
         return ROTID_ERROR_IO;
@@ -196,7 +197,7 @@ int merge_results(struct pool *pool, int count, char *const *path, const char *t
         merge->runs = m.part[0].header.runs;
         status = write_all(&m, to, merge);
         if (status == ROTID_ERROR_IO && !messages->errors)
-            message_add(messages, SEVERITY_ERROR, to, 1, 1, "cannot be written: %s", strerror(errno));
+            message_add(messages, SEVERITY_ERROR, to, 1, 1, "cannot be written: %s", output_error());
     }
     for (int p = 0; p < m.count; p++)
         if (m.part[p].descriptor >= 0)

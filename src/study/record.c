@@ -197,6 +197,7 @@ int record_open(struct pool *pool, const char *path, const struct header *header
                                     .in_order = 1,
                                     .synced = clock_seconds()};
     record->state = POOL_ARRAY(pool, char, header->runs);
+    stamp_study(header, record->study);
     int status = first && record->state ? open_locked(path, messages, &record->descriptor) : ROTID_ERROR_MEMORY;
     if (status) {
         json_free(first);
@@ -230,7 +231,9 @@ long record_take(struct study_record *record)
 
 int record_append(struct study_record *record, long run, const char *line, int failed)
 {
-    int status = append(record, line, strlen(line));
+    char *stamped = stamp_line(record->study, line);
+    int status = stamped ? append(record, stamped, strlen(stamped)) : ROTID_ERROR_MEMORY;
+    free(stamped);
     if (status)
         return status;
     record->in_order &= run > record->last;

@@ -14,11 +14,12 @@ struct study_record {
     int descriptor;
     char *path; /* without symbolic links */
     struct header header;
-    char *state;               /* [header.runs] of enum record_state; failed ones that are to be tried again are missing */
-    long wanted, done, failed; /* of the shard; failed ones are among those done */
-    long next;                 /* where record_take goes on */
-    long last;                 /* of the last line, -1 where there is none */
-    int in_order;              /* the lines stand in order of the runs, once each */
+    char study[DIGEST_LETTERS + 1]; /* stamp of its lines */
+    char *state;                    /* [header.runs] of enum record_state; failed ones that are to be tried again are missing */
+    long wanted, done, failed;      /* of the shard; failed ones are among those done */
+    long next;                      /* where record_take goes on */
+    long last;                      /* of the last line, -1 where there is none */
+    int in_order;                   /* the lines stand in order of the runs, once each */
     off_t length;
     int unsynced;
     double synced; /* on the clock */
@@ -33,7 +34,8 @@ int record_open(struct pool *pool, const char *path, const struct header *header
 /* The next run that is missing and was not given out yet, or -1. */
 long record_take(struct study_record *record);
 
-/* Appends the line of a run. ROTID_OK, or ROTID_ERROR_IO with errno: the file then ends with the line before. */
+/* Appends the line of a run, stamped. ROTID_OK; ROTID_ERROR_IO with errno, ROTID_ERROR_MEMORY: the file then ends with the line
+ * before. */
 int record_append(struct study_record *record, long run, const char *line, int failed);
 
 /* To the disk, where there is something new and the last time is a second ago; now [s] of the clock, infinity: in any case.

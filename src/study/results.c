@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "study/line_wrong.h"
+
 #define BLOCK     ((size_t)1 << 18)
 #define MOST_LINE ((size_t)1 << 26) /* a line is a few thousand bytes; beyond this it is something else */
 
@@ -80,7 +82,7 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
     if (fstat(descriptor, &information))
         return cannot_read(r);
     r->size = information.st_size;
-    if (r->size && (pread(descriptor, &(char){0}, 1, 0) != 1 || !S_ISREG(information.st_mode)))
+    if (!S_ISREG(information.st_mode) || (r->size && pread(descriptor, &(char){0}, 1, 0) != 1))
         return malformed(r, 1, expected);
     int status = take_line(r, &text, &length);
     if (status)
@@ -88,7 +90,42 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
     cJSON *json = cJSON_ParseWithLength(text, length);
     status = results_header_read(pool, json, &r->header);
     cJSON_Delete(json);
-    return status == ROTID_ERROR_SYNTAX ? malformed(r, 1, expected) : status;
+    if (status)
+        return status == ROTID_ERROR_SYNTAX ? malformed(r, 1, expected) : status;
+    stamp_study(&r->header, r->study);
+    r->there = POOL_ARRAY(pool, char, r->header.runs);
+    return r->there ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* Nonzero after a message. */
+static int refuse_stamp(struct results *r, const struct result_line *line)
+{
+    static const char *const texts[] = {
+        [STAMP_NONE] =
+            "this line does not end in its digest, expected a line of rotid study: without this one the run is computed "
+            "again; a file of an early version has no digests at all and cannot be checked",
+        [STAMP_CHANGED] =
+            "this line is not as rotid wrote it, its digest differs, expected the line as it was: without it the run "
+            "is computed again",
+        [STAMP_OTHER_STUDY] =
+            "this line is of another study than the first line of the file, expected lines of that one: without "
+            "it the run is computed again",
+    };
+    enum stamp_fault fault = stamp_check(r->study, line->text, line->length);
+    if (fault)
+        (void)malformed(r, r->number, texts[fault]);
+    return fault != STAMP_GOOD;
+}
+
+static int refuse_twice(struct results *r, const struct result_line *line)
+{
+    if (r->there[line->run] > 1) {
+        message_add(r->messages, SEVERITY_ERROR, r->path, r->number, 1,
+                    "run %ld stands in a line above already, expected one line of each run that did not fail", line->run);
+        return ROTID_ERROR_SYNTAX;
+    }
+    r->there[line->run] = (char)(line->failed ? 1 : 2);
+    return ROTID_OK;
 }
 
 int results_next(struct results *r, struct result_line *line)
@@ -98,18 +135,24 @@ int results_next(struct results *r, struct result_line *line)
     int status = take_line(r, &line->text, &line->length);
     if (status)
         return status;
+    if (refuse_stamp(r, line))
+        return ROTID_ERROR_SYNTAX;
     line->json = cJSON_ParseWithLength(line->text, line->length);
+    const char *wrong = line_wrong(line->json);
+    if (wrong) {
+        message_add(r->messages, SEVERITY_ERROR, r->path, r->number, 1, "this line is no result: %s", wrong);
+        return ROTID_ERROR_SYNTAX;
+    }
     const cJSON *run = cJSON_GetObjectItemCaseSensitive(line->json, "run"),
                 *state = cJSON_GetObjectItemCaseSensitive(line->json, "status");
-    if (!cJSON_IsNumber(run) || !cJSON_IsString(state) || !cJSON_IsObject(cJSON_GetObjectItemCaseSensitive(line->json, "cell")))
-        return malformed(r, r->number, "this line is no result, expected an object of JSON with run, cell and status");
     double number = run->valuedouble;
     if (!(number >= 0 && number < (double)r->header.runs && number == floor(number)) ||
         (long)number % r->header.shards != r->header.shard - 1)
-        return malformed(r, r->number, "this line is of a run that the study, or this shard of it, does not have");
+        return malformed(r, r->number,
+                         "this line is of a run that the study, or this shard of it, does not have, expected one of its runs");
     line->run = (long)number;
     line->failed = !strcmp(state->valuestring, "failed");
-    return ROTID_OK;
+    return refuse_twice(r, line);
 }
 
 void results_close(struct results *r, struct result_line *line)

@@ -6,15 +6,18 @@
 
 #include "base/message.h"
 #include "study/header.h"
+#include "study/stamp.h"
 
 struct results {
     int descriptor; /* the caller's: it stays open, and where it stands does not matter */
     const char *path;
     struct message_list *messages;
     struct header header;
-    int number; /* of the line read last, from 1 */
-    off_t next; /* where the next line begins; at the end: where the last whole one ends */
-    off_t size; /* of the file, beyond `next` where the last line is cut */
+    char study[DIGEST_LETTERS + 1]; /* what its lines are stamped with */
+    char *there;                    /* [header.runs] 1: a line of the run failed, 2: one did not */
+    int number;                     /* of the line read last, from 1 */
+    off_t next;                     /* where the next line begins; at the end: where the last whole one ends */
+    off_t size;                     /* of the file, beyond `next` where the last line is cut */
     char *buffer;
     size_t capacity, first, count; /* bytes of the buffer not yet given out */
 };
@@ -32,7 +35,8 @@ struct result_line {
  * ROTID_ERROR_MEMORY. Header texts go to the pool; results_close also after an error. */
 int results_open(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct results *results);
 /* ROTID_OK with the next line, 1 behind the last whole one, ROTID_ERROR_SYNTAX, _IO (both with a message) or _MEMORY. *line: the
- * one before, or zeros. */
+ * one before, or zeros. A line that was changed, is of another study or of a run that stands there already, unless that had
+ * failed, is an error: which of the two counts, or what the line said, nobody knows here. */
 int results_next(struct results *results, struct result_line *line);
 void results_close(struct results *results, struct result_line *line);
 

@@ -1,12 +1,12 @@
 #include "study/summary.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "file/open.h"
 #include "study/results.h"
 
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
@@ -295,7 +295,8 @@ static int read_all(struct pool *pool, int descriptor, struct message_list *mess
 
 int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct summary *summary)
 {
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    struct stat about;
+    int descriptor = file_descriptor(path, &about);
     *summary = (struct summary){.path = path};
     if (descriptor < 0) {
         message_add(messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));

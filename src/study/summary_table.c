@@ -47,7 +47,7 @@ static struct columns find_columns(const struct summary *s)
             if (strcmp(place(cell, a, room[0]), place(&s->cell[0], a, room[1])) != 0)
                 c.width[a] = (int)strlen(titles[a]);
         for (int p = 0; p < cell->nparameter; p++) {
-            int wide = (int)strlen(cell->parameter[p].name);
+            int wide = text_columns(cell->parameter[p].name);
             c.has_truth |= cell->parameter[p].errors > 0;
             c.parameter = wide > c.parameter ? wide < WIDEST ? wide : WIDEST : c.parameter;
         }
@@ -59,7 +59,7 @@ static struct columns find_columns(const struct summary *s)
     for (int i = 0; i < s->ncell; i++)
         for (int a = 0; a < AXES; a++) {
             char room[64];
-            int wide = (int)strlen(place(&s->cell[i], a, room));
+            int wide = text_columns(place(&s->cell[i], a, room));
             if (c.width[a] && wide > c.width[a])
                 c.width[a] = wide < WIDEST ? wide : WIDEST;
         }
@@ -70,8 +70,10 @@ static void print_head(FILE *out, const struct summary *s, const struct columns 
 {
     char room[64];
     int any = 0;
-    (void)fprintf(out, "study %s: %ld of %ld runs of %s", s->header.plan ? s->header.plan : "of decks", s->there, s->wanted,
-                  s->header.studies);
+    (void)fputs("study ", out);
+    name_cell(out, 0, s->header.plan ? s->header.plan : "of decks");
+    (void)fprintf(out, ": %ld of %ld runs of ", s->there, s->wanted);
+    name_cell(out, 0, s->header.studies);
     if (s->header.shards > 1)
         (void)fprintf(out, ", shard %d of %d", s->header.shard, s->header.shards);
     (void)fprintf(out, ", %ld failed", s->failed);
@@ -80,8 +82,10 @@ static void print_head(FILE *out, const struct summary *s, const struct columns 
     (void)fputc('\n', out);
     for (int a = 0; a < AXES && s->ncell; a++) {
         const char *text = place(&s->cell[0], a, room);
-        if (!c->width[a] && *text)
-            (void)fprintf(out, "%s%s %s", any++ ? ", " : "", titles[a], text);
+        if (c->width[a] || !*text)
+            continue;
+        (void)fprintf(out, "%s%s ", any++ ? ", " : "", titles[a]);
+        name_cell(out, 0, text);
     }
     (void)fputs(any ? "\n\n" : "\n", out);
 }
@@ -164,8 +168,11 @@ static void print_diagnoses(FILE *out, const struct summary *s, const struct col
         print_place(out, c, cell);
         (void)fprintf(out, "%6ld%10ld%7ld%11ld%13ld ", cell->judged, cell->verdict[VERDICT_ADEQUATE],
                       cell->verdict[VERDICT_NAMED], cell->verdict[VERDICT_AMBIGUOUS], cell->verdict[VERDICT_UNEXPLAINED]);
-        for (int k = 0; k < cell->ncause; k++)
-            (void)fprintf(out, "%s %s %ld", k ? "," : "", cell->cause[k].id, cell->cause[k].runs);
+        for (int k = 0; k < cell->ncause; k++) {
+            (void)fputs(k ? ", " : " ", out);
+            name_cell(out, 0, cell->cause[k].id);
+            (void)fprintf(out, " %ld", cell->cause[k].runs);
+        }
         (void)fputc('\n', out);
     }
 }

@@ -8,6 +8,9 @@
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 #include "base/clock.h"
 #include "report/json.h"
@@ -54,7 +57,7 @@ static int take(int socket, void *bytes, size_t count, struct stop *stop)
 /* The worker itself: until there is nothing to read any more, or it is stopped. Its exit code. */
 static int work(const struct study *study, int socket, struct stop *stop)
 {
-    const rotid_environment environment = {.cancelled = is_stopped, .context = stop};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = is_stopped, .context = stop};
     struct jobs jobs;
     int64_t run;
     int status = ROTID_OK;
@@ -81,8 +84,13 @@ int worker_start(const struct study *study, int (*cancelled)(void *context), voi
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair))
         return ROTID_ERROR_IO;
-    pid_t process = fork();
+    const pid_t parent = getpid(), process = fork();
+    (void)parent;
     if (process == 0) {
+#ifdef __linux__ /* whatever it is doing then, nobody would hear of it */
+        if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent)
+            _exit(0);
+#endif
         /* the others see the end of this program only when nobody but it holds the other end of their sockets */
         for (int i = 0; i < nothers; i++)
             if (others[i].process)

@@ -2,6 +2,7 @@
 #include <limits.h>
 #include <string.h>
 
+#include "uff/uff_fields.h"
 #include "uff/uff_reader.h"
 
 struct numbers {
@@ -124,6 +125,30 @@ int uff_read_elements(struct uff_reader *reader, struct pool *pool, int *count, 
     return uff_end(reader, status, UFF_BETWEEN);
 }
 
+/* Whether the line at hand holds zeros alone. */
+static int is_padding(const struct uff_lines *lines)
+{
+    struct uff_field field[UFF_VALUE_LIMIT];
+    int found = uff_split_blanks(lines, field, UFF_VALUE_LIMIT);
+    for (int i = 0; i < found; ++i)
+        if (field[i].length != 1 || lines->text[field[i].start] != '0')
+            return 0;
+    return found > 0;
+}
+
+/* Test.Lab fills the last line with zeros, and writes another one of them where the nodes fill theirs. */
+static int end_trace(struct uff_reader *reader, long long count)
+{
+    struct uff_lines *lines = &reader->lines;
+    int is_end = 0, status;
+    do
+        status = uff_next_record(reader, "the '-1' that ends the set", &is_end);
+    while (status == ROTID_OK && !is_end && is_padding(lines));
+    if (status == ROTID_OK && !is_end)
+        return uff_fail(lines, 0, "expected the '-1' that ends the set behind %lld nodes", count);
+    return status;
+}
+
 static int read_trace(struct uff_reader *reader, struct pool *scratch, struct pool *pool, struct uff_trace *trace)
 {
     static const char what[] = "a trace line (number, number of nodes, color)";
@@ -131,7 +156,6 @@ static int read_trace(struct uff_reader *reader, struct pool *scratch, struct po
     struct uff_lines *lines = &reader->lines;
     struct numbers nodes = {0};
     struct uff_cell cell[3];
-    int is_end = 0;
     int status = uff_expect_line(lines, what);
     if (status == ROTID_OK)
         status = uff_cut_record(lines, 3, column, what, cell);
@@ -145,11 +169,9 @@ static int read_trace(struct uff_reader *reader, struct pool *scratch, struct po
     if (status == ROTID_OK)
         status = append_numbers(reader, scratch, (int)cell[1].integer, "nodes of a trace line", &nodes);
     if (status == ROTID_OK)
-        status = uff_next_record(reader, "the '-1' that ends the set", &is_end);
+        status = end_trace(reader, cell[1].integer);
     if (status != ROTID_OK)
         return status;
-    if (!is_end)
-        return uff_fail(lines, 0, "expected the '-1' that ends the set behind %lld nodes", cell[1].integer);
     trace->node = keep_numbers(pool, &nodes);
     trace->node_count = trace->node ? (int)nodes.count : 0;
     return trace->node ? ROTID_OK : ROTID_ERROR_MEMORY;

@@ -7,23 +7,20 @@
 #include <sys/stat.h>
 
 #include "base/host.h"
+#include "file/open.h"
 
 int uff_open_lines(struct uff_lines *lines)
 {
     struct stat about;
     char why[HOST_ERROR_TEXT];
     errno = 0;
-    lines->stream = fopen(lines->path, "rb");
-    if (!lines->stream || fstat(fileno(lines->stream), &about) != 0) {
-        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be opened: %s", host_error_text(errno, why));
-        return ROTID_ERROR_IO;
-    }
-    if (S_ISDIR(about.st_mode)) {
-        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be read: %s", host_error_text(EISDIR, why));
+    lines->stream = file_open(lines->path, 1, &about); /* `buffer` is the only one */
+    if (!lines->stream) {
+        message_add(lines->messages, SEVERITY_ERROR, lines->path, 1, 1, "cannot be %s: %s", errno == EISDIR ? "read" : "opened",
+                    file_error_text(errno, why));
         return ROTID_ERROR_IO;
     }
     lines->size = S_ISREG(about.st_mode) ? (long long)about.st_size : -1;
-    (void)setvbuf(lines->stream, NULL, _IONBF, 0); /* `buffer` is the only one */
     return ROTID_OK;
 }
 

@@ -154,6 +154,7 @@ contains
     integer(c_int), target :: far(2) = [0, 3]
     real(dp) :: full(4, 4), back(4, 4), x(4, 1), y(4, 1)
     type(rotid_matrix) :: a
+    character(len=:), allocatable :: failure
     band = 0
     block = 0
     a = rotid_matrix(n=4, kd=1, nfar=2, far=c_loc(far), band=c_loc(band), block=c_loc(block))
@@ -163,24 +164,29 @@ contains
                     -7.0_dp, 0.0_dp, -4.0_dp, 9.0_dp], [4, 4])
     call check(rotid_set_full(a, full) == ROTID_OK, 'a dense matrix is taken')
     call check(band(1, 2) == 6 .and. band(2, 3) == -4 .and. block(1, 2) == -7 .and. block(2, 1) == -7, 'band and block')
-    call check(rotid_matrix_get_dense(a, back, 4_c_int) == ROTID_OK, 'a dense matrix is given')
+    call check(rotid_matrix_get_dense(a, back, 4_c_int, c_null_ptr) == ROTID_OK, 'a dense matrix is given')
     call check(all(back == full), 'a dense matrix there and back')
     full(3, 1) = 1
     full(1, 3) = 1
-    call check(rotid_set_full(a, full) == ROTID_ERROR_ARGUMENT, 'an entry without a place')
-    call check(rotid_set_full(a, full(1:3, 1:3)) == ROTID_ERROR_ARGUMENT, 'a dense matrix of another size')
-    call check(rotid_add(a, 1, 3, 1.0_dp) == ROTID_ERROR_ARGUMENT, 'no place')
+    call check(rotid_set_full(a, full, failure) == ROTID_ERROR_ARGUMENT, 'an entry without a place')
+    call check(index(failure, 'entry (2, 0) lies outside the band') == 1, 'which entry, from 0')
+    call check(rotid_set_full(a, full(1:3, 1:3), failure) == ROTID_ERROR_ARGUMENT, 'a dense matrix of another size')
+    call check(index(failure, 'full has another shape') == 1, 'that it is the size')
+    call check(rotid_add(a, 1, 3, 1.0_dp, failure) == ROTID_ERROR_ARGUMENT, 'no place')
+    call check(index(failure, 'entry (0, 2) lies outside the band') == 1, 'which place')
     call check(rotid_add(a, 0, 1, 1.0_dp) == ROTID_ERROR_ARGUMENT, 'no row 0')
-    call check(rotid_add(a, 4, 1, 0.5_dp) == ROTID_OK, 'A(4, 1)')
+    call check(rotid_add(a, 4, 1, 0.5_dp, failure) == ROTID_OK, 'A(4, 1)')
+    call check(failure == '', 'nothing to say of it')
     call check(block(1, 2) == -6.5_dp .and. block(2, 1) == -6.5_dp, 'where A(4, 1) goes')
     ! the second of three is held
     call check(rotid_add_element(a, [2, 0, 3], reshape([1.0_dp, 99.0_dp, 2.0_dp, 99.0_dp, 99.0_dp, &
                                                        99.0_dp, 2.0_dp, 99.0_dp, 3.0_dp], [3, 3])) &
                == ROTID_OK, 'an element')
     call check(band(1, 2) == 7 .and. band(2, 2) == 0 .and. band(1, 3) == 6, 'where an element goes')
-    call check(rotid_add_element(a, [1, 2, 3], full(1:2, 1:2)) == ROTID_ERROR_ARGUMENT, 'an element of another size')
+    call check(rotid_add_element(a, [1, 2, 3], full(1:2, 1:2), failure) == ROTID_ERROR_ARGUMENT, 'an element of another size')
+    call check(index(failure, 'e has another shape') == 1, 'that it is e')
     x(:, 1) = [1, 0, 0, 0]
-    call check(rotid_matrix_multiply(a, 1_c_int, x, y) == ROTID_OK, 'a product')
+    call check(rotid_matrix_multiply(a, 1_c_int, x, y, c_null_ptr) == ROTID_OK, 'a product')
     call check(all(y(:, 1) == [5.0_dp, -1.0_dp, 0.0_dp, -6.5_dp]), 'A x')
   end subroutine matrices
 
@@ -191,6 +197,7 @@ contains
     real(dp) :: kc(2, 2), mc(2, 2), lambda(3), phi(3, 3), dlambda, theta, x(2), r(12), jacobian(12, 2), error(2), doubt(2)
     real(dp) :: e(4, 4), outer, inner
     real(dp), target :: t(3, 2), dphi(3)
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
     real(dp), allocatable :: work(:)
     type(rotid_lm_result) :: result
     integer :: i
@@ -200,17 +207,17 @@ contains
     dstiffness = rotid_matrix(n=3, kd=1, band=c_loc(dk))
     dmass = rotid_matrix(n=3, kd=1, band=c_loc(dm))
     ! a chain of three masses, the first held by a spring: omega = 2 sin((2 i - 1) pi/14)
-    call check(rotid_eigenpairs(stiffness, mass, 3_c_int, c_null_ptr, lambda, phi) == ROTID_OK, 'eigenpairs')
+    call check(rotid_eigenpairs(stiffness, mass, 3_c_int, c_null_ptr, c_null_ptr, lambda, phi) == ROTID_OK, 'eigenpairs')
     do i = 1, 3
       theta = (2 * i - 1) * pi / 14
       call check(close_to(lambda(i), (2 * sin(theta))**2, 1e-12_dp), 'an eigenvalue')
     end do
-    call check(rotid_eigenpair_derivative(stiffness, mass, dstiffness, dmass, 3_c_int, lambda, phi, 1_c_int, c_null_ptr, dlambda, &
-                                          c_loc(dphi)) == ROTID_OK, 'the derivative of a pair')
+    call check(rotid_eigenpair_derivative(stiffness, mass, dstiffness, dmass, 3_c_int, lambda, phi, 1_c_int, c_null_ptr, &
+                                          c_null_ptr, dlambda, c_loc(dphi)) == ROTID_OK, 'the derivative of a pair')
     call check(close_to(dlambda, phi(1, 2)**2, 1e-12_dp), 'phi'' dK phi')
     call check(abs(dot_product(dphi, phi(:, 2))) < 1e-10_dp, 'phi'' M dphi')
     ! the middle mass condensed: half of it on either side
-    call check(rotid_condense(stiffness, mass, 2_c_int, [0_c_int, 2_c_int], ROTID_GUYAN, c_null_ptr, kc, mc, c_loc(t)) &
+    call check(rotid_condense(stiffness, mass, 2_c_int, [0_c_int, 2_c_int], ROTID_GUYAN, c_null_ptr, c_null_ptr, kc, mc, c_loc(t)) &
                == ROTID_OK, 'a condensation')
     call check(close_to(kc(1, 1), 1.5_dp, 1e-14_dp) .and. close_to(kc(1, 2), -0.5_dp, 1e-14_dp) .and. &
                close_to(kc(2, 2), 0.5_dp, 1e-14_dp), 'the condensed stiffness')
@@ -218,16 +225,20 @@ contains
                'the condensed mass')
     call check(close_to(t(2, 1), 0.5_dp, 1e-14_dp) .and. close_to(t(3, 2), 1.0_dp, 1e-14_dp), 'T')
     call check(rotid_condense_derivative(stiffness, mass, dstiffness, dmass, 2_c_int, [0_c_int, 2_c_int], ROTID_GUYAN, c_null_ptr, &
-                                         kc, mc) == ROTID_OK, 'the derivative of a condensation')
+                                         c_null_ptr, kc, mc) == ROTID_OK, 'the derivative of a condensation')
     call check(close_to(kc(1, 1), 1.0_dp, 1e-14_dp) .and. abs(kc(2, 2)) < 1e-14_dp, 'its stiffness')
 
     allocate (work(max(rotid_lm_workspace(12_c_int, 2_c_int), rotid_check_jacobian_workspace(12_c_int, 2_c_int))))
     x = [1.0_dp, 0.3_dp]
-    call check(rotid_check_jacobian(12_c_int, 2_c_int, c_funloc(decay), c_null_ptr, x, c_loc(scale), error, doubt, &
-                                    work) &
+    call check(rotid_check_jacobian(12_c_int, 2_c_int, c_funloc(decay), c_null_ptr, x, c_loc(scale), c_null_ptr, error, &
+                                    doubt, work) &
                == ROTID_OK, 'a check of a Jacobian')
     call check(all(error < 1e-8_dp), 'the Jacobian')
-    call check(rotid_lm(12_c_int, 2_c_int, c_funloc(decay), c_null_ptr, c_null_ptr, x, r, jacobian, work, result) > 0, 'rotid_lm')
+    call check(rotid_lm(12_c_int, 2_c_int, c_funloc(decay), c_null_ptr, c_null_ptr, c_null_ptr, x, r, jacobian, &
+                        work, result) > 0, 'rotid_lm')
+    call check(rotid_lm(0_c_int, 2_c_int, c_funloc(decay), c_null_ptr, c_null_ptr, c_loc(why), x, r, jacobian, work, result) &
+               == ROTID_ERROR_ARGUMENT, 'no residuals')
+    call check(rotid_string(c_loc(why)) == 'm is 0 and n is 2, expected 1 or more', 'which argument it is')
     call check(close_to(x(1), 2.0_dp, 1e-9_dp) .and. close_to(x(2), 0.7_dp, 1e-9_dp), 'the minimum')
     call check(close_to(jacobian(3, 1), exp(-0.35_dp), 1e-8_dp), 'the Jacobian at the minimum')
 
@@ -238,13 +249,14 @@ contains
                         1e-15_dp), 'NCO')
     call rotid_element_stiffness(2.0_dp, 1e30_dp, 1.0_dp, e)
     call check(close_to(e(1, 1), 24.0_dp, 1e-12_dp) .and. close_to(e(4, 2), 4.0_dp, 1e-12_dp), 'an element')
-    call check(rotid_equivalent_cylinder(pi / 4 * 3, pi / 64 * 15, outer, inner) == ROTID_OK, 'a cylinder')
+    call check(rotid_equivalent_cylinder(pi / 4 * 3, pi / 64 * 15, c_null_ptr, outer, inner) == ROTID_OK, 'a cylinder')
     call check(close_to(outer, 2.0_dp, 1e-12_dp) .and. close_to(inner, 1.0_dp, 1e-12_dp), 'its diameters')
   end subroutine blocks
 
   subroutine models()
     real(dp), parameter :: two_pi = 2 * acos(-1.0_dp)
-    real(dp) :: hz(2), shapes(2, 2)
+    real(dp) :: hz(2), shapes(2, 2), error(4), doubt(4)
+    integer(c_int), target :: far(2)
     type(rotid_model), target :: model
     type(rotid_parameter) :: parameter(2)
     type(rotid_fit_options) :: options
@@ -254,12 +266,19 @@ contains
     type(ledger), target :: account
     real(dp), pointer :: x(:), y(:)
     integer(c_int) :: status
+    character(len=:), allocatable :: failure
     hz = sqrt([1.0_dp, 5.0_dp]) / two_pi
     shapes = reshape([1, 1, 1, -1], [2, 2])
     model = rotid_model(n=3, kd=1, matrices=c_funloc(bridge), user=c_loc(account))
     parameter(1) = rotid_parameter(lower=0.01_dp, upper=100.0_dp, start=3.0_dp)
     parameter(2) = rotid_parameter(lower=0.01_dp, upper=100.0_dp, start=0.8_dp)
     options%functional = ROTID_LIKELIHOOD
+    far = [0, 2]
+    model%nfar = 2
+    model%far = c_loc(far)
+    model%nparam = 2
+    status = rotid_check_model(model, parameter, c_null_ptr, c_null_ptr, c_null_ptr, error, doubt)
+    call check(status == ROTID_OK .and. all(error < 1e-7_dp), 'a check of a model')
     account = ledger()
     allocator = rotid_allocator(allocate=c_funloc(take), release=c_funloc(give_back), context=c_loc(account))
     environment%allocator = c_loc(allocator)
@@ -290,7 +309,12 @@ contains
     if (associated(fit)) call check(fit%status == ROTID_STOP_CANCELLED, 'that it was cancelled')
     call rotid_free(fit)
 
-    call check(rotid_fit_model(model, parameter, [1, 2], hz(1:1), fit, far=[1, 3]) == ROTID_ERROR_ARGUMENT, 'a frequency too few')
+    call check(rotid_fit_model(model, parameter, [1, 2], hz(1:1), fit, far=[1, 3], failure=failure) == ROTID_ERROR_ARGUMENT, &
+               'a frequency too few')
+    call check(index(failure, 'frequency_hz has another size') > 0, 'that it is the frequencies')
+    call check(rotid_fit_model(model, parameter, [1, 0], hz, fit, far=[1, 3], failure=failure) == ROTID_ERROR_ARGUMENT, &
+               'no mode 0')
+    call check(failure == 'measured->number[1] is 0, expected a mode of the model, from 1', 'which number it is')
     call check(rotid_fit_model(model, parameter, [1, 2], hz, fit, far=[1, 3], frequency_std=hz(1:1)) == ROTID_ERROR_ARGUMENT, &
                'a standard deviation too few')
     call check(rotid_fit_model(model, parameter, [1, 2], hz, fit, far=[1, 3], shape=shapes) == ROTID_ERROR_ARGUMENT, &
@@ -331,7 +355,9 @@ contains
     hz => rotid_reals(spectrum%hz, spectrum%nmode)
     call check(all(abs(hz / at_start(1:3) - 1) > 1e-3_dp), 'its frequencies at the start')
     call rotid_free(spectrum)
-    call check(rotid_compute_spectrum(deck, 3, spectrum, x=[1e11_dp]) == ROTID_ERROR_ARGUMENT, 'a value too few')
+    call check(rotid_compute_spectrum(deck, 3, spectrum, x=[1e11_dp], failure=failure) == ROTID_ERROR_ARGUMENT, &
+               'a value too few')
+    call check(index(failure, 'x has another size') == 1, 'that it is x')
     status = rotid_identify_deck(deck, found, failure=failure)
     call check(status == ROTID_OK .and. associated(found) .and. failure == '', 'an identification')
     if (associated(found)) then
@@ -359,7 +385,10 @@ contains
     end if
     call rotid_free(deck)
 
-    call check(rotid_read_deck(bad, deck) == ROTID_ERROR_SYNTAX, 'a wrong deck')
+    call texts_as_decks()
+
+    call check(rotid_read_deck(bad, deck, failure=failure) == ROTID_ERROR_SYNTAX, 'a wrong deck')
+    call check(index(failure, bad // ':2:') == 1, 'the place of its first mistake')
     if (.not. associated(deck)) return
     message => rotid_messages(deck%message, deck%nmessage)
     call check(size(message) > 0 .and. deck%nerror > 0, 'its messages')
@@ -369,5 +398,25 @@ contains
     call rotid_free(found)
     call rotid_free(deck)
   end subroutine decks
+
+  subroutine texts_as_decks()
+    character, parameter :: nl = new_line('a')
+    character(len=*), parameter :: beam = '*MATERIAL, NAME=steel' // nl // '*ELASTIC' // nl // '2.1e11, 0.3' // nl // &
+      '*DENSITY' // nl // '7850' // nl // '*SHAFT, NAME=shaft, MATERIAL=steel' // nl // '1.0, 0.05, 0, 10'
+    type(rotid_deck), pointer :: deck
+    character(len=:), allocatable :: failure
+    call check(rotid_read_deck_text(beam, deck, failure=failure) == ROTID_OK .and. failure == '', 'a text as a deck')
+    if (associated(deck)) call check(deck%length == 1 .and. rotid_string(deck%path) == 'deck', 'what it says')
+    call rotid_free(deck)
+    call check(rotid_read_deck_text(beam // nl // '*INCLUDE, FILE=more.inp', deck, name='beam', failure=failure) &
+               == ROTID_ERROR_SYNTAX, 'a text that names a file')
+    call check(index(failure, 'beam:8:16: more.inp is a file') == 1, 'that it has none')
+    call rotid_free(deck)
+    call check(rotid_read_deck_text(beam // nl // '*INCLUDE, FILE=more.inp', deck, name='beam', directory='/nowhere', &
+                                    override=['SHAFT.NAME=core'], failure=failure) == ROTID_ERROR_SYNTAX, &
+               'a file that is not there')
+    call check(index(failure, '/nowhere/more.inp') > 0, 'where it is looked for')
+    call rotid_free(deck)
+  end subroutine texts_as_decks
 
 end program fortran_host

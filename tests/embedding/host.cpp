@@ -5,7 +5,8 @@
 #include <cstdio>
 #include <vector>
 
-namespace {
+namespace
+{
 
 // Rosenbrock's valley as two residuals, of any scale.
 int valley(void *user, int, int, const double *x, double *r, double *jacobian)
@@ -30,8 +31,9 @@ int main()
     double steep = 10, x[] = {-1.2, 1}, r[2], jacobian[4];
     std::vector<double> work(rotid_lm_workspace(2, 2));
     rotid_lm_options options = rotid_lm_options();
+    options.size = sizeof options;
     rotid_lm_result result;
-    const int status = rotid_lm(2, 2, valley, &steep, &options, x, r, jacobian, work.data(), &result);
+    const int status = rotid_lm(2, 2, valley, &steep, &options, NULL, x, r, jacobian, work.data(), &result);
     if (status < ROTID_STOP_GRADIENT || std::fabs(x[0] - 1) > 1e-8 || std::fabs(x[1] - 1) > 1e-8) {
         std::printf("%s at %g, %g\n", rotid_status_text(status), x[0], x[1]);
         return 1;

@@ -68,12 +68,12 @@ int main(void)
     const int number[] = {1, 2};
     /* of x = {1e4, 1e4} */
     const double hz[] = {sqrt(2500 * (3 - sqrt(5))) / (8 * atan(1)), sqrt(2500 * (3 + sqrt(5))) / (8 * atan(1))};
-    rotid_model model = {.n = 2, .kd = 1, .nparam = 2, .matrices = matrices};
+    rotid_model model = {.size = sizeof model, .n = 2, .kd = 1, .nparam = 2, .matrices = matrices};
     rotid_parameter parameter[] = {{"ground", "N/m", 1e3, 1e6, 1.5e4}, {"joint", "N/m", 1e3, 1e6, 8e3}};
-    rotid_measured measured = {.nmode = 2, .number = number, .frequency_hz = hz};
-    rotid_fit_options options = {.functional = ROTID_HYBRID, .reduction = ROTID_REDUCTION_NONE};
+    rotid_measured measured = {.size = sizeof measured, .nmode = 2, .number = number, .frequency_hz = hz};
+    rotid_fit_options options = {.size = sizeof options, .functional = ROTID_HYBRID, .reduction = ROTID_REDUCTION_NONE};
     rotid_fit_result *result = NULL;
-    int status = rotid_fit(&model, parameter, &measured, &options, NULL, &result);
+    int status = rotid_fit(&model, parameter, &measured, &options, NULL, NULL, &result);
     if (status || called) {
         printf("%s, %d calls of the host's own routines\n", rotid_status_name(status), called);
         return 1;

@@ -39,18 +39,20 @@ static void fit_with(int fortune, int expected)
     static rotid_measured measured;
     rotid_fit_options options;
     rotid_fit_result *result;
-    rotid_fit_defaults(&options);
+    rotid_fit_defaults(sizeof options, &options);
     options.functional = ROTID_HYBRID;
     options.reduction = ROTID_REDUCTION_NONE;
+    model.size = sizeof model;
     model.n = 2;
     model.kd = 1;
     model.nparam = 1;
     model.matrices = matrices;
     model.user = &fortune;
+    measured.size = sizeof measured;
     measured.nmode = 2;
     measured.number = number;
     measured.frequency_hz = hz;
-    expect(rotid_fit(&model, &parameter, &measured, &options, NULL, &result), expected);
+    expect(rotid_fit(&model, &parameter, &measured, &options, NULL, NULL, &result), expected);
     rotid_fit_free(result);
 }
 
@@ -84,9 +86,9 @@ static int soon(void *context)
 int main(int argc, char **argv)
 {
     rotid_allocator allocator = {no_memory, nothing_to_release, NULL};
-    rotid_environment poor = {&allocator, NULL, NULL, NULL};
+    rotid_environment poor = {sizeof poor, &allocator, NULL, NULL, NULL};
     int polls = 0;
-    rotid_environment brief = {NULL, soon, NULL, &polls};
+    rotid_environment brief = {sizeof brief, NULL, soon, NULL, &polls};
     rotid_deck *deck;
     rotid_spectrum *spectrum;
     rotid_identification *found;
@@ -96,27 +98,27 @@ int main(int argc, char **argv)
     double x[1] = {1}, r[3], jacobian[3], work[200];
     if (argc != 3)
         return 2;
-    expect(rotid_deck_read(argv[1], 0, NULL, NULL, &deck), ROTID_OK);
-    expect(rotid_spectrum_compute(deck, NULL, 4, NULL, &spectrum), ROTID_OK);
+    expect(rotid_deck_read(argv[1], 0, NULL, NULL, NULL, &deck), ROTID_OK);
+    expect(rotid_spectrum_compute(deck, NULL, 4, NULL, NULL, &spectrum), ROTID_OK);
     rotid_spectrum_free(spectrum);
-    expect(rotid_spectrum_compute(deck, NULL, 0, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
+    expect(rotid_spectrum_compute(deck, NULL, 0, NULL, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
     expect(rotid_identify(deck, 1, NULL, failure, &found), ROTID_OK);
     rotid_identification_free(found);
     expect(rotid_identify(deck, 1, &poor, failure, &found), ROTID_ERROR_MEMORY);
     expect(rotid_diagnose(deck, NULL, &brief, failure, &diagnosis), ROTID_OK);
     rotid_diagnosis_free(diagnosis);
     rotid_deck_free(deck);
-    expect(rotid_deck_read(argv[2], 0, NULL, NULL, &deck), ROTID_ERROR_SYNTAX);
+    expect(rotid_deck_read(argv[2], 0, NULL, NULL, NULL, &deck), ROTID_ERROR_SYNTAX);
     expect(rotid_identify(deck, 0, NULL, failure, &found), ROTID_ERROR_ARGUMENT);
     rotid_deck_free(deck);
-    expect(rotid_deck_read("/nowhere/rotor.inp", 0, NULL, NULL, &deck), ROTID_ERROR_IO);
+    expect(rotid_deck_read("/nowhere/rotor.inp", 0, NULL, NULL, NULL, &deck), ROTID_ERROR_IO);
     rotid_deck_free(deck);
     fit_with(FINE, ROTID_OK);
     fit_with(FAILING, ROTID_ERROR_CALLBACK);
     fit_with(NOT_FINITE, ROTID_ERROR_FINITE);
     fit_with(NO_MASS, ROTID_ERROR_MASS);
     fit_with(NO_STIFFNESS, ROTID_ERROR_STIFFNESS);
-    expect(rotid_lm(3, 1, no_residual, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_FINITE);
-    expect(rotid_lm(3, 1, NULL, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
+    expect(rotid_lm(3, 1, no_residual, NULL, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_FINITE);
+    expect(rotid_lm(3, 1, NULL, NULL, NULL, NULL, x, r, jacobian, work, &result), ROTID_ERROR_ARGUMENT);
     return wrong;
 }

@@ -165,6 +165,28 @@ def load(path):
     return module
 
 
+def asked_for_more(call):
+    """A method of an element of ROSS as a version has it that asks for frequency and synchronous motion."""
+    return lambda self, frequency, synchronous=False: call(self)
+
+
+def with_more_arguments(path):
+    """The matrices of every element of the script under a ROSS whose own elements take further arguments."""
+    import ross as rs
+
+    kept = [(kind, name, getattr(kind, name)) for kind in (rs.ShaftElement, rs.DiskElement) for name in "KMG"]
+    plain = [[getattr(e, name)() for name in "KMG"] for e in load(path).build().elements if not isinstance(e, rs.BearingElement)]
+    rotor = load(path).build()
+    try:
+        for kind, name, call in kept:
+            setattr(kind, name, asked_for_more(call))
+        more = [[getattr(e, name)(314.0, synchronous=True) for name in "KMG"] for e in rotor.elements if not isinstance(e, rs.BearingElement)]
+    finally:
+        for kind, name, call in kept:
+            setattr(kind, name, call)
+    return len(plain) > 0 and all(np.array_equal(a, b) for one, other in zip(plain, more, strict=True) for a, b in zip(one, other, strict=True))
+
+
 def ross(checks, name, deck, folder, *options, modal=None, expected=(0,)):
     path = folder / "script.py"
     out = exported(checks, deck, "ross", path, *options, expected=expected)
@@ -188,6 +210,7 @@ def ross(checks, name, deck, folder, *options, modal=None, expected=(0,)):
         tilt["x"][0::6], tilt["x"][4::6] = rotor.nodes_pos, 1
         tilt["y"][1::6], tilt["y"][3::6] = rotor.nodes_pos, -1
         checks.close(f"{name}: polar inertia by a rigid tilt", [tilt["x"] @ g @ tilt["y"]], [POLAR[name]()], 1e-9)
+    checks.true(f"{name}: elements take further arguments of K, M and G", with_more_arguments(path), "")
     found = script.bending_hz(rotor, len(script.BENDING_HZ), script.LOWEST_HZ)
     checks.close(f"{name}: what the script prints of them", found, out["exported_hz"], EXACT)
     if modal:

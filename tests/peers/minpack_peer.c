@@ -52,12 +52,13 @@ static void run_minpack(const struct mgh_problem *problem, struct outcome *out)
 
 static void run_rotid(const struct mgh_problem *problem, struct outcome *out)
 {
-    rotid_lm_options options = {.max_iterations = EVALUATIONS,
+    rotid_lm_options options = {.size = sizeof options,
+                                .max_iterations = EVALUATIONS,
                                 .objective_tolerance = TOLERANCE,
                                 .step_tolerance = TOLERANCE,
                                 .gradient_tolerance = DBL_EPSILON};
     rotid_lm_result result;
-    (void)rotid_lm(problem->m, problem->n, problem->residual, NULL, &options, out->x, r, jacobian, work, &result);
+    (void)rotid_lm(problem->m, problem->n, problem->residual, NULL, &options, NULL, out->x, r, jacobian, work, &result);
     out->evaluations = result.evaluations;
     out->jacobians = result.jacobians;
     judge(problem, out);

@@ -52,41 +52,52 @@ core.E, 1.0e11, 1.3e11
 1-6
 """
 
-# what a page may not do at a width: the texts that are too small, and those that lie on each other
+# the pictures that are shown: the figure, its width in the page, and the SVG behind the data URI
+PICTURES = """() => [...document.querySelectorAll('figure img')].filter((img) => img.getBoundingClientRect().width).map((img) =>
+  [img.closest('figure').id, img.getBoundingClientRect().width, img.naturalWidth,
+   new TextDecoder().decode(Uint8Array.from(atob(img.src.split(',')[1]), (c) => c.charCodeAt(0)))])"""
+
+# of a picture in a page of its own: the texts that are too small, and those that lie on each other
 LOOK = """(least) => {
-  const small = [], crossed = [];
-  for (const svg of document.querySelectorAll('figure svg')) {
-    const box = svg.getBoundingClientRect();
-    if (!box.width) continue;
-    const scale = box.width / svg.viewBox.baseVal.width, texts = [];
-    for (const text of svg.querySelectorAll('text')) {
-      if (!text.textContent.trim()) continue;
-      const px = parseFloat(getComputedStyle(text).fontSize) * scale, r = text.getBoundingClientRect();
-      if (px < least && !text.querySelector('tspan[dy]')) small.push(text.textContent + ' ' + px.toFixed(1));
-      texts.push([r, text.textContent.trim()]);
-    }
-    for (let i = 0; i < texts.length; i++)
-      for (let k = i + 1; k < texts.length; k++) {
-        const a = texts[i][0], b = texts[k][0];
-        const w = Math.min(a.right, b.right) - Math.max(a.left, b.left);
-        const h = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
-        /* boxes of a line are higher than its letters */
-        if (w > 1 && h > 0.4 * Math.min(a.height, b.height))
-          crossed.push(svg.closest('figure').id + ': ' + texts[i][1] + ' / ' + texts[k][1]);
-      }
+  const small = [], crossed = [], texts = [], svg = document.querySelector('svg');
+  const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+  for (const text of svg.querySelectorAll('text')) {
+    if (!text.textContent.trim()) continue;
+    const px = parseFloat(getComputedStyle(text).fontSize) * scale, r = text.getBoundingClientRect();
+    if (px < least) small.push(text.textContent + ' ' + px.toFixed(1));
+    texts.push([r, text.textContent.trim()]);
   }
-  return [document.scrollingElement.scrollWidth - innerWidth, small, crossed];
+  for (let i = 0; i < texts.length; i++)
+    for (let k = i + 1; k < texts.length; k++) {
+      const a = texts[i][0], b = texts[k][0];
+      const w = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+      const h = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+      /* boxes of a line are higher than its letters */
+      if (w > 1 && h > 0.4 * Math.min(a.height, b.height)) crossed.push(texts[i][1] + ' / ' + texts[k][1]);
+    }
+  return [small, crossed];
 }"""
 
+PLANTED = """<svg viewBox="0 0 360 100" xmlns="http://www.w3.org/2000/svg"><g font-family="Arial" font-size="12">
+<text x="10" y="50">one text</text><text x="20" y="53">on another</text><text x="10" y="90" font-size="5">tiny</text></g></svg>"""
 
-def make(folder, name, *commands, gnuplot=None):
-    """A page of what the commands write: each its arguments, the JSON last."""
+
+def look(probe, picture, width):
+    """Texts of an SVG, this wide on a page of its own, that are too small, and pairs of them that lie on each other."""
+    probe.set_content(f'<!DOCTYPE html><style>svg{{display:block;width:{width}px;height:auto}}</style>' + picture[picture.index("<svg"):])
+    return probe.evaluate(LOOK, LEAST_PX)
+
+
+def make(folder, name, *commands, gnuplot=None, text=None):
+    """A page of what the commands write: each its arguments, the JSON last; `text` and what it is replaced by in them."""
     results = []
     for number, arguments in enumerate(commands):
         result = folder / f"{name}-{number}.{'jsonl' if arguments[0] == 'study' else 'json'}"
         code, _, error = rotid(*arguments, "--quiet", "-o" if arguments[0] == "study" else "--json", result)
         if code not in (0, 1):
             raise SystemExit(f"rotid {arguments}: {error}")
+        if text:
+            result.write_text(result.read_text().replace(json.dumps(text[0]), json.dumps(text[1])))
         results.append(result)
     page = folder / name
     if gnuplot:
@@ -112,10 +123,11 @@ def pages(folder):
     yield make(folder, "suspected", ("diagnose", INPUT / "brake_reuss_lap.inp", *least))
     yield make(folder, "starts", ("study", INPUT / "paper_study.plan"))
     yield make(folder, "nasty", ("identify", deck), ("diagnose", deck, *least))
+    yield make(folder, "typefaces", ("frf", paper), text=("m/(s2 N)", '{/X"><script>console.log(1)</script> y}'))
     yield make(folder, "without-gnuplot", ("diagnose", paper, *least), gnuplot="/nowhere/gnuplot")
 
 
-def browse(checks, browser, html):
+def browse(checks, browser, probe, html):
     name = html.parent.name
     for width in WIDTHS:
         for scheme in SCHEMES:
@@ -128,11 +140,20 @@ def browse(checks, browser, html):
             broken = Axe().run(page).response["violations"]
             seen = [f"{v['id']} ({len(v['nodes'])}): {v['nodes'][0]['html'][:120]}" for v in broken]
             checks.true(f"axe finds nothing: {where}", not broken, "; ".join(seen))
-            wider, small, crossed = page.evaluate(LOOK, LEAST_PX)
+            wider = page.evaluate("document.scrollingElement.scrollWidth - innerWidth")
             checks.true(f"nothing is wider than the page: {where}", wider <= 0, f"{wider} px")
+            small, crossed, empty = [], [], []
+            for figure, shown, natural, picture in page.evaluate(PICTURES):
+                empty += [] if natural else [figure]
+                in_figure = look(probe, picture, shown)
+                small += [f"{figure}: {text}" for text in in_figure[0]]
+                crossed += [f"{figure}: {pair}" for pair in in_figure[1]]
+            checks.true(f"every picture is drawn: {where}", not empty, "; ".join(empty))
             checks.true(f"texts of figures of {LEAST_PX} px and more: {where}", not small, "; ".join(small[:5]))
             checks.true(f"no text of a figure on another: {where}", not crossed, "; ".join(crossed[:5]))
-            checks.true(f"nothing is loaded or said: {where}", loaded == [html.as_uri()] and not said, f"{loaded[1:]} {said}")
+            elsewhere = [url for url in loaded[1:] if not url.startswith("data:image/svg+xml;")]
+            checks.true(f"nothing is loaded or said: {where}", loaded[0] == html.as_uri() and not elsewhere and not said,
+                        f"{elsewhere} {said}")
             page.close()
 
 
@@ -154,8 +175,11 @@ def main():
         with sync_playwright() as playwright:
             # the sandbox of Chromium does not work for root
             browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"] if os.geteuid() == 0 else [])
+            probe = browser.new_page(viewport={"width": 1000, "height": 900})
+            small, crossed = look(probe, PLANTED, 360)
+            checks.true("a small text and one on another are seen", len(small) == 1 and len(crossed) == 1, f"{small} {crossed}")
             for html in made:
-                browse(checks, browser, html)
+                browse(checks, browser, probe, html)
             browser.close()
     checks.end()
 

@@ -12,8 +12,7 @@
 #include "base/parallel.h"
 #include "hide/hide_text.h"
 #include "power.h"
-
-void openblas_set_num_threads(int threads); /* of openblas; its header is none of C */
+#include "support.h"
 
 static const char usage[] =
     "usage: power [options]\n"
@@ -95,7 +94,7 @@ static int run_case(void *context, int index, int worker)
 {
     struct run *run = context;
     struct power_result *result = &run->result[index];
-    const rotid_environment environment = {.cancelled = is_interrupted};
+    const rotid_environment environment = {.size = sizeof environment, .cancelled = is_interrupted};
     struct hidden_case c = {.directory = run->directory};
     char effect[64];
     const char *list;
@@ -213,7 +212,7 @@ int main(int argc, char **argv)
         fputs(usage, stderr);
         return 2;
     }
-    openblas_set_num_threads(1);
+    set_blas_threads(1);
     if (o.decks)
         ndeck = (int)(sizeof deck / sizeof *deck);
     for (int i = 0; i < ndeck && !status; i++)

@@ -1,0 +1,67 @@
+#include "modal/measured_check.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "base/failure.h"
+
+static int check_mode(const rotid_measured *measured, int k, char *failure)
+{
+    if (!(isfinite(measured->frequency_hz[k]) && measured->frequency_hz[k] > 0))
+        return refuse(failure, "measured->frequency_hz[%d] is %g, expected a positive number", k, measured->frequency_hz[k]);
+    if (measured->number[k] < 1)
+        return refuse(failure, "measured->number[%d] is %d, expected a mode of the model, from 1", k, measured->number[k]);
+    if (measured->frequency_std && !(measured->frequency_std[k] > 0))
+        return refuse(failure, "measured->frequency_std[%d] is %g, expected a positive relative standard deviation", k,
+                      measured->frequency_std[k]);
+    return ROTID_OK;
+}
+
+static int check_shapes(const rotid_model *model, const rotid_measured *measured, char *failure)
+{
+    int nmaster = model->nmaster;
+    if (!measured->shape || !measured->shape_std)
+        return ROTID_OK;
+    for (int k = 0; k < measured->nmode; k++)
+        for (int s = 0; s < nmaster; s++) {
+            ptrdiff_t at = s + (ptrdiff_t)k * nmaster;
+            if (isfinite(measured->shape[at]) && !(measured->shape_std[at] > 0))
+                return refuse(failure, "measured->shape_std of master %d in mode %d is %g, expected a positive number", s, k,
+                              measured->shape_std[at]);
+        }
+    return ROTID_OK;
+}
+
+int measured_check(const rotid_model *model, const rotid_measured *measured, int kind, int reduction, char *failure)
+{
+    int fitted = 0, size = reduction == ROTID_REDUCTION_NONE ? model->n : model->nmaster;
+    if (measured->nmode < 1)
+        return refuse(failure, "measured->nmode is %d, expected 1 or more", measured->nmode);
+    if (!measured->number || !measured->frequency_hz)
+        return refuse(failure, "measured->%s is NULL, expected nmode = %d values", measured->number ? "frequency_hz" : "number",
+                      measured->nmode);
+    for (int k = 0; k < measured->nmode; k++) {
+        int status = check_mode(measured, k, failure);
+        if (status)
+            return status;
+        fitted += !measured->holdout || !measured->holdout[k];
+    }
+    if (!fitted)
+        return refuse(failure, "measured->holdout leaves no mode to be fitted, expected a 0 in it");
+    if (kind == ROTID_LIKELIHOOD && !measured->frequency_std)
+        return refuse(failure,
+                      "measured->frequency_std is NULL, which ROTID_LIKELIHOOD weighs by, expected nmode = %d values or "
+                      "another options->functional",
+                      measured->nmode);
+    if (kind == ROTID_LIKELIHOOD && measured->shape && !measured->shape_std)
+        return refuse(failure, "measured->shape_std is NULL beside shapes, which ROTID_LIKELIHOOD weighs by, expected nmaster x "
+                               "nmode values");
+    int status = check_shapes(model, measured, failure);
+    for (int k = 0; k < measured->nmode && !status; k++)
+        if (measured->number[k] > size - model->nrigid)
+            status = failure_say(failure, ROTID_ERROR_UNPAIRED,
+                                 "measured->number[%d] is %d, but behind %d rigid ones the model has %d modes%s", k,
+                                 measured->number[k], model->nrigid, size - model->nrigid,
+                                 reduction == ROTID_REDUCTION_NONE ? "" : " on its masters");
+    return status;
+}

@@ -1,0 +1,31 @@
+/* Standard output and standard error. What is printed passes one filter here, whatever deck, file or argument it comes from:
+ * control characters and bytes that are no UTF-8 become U+FFFD; line feeds and tabs stay. No other file of the program names the
+ * two. */
+#ifndef ROTID_REPORT_TERMINAL_H
+#define ROTID_REPORT_TERMINAL_H
+
+#include <stdio.h>
+
+/* Before anything is printed. ROTID_OK or ROTID_ERROR_MEMORY. */
+int terminal_open(void);
+
+/* Where tables are written to: memory, until terminal_flush or a message sends it to standard output. */
+FILE *terminal_out(void);
+
+/* ROTID_OK, or ROTID_ERROR_IO with errno where something did not arrive, now or before. */
+int terminal_flush(void);
+
+/* The text to standard output behind what is there. As terminal_flush. */
+int terminal_print(const char *text);
+
+/* A line to standard error, its line feed included: line feeds within the values would be lines of somebody else. */
+void terminal_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* What stands in terminal_out to standard error instead. */
+void terminal_to_error(void);
+
+/* A line on standard error that the next one is written over, and its end. */
+void terminal_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void terminal_progress_end(void);
+
+#endif

@@ -1,0 +1,192 @@
+/* A parameter that ends at a bound of *IDENTIFY: the diagnosis gets off it again, and says what the bound may do. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "deck/deck.h"
+#include "diagnose/diagnose.h"
+#include "hidden.h"
+
+#define INPUT ROTID_SOURCE_DIR "/input/"
+
+static char directory[] = "/tmp/bounds.XXXXXX";
+
+/* The text with `old` replaced, to be freed. */
+static char *replaced(const char *text, const char *old, const char *new)
+{
+    char *out = malloc(strlen(text) + strlen(new) + 1);
+    const char *at = strstr(text, old);
+    assert_non_null(out);
+    assert_non_null(at);
+    (void)sprintf(out, "%.*s%s%s", (int)(at - text), text, new, at + strlen(old));
+    return out;
+}
+
+static void assert_says(const char *text, const char *words)
+{
+    if (!strstr(text, words))
+        fail_msg("'%s' lacks '%s'", text, words);
+}
+
+/* Nothing that contains the model before it may fit worse, and no name or rival rests on what does. */
+static void assert_nested(const struct diagnosis *d)
+{
+    for (int r = 0; r < d->nround; r++)
+        for (int i = 0; i < d->round[r].ncandidate; i++) {
+            const struct candidate *c = &d->round[r].candidate[i];
+            if (c->chi2_drop < -0.01 && (c->cause->effect->nparameter || !c->rejected_because || i < d->round[r].nset))
+                fail_msg("round %d: %s %s changes chi2 by %+g", r + 1, c->cause->id, c->target, -c->chi2_drop);
+            if (c->refitted && isnan(c->chi2))
+                assert_says(c->rejected_because, "no fit of it got below");
+        }
+}
+
+struct run {
+    struct pool pool;
+    struct message_list messages;
+    struct job job;
+    struct diagnosis d;
+};
+
+static void diagnose(const char *text, struct run *r)
+{
+    const struct diagnose_options options = {.threads = 2, .seed = 1};
+    char path[100];
+    (void)snprintf(path, sizeof path, "%s/deck.inp", directory);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    pool_open(&r->pool, NULL);
+    message_open(&r->messages, &r->pool);
+    assert_status(deck_read(&r->pool, path, 0, NULL, &r->messages, &r->job), ROTID_OK);
+    message_open(&r->messages, &r->pool);
+    assert_status(diagnose_run(&r->pool, &r->job, &options, NULL, &r->messages, &r->d), ROTID_OK);
+    (void)remove(path);
+    print_message("%s\n", r->d.sentence);
+    assert_true(r->d.base.fit->at_bound[0]);
+    assert_nested(&r->d);
+    int noted = 0;
+    for (size_t i = 0; i < r->messages.count; i++)
+        noted |= strstr(r->messages.item[i].text, "core.E ends at its lower bound") != NULL;
+    assert_true(noted);
+}
+
+static void close_run(struct run *r)
+{
+    diagnose_free(&r->d);
+    pool_close(&r->pool);
+}
+
+/* The cause is one, and with it the bound is no matter any more. */
+static void assert_named(const struct diagnosis *d, const char *id)
+{
+    assert_string_equal(verdict_name(d->kind), "named");
+    assert_int_equal(d->ncause, 1);
+    assert_string_equal(d->cause[0].cause->id, id);
+    assert_false(d->extended.fit->any_at_bound);
+    assert_null(strstr(d->sentence, "bound"));
+}
+
+static void a_modulus_at_a_tight_bound_gets_off_it_with_the_cause(void **state)
+{
+    static const char *const bounds[] = {
+        "core.E, 8.7e10, 1e12, 1.2e11\ncore.G, 1e9, 1e12, 4e10",
+        "core.E, 8.5e10, 2.3e11, 1.2e11\ncore.G, 1e6, 0.898e11, 0.3e11",
+        "core.E, 8.8e10, 2.3e11, 1.2e11\ncore.G, 1e9, 1e12, 4e10",
+    };
+    (void)state;
+    for (size_t b = 0; b < sizeof bounds / sizeof *bounds; b++) {
+        struct run r;
+        char *text = hidden_read(INPUT "solid_rotor.inp");
+        assert_non_null(text);
+        char *absolute = replaced(text, "FILE=data/", "FILE=" INPUT "data/"),
+             *tight = replaced(absolute, "core.E, 1e6, 2.3e11, 0.6e11\ncore.G, 1e6, 0.898e11, 0.3e11", bounds[b]);
+        diagnose(tight, &r);
+        assert_named(&r.d, "step_stiffness");
+        assert_close(r.d.cause[0].effect.value[0], 34.8, 0, 0.1); /* with the bounds of the deck as it is shipped, as E below */
+        assert_close(r.d.extended.fit->x[0], 1.021e11, 1e-3, 0);
+        close_run(&r);
+        free(tight);
+        free(absolute);
+        free(text);
+    }
+}
+
+/* Data of the paper's rotor with an effect in it, and other bounds of core.E. */
+static void diagnose_paper(const char *bounds, uint64_t seed, const char *truth, const char *effect, struct run *r)
+{
+    char *text = hidden_read(INPUT "paper_rotor.inp"), *deck = NULL, *true_values = NULL, message[300] = "";
+    const char *const truths[1] = {truth}, *const effects[1] = {effect};
+    struct hide_request request = hide_request_default();
+    assert_non_null(text);
+    request.deck = text;
+    request.name = "paper_rotor.inp";
+    request.seed = seed;
+    request.truth = truths;
+    request.truths = 1;
+    request.effect = effects;
+    request.effects = effect != NULL;
+    (void)hide_case(&request, &deck, &true_values, message, sizeof message);
+    assert_string_equal(message, "");
+    char *changed = replaced(deck, "core.E, 1e6, 2.3e11, 0.6e11", bounds);
+    diagnose(changed, r);
+    free(changed);
+    free(true_values);
+    free(deck);
+    free(text);
+}
+
+/* Its flexibility takes more of E than the bound allows. */
+static void a_very_soft_joint_is_named_although_E_ends_at_a_bound(void **state)
+{
+    static const char *const bounds[] = {"core.E, 9e10, 1e12, 1.2e11", "core.E, 9e10, 2.3e11, 1.2e11"};
+    (void)state;
+    for (int b = 0; b < 2; b++) {
+        struct run r;
+        diagnose_paper(bounds[b], 1, "core.E=1.012e11", "joint:at=core.end,flexibility=1e-8", &r);
+        assert_named(&r.d, "joint");
+        assert_close(r.d.cause[0].effect.value[0], 1e-8, 0.03, 0);
+        close_run(&r);
+    }
+}
+
+/* Nothing is wrong but the bound, and causes that would do some of the work are there. */
+static void a_bound_that_keeps_the_truth_out_is_no_cause(void **state)
+{
+    static const char *const bounds[] = {"core.E, 1.1e11, 2.3e11, 1.5e11", "core.E, 1.3e11, 2.3e11, 1.5e11"};
+    (void)state;
+    for (int b = 0; b < 2; b++) {
+        struct run r;
+        diagnose_paper(bounds[b], 12, "core.E=1.0e11", NULL, &r);
+        assert_true(r.d.kind == VERDICT_AMBIGUOUS || r.d.kind == VERDICT_UNEXPLAINED);
+        assert_says(r.d.sentence, b ? "core.E ends at its lower bound 1.3e+11 Pa, which may be the cause itself: widen it"
+                                    : "core.E ends at its lower bound 1.1e+11 Pa, which may be the cause itself: widen it");
+        close_run(&r);
+    }
+}
+
+static int open_directory(void **state)
+{
+    (void)state;
+    return mkdtemp(directory) == NULL;
+}
+
+static int close_directory(void **state)
+{
+    (void)state;
+    return rmdir(directory);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_modulus_at_a_tight_bound_gets_off_it_with_the_cause),
+        cmocka_unit_test(a_very_soft_joint_is_named_although_E_ends_at_a_bound),
+        cmocka_unit_test(a_bound_that_keeps_the_truth_out_is_no_cause),
+    };
+    return cmocka_run_group_tests(tests, open_directory, close_directory);
+}

@@ -1,0 +1,223 @@
+/* What holds a program: too little address space, a pipe with nobody at its other end, a computation that does not look at
+ * signals. None of these does. */
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli/interrupt.c" /* of the program, which the tests do not link */
+#include "shell.h"
+#include "support.h"
+
+#ifndef ROTID_FLAGS
+#define ROTID_FLAGS ""
+#endif
+
+#define DECK    ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+#define UFF     ROTID_SOURCE_DIR "/tests/data/uff/beam_excerpt.uff"
+#define LIMITED "timeout -s KILL 120 " ROTID_PROGRAM " "
+
+static char folder[] = "/tmp/test_limits_XXXXXX";
+
+static int setup(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int teardown(void **state)
+{
+    struct pool pool;
+    (void)state;
+    pool_open(&pool, NULL);
+    (void)shell(&pool, "rm -r %s", folder);
+    pool_close(&pool);
+    return 0;
+}
+
+/* ---- address space */
+
+/* Sanitizers take terabytes of it, and other libraries do not need the buffer. */
+static int without_limits(void)
+{
+    return strstr(ROTID_FLAGS, "-fsanitize") || !strstr(shell(&test_pool, ROTID_PROGRAM " --version"), "OpenBLAS");
+}
+
+static void little_address_space_is_said(void **state)
+{
+    (void)state;
+    const char *output;
+    if (without_limits())
+        return;
+    for (int kib = 120000; kib <= 200000; kib += 40000) {
+        static const char *const command[] = {"identify " DECK, "check " DECK, "diagnose " DECK, "ema " UFF,
+                                              "study " DECK " -o x.jsonl"};
+        for (size_t c = 0; c < sizeof command / sizeof *command; c++) {
+            assert_int_equal(shell_code(&test_pool, &output,
+                                        "cd %s; unset OPENBLAS_NUM_THREADS; ulimit -v %d; " LIMITED "%s --quiet", folder, kib,
+                                        command[c]),
+                             3);
+            assert_non_null(strstr(output, "rotid: too little address space: OpenBLAS needs 128 MiB"));
+        }
+        (void)shell(&test_pool,
+                    "unset OPENBLAS_NUM_THREADS; ulimit -v %d; " LIMITED "--help && " LIMITED "--version && " LIMITED "uff " UFF,
+                    kib);
+    }
+    assert_int_equal(shell_code(&test_pool, &output, "ulimit -d 120000; " LIMITED "identify " DECK " --quiet"), 3);
+    assert_int_equal(shell_code(&test_pool, NULL, "test -e %s/x.jsonl", folder), 1);
+}
+
+/* As many threads as there is room for, with the numbers of any other run. */
+static void what_fits_is_computed(void **state)
+{
+    (void)state;
+    const char *output;
+    if (without_limits() || sysconf(_SC_NPROCESSORS_ONLN) > 64)
+        return;
+    const char *all = shell(&test_pool, LIMITED "diagnose " DECK " --json - | grep -v -e seconds -e threads");
+    for (int kib = 300000; kib <= 1200000; kib += 150000) {
+        assert_string_equal(shell(&test_pool,
+                                  "unset OPENBLAS_NUM_THREADS; ulimit -v %d; " LIMITED "diagnose " DECK
+                                  " --json - | grep -v -e seconds -e threads",
+                                  kib),
+                            all);
+        (void)shell(&test_pool, "ulimit -v %d; export OPENBLAS_NUM_THREADS=16; " LIMITED "check " DECK, kib);
+    }
+    assert_int_equal(
+        shell_code(&test_pool, &output, "unset OPENBLAS_NUM_THREADS; ulimit -v 300000; " LIMITED "diagnose " DECK " --threads 8"),
+        3);
+    assert_non_null(strstr(output, "rotid: --threads 8: there is address space for 1, expected no more than these"));
+}
+
+/* ---- pipes */
+
+static void a_pipe_without_another_end_is_refused(void **state)
+{
+    (void)state;
+    const char *said = shell(&test_pool,
+                             "cd %s && mkfifo pipe out && for c in 'check pipe' 'uff pipe' 'ema pipe' 'report pipe -o page' "
+                             "'study pipe -o x.jsonl' 'study --summary pipe' 'study --merge pipe pipe -o x.jsonl' "
+                             "'identify " DECK " --json out' 'frf " DECK " -o out' 'export " DECK " --format dmig -o out'; do "
+                             "(said=$(" LIMITED "$c --quiet 2>&1 < /dev/null); echo \"$c: $? $said\") & "
+                             "done; wait; ls",
+                             folder);
+    static const char *const expected[] = {
+        "check pipe: 2 pipe:1:1: cannot read pipe: nobody is at the other end of this pipe, expected a deck",
+        "uff pipe: 2 pipe:1:1: cannot be opened: nobody is at the other end of this pipe",
+        "ema pipe: 2 pipe:1:1: cannot be opened: nobody is at the other end of this pipe",
+        "report pipe -o page: 2 pipe: is no regular file, expected one that rotid wrote with --json",
+        "study pipe -o x.jsonl: 2 rotid: pipe is no regular file, expected one, for it is read several times",
+        "study --summary pipe: 2 pipe:1:1: this is no file of results",
+        "study --merge pipe pipe -o x.jsonl: 2 pipe:1:1: this is no file of results",
+        "identify " DECK " --json out: 3 rotid: cannot write out: nobody is at the other end of this pipe",
+        "frf " DECK " -o out: 3 rotid: cannot write out: nobody is at the other end of this pipe",
+        "export " DECK " --format dmig -o out: 3 rotid: cannot write out: nobody is at the other end of this pipe"};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        if (!strstr(said, expected[i]))
+            fail_msg("\"%s\" is not among\n%s", expected[i], said);
+    assert_null(strstr(said, "\nx.jsonl"));
+    (void)shell(&test_pool, "cd %s && rm -r *", folder);
+}
+
+static void a_pipe_with_another_end_is_one_file_more(void **state)
+{
+    (void)state;
+    const char *json = shell(&test_pool, LIMITED "identify " DECK " --no-baseline --json - | grep -v seconds");
+    /* that begins at once, later, and after the wait, of which it tells at once by having it open */
+    (void)shell(&test_pool, "cat " DECK " | " LIMITED "check /dev/stdin --quiet");
+    (void)shell(&test_pool, LIMITED "check /dev/stdin --quiet < " DECK);
+    (void)shell(&test_pool, "{ sleep 6; cat " DECK "; } | " LIMITED "check /dev/stdin --quiet");
+    (void)shell(&test_pool, "cat " UFF " | " LIMITED "uff /dev/stdin --quiet");
+    (void)shell(&test_pool, "cd %s && mkfifo pipe && { (sleep 1; cat " DECK " > pipe) & } && " LIMITED "check pipe --quiet",
+                folder);
+    (void)shell(&test_pool, "cd %s && { (sleep 1; cat " UFF " > pipe) & } && " LIMITED "uff pipe --quiet", folder);
+    (void)shell(&test_pool, "cd %s && { (sleep 6; cat " DECK ") > pipe & } && " LIMITED "check pipe --quiet", folder);
+    assert_string_equal(
+        shell(&test_pool,
+              "cd %s && { (sleep 1; cat pipe > got) & } && " LIMITED "identify " DECK
+              " --no-baseline --json pipe --quiet && wait && while ! grep -q '}$' got; do sleep 0.1; done; grep -v seconds got",
+              folder),
+        json);
+    assert_string_equal(shell(&test_pool, LIMITED "identify " DECK " --no-baseline --quiet --json /dev/stdout | grep -v seconds"),
+                        json);
+    (void)shell(&test_pool, LIMITED "identify " DECK " --no-baseline --quiet --json /dev/null");
+    (void)shell(&test_pool, "cd %s && rm -r *", folder);
+}
+
+/* ---- signals */
+
+/* A program that never asks command_cancelled; 's': it has stopped itself first. */
+static pid_t start_deaf(void)
+{
+    int ready[2];
+    char byte = 0;
+    assert_int_equal(pipe(ready), 0);
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (!child) {
+        alarm(120);
+        command_watch_signals();
+        (void)!write(ready[1], &byte, 1);
+        for (;;)
+            (void)pause();
+    }
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    (void)close(ready[0]);
+    (void)close(ready[1]);
+    return child;
+}
+
+static void rest(void)
+{
+    const struct timespec time = {1, 0}; /* five times what counts as one request */
+    (void)nanosleep(&time, NULL);
+}
+
+static void a_second_signal_ends_the_program(void **state)
+{
+    (void)state;
+    static const int signals[4][2] = {{SIGINT, SIGINT}, {SIGINT, SIGTERM}, {SIGTERM, SIGINT}, {SIGTERM, SIGTERM}};
+    for (int i = 0; i < 4; i++) {
+        int status;
+        pid_t child = start_deaf();
+        assert_int_equal(kill(child, signals[i][0]), 0);
+        rest();
+        assert_int_equal(waitpid(child, &status, WNOHANG), 0);
+        assert_int_equal(kill(child, signals[i][1]), 0);
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFSIGNALED(status));
+        assert_int_equal(WTERMSIG(status), signals[i][1]);
+    }
+}
+
+/* As timeout(1) sends its signal twice, and a terminal one beside that of a script. */
+static void two_signals_at_once_are_one(void **state)
+{
+    (void)state;
+    int status;
+    pid_t child = start_deaf();
+    assert_int_equal(kill(child, SIGSTOP), 0);
+    assert_int_equal(waitpid(child, &status, WUNTRACED), child);
+    assert_int_equal(kill(child, SIGINT), 0);
+    assert_int_equal(kill(child, SIGTERM), 0);
+    assert_int_equal(kill(child, SIGCONT), 0); /* both are there when it goes on */
+    rest();
+    assert_int_equal(waitpid(child, &status, WNOHANG), 0);
+    assert_int_equal(kill(child, SIGKILL), 0);
+    assert_int_equal(waitpid(child, &status, 0), child);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(little_address_space_is_said, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(what_fits_is_computed, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_pipe_without_another_end_is_refused, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_pipe_with_another_end_is_one_file_more, open_test_pool, close_test_pool),
+        cmocka_unit_test(a_second_signal_ends_the_program),
+        cmocka_unit_test(two_signals_at_once_are_one),
+    };
+    return cmocka_run_group_tests_name("limits", tests, setup, teardown);
+}
