@@ -317,7 +317,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     struct chain c;
     struct fit f;
     int master[] = {0, 2};
-    double kc[4], mc[4], lambda[3], phi[9], dlambda;
+    double kc[4], mc[4], lambda[3], phi[9], dlambda, error[2], doubt[2];
     rotid_deck *deck = (void *)&c;
     rotid_spectrum *spectrum = (void *)&c;
     rotid_identification *identification = (void *)&c;
@@ -333,12 +333,13 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_diagnose(good, NULL, environment, failure, &diagnosis), text);
     assert_true(!deck && !spectrum && !identification && !diagnosis);
     assert_refused(fit(&f, environment), text);
+    assert_refused(rotid_check_model(&f.model, f.parameter, NULL, environment, failure, error, doubt), text);
     assert_refused(rotid_condense(&c.k, &c.m, 2, master, ROTID_GUYAN, environment, failure, kc, mc, NULL), text);
     assert_refused(rotid_condense_derivative(&c.k, &c.m, &c.k, &c.m, 2, master, ROTID_IRS, environment, failure, kc, mc), text);
     assert_refused(rotid_eigenpairs(&c.k, &c.m, 3, environment, failure, lambda, phi), text);
     assert_refused(rotid_eigenpair_derivative(&c.k, &c.m, &c.k, &c.m, 3, lambda, phi, 0, environment, failure, &dlambda, lambda),
                    text);
-    return 10;
+    return 11;
 }
 
 static void an_environment_that_is_none_is_refused_by_all(void **state)
