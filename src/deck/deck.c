@@ -246,11 +246,10 @@ static void read_cards(struct deck_reader *reader)
 static int add_cards(struct pool *pool, struct deck_text *text, int ncard, const struct card *card)
 {
     for (int i = 0; i < ncard; i++) {
-        struct card *grown = pool_grow(pool, text->card, (size_t)text->ncard, &text->card_room, sizeof *grown);
-        if (!grown)
+        struct card *added = deck_text_add_card(pool, text, card[i].name, card[i].place);
+        if (!added)
             return ROTID_ERROR_MEMORY;
-        text->card = grown;
-        text->card[text->ncard++] = card[i];
+        *added = card[i];
     }
     return ROTID_OK;
 }

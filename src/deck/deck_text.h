@@ -71,6 +71,10 @@ int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, s
 const char *deck_text_path(struct pool *pool, const struct deck_text *text, const struct card *card,
                            const struct card_option *option, struct message_list *messages);
 
+/* One more card, or option of a card. NULL, or not 0, where memory is out. */
+struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place);
+int deck_text_add_option(struct pool *pool, struct card *card, struct card_option option);
+
 /* Splits "CARD.OPTION=VALUE", parts of which are pointed to. ROTID_OK, ROTID_ERROR_SYNTAX where it has another form, or
  * ROTID_ERROR_MEMORY. */
 int override_parse(struct pool *pool, const char *text, struct override *override);
