@@ -210,6 +210,7 @@ static void fits(void)
             memcpy(&with.hz[1], &extreme[i], sizeof extreme[i]);
         survived += rotid_fit(&with.model, &with.parameter, &with.measured, &with.options, NULL, NULL, &result) <= 0;
         rotid_fit_free(result);
+        survived += rotid_check_model(&with.model, &with.parameter, NULL, NULL, NULL, with.error, with.doubt) <= 0;
     }
 }
 
