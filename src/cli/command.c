@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "cli/arguments.h"
 #include "deck/deck.h"
 #include "report/output.h"
 
@@ -50,6 +51,9 @@ int command_read_deck(struct command *command)
         deck_read(&command->pool, command->deck, command->noverride, command->override, &command->messages, &command->job);
     if (status)
         return command_fail(command, status);
+    int refused = arguments_refuse_read(command, command->job.nfile, command->job.file);
+    if (refused >= 0)
+        return refused;
     command_print_messages(command);
     for (size_t i = 0; i < command->messages.count; i++)
         if (command->messages.item[i].severity == SEVERITY_WARNING)

@@ -71,11 +71,14 @@ static int judge_condensed(struct command *command, const struct export_model *m
 /* 0, or an exit code after saying which file would be lost. */
 static int refuse_files(const struct command *command, const struct export_files *files)
 {
-    for (int i = 0; i < files->count; i++)
-        if (arguments_same_file(command->deck, files->path[i]))
-            return arguments_wrong("--output would write %s, which is read, expected another name", files->path[i]);
-        else if (command->json && arguments_same_file(command->json, files->path[i]))
+    const struct job *job = &command->job;
+    for (int i = 0; i < files->count; i++) {
+        if (command->json && arguments_same_file(command->json, files->path[i]))
             return arguments_wrong("--output would write %s, the file of --json, expected another name", files->path[i]);
+        for (int f = 0; f < job->nfile; f++)
+            if (arguments_same_file(job->file[f], files->path[i]))
+                return arguments_wrong("--output would write %s, which is read, expected another name", files->path[i]);
+    }
     return 0;
 }
 

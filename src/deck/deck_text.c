@@ -135,6 +135,16 @@ const char *deck_text_path(struct pool *pool, const struct deck_text *text, cons
     return slash ? pool_format(pool, "%.*s/%s", (int)(slash - here), here, path) : path;
 }
 
+int deck_text_add_file(struct pool *pool, struct deck_text *text, const char *path)
+{
+    const char **grown = pool_grow(pool, text->file, (size_t)text->nfile, &text->file_room, sizeof *grown);
+    if (!grown)
+        return ROTID_ERROR_MEMORY;
+    text->file = grown;
+    text->file[text->nfile++] = path;
+    return ROTID_OK;
+}
+
 static int read_file(struct reader *reader, const char *path, struct place from);
 
 static void include(struct reader *reader, struct card card)
@@ -340,6 +350,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
                     "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
         return ROTID_ERROR_IO;
     }
+    reader->out_of_memory |= deck_text_add_file(reader->pool, reader->text, path) != ROTID_OK;
     reader->depth += from.file != NULL;
     int status = read_source(reader, &source, path);
     reader->depth -= from.file != NULL;

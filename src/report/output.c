@@ -34,6 +34,13 @@ static FILE *open_beside(char *name)
 int output_open(struct output *output, const char *path)
 {
     *output = (struct output){.path = path};
+    output->stream = file_open_own(path);
+    if (!output->stream && errno)
+        return ROTID_ERROR_IO;
+    if (output->stream) { /* it may be standard output: what was printed before stands before */
+        (void)terminal_flush();
+        return ROTID_OK;
+    }
     if (is_special(path)) {
         output->stream = file_open_device(path);
         return output->stream ? ROTID_OK : ROTID_ERROR_IO;

@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-/* Before anything is printed. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* Before anything is printed or opened. ROTID_OK, ROTID_ERROR_IO or ROTID_ERROR_MEMORY. */
 int terminal_open(void);
 
 /* Where tables are written to: memory, until terminal_flush or a message sends it to standard output. */
