@@ -1,9 +1,11 @@
 #include "report/terminal.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/text.h"
 #include "rotid.h"
@@ -34,8 +36,22 @@ static struct {
     int reason; /* why something did not arrive, an errno */
 } out;
 
+/* A file that is opened takes the lowest free descriptor: with standard error closed, a file of results would become it, and
+ * messages would be written among the results. The wrong direction keeps the error of a closed stream, EBADF. */
+static int hold_closed_streams(void)
+{
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
+        if (fcntl(stream, F_GETFD) < 0 && errno == EBADF &&
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream) /* not O_CLOEXEC: for children as well */
+            return ROTID_ERROR_IO;
+    return ROTID_OK;
+}
+
 int terminal_open(void)
 {
+    int status = hold_closed_streams();
+    if (status)
+        return status;
     out.stream = open_memstream(&out.text, &out.length);
     return out.stream ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
