@@ -42,6 +42,27 @@ static void any_number_of_processes_gives_one_result(void **state)
     assert_true(bench_same("one.jsonl", "three.jsonl"));
 }
 
+/* Results in order take the place of those that came out of order, and a summary that of an earlier one. */
+static void who_may_read_a_file_is_kept(void **state)
+{
+    (void)state;
+    struct stat is;
+    char *whole = bench_read("one.jsonl"), *last = strstr(whole, "{\"run\":119,"), *second = strstr(whole, "{\"run\":0,");
+    assert_true(last && second);
+    FILE *stream = fopen(bench_path("private.jsonl"), "wb");
+    assert_non_null(stream);
+    assert_true(fprintf(stream, "%.*s%s%.*s", (int)(second - whole), whole, last, (int)(last - second), second) > 0);
+    assert_int_equal(fclose(stream), 0);
+    free(whole);
+    (void)bench_write("private.json", "");
+    assert_int_equal(chmod(bench_path("private.jsonl"), 0600), 0);
+    assert_int_equal(chmod(bench_path("private.json"), 0640), 0);
+    bench_says("study a.plan -o private.jsonl --json private.json --quiet", 0, "");
+    assert_true(bench_same("one.jsonl", "private.jsonl"));
+    assert_true(stat(bench_path("private.jsonl"), &is) == 0 && (is.st_mode & 0777) == 0600);
+    assert_true(stat(bench_path("private.json"), &is) == 0 && (is.st_mode & 0777) == 0640);
+}
+
 static void shards_merge_to_one_result(void **state)
 {
     (void)state;
@@ -365,6 +386,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_processes_gives_one_result),
+        cmocka_unit_test(who_may_read_a_file_is_kept),
         cmocka_unit_test(shards_merge_to_one_result),
         cmocka_unit_test(nothing_is_lost_by_kill_9),
         cmocka_unit_test(a_worker_that_dies_costs_its_run),
