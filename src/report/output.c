@@ -80,9 +80,11 @@ static int finish(struct output *output)
 /* The file that is there now takes its final name; 1 with errno where it cannot. */
 static int take_name(const struct output *output)
 {
-    mode_t mask = umask(0); /* mkstemp makes private files; a result is as readable as any other file of the user */
+    struct stat existing;
+    mode_t mask = umask(0); /* mkstemp makes private files; a new result is as readable as any other file of the user */
     (void)umask(mask);
-    (void)chmod(output->beside, 0666 & ~mask);
+    int replaces = stat(output->path, &existing) == 0 && S_ISREG(existing.st_mode); /* which may be private on purpose */
+    (void)chmod(output->beside, replaces ? existing.st_mode & 0777 : 0666 & ~mask);
     return rename(output->beside, output->path) != 0;
 }
 
