@@ -68,8 +68,8 @@ void command_show_progress(void *context, const char *stage, int step);
 /* Whether somebody would see it. */
 int command_wants_progress(const struct command *command);
 
-/* From now on the first SIGINT or SIGTERM ends nothing but makes command_cancelled say so; a second one, not at the same time, ends
- * the program. */
+/* From now on the first SIGINT or SIGTERM ends nothing but makes command_cancelled say so; a second one, not at the same time,
+ * ends the program. */
 void command_watch_signals(void);
 /* Polled by long computations: nonzero after SIGINT or SIGTERM. */
 int command_cancelled(void *unused);
