@@ -21,7 +21,6 @@
 
 #define TRAPS (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW)
 
-
 static char directory[] = "/tmp/test_host_XXXXXX", deck_path[64];
 
 static const rotid_diagnose_options quick = {.size = sizeof quick, .replicates = 100, .threads = 2};
