@@ -131,7 +131,7 @@ static void a_fit_names_what_it_refuses(void **state)
     refused(f.chain.far[1] = 3, "far[1] is 3, expected 0 ... 2");
     refused(f.parameter[0].start = 10,
             "parameter[0] spring has lower 1, start 10, upper 10, expected numbers with lower < start < "
-            "upper and a start other than 0");
+            "upper, a start other than 0, and a finite upper - lower");
     refused(f.options.functional = 3, "options->functional is 3, expected ROTID_HYBRID, ROTID_HYBRID_F or ROTID_LIKELIHOOD");
     refused(f.options.reduction = -1, "options->reduction is -1, expected ROTID_REDUCTION_NONE, ROTID_GUYAN or ROTID_IRS");
     refused(f.options.derivative = 2, "options->derivative is 2, expected ROTID_NELSON or ROTID_MODAL");

@@ -34,7 +34,7 @@ int fit_check_parameters(int count, const rotid_parameter *parameter, char *fail
         if (!(isfinite(q->upper - q->lower) && q->lower < q->start && q->start < q->upper && q->start != 0))
             return refuse(
                 failure,
-                "parameter[%d]%s%.40s has lower %g, start %g, upper %g, expected numbers with lower < start < upper and a "
+                "parameter[%d]%s%.40s has lower %g, start %g, upper %g, expected numbers with lower < start < upper, a "
                 "start other than 0, and a finite upper - lower",
                 p, q->name ? " " : "", q->name ? q->name : "", q->lower, q->start, q->upper);
     }
