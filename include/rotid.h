@@ -354,7 +354,7 @@ typedef struct rotid_fit_options {
     int max_iterations;        /* [100] */
     double gradient_tolerance; /* [1e-10] of the cosine between the residual and each column of the Jacobian */
     double step_tolerance;     /* [1e-12] relative step */
-    double bijection_chi;      /* [0.05] 1e-50 ... 1e50: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
+    double bijection_chi;      /* [0.05] 1e-50 ... 1e6: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
                                   their start */
 } rotid_fit_options;
 

@@ -6,8 +6,9 @@
 #include "linalg/matrix_check.h"
 #include "modal/measured_check.h"
 
-#define CHI_LEAST 1e-50 /* y is of the size of 1/chi, and has to have a square */
-#define CHI_MOST  1e50
+/* y is of the size of 1/chi: it has to have a square, and a small part of it to stand out against 1e-24, where steps end */
+#define CHI_LEAST 1e-50
+#define CHI_MOST  1e6
 
 int fit_check_model(const rotid_model *model, char *failure)
 {

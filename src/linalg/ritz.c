@@ -41,6 +41,9 @@ int ritz_pairs(int n, int count, const rotid_matrix *k, const rotid_matrix *m, d
     if (LAPACKE_dsygst_work(LAPACK_COL_MAJOR, 1, 'U', count, a, count, b, count) ||
         LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', count, a, count, value, work, RITZ_WORK * count))
         return 1;
+    for (int j = 0; j < count; j++) /* a vector keeps the sign of y: rounding would choose it */
+        if (a[j + (ptrdiff_t)j * count] < 0)
+            cblas_dscal(count, -1, a + (ptrdiff_t)j * count, 1);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, count, count, 1, b, count, a, count);
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, count, count, 1, y, n, a, count, 0, vector, n);
     return 0;
