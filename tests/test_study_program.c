@@ -279,7 +279,9 @@ static void a_changed_study_is_refused(void **state)
     bench_says("study a.plan -o one.jsonl", 2, "a deck has changed since it was begun");
     (void)bench_write("deck.inp", "** the same\n" BENCH_DECK);
     bench_says("study a.plan -o one.jsonl --quiet", 0, "");
-    bench_says("study a.plan -o deck.inp", 2, "--output deck.inp is a file that is read, expected another one");
+    bench_says("study a.plan -o deck.inp", 2, "--output deck.inp is a file that is read");
+    (void)bench_write("other.inp", BENCH_DECK);
+    bench_says("study a.plan -o other.inp", 2, "other.inp:1:1: this is no file of results");
     assert_int_equal(bench_lines("deck.inp"), 1 + bench_lines("plain.inp"));
 }
 
