@@ -142,9 +142,9 @@ static void a_fit_names_what_it_refuses(void **state)
     refused(f.number[1] = 0, "measured->number[1] is 0, expected a mode of the model, from 1");
     refused(f.hz[1] = -0.5, "measured->frequency_hz[1] is -0.5, expected a positive number");
     refused(f.hz_std[0] = 0, "measured->frequency_std[0] is 0, expected a positive relative standard deviation "
-                              "(measured->holdout takes a mode out)");
+                             "(measured->holdout takes a mode out)");
     refused(f.shape_std[3] = 0, "measured->shape_std of master 1 in mode 1 is 0, expected a positive number (NaN in "
-                                 "measured->shape takes a component out)");
+                                "measured->shape takes a component out)");
     refused(f.holdout[0] = f.holdout[1] = 1, "measured->holdout leaves no mode to be fitted, expected a 0 in it");
     refused(f.measured.frequency_std = NULL,
             "measured->frequency_std is NULL, which ROTID_LIKELIHOOD weighs by, expected nmode = "

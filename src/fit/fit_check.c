@@ -33,11 +33,10 @@ int fit_check_parameters(int count, const rotid_parameter *parameter, char *fail
     for (int p = 0; p < count; p++) {
         const rotid_parameter *q = &parameter[p];
         if (!(isfinite(q->upper - q->lower) && q->lower < q->start && q->start < q->upper && q->start != 0))
-            return refuse(
-                failure,
-                "parameter[%d]%s%.40s has lower %g, start %g, upper %g, expected numbers with lower < start < upper, a "
-                "start other than 0, and a finite upper - lower",
-                p, q->name ? " " : "", q->name ? q->name : "", q->lower, q->start, q->upper);
+            return refuse(failure,
+                          "parameter[%d]%s%.40s has lower %g, start %g, upper %g, expected numbers with lower < start < upper, a "
+                          "start other than 0, and a finite upper - lower",
+                          p, q->name ? " " : "", q->name ? q->name : "", q->lower, q->start, q->upper);
     }
     return ROTID_OK;
 }
