@@ -93,7 +93,7 @@ int command_wants_progress(const struct command *command)
     return isatty(STDERR_FILENO) && !command->quiet;
 }
 
-void command_show_progress(void *context, const char *stage, int step)
+static void show_progress(void *context, const char *stage, int step)
 {
     double *last = context, seconds = clock_seconds();
     if (*last == 0)
@@ -102,4 +102,12 @@ void command_show_progress(void *context, const char *stage, int step)
         return;
     *last = seconds;
     terminal_progress("rotid: %s %d", stage, step);
+}
+
+rotid_environment command_environment(const struct command *command, double *last)
+{
+    return (rotid_environment){.size = sizeof(rotid_environment),
+                               .cancelled = command_cancelled,
+                               .progress = command_wants_progress(command) ? show_progress : NULL,
+                               .context = last};
 }

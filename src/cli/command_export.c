@@ -21,11 +21,7 @@ static int identify(struct command *command, struct identification *identified)
 {
     struct job *job = &command->job;
     double last = 0;
-    int terminal = command_wants_progress(command);
-    const rotid_environment environment = {.size = sizeof environment,
-                                           .cancelled = command_cancelled,
-                                           .progress = terminal ? command_show_progress : NULL,
-                                           .context = &last};
+    const rotid_environment environment = command_environment(command, &last);
     if (!job->nparameter || command->start)
         return ROTID_OK;
     if (!job->nmode) {
@@ -33,7 +29,7 @@ static int identify(struct command *command, struct identification *identified)
         return ROTID_OK;
     }
     int status = identify_run(&command->pool, job, 0, &environment, &command->messages, identified);
-    if (terminal)
+    if (environment.progress)
         terminal_progress_end();
     return status;
 }
