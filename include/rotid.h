@@ -107,7 +107,7 @@ typedef struct rotid_environment {
 /* What is to be found, by either of the first two layers. */
 typedef struct rotid_parameter {
     const char *name, *unit;    /* texts for reports; may be NULL */
-    double lower, upper, start; /* lower < start < upper, start != 0 */
+    double lower, upper, start; /* lower < start < upper, start != 0, upper - lower finite */
 } rotid_parameter;
 
 typedef struct rotid_fit_result rotid_fit_result; /* with rotid_fit below */
@@ -804,9 +804,9 @@ typedef struct rotid_measured {
     int nmode;
     const int *number;           /* [nmode] mode of the model that each is paired with, counted from 1 after the rigid ones */
     const double *frequency_hz;  /* [nmode] > 0 */
-    const double *frequency_std; /* [nmode] relative standard deviation > 0, or NULL where the noise is not known */
+    const double *frequency_std; /* [nmode] relative standard deviation > 0, finite, or NULL where the noise is not known */
     const double *shape;         /* [nmaster * nmode] column-major at the masters, NaN where not measured; or NULL */
-    const double *shape_std;     /* [nmaster * nmode] relative to the largest component of the mode; or NULL */
+    const double *shape_std;     /* [nmaster * nmode] the same, relative to the largest component of the mode; or NULL */
     const int *holdout;          /* [nmode] nonzero: predicted and compared, not fitted; or NULL */
 } rotid_measured;
 
@@ -822,7 +822,8 @@ typedef struct rotid_fit_options {
     int max_iterations;        /* [100] */
     double gradient_tolerance; /* [1e-10] of the cosine between the residual and each column of the Jacobian */
     double step_tolerance;     /* [1e-12] relative step */
-    double bijection_chi;      /* [0.05] chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by their start */
+    double bijection_chi;      /* [0.05] 1e-50 ... 1e6: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
+                                  their start */
 } rotid_fit_options;
 
 /* *options := ROTID_LIKELIHOOD without reduction, the defaults in brackets; size is sizeof *options of the host. */
@@ -886,7 +887,8 @@ struct rotid_fit_result {
  * only evaluated and compared: converged with ROTID_STOP_GRADIENT after 0 iterations, chi2 and dof of the residuals, arrays over
  * the parameters empty, no baseline. Exit: *result, to be freed with rotid_fit_free, also when the iteration ended without
  * convergence (status >= 0). On an error (< 0) *result is NULL. Statuses: every ROTID_ERROR_ but SYNTAX and IO. Memory:
- * O(nmaster^2 + n kd). The iteration itself allocates nothing. */
+ * O(nmaster^2 + n kd). The iteration itself allocates nothing but room for a history beyond 100 iterations. A parameter whose
+ * column of the Jacobian is below 1e-13 of the largest does not move: what is left of it is rounding of the others. */
 ROTID_API int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
                         const rotid_fit_options *options, const rotid_environment *environment, char *failure,
                         rotid_fit_result **result);

@@ -15,7 +15,6 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
-
 static char directory[] = "/tmp/test_api_cancel_XXXXXX", deck_path[64];
 
 struct host {

@@ -10,7 +10,6 @@
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
 
-
 static char directory[] = "/tmp/test_api_diagnosis_XXXXXX", deck_path[64], extended_path[64];
 
 static void compare_cause(const cJSON *json, const rotid_cause *c)

@@ -10,7 +10,6 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
-
 static char directory[] = "/tmp/test_api_memory_XXXXXX", deck_path[64], bar_path[64];
 
 /* ------------------------------------------------------------------------------------------------ failing allocations */

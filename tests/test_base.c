@@ -234,17 +234,23 @@ static void messages_past_the_limit_are_counted_only(void **state)
     failing_allocator_open(&failing, 0);
     pool_open(&pool, &failing.allocator);
     message_open(&list, &pool);
-    for (int i = 0; i < MESSAGE_LIMIT; i++)
+    for (int i = 0; i < 2 * MESSAGE_LIMIT; i++)
         message_add(&list, i % 2 ? SEVERITY_ERROR : SEVERITY_WARNING, "f", i, 0, "number %d", i);
     long served = failing.served;
     for (int i = 0; i < 1000; i++)
         message_add(&list, i % 4 ? SEVERITY_ERROR : SEVERITY_NOTE, "f", i, 0, "too many");
-    assert_int_equal(list.count, MESSAGE_LIMIT);
-    assert_int_equal(list.errors, MESSAGE_LIMIT / 2 + 750);
+    assert_int_equal(list.count, 2 * MESSAGE_LIMIT);
+    assert_int_equal(list.errors, MESSAGE_LIMIT + 750);
     assert_int_equal(failing.served, served); /* a binary file must not fill the memory */
-    for (int i = 0; i < MESSAGE_LIMIT; i++)
+    for (int i = 0; i < 2 * MESSAGE_LIMIT; i++)
         assert_int_equal(list.item[i].line, i);
-    assert_string_equal(list.item[MESSAGE_LIMIT - 1].text, "number 199");
+    assert_string_equal(list.item[2 * MESSAGE_LIMIT - 1].text, "number 399");
+    message_open(&list, &pool);
+    for (int i = 0; i < 1000; i++)
+        message_add(&list, SEVERITY_WARNING, "f", i, 0, "doubtful");
+    message_add(&list, SEVERITY_ERROR, "f", 1000, 0, "why it is refused");
+    assert_int_equal(list.count, MESSAGE_LIMIT + 1);
+    assert_string_equal(list.item[MESSAGE_LIMIT].text, "why it is refused");
     pool_close(&pool);
 }
 

@@ -163,6 +163,22 @@ static void repeated_eigenvalues_come_as_often_as_they_are(void **state)
 }
 
 /* The same random pencil as a band with a block, in a wide band, dense, and by LAPACK's own driver. */
+/* A chain held at one end, by leaving the mass there out and by a spring that is stiff beyond measure. */
+static void a_support_by_a_penalty_leaves_the_others_their_digits(void **state)
+{
+    for (int n = 3; n <= 40; n += n < 8 ? 1 : 8)
+        for (int power = 17; power <= 30; power++)
+            for (int all = 0; all < 2; all++) {
+                int count = all ? n : n / 2;
+                rotid_matrix k, m;
+                chain(*state, n, 1, 0, &k, &m);
+                assert_status(rotid_matrix_add(&k, 0, 0, pow(10, power), NULL), ROTID_OK);
+                const double *lambda = lambda_of(*state, &k, &m, count, NULL);
+                for (int j = 0; j < count && j < n - 1; j++)
+                    assert_close(lambda[j], 4 * 3e4 / 2.5 * pow(sin((2 * j + 1) * pi / (2 * (2 * n - 1))), 2), 1e-10, 0);
+            }
+}
+
 static void storage_does_not_matter(void **state)
 {
     static const int far[3] = {1, 17, 38};
@@ -272,6 +288,7 @@ int main(void)
         WITH_POOL(beams_have_their_beta_l),
         WITH_POOL(rigid_modes_are_pairs_like_others),
         WITH_POOL(repeated_eigenvalues_come_as_often_as_they_are),
+        WITH_POOL(a_support_by_a_penalty_leaves_the_others_their_digits),
         WITH_POOL(storage_does_not_matter),
         WITH_POOL(pencils_that_no_structure_has_are_named),
         WITH_POOL(arguments_out_of_range_are_refused),

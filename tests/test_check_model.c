@@ -134,8 +134,7 @@ static void a_derivative_that_is_a_fifth_too_large_is_found(void **state)
     static const struct {
         int p, of_block, entry;
         double least; /* that it is found to be wrong by */
-    } cases[] = {{0, 0, -1, 0.16}, {1, 0, -1, 0.16}, {2, 1, -1, 0.1}, {0, 0, 8, 1e-3},
-                 {0, 0, 12, 1e-3}, {0, 0, 5, 1e-3}};
+    } cases[] = {{0, 0, -1, 0.16}, {1, 0, -1, 0.16}, {2, 1, -1, 0.1}, {0, 0, 8, 1e-3}, {0, 0, 12, 1e-3}, {0, 0, 5, 1e-3}};
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct wrong wrong;
@@ -230,6 +229,14 @@ static void what_the_fit_refuses_is_refused(void **state)
     wrong.host.model.nparam = 0;
     assert_status(check(&wrong, x), ROTID_ERROR_ARGUMENT);
     wrong.host.model.nparam = N;
+    const int n = model->n;
+    struct failing_allocator none;
+    failing_allocator_open(&none, 1);
+    const rotid_environment environment = {.size = sizeof environment, .allocator = &none.allocator};
+    wrong.host.model.n = 50000; /* 2.5e9 entries, which no int counts: refused before any of the 20 GB is asked for */
+    wrong.host.model.kd = 49999;
+    assert_status(rotid_check_model(model, beam_parameters, x, &environment, NULL, error, doubt), ROTID_ERROR_ARGUMENT);
+    wrong.host.model.n = n;
     wrong.host.model.kd = 42;
     assert_status(check(&wrong, x), ROTID_ERROR_ARGUMENT);
 }

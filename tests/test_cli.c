@@ -165,7 +165,9 @@ static void help_and_version_exit_0(void **state)
     assert_true(is(run("--help"), 0, "usage: rotid COMMAND FILE", NULL));
     assert_true(is(run("identify", "--help"), 0, "usage: rotid COMMAND FILE", NULL));
     assert_true(is(run("--version"), 0, "rotid " ROTID_VERSION, NULL));
-    assert_int_equal(is(run("--version"), 0, ", without NLopt: identify has no baseline\n", NULL), !WITH_NLOPT);
+    struct outcome outcome = run("--version");
+    assert_int_equal(strstr(outcome.out, ", without NLopt: identify has no baseline\n") != NULL, !WITH_NLOPT);
+    forget(&outcome);
 }
 
 static void quiet_commands_print_nothing(void **state)

@@ -288,6 +288,29 @@ static void modes_that_a_warm_start_cannot_see_are_found(void **state)
     }
 }
 
+/* Whatever the unit of mass: a part of grams counted in tonnes, or the one of a micromechanical sensor. */
+static void light_structures_have_the_same_pairs(void **state)
+{
+    enum { n = 60, count = 4 };
+    for (int power = -300; power <= 300; power += 20)
+        for (int held = 0; held < 2; held++) {
+            struct eigen_band e;
+            rotid_matrix k, m;
+            double lambda[count], *phi = numbers(*state, n * count);
+            assert_status(matrix_new(*state, n, 1, 0, NULL, &k), ROTID_OK);
+            assert_status(matrix_new(*state, n, 1, 0, NULL, &m), ROTID_OK);
+            add_string(&k, &m, 0, n, held);
+            for (int i = 0; i < 2 * n; i++) {
+                k.band[i] *= pow(10, power);
+                m.band[i] *= pow(10, power);
+            }
+            assert_status(eigen_band_new(*state, &k, count, &e), ROTID_OK);
+            assert_status(eigen_band_solve(&e, &k, &m, lambda, phi), ROTID_OK);
+            for (int j = 0; j < count; j++)
+                assert_close(lambda[j], string_eigenvalue(n, held, j), 1e-10, held ? 0 : 1e-13);
+        }
+}
+
 static void one_pair_and_nearly_all_pairs_are_served(void **state)
 {
     const int counts[][2] = {{1, 1}, {2, 1}, {2, 2}, {3, 2}, {17, 1}, {17, 15}, {17, 16}, {17, 17}, {60, 57}, {60, 60}};
@@ -333,6 +356,7 @@ int main(void)
         WITH_POOL(no_partner_of_a_repeated_eigenvalue_is_missed),
         WITH_POOL(a_warm_start_gives_what_a_cold_one_gives),
         WITH_POOL(modes_that_a_warm_start_cannot_see_are_found),
+        WITH_POOL(light_structures_have_the_same_pairs),
         WITH_POOL(one_pair_and_nearly_all_pairs_are_served),
         WITH_POOL(twenty_thousand_degrees_of_freedom_agree_with_closed_forms),
     };

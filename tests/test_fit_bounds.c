@@ -141,18 +141,21 @@ static void test_converged_is_never_said_where_the_objective_falls_towards_the_i
 
 static void refused(struct paper_fit *fit, const char *expected)
 {
+    char failure[ROTID_FAILURE_LENGTH];
     rotid_fit_result *result = (void *)fit;
-    int status = rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, NULL, &result);
+    int status = rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, failure, &result);
     assert_string_equal(rotid_status_name(status), expected);
+    assert_true(status != ROTID_ERROR_ARGUMENT || strstr(failure, "expected")); /* which one, and what of it */
     assert_null(result);
 }
 
 static void test_bounds_and_starts_that_make_no_sense_are_refused(void **state)
 {
     /* lower, upper, start */
-    static const double bad[][3] = {{1e6, 2e11, 3e11}, {1e6, 2e11, 1e5},        {1e6, 2e11, 1e6},      {1e6, 2e11, 2e11},
-                                    {2e11, 1e6, 1e11}, {1e11, 1e11, 1e11},      {NAN, 2e11, 1e11},     {1e6, NAN, 1e11},
-                                    {1e6, 2e11, NAN},  {-INFINITY, 2e11, 1e11}, {1e6, INFINITY, 1e11}, {-1e11, 1e11, 0}};
+    static const double bad[][3] = {{1e6, 2e11, 3e11},  {1e6, 2e11, 1e5},        {1e6, 2e11, 1e6},      {1e6, 2e11, 2e11},
+                                    {2e11, 1e6, 1e11},  {1e11, 1e11, 1e11},      {NAN, 2e11, 1e11},     {1e6, NAN, 1e11},
+                                    {1e6, 2e11, NAN},   {-INFINITY, 2e11, 1e11}, {1e6, INFINITY, 1e11}, {-1e11, 1e11, 0},
+                                    {-1e308, 1e308, 1}, {0, 10, 5e-324}};
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         for (int p = 0; p < 2; p++) {
@@ -197,6 +200,11 @@ static void test_measured_data_that_make_no_sense_are_refused(void **state)
     fit.shape_std[100] = 0;
     refused(&fit, "ROTID_ERROR_ARGUMENT");
     fit.shape_std[100] = 0.015;
+    fit.shape_std[100] = INFINITY; /* it would count as a residual that fits well */
+    refused(&fit, "ROTID_ERROR_ARGUMENT");
+    fit.shape_std[100] = 0.015;
+    fit.frequency_std[5] = INFINITY;
+    refused(&fit, "ROTID_ERROR_ARGUMENT");
     fit.frequency_std[5] = -1e-3;
     refused(&fit, "ROTID_ERROR_ARGUMENT");
     paper_fit_close(&fit);
@@ -217,6 +225,12 @@ static void test_options_and_models_that_make_no_sense_are_refused(void **state)
         fit.options.reduction = bad[k].reduction;
         fit.options.derivative = bad[k].derivative;
         paper_synthesise(&fit, scipy_optimum, 1e-3, 0.015);
+        refused(&fit, "ROTID_ERROR_ARGUMENT");
+    }
+    fit.options = options;
+    static const double bad_chi[] = {INFINITY, 1e7, 1e-60, 1e-320};
+    for (size_t k = 0; k < sizeof bad_chi / sizeof *bad_chi; k++) {
+        fit.options.bijection_chi = bad_chi[k];
         refused(&fit, "ROTID_ERROR_ARGUMENT");
     }
     fit.options = options;

@@ -1,5 +1,6 @@
 /* A host whose model fails while it is fitted: once, for ever from the n-th call on, or beyond an edge; with derivatives of its
  * own, and where they are differences. */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -121,6 +122,62 @@ static void the_best_point_comes_back_whenever_the_host_fails(void **state)
     }
 }
 
+/* A third parameter, whose derivative is of the size of rounding. */
+static int idle_derivatives(void *user, const double *x, int p, rotid_matrix *dk, rotid_matrix *dm)
+{
+    if (p < 2)
+        return beam_derivatives(user, x, p, dk, dm);
+    dk->band[0] = 1e-12;
+    return 0;
+}
+
+static void a_parameter_that_does_nothing_holds_nothing_up(void **state)
+{
+    struct beam_host host;
+    struct beam_data data;
+    rotid_fit_result *clean, *result;
+    const rotid_parameter three[3] = {beam_parameters[0], beam_parameters[1], {"idle", NULL, 0.1, 10, 1}};
+    rotid_fit_options options = {.size = sizeof options, .functional = ROTID_LIKELIHOOD};
+    beam_host_open(&host, 8, 0, 0, 1);
+    beam_host_measure(*state, &host, ROTID_REDUCTION_NONE, &data);
+    assert_status(rotid_fit(&host.model, three, &data.measured, &options, NULL, NULL, &clean), ROTID_OK);
+    host.model.nparam = 3;
+    host.model.derivatives = idle_derivatives;
+    assert_status(rotid_fit(&host.model, three, &data.measured, &options, NULL, NULL, &result), ROTID_OK);
+    assert_true(result->converged && result->any_undetermined);
+    for (int p = 0; p < 2; p++) {
+        assert_close(result->x[p], clean->x[p], 1e-8, 0);
+        assert_true(result->identifiable[p] && isfinite(result->std[p]));
+    }
+    assert_close(result->x[2], 1, 1e-12, 0);
+    assert_true(!result->identifiable[2] && isnan(result->std[2]));
+    rotid_fit_free(clean);
+    rotid_fit_free(result);
+}
+
+/* The history is as long as it gets, not as long as it might: INT_MAX says that there is no limit. */
+static void a_history_grows_with_the_iterations(void **state)
+{
+    struct beam_host host;
+    struct beam_data data;
+    rotid_fit_result *result;
+    const rotid_parameter far[2] = {{"left", NULL, 0, 1e306, 1e150}, {"right", NULL, 0, 1e306, 1e150}};
+    rotid_fit_options options = {.size = sizeof options, .functional = ROTID_LIKELIHOOD, .max_iterations = INT_MAX};
+    beam_host_open(&host, 8, 0, 0, 1);
+    beam_host_measure(*state, &host, ROTID_REDUCTION_NONE, &data);
+    assert_status(rotid_fit(&host.model, far, &data.measured, &options, NULL, NULL, &result), ROTID_OK);
+    print_message("%d iterations, %d rows, x %g %g, objective %g\n", result->iterations, result->nhistory, result->x[0],
+                  result->x[1], result->objective);
+    assert_true(result->iterations > 100);
+    assert_int_equal(result->nhistory, result->iterations + 1);
+    for (int i = 0; i < result->nhistory; i++) {
+        assert_int_equal(result->history[i].iteration, i);
+        assert_true(!i || result->history[i].objective <= result->history[i - 1].objective * (1 + 1e-6));
+    }
+    assert_belongs_together(result, &data);
+    rotid_fit_free(result);
+}
+
 /* The minimum lies beyond the edge of the model: the fit ends near the edge, and says that it is no minimum. */
 static void a_fit_ends_at_the_edge_of_the_model(void **state)
 {
@@ -143,6 +200,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         WITH_POOL(the_best_point_comes_back_whenever_the_host_fails),
+        WITH_POOL(a_parameter_that_does_nothing_holds_nothing_up),
+        WITH_POOL(a_history_grows_with_the_iterations),
         WITH_POOL(a_fit_ends_at_the_edge_of_the_model),
     };
     return cmocka_run_group_tests_name("fit_failures", tests, NULL, NULL);

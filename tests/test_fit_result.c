@@ -102,6 +102,27 @@ static void test_history_tells_the_time(void **state)
     paper_fit_close(&fit);
 }
 
+/* A channel that recorded nothing leaves zeros: of a mode with nothing else no scale is fitted. */
+static void test_a_shape_of_zeros_is_none(void **state)
+{
+    (void)state;
+    rotid_fit_result *result[2];
+    struct paper_fit fit[2];
+    for (int zero = 0; zero < 2; zero++) {
+        open_noisy(&fit[zero], 2, ROTID_LIKELIHOOD);
+        for (int s = 0; s < PAPER_SENSORS; s++)
+            fit[zero].shape[PAPER_SENSORS + s] = zero ? 0 : NAN;
+        result[zero] = paper_run(&fit[zero]);
+    }
+    assert_int_equal(result[1]->dof, result[0]->dof);
+    for (int p = 0; p < 2; p++)
+        assert_close(result[1]->std[p], result[0]->std[p], 1e-12, 0);
+    for (int zero = 0; zero < 2; zero++) {
+        rotid_fit_free(result[zero]);
+        paper_fit_close(&fit[zero]);
+    }
+}
+
 /* Of every functional, condensed or not, and where noise is not known. */
 static void test_every_functional_compares_without_parameters(void **state)
 {
@@ -194,6 +215,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_without_parameters_the_model_is_compared),
         cmocka_unit_test(test_history_tells_the_time),
+        cmocka_unit_test(test_a_shape_of_zeros_is_none),
         cmocka_unit_test(test_every_functional_compares_without_parameters),
         cmocka_unit_test(test_residuals_and_jacobian_are_those_at_the_solution),
         cmocka_unit_test(test_loose_tolerances_stop_earlier),

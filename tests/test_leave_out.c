@@ -80,7 +80,10 @@ static struct job make_job(double noise)
                         .nparameter = 2,
                         .parameter = parameters,
                         .bounds = bounds,
-                        .fit = {.functional = ROTID_LIKELIHOOD, .reduction = ROTID_REDUCTION_NONE, .derivative = ROTID_NELSON}};
+                        .fit = {.size = sizeof(rotid_fit_options),
+                                .functional = ROTID_LIKELIHOOD,
+                                .reduction = ROTID_REDUCTION_NONE,
+                                .derivative = ROTID_NELSON}};
 }
 
 static rotid_fit_result *fit_job(const struct job *job, const int *held)

@@ -146,6 +146,19 @@ static void a_pipe_with_another_end_is_one_file_more(void **state)
     (void)shell(&test_pool, "cd %s && rm -r *", folder);
 }
 
+/* Functions are read a second time, with room for as many values as they announce. */
+static void what_is_read_twice_is_no_pipe(void **state)
+{
+    (void)state;
+    const char *output;
+    assert_int_equal(shell_code(&test_pool, &output, "cat " UFF " | " LIMITED "ema /dev/stdin 2>&1"), 2);
+    assert_non_null(strstr(output, "/dev/stdin:1:1: this is no regular file, expected one"));
+    assert_int_equal(shell_code(&test_pool, &output, "cat " UFF " | " LIMITED "uff /dev/stdin -o %s/copy 2>&1", folder), 2);
+    assert_non_null(strstr(output, "/dev/stdin is a pipe, expected a regular file"));
+    (void)shell_code(&test_pool, NULL, LIMITED "uff /dev/stdin -o %s/copy --quiet < " UFF, folder);
+    (void)shell(&test_pool, "cd %s && rm copy", folder);
+}
+
 /* ---- signals */
 
 /* A program that never asks command_cancelled; 's': it has stopped itself first. */
@@ -216,6 +229,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_fits_is_computed, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_pipe_without_another_end_is_refused, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_pipe_with_another_end_is_one_file_more, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(what_is_read_twice_is_no_pipe, open_test_pool, close_test_pool),
         cmocka_unit_test(a_second_signal_ends_the_program),
         cmocka_unit_test(two_signals_at_once_are_one),
     };

@@ -48,6 +48,15 @@ static void mac_does_not_see_scale_sign_or_what_was_not_measured(void **state)
         assert_close(rotid_mac(n, holed_a, holed_b), rotid_mac(kept, shorter_a, shorter_b), 1e-14, 0);
         assert_close(rotid_mac(n, holed_a, scaled), 1, 1e-14, 0); /* what is left is parallel */
     }
+    for (int power = -320; power <= 307; power += 33) { /* squares of these have no double */
+        double large[3], one[3] = {1, -0.5, 0.25}, mass[9] = {2, 0, 0, 0, 1, 0, 0, 0, 4}, work[3];
+        for (int i = 0; i < 3; i++)
+            large[i] = one[i] * pow(10, power);
+        assert_close(rotid_mac(3, large, large), 1, 1e-14, 0);
+        assert_close(rotid_mac(3, large, one), 1, power < -310 ? 1e-3 : 1e-12, 0);
+        assert_close(rotid_nco(3, mass, large, large, work), 1, 1e-14, 0);
+        assert_close(rotid_nco(3, mass, one, large, work), 1, power < -310 ? 1e-3 : 1e-12, 0);
+    }
     double nothing[2] = {NAN, 1}, other[2] = {1, NAN};
     assert_close(rotid_mac(2, nothing, other), 0, 0, 0);
 }

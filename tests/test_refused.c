@@ -131,7 +131,7 @@ static void a_fit_names_what_it_refuses(void **state)
     refused(f.chain.far[1] = 3, "far[1] is 3, expected 0 ... 2");
     refused(f.parameter[0].start = 10,
             "parameter[0] spring has lower 1, start 10, upper 10, expected numbers with lower < start < "
-            "upper and a start other than 0");
+            "upper, a start other than 0, and a finite upper - lower");
     refused(f.options.functional = 3, "options->functional is 3, expected ROTID_HYBRID, ROTID_HYBRID_F or ROTID_LIKELIHOOD");
     refused(f.options.reduction = -1, "options->reduction is -1, expected ROTID_REDUCTION_NONE, ROTID_GUYAN or ROTID_IRS");
     refused(f.options.derivative = 2, "options->derivative is 2, expected ROTID_NELSON or ROTID_MODAL");
@@ -141,8 +141,10 @@ static void a_fit_names_what_it_refuses(void **state)
     refused(f.measured.number = NULL, "measured->number is NULL, expected nmode = 2 values");
     refused(f.number[1] = 0, "measured->number[1] is 0, expected a mode of the model, from 1");
     refused(f.hz[1] = -0.5, "measured->frequency_hz[1] is -0.5, expected a positive number");
-    refused(f.hz_std[0] = 0, "measured->frequency_std[0] is 0, expected a positive relative standard deviation");
-    refused(f.shape_std[3] = 0, "measured->shape_std of master 1 in mode 1 is 0, expected a positive number");
+    refused(f.hz_std[0] = 0, "measured->frequency_std[0] is 0, expected a positive relative standard deviation "
+                             "(measured->holdout takes a mode out)");
+    refused(f.shape_std[3] = 0, "measured->shape_std of master 1 in mode 1 is 0, expected a positive number (NaN in "
+                                "measured->shape takes a component out)");
     refused(f.holdout[0] = f.holdout[1] = 1, "measured->holdout leaves no mode to be fitted, expected a 0 in it");
     refused(f.measured.frequency_std = NULL,
             "measured->frequency_std is NULL, which ROTID_LIKELIHOOD weighs by, expected nmode = "
@@ -317,7 +319,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     struct chain c;
     struct fit f;
     int master[] = {0, 2};
-    double kc[4], mc[4], lambda[3], phi[9], dlambda;
+    double kc[4], mc[4], lambda[3], phi[9], dlambda, error[2], doubt[2];
     rotid_deck *deck = (void *)&c;
     rotid_spectrum *spectrum = (void *)&c;
     rotid_identification *identification = (void *)&c;
@@ -333,12 +335,13 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_diagnose(good, NULL, environment, failure, &diagnosis), text);
     assert_true(!deck && !spectrum && !identification && !diagnosis);
     assert_refused(fit(&f, environment), text);
+    assert_refused(rotid_check_model(&f.model, f.parameter, NULL, environment, failure, error, doubt), text);
     assert_refused(rotid_condense(&c.k, &c.m, 2, master, ROTID_GUYAN, environment, failure, kc, mc, NULL), text);
     assert_refused(rotid_condense_derivative(&c.k, &c.m, &c.k, &c.m, 2, master, ROTID_IRS, environment, failure, kc, mc), text);
     assert_refused(rotid_eigenpairs(&c.k, &c.m, 3, environment, failure, lambda, phi), text);
     assert_refused(rotid_eigenpair_derivative(&c.k, &c.m, &c.k, &c.m, 3, lambda, phi, 0, environment, failure, &dlambda, lambda),
                    text);
-    return 10;
+    return 11;
 }
 
 static void an_environment_that_is_none_is_refused_by_all(void **state)

@@ -375,6 +375,7 @@ static void hostile_texts_stay_texts(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(hostile_texts_stay_texts, open_test_pool, close_test_pool)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(hostile_texts_stay_texts, open_test_pool, close_test_pool)};
     return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
 }

@@ -42,6 +42,27 @@ static void any_number_of_processes_gives_one_result(void **state)
     assert_true(bench_same("one.jsonl", "three.jsonl"));
 }
 
+/* Results in order take the place of those that came out of order, and a summary that of an earlier one. */
+static void who_may_read_a_file_is_kept(void **state)
+{
+    (void)state;
+    struct stat is;
+    char *whole = bench_read("one.jsonl"), *last = strstr(whole, "{\"run\":119,"), *second = strstr(whole, "{\"run\":0,");
+    assert_true(last && second);
+    FILE *stream = fopen(bench_path("private.jsonl"), "wb");
+    assert_non_null(stream);
+    assert_true(fprintf(stream, "%.*s%s%.*s", (int)(second - whole), whole, last, (int)(last - second), second) > 0);
+    assert_int_equal(fclose(stream), 0);
+    free(whole);
+    (void)bench_write("private.json", "");
+    assert_int_equal(chmod(bench_path("private.jsonl"), 0600), 0);
+    assert_int_equal(chmod(bench_path("private.json"), 0640), 0);
+    bench_says("study a.plan -o private.jsonl --json private.json --quiet", 0, "");
+    assert_true(bench_same("one.jsonl", "private.jsonl"));
+    assert_true(stat(bench_path("private.jsonl"), &is) == 0 && (is.st_mode & 0777) == 0600);
+    assert_true(stat(bench_path("private.json"), &is) == 0 && (is.st_mode & 0777) == 0640);
+}
+
 static void shards_merge_to_one_result(void **state)
 {
     (void)state;
@@ -124,6 +145,48 @@ static void a_worker_that_dies_costs_its_run(void **state)
     bench_says("study slow.plan -o slow.jsonl --quiet --retry-failed", 0, "");
     bench_says("study slow.plan -o again.jsonl --quiet", 0, "");
     assert_true(bench_same("slow.jsonl", "again.jsonl"));
+}
+
+/* A parent that ignores SIGCHLD hands that on, and then the system keeps no word of how a child ended. */
+static void a_worker_says_how_it_died_whoever_started_the_program(void **state)
+{
+    (void)state;
+    (void)bench_write("slow.plan", SLOW);
+    bench_delete("ignored.jsonl");
+    void (*before)(int) = signal(SIGCHLD, SIG_IGN);
+    pid_t process = bench_start("study slow.plan -o ignored.jsonl --threads 2"), child[2];
+    (void)signal(SIGCHLD, before);
+    assert_int_equal(wait_for_children(process, 2, child), 2);
+    rest(0.05);
+    assert_int_equal(kill(child[0], SIGKILL), 0);
+    struct bench_outcome outcome = bench_wait(process);
+    assert_int_equal(outcome.code, 1);
+    assert_non_null(strstr(outcome.out, "worker ended by signal 9"));
+}
+
+/* With standard error closed the file of results must not become it: the message would stand among the results. */
+static void closed_streams_are_no_files_of_results(void **state)
+{
+    (void)state;
+    for (int closed = STDERR_FILENO; closed >= STDIN_FILENO; closed--) { /* that stream and those behind it */
+        bench_delete("closed.jsonl");
+        pid_t process = fork();
+        if (!process) {
+            for (int stream = closed; stream <= STDERR_FILENO; stream++)
+                (void)close(stream);
+            if (chdir(bench_folder) == 0)
+                (void)execl(ROTID_PROGRAM, "rotid", "study", "a.plan", "-o", "closed.jsonl", "--threads", "2", "--quiet", NULL);
+            _exit(127);
+        }
+        for (int tries = 0; tries < 2000 && bench_lines("closed.jsonl") < 10; tries++)
+            rest(0.002);
+        assert_int_equal(kill(process, SIGTERM), 0);
+        int status;
+        assert_true(waitpid(process, &status, 0) == process && WIFEXITED(status));
+        assert_int_equal(WEXITSTATUS(status), 1);
+        bench_says("study a.plan -o closed.jsonl --quiet", 0, "");
+        assert_true(bench_same("one.jsonl", "closed.jsonl"));
+    }
 }
 
 static void a_run_that_takes_too_long_has_failed(void **state)
@@ -216,7 +279,9 @@ static void a_changed_study_is_refused(void **state)
     bench_says("study a.plan -o one.jsonl", 2, "a deck has changed since it was begun");
     (void)bench_write("deck.inp", "** the same\n" BENCH_DECK);
     bench_says("study a.plan -o one.jsonl --quiet", 0, "");
-    bench_says("study a.plan -o deck.inp", 2, "deck.inp:1:1: this is no file of results");
+    bench_says("study a.plan -o deck.inp", 2, "--output deck.inp is a file that is read");
+    (void)bench_write("other.inp", BENCH_DECK);
+    bench_says("study a.plan -o other.inp", 2, "other.inp:1:1: this is no file of results");
     assert_int_equal(bench_lines("deck.inp"), 1 + bench_lines("plain.inp"));
 }
 
@@ -323,9 +388,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_processes_gives_one_result),
+        cmocka_unit_test(who_may_read_a_file_is_kept),
         cmocka_unit_test(shards_merge_to_one_result),
         cmocka_unit_test(nothing_is_lost_by_kill_9),
         cmocka_unit_test(a_worker_that_dies_costs_its_run),
+        cmocka_unit_test(a_worker_says_how_it_died_whoever_started_the_program),
+        cmocka_unit_test(closed_streams_are_no_files_of_results),
         cmocka_unit_test(a_run_that_takes_too_long_has_failed),
         cmocka_unit_test(an_interruption_keeps_what_is_finished),
         cmocka_unit_test(workers_end_with_their_study),

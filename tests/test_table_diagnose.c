@@ -201,7 +201,7 @@ static void fill_named(void)
         .holdout = s.holdout,
         .nparameter = 2,
         .bounds = s.bounds,
-        .fit = {.functional = ROTID_HYBRID, .reduction = ROTID_GUYAN}};
+        .fit = {.size = sizeof(rotid_fit_options), .functional = ROTID_HYBRID, .reduction = ROTID_GUYAN}};
     s.data =
         (struct data_finding){.cause = &gain,
                               .nsensor = 1,

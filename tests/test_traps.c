@@ -29,7 +29,7 @@ static struct {
     rotid_measured measured;
     rotid_fit_options options;
     rotid_deck *deck;
-    double x[1], r[2], jacobian[2], error[1], doubt[1];
+    double x[1], r[2], jacobian[2], error[2], doubt[2]; /* of a fit: of K, then of M */
     char *text;
     size_t length;
 } with;
@@ -210,6 +210,7 @@ static void fits(void)
             memcpy(&with.hz[1], &extreme[i], sizeof extreme[i]);
         survived += rotid_fit(&with.model, &with.parameter, &with.measured, &with.options, NULL, NULL, &result) <= 0;
         rotid_fit_free(result);
+        survived += rotid_check_model(&with.model, &with.parameter, NULL, NULL, NULL, with.error, with.doubt) <= 0;
     }
 }
 
@@ -247,7 +248,7 @@ static const struct {
     {pairs, "rotid_eigenpairs rotid_eigenpair_derivative "},
     {condensations, "rotid_condense rotid_condense_derivative "},
     {least_squares, "rotid_lm_workspace rotid_check_jacobian_workspace rotid_lm rotid_check_jacobian "},
-    {fits, "rotid_fit_defaults rotid_fit rotid_fit_free "},
+    {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_free "},
     {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_spectrum_compute rotid_spectrum_free rotid_identify "
             "rotid_identification_free rotid_diagnose rotid_diagnosis_free "},
 };

@@ -100,7 +100,9 @@ static void text_that_is_wrong(void **state)
         {EVEN_3, "  1.00000E+00  2.00000E+00", 14, 0, "the file ends after this line; expected values"},
         {EVEN_3, "  1.00000E+00  2.00000E+00  3.00000E+00\n", 14, 0,
          "the file ends after this line; expected the '-1' that ends the set"},
-        {"         2 999999999         1  0.00000E+00  1.00000E+00  0.00000E+00", "1.\n" UFF_EDGE, 15, 0, "after 1 of 999999999"},
+        {"         2 999999999         1  0.00000E+00  1.00000E+00  0.00000E+00", "1.\n" UFF_EDGE, 9, 12,
+         "record 7 announces 999999999 values, expected no more than the 97 bytes that follow"},
+        {"         2        60         1  0.00000E+00  1.00000E+00  0.00000E+00", "1.\n" UFF_EDGE, 15, 0, "after 1 of 60"},
     };
     for (size_t k = 0; k < sizeof item / sizeof *item; ++k) {
         struct uff_fixture fixture;

@@ -122,7 +122,7 @@ program stepped_beam
   type(rotid_parameter) :: parameter(2)
   type(rotid_fit_options) :: options
   type(rotid_fit_result), pointer :: fit
-  character(len=:), allocatable :: failure
+  character(len=:), allocatable, save :: failure
   real(dp), pointer :: x(:), lower(:), upper(:), predicted(:)
   integer(c_int) :: status
   integer :: i

@@ -17,8 +17,10 @@ void message_add(struct message_list *list, enum severity severity, const char *
     (void)vsnprintf(text, sizeof text, format, values);
     va_end(values);
 
-    list->errors += severity == SEVERITY_ERROR;
-    if (list->count >= MESSAGE_LIMIT)
+    size_t errors = list->errors < MESSAGE_LIMIT ? (size_t)list->errors : MESSAGE_LIMIT; /* kept */
+    int is_error = severity == SEVERITY_ERROR;
+    list->errors += is_error;
+    if ((is_error ? errors : list->count - errors) >= MESSAGE_LIMIT)
         return;
     struct message *grown = pool_grow(list->pool, list->item, list->count, &list->capacity, sizeof *grown);
     if (grown)

@@ -13,7 +13,8 @@ struct message {
     const char *text; /* what is wrong, what was expected */
 };
 
-/* Errors past this many are counted and not kept: a binary file makes one a byte. */
+/* Errors past this many are counted and not kept: a binary file makes one a byte. Nor are as many of the others, apart from them:
+ * why a deck is refused has to be said behind any number of warnings. */
 #define MESSAGE_LIMIT 200
 
 struct message_list {

@@ -154,7 +154,7 @@ static int take_option(struct command *command, int option, const char *value)
         return -1;
     case OPTION_VERSION:
         (void)fprintf(terminal_out(), "rotid %s (%s), %s%s\n", ROTID_VERSION, build_commit, build_blas(),
-                     baseline_exists() ? "" : ", without NLopt: identify has no baseline");
+                      baseline_exists() ? "" : ", without NLopt: identify has no baseline");
         return EXIT_DONE;
     case OPTION_HELP:
         print_help(terminal_out());
@@ -210,7 +210,8 @@ int arguments_parse(struct command *command, int argc, char **argv)
     command->override = POOL_ARRAY(&command->pool, struct override, argc);
     if (!command->override)
         return command_fail(command, ROTID_ERROR_MEMORY);
-    opterr = 0; /* getopt prints what it was given as it is */
+    (void)unsetenv("POSIXLY_CORRECT"); /* with it getopt takes the options behind COMMAND FILE for files */
+    opterr = 0;                        /* getopt prints what it was given as it is */
     while ((option = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
         int code = option == '?' || option == ':' ? refuse_option(option, options, argv[optind - 1])
                                                   : take_option(command, option, optarg);
@@ -245,6 +246,19 @@ int arguments_same_file(const char *a, const char *b)
     (void)snprintf(folder[1], sizeof folder[1], "%.*s", name_b ? (int)(name_b - b) + 1 : 1, name_b ? b : ".");
     return !strcmp(name_a ? name_a + 1 : a, name_b ? name_b + 1 : b) && stat(folder[0], &first) == 0 &&
            stat(folder[1], &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+int arguments_refuse_read(const struct command *command, int count, const char *const *file)
+{
+    const char *const option[] = {"json", "extended", "output"}, *const path[] = {command->json, command->extended,
+                                                                                  command->output};
+    for (int i = 0; i < count; i++)
+        for (int o = 0; o < 3; o++)
+            if (path[o] && strcmp(path[o], "-") && arguments_same_file(path[o], file[i])) {
+                terminal_say("rotid: --%s %s is a file that is read, expected another one\n", option[o], path[o]);
+                return EXIT_USAGE;
+            }
+    return -1;
 }
 
 /* -1, or the exit code after saying what is wrong with the options of export. */

@@ -32,6 +32,9 @@ int arguments_refuse(const struct command *command, const struct command_entry *
 /* Whether two names are of one file, which may not exist yet. */
 int arguments_same_file(const char *a, const char *b);
 
+/* Whether an option would write one of these files, which are read: -1, or the exit code after saying so. */
+int arguments_refuse_read(const struct command *command, int count, const char *const *file);
+
 /* A number of an option within its range; nonzero after saying what was expected. */
 int arguments_number(const char *option, const char *text, double least, double most, int whole, double *value);
 

@@ -81,15 +81,13 @@ int build_make_room(int wanted, int asked)
     /* its own threads may have their buffers, or not yet */
     int others = openblas_get_num_threads() - 1, room = room_for(wanted + others) - others;
     if (room < 1) {
-        (void)fprintf(stderr,
-                      "rotid: too little address space: OpenBLAS needs %zu MiB in one piece, and the program some beside it; "
-                      "expected more (ulimit -v, ulimit -d)\n",
-                      BUFFER >> 20);
+        terminal_say("rotid: too little address space: OpenBLAS needs %zu MiB in one piece, and the program some beside it; "
+                     "expected more (ulimit -v, ulimit -d)\n",
+                     BUFFER >> 20);
         return 0;
     }
     if (room < wanted && asked) {
-        (void)fprintf(
-            stderr,
+        terminal_say(
             "rotid: --threads %d: there is address space for %d, expected no more than these, or more of it (ulimit -v)\n",
             wanted, room);
         return 0;

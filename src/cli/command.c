@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "cli/arguments.h"
 #include "deck/deck.h"
 #include "report/output.h"
 
@@ -50,6 +51,9 @@ int command_read_deck(struct command *command)
         deck_read(&command->pool, command->deck, command->noverride, command->override, &command->messages, &command->job);
     if (status)
         return command_fail(command, status);
+    int refused = arguments_refuse_read(command, command->job.nfile, command->job.file);
+    if (refused >= 0)
+        return refused;
     command_print_messages(command);
     for (size_t i = 0; i < command->messages.count; i++)
         if (command->messages.item[i].severity == SEVERITY_WARNING)
@@ -89,7 +93,7 @@ int command_wants_progress(const struct command *command)
     return isatty(STDERR_FILENO) && !command->quiet;
 }
 
-void command_show_progress(void *context, const char *stage, int step)
+static void show_progress(void *context, const char *stage, int step)
 {
     double *last = context, seconds = clock_seconds();
     if (*last == 0)
@@ -98,4 +102,12 @@ void command_show_progress(void *context, const char *stage, int step)
         return;
     *last = seconds;
     terminal_progress("rotid: %s %d", stage, step);
+}
+
+rotid_environment command_environment(const struct command *command, double *last)
+{
+    return (rotid_environment){.size = sizeof(rotid_environment),
+                               .cancelled = command_cancelled,
+                               .progress = command_wants_progress(command) ? show_progress : NULL,
+                               .context = last};
 }

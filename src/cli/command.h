@@ -64,13 +64,14 @@ int command_write_json(struct command *command, char *text, int code);
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);
 
-/* A line on standard error that is written over, five times a second; for `progress` of an environment. context: a double, 0. */
-void command_show_progress(void *context, const char *stage, int step);
-/* Whether somebody would see it. */
+/* Whether somebody would see a line of progress. */
 int command_wants_progress(const struct command *command);
+/* What a long call of the library gets: command_cancelled and, where somebody would see it, a line on standard error that is
+ * written over five times a second, to be ended with terminal_progress_end. *last: 0, and alive as long as the environment. */
+rotid_environment command_environment(const struct command *command, double *last);
 
-/* From now on the first SIGINT or SIGTERM ends nothing but makes command_cancelled say so; a second one, not at the same time, ends
- * the program. */
+/* From now on the first SIGINT or SIGTERM ends nothing but makes command_cancelled say so; a second one, not at the same time,
+ * ends the program. How a child ended can be waited for, whatever was inherited. */
 void command_watch_signals(void);
 /* Polled by long computations: nonzero after SIGINT or SIGTERM. */
 int command_cancelled(void *unused);

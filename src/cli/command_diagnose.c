@@ -29,16 +29,13 @@ static int write_extended(struct command *command, const struct diagnosis *d, in
 int command_diagnose(struct command *command)
 {
     double last = 0;
-    int terminal = command_wants_progress(command), code = EXIT_DONE, written;
+    int code = EXIT_DONE, written;
     const struct diagnose_options options = {
         .threads = command->threads, .seed = command->seed, .replicates = command->replicates};
-    const rotid_environment environment = {.size = sizeof environment,
-                                           .cancelled = command_cancelled,
-                                           .progress = terminal ? command_show_progress : NULL,
-                                           .context = &last};
+    const rotid_environment environment = command_environment(command, &last);
     struct diagnosis diagnosis;
     int status = diagnose_run(&command->pool, &command->job, &options, &environment, &command->messages, &diagnosis);
-    if (terminal)
+    if (environment.progress)
         terminal_progress_end();
     if (status)
         return command_fail(command, status);

@@ -39,11 +39,7 @@ int command_ema(struct command *command)
     struct measurement measurement;
     struct ema ema;
     double last = 0, started = clock_seconds();
-    int terminal = command_wants_progress(command);
-    const rotid_environment environment = {.size = sizeof environment,
-                                           .cancelled = command_cancelled,
-                                           .progress = terminal ? command_show_progress : NULL,
-                                           .context = &last};
+    const rotid_environment environment = command_environment(command, &last);
     struct measurement_options from = command->ema.measurement;
     struct ema_options options = command->ema.options;
     from.threads = options.threads = command->threads;
@@ -62,7 +58,7 @@ int command_ema(struct command *command)
         }
     if (!status)
         status = ema_compute(&command->pool, &measurement.set, &options, &environment, &ema);
-    if (terminal)
+    if (environment.progress)
         terminal_progress_end();
     if (status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted; nothing was written\n");

@@ -21,11 +21,7 @@ static int identify(struct command *command, struct identification *identified)
 {
     struct job *job = &command->job;
     double last = 0;
-    int terminal = command_wants_progress(command);
-    const rotid_environment environment = {.size = sizeof environment,
-                                           .cancelled = command_cancelled,
-                                           .progress = terminal ? command_show_progress : NULL,
-                                           .context = &last};
+    const rotid_environment environment = command_environment(command, &last);
     if (!job->nparameter || command->start)
         return ROTID_OK;
     if (!job->nmode) {
@@ -33,7 +29,7 @@ static int identify(struct command *command, struct identification *identified)
         return ROTID_OK;
     }
     int status = identify_run(&command->pool, job, 0, &environment, &command->messages, identified);
-    if (terminal)
+    if (environment.progress)
         terminal_progress_end();
     return status;
 }
@@ -71,11 +67,14 @@ static int judge_condensed(struct command *command, const struct export_model *m
 /* 0, or an exit code after saying which file would be lost. */
 static int refuse_files(const struct command *command, const struct export_files *files)
 {
-    for (int i = 0; i < files->count; i++)
-        if (arguments_same_file(command->deck, files->path[i]))
-            return arguments_wrong("--output would write %s, which is read, expected another name", files->path[i]);
-        else if (command->json && arguments_same_file(command->json, files->path[i]))
+    const struct job *job = &command->job;
+    for (int i = 0; i < files->count; i++) {
+        if (command->json && arguments_same_file(command->json, files->path[i]))
             return arguments_wrong("--output would write %s, the file of --json, expected another name", files->path[i]);
+        for (int f = 0; f < job->nfile; f++)
+            if (arguments_same_file(job->file[f], files->path[i]))
+                return arguments_wrong("--output would write %s, which is read, expected another name", files->path[i]);
+    }
     return 0;
 }
 

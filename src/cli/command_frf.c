@@ -70,11 +70,8 @@ int command_frf(struct command *command)
 {
     struct job *job = &command->job;
     double last = 0;
-    int terminal = command_wants_progress(command), status = ROTID_OK, code = EXIT_DONE;
-    const rotid_environment environment = {.size = sizeof environment,
-                                           .cancelled = command_cancelled,
-                                           .progress = terminal ? command_show_progress : NULL,
-                                           .context = &last};
+    int status = ROTID_OK, code = EXIT_DONE;
+    const rotid_environment environment = command_environment(command, &last);
     struct identification identified = {0};
     struct measurement measurement;
     struct frf_measured measured;
@@ -90,7 +87,7 @@ int command_frf(struct command *command)
     if (!status)
         status = frf_run(&command->pool, job, fit ? &identified : NULL, job->frf.file ? &measured : NULL, &environment,
                          &command->messages, &result);
-    if (terminal)
+    if (environment.progress)
         terminal_progress_end();
     if (status) {
         rotid_fit_free(identified.fit);

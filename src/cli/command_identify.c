@@ -5,11 +5,7 @@ int command_identify(struct command *command)
 {
     struct job *job = &command->job;
     double last = 0;
-    int terminal = command_wants_progress(command);
-    const rotid_environment environment = {.size = sizeof environment,
-                                           .cancelled = command_cancelled,
-                                           .progress = terminal ? command_show_progress : NULL,
-                                           .context = &last};
+    const rotid_environment environment = command_environment(command, &last);
     struct identification result;
     if (!job->nparameter) {
         message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
@@ -17,7 +13,7 @@ int command_identify(struct command *command)
         return command_fail(command, ROTID_ERROR_ARGUMENT);
     }
     int status = identify_run(&command->pool, job, command->baseline, &environment, &command->messages, &result);
-    if (terminal)
+    if (environment.progress)
         terminal_progress_end();
     if (status)
         return command_fail(command, status);

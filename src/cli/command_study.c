@@ -90,6 +90,11 @@ int study_prepare(struct command *command, struct study *study)
                             command->seed_given ? command->seed : plan->seed, &command->messages, study);
     if (status)
         return command_fail(command, status);
+    int refused = arguments_refuse_read(command, plan->text.nfile, plan->text.file);
+    if (refused < 0)
+        refused = arguments_refuse_read(command, study->nfile, study->file);
+    if (refused >= 0)
+        return refused;
     command_print_messages(command);
     command->provenance.seed = study->seed;
     return EXIT_DONE;

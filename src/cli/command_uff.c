@@ -1,7 +1,9 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "cli/arguments.h"
 #include "cli/command.h"
 #include "import/convert.h"
 #include "import/listing.h"
@@ -53,8 +55,11 @@ int command_uff(struct command *command)
 {
     const struct listing_options options = {.keep_shapes = command->verbose && command->json, .cancelled = command_cancelled};
     struct listing listing;
+    struct stat about;
     int summary_count = 0;
     const char **summary = NULL;
+    if (command->output && stat(command->deck, &about) == 0 && S_ISFIFO(about.st_mode))
+        return arguments_wrong("%s is a pipe, expected a regular file beside --output, for it is read twice", command->deck);
     int status = listing_read(&command->pool, command->deck, &options, &command->messages, &listing);
     if (status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted\n");

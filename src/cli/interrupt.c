@@ -29,9 +29,10 @@ static void interrupt(int signal_number)
 
 void command_watch_signals(void)
 {
-    struct sigaction action = {.sa_handler = interrupt};
+    struct sigaction action = {.sa_handler = interrupt}, standard = {.sa_handler = SIG_DFL};
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
+    (void)sigaction(SIGCHLD, &standard, NULL); /* who starts the program may ignore it, and then no child says how it ended */
 }
 
 int command_cancelled(void *unused)

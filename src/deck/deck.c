@@ -204,6 +204,14 @@ static void check_elements(struct deck_reader *reader)
     if (elements > DECK_MOST_ELEMENTS)
         deck_error(reader, reader->group_place[rotor->ngroup - 1], "the rotor has %ld elements, expected at most %d", elements,
                    DECK_MOST_ELEMENTS);
+    for (int b = 0, count = rotor->ntierod + rotor->nbars; b < count && elements <= DECK_MOST_ELEMENTS; b++) {
+        int bars = b - rotor->ntierod;
+        elements += bars < 0 ? rotor->tierod[b].elements : rotor->bars[bars].elements;
+        if (elements > DECK_MOST_ELEMENTS)
+            deck_error(reader, bars < 0 ? reader->tierod_place[b] : reader->bars_place[bars],
+                       "shaft, rods and bars up to these have %ld elements, expected at most %d in all", elements,
+                       DECK_MOST_ELEMENTS);
+    }
 }
 
 static void read_cards(struct deck_reader *reader)
@@ -246,11 +254,10 @@ static void read_cards(struct deck_reader *reader)
 static int add_cards(struct pool *pool, struct deck_text *text, int ncard, const struct card *card)
 {
     for (int i = 0; i < ncard; i++) {
-        struct card *grown = pool_grow(pool, text->card, (size_t)text->ncard, &text->card_room, sizeof *grown);
-        if (!grown)
+        struct card *added = deck_text_add_card(pool, text, card[i].name, card[i].place);
+        if (!added)
             return ROTID_ERROR_MEMORY;
-        text->card = grown;
-        text->card[text->ncard++] = card[i];
+        *added = card[i];
     }
     return ROTID_OK;
 }
@@ -284,6 +291,8 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
     read_cards(&reader);
     if (reader.out_of_memory || messages->out_of_memory || !job->deck)
         return ROTID_ERROR_MEMORY;
+    job->nfile = reader.text.nfile;
+    job->file = reader.text.file;
     if (messages->errors)
         return reader.no_section ? ROTID_ERROR_SECTION : ROTID_ERROR_SYNTAX;
     return ROTID_OK;

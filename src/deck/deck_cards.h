@@ -70,8 +70,8 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 /* Index of a material, -1 where there is none of that name. */
 int deck_find_material(const struct deck_reader *reader, const char *name);
 
-#define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods, of the rotor */
-#define DECK_MOST_LINES    10000 /* of a card; sensors are compared with each other */
+#define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods, of the rotor with its bundles */
+#define DECK_MOST_LINES    10000 /* of a card, and sensors of the rotor: they are compared with each other */
 
 /* The readers of the cards, by file. */
 void deck_material(struct deck_reader *reader, const struct card *card);

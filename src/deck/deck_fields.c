@@ -168,7 +168,7 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 {
     int errors = reader->messages->errors;
     const char *path = deck_text_path(reader->pool, &reader->text, card, option, reader->messages);
-    reader->out_of_memory |= !path && reader->messages->errors == errors;
+    reader->out_of_memory |= path ? deck_text_add_file(reader->pool, &reader->text, path) : reader->messages->errors == errors;
     return path;
 }
 

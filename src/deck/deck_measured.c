@@ -71,6 +71,10 @@ void deck_sensors(struct deck_reader *reader, const struct card *card)
         }
         if (deck_position(reader, line->field[1].text, line->field[1].place, "position", &sensor.position))
             continue;
+        if (rotor->nsensor == DECK_MOST_LINES) {
+            deck_error(reader, line->place, "the rotor has more than %d sensors, expected fewer", DECK_MOST_LINES);
+            return;
+        }
         for (int s = 0; s < rotor->nsensor; s++)
             if (rotor->sensor[s].id == sensor.id)
                 deck_error(reader, line->field[0].place, "sensor %d is given twice, expected a new id", sensor.id);

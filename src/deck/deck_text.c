@@ -47,7 +47,7 @@ static void trim(const char **begin, const char **end)
         (*end)--;
 }
 
-static struct card *add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place)
+struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place)
 {
     struct card *grown = pool_grow(pool, text->card, (size_t)text->ncard, &text->card_room, sizeof *grown);
     if (!grown)
@@ -57,7 +57,7 @@ static struct card *add_card(struct pool *pool, struct deck_text *text, const ch
     return &grown[text->ncard++];
 }
 
-static int add_option(struct pool *pool, struct card *card, struct card_option option)
+int deck_text_add_option(struct pool *pool, struct card *card, struct card_option option)
 {
     struct card_option *grown = pool_grow(pool, card->option, (size_t)card->noption, &card->option_room, sizeof *grown);
     if (!grown)
@@ -101,7 +101,7 @@ static void read_option(struct reader *reader, struct card *card, const char *li
     if (card_option(card, option.name))
         message_add(reader->messages, SEVERITY_ERROR, option.place.file, line, option.place.column,
                     "option %s is given twice on *%s, expected once", option.name, card->name);
-    reader->out_of_memory |= add_option(reader->pool, card, option);
+    reader->out_of_memory |= deck_text_add_option(reader->pool, card, option);
 }
 
 static void read_options(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end,
@@ -133,6 +133,16 @@ const char *deck_text_path(struct pool *pool, const struct deck_text *text, cons
     if (text->memory && (option->overridden || here == text->memory))
         return pool_format(pool, "%s/%s", text->directory, path);
     return slash ? pool_format(pool, "%.*s/%s", (int)(slash - here), here, path) : path;
+}
+
+int deck_text_add_file(struct pool *pool, struct deck_text *text, const char *path)
+{
+    const char **grown = pool_grow(pool, text->file, (size_t)text->nfile, &text->file_room, sizeof *grown);
+    if (!grown)
+        return ROTID_ERROR_MEMORY;
+    text->file = grown;
+    text->file[text->nfile++] = path;
+    return ROTID_OK;
 }
 
 static int read_file(struct reader *reader, const char *path, struct place from);
@@ -177,7 +187,7 @@ static void read_keyword(struct reader *reader, const char *line_begin, const ch
     char *upper = copy_span(reader, name, name_end);
     for (char *c = upper; c && *c; c++)
         *c = (char)toupper((unsigned char)*c);
-    struct card *card = upper ? add_card(reader->pool, reader->text, upper, at(reader, line_begin, begin, line)) : NULL;
+    struct card *card = upper ? deck_text_add_card(reader->pool, reader->text, upper, at(reader, line_begin, begin, line)) : NULL;
     if (!card) {
         reader->out_of_memory = 1;
         return;
@@ -340,6 +350,7 @@ static int read_file(struct reader *reader, const char *path, struct place from)
                     "cannot read %s: %s, expected a deck", path, file_error_text(failed, why));
         return ROTID_ERROR_IO;
     }
+    reader->out_of_memory |= deck_text_add_file(reader->pool, reader->text, path) != ROTID_OK;
     reader->depth += from.file != NULL;
     int status = read_source(reader, &source, path);
     reader->depth -= from.file != NULL;
@@ -368,47 +379,4 @@ int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, s
     *text = (struct deck_text){.end = {memory->name, 1, 1}, .memory = memory->name, .directory = memory->directory};
     deck_source_open_memory(&source, memory);
     return conclude(&reader, read_source(&reader, &source, memory->name));
-}
-
-int override_parse(struct pool *pool, const char *text, struct override *override)
-{
-    const char *dot = strchr(text, '.'), *equals = strchr(text, '=');
-    if (!dot || !equals || dot > equals || dot == text || equals == dot + 1 || !equals[1])
-        return ROTID_ERROR_SYNTAX;
-    *override = (struct override){pool_format(pool, "%.*s", (int)(dot - text), text),
-                                  pool_format(pool, "%.*s", (int)(equals - dot - 1), dot + 1), equals + 1,
-                                  pool_format(pool, "--set %s", text)};
-    return override->card && override->option && override->text ? ROTID_OK : ROTID_ERROR_MEMORY;
-}
-
-int deck_text_override(struct pool *pool, const struct override *override, struct message_list *messages, struct deck_text *text)
-{
-    static const char *const single[] = {"FIT", "NOISE", "SLING", "MEASURED", "FRF"};
-    struct place place = {override->text, 1, 1};
-    struct card_option option = {override->option, override->value, place, place, 1};
-    int found = 0;
-    for (int i = 0; i < text->ncard; i++)
-        found |= same_text(text->card[i].name, override->card);
-    for (size_t s = 0; s < sizeof single / sizeof *single && !found; s++)
-        if (same_text(single[s], override->card)) {
-            if (!add_card(pool, text, single[s], place))
-                return ROTID_ERROR_MEMORY;
-            found = 1;
-        }
-    if (!found) {
-        message_add(messages, SEVERITY_ERROR, place.file, 1, 1, "the deck has no card *%s, expected one that it has",
-                    override->card);
-        return ROTID_ERROR_SYNTAX;
-    }
-    for (int i = 0; i < text->ncard; i++) {
-        struct card *card = &text->card[i];
-        if (!same_text(card->name, override->card))
-            continue;
-        struct card_option *present = (struct card_option *)card_option(card, override->option);
-        if (present)
-            *present = option;
-        else if (add_option(pool, card, option))
-            return ROTID_ERROR_MEMORY;
-    }
-    return ROTID_OK;
 }

@@ -49,6 +49,9 @@ struct deck_text {
     size_t card_room;
     struct card *card;
     struct place end;
+    int nfile; /* the deck, what it includes, and measured data that its cards name */
+    size_t file_room;
+    const char **file;
     const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
 };
 
@@ -70,6 +73,13 @@ int deck_text_read_memory(struct pool *pool, const struct deck_memory *memory, s
  * an error in the list, a deck from memory that may name no files. */
 const char *deck_text_path(struct pool *pool, const struct deck_text *text, const struct card *card,
                            const struct card_option *option, struct message_list *messages);
+
+/* One more card, or option of a card. NULL, or not 0, where memory is out. */
+struct card *deck_text_add_card(struct pool *pool, struct deck_text *text, const char *name, struct place place);
+int deck_text_add_option(struct pool *pool, struct card *card, struct card_option option);
+
+/* The path of a file that the deck is made of; kept, not copied. ROTID_OK or ROTID_ERROR_MEMORY. */
+int deck_text_add_file(struct pool *pool, struct deck_text *text, const char *path);
 
 /* Splits "CARD.OPTION=VALUE", parts of which are pointed to. ROTID_OK, ROTID_ERROR_SYNTAX where it has another form, or
  * ROTID_ERROR_MEMORY. */

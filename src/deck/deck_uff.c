@@ -58,14 +58,26 @@ static int is_mode(const struct uff_shape *shape)
     return shape->analysis_type != 5; /* 5 is a frequency response: an operating shape */
 }
 
-/* Is the node in any of the modes? */
-static int carries_shape(const struct uff_file *file, int id)
+static int compare_ids(const void *left, const void *right)
 {
+    int a = *(const int *)left, b = *(const int *)right;
+    return (a > b) - (a < b);
+}
+
+/* The nodes of all modes by rising id, [*count]; a file of finite elements may have a million. NULL without memory. */
+static int *shape_nodes(struct pool *pool, const struct uff_file *file, size_t *count)
+{
+    *count = 0;
     for (int k = 0; k < file->shape_count; k++)
+        *count += is_mode(&file->shape[k]) ? (size_t)file->shape[k].node_count : 0;
+    int *id = POOL_ARRAY(pool, int, *count);
+    size_t at = 0;
+    for (int k = 0; k < file->shape_count && id; k++)
         for (int i = 0; is_mode(&file->shape[k]) && i < file->shape[k].node_count; i++)
-            if (file->shape[k].node[i] == id)
-                return 1;
-    return 0;
+            id[at++] = file->shape[k].node[i];
+    if (at)
+        qsort(id, at, sizeof *id, compare_ids);
+    return id;
 }
 
 /* z = origin + scale * coordinate, or origin - scale * coordinate where the test counts from the other end */
@@ -92,10 +104,21 @@ static int import_sensors(struct import *import)
         reader->out_of_memory = 1;
         return 1;
     }
+    size_t carried;
+    const int *carrying = shape_nodes(reader->pool, file, &carried);
+    if (!carrying) {
+        reader->out_of_memory = 1;
+        return 1;
+    }
     int bad = 0;
     for (int i = 0; i < file->node_count; i++) {
-        if (!carries_shape(file, file->node[i].id))
+        if (!carried || !bsearch(&file->node[i].id, carrying, carried, sizeof *carrying, compare_ids))
             continue;
+        if (rotor->nsensor == DECK_MOST_LINES) {
+            deck_error(reader, in_file(import, 1), "the shapes have more than %d nodes, expected those of sensors on a rotor",
+                       DECK_MOST_LINES);
+            return 1;
+        }
         double z = import->origin + (import->flip ? -1 : 1) * import->scale * file->node[i].x[import->axis];
         if (!(z >= -1e-5 * reader->length && z <= reader->length * (1 + 1e-5))) {
             deck_error(reader, in_file(import, 1),

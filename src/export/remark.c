@@ -65,7 +65,7 @@ static void put_frequencies(const struct remark *remark, const char *what, int c
 {
     char text[LONGEST];
     int length = snprintf(text, sizeof text, "%s [Hz]:", what);
-    for (int i = 0; i < count && length > 0 && length < LONGEST; i++)
+    for (int i = 0; i < count && isfinite(hz[i]) && length > 0 && length < LONGEST; i++) /* few masters have few modes */
         length += snprintf(text + length, LONGEST - (size_t)length, "%s %.10g", i ? "," : "", hz[i]);
     remark_put(remark, "%s", text);
 }

@@ -10,6 +10,17 @@
 #include "base/host.h"
 
 #define LOOK_AGAIN_MS 50
+#define DESCRIPTORS   256 /* looked through: a shell gives its children single digits, bash from 10 or from 63 down */
+
+int file_hold_standard(void)
+{
+    int descriptor = STDIN_FILENO;
+    while (descriptor >= 0 && descriptor <= STDERR_FILENO)
+        descriptor = open("/", O_RDONLY); /* the lowest number that is free */
+    if (descriptor >= 0)
+        (void)close(descriptor);
+    return descriptor < 0 && errno != EMFILE; /* then the three are open */
+}
 
 /* Closes and keeps errno, for a return. */
 static int give_up(int descriptor, int reason)
@@ -106,6 +117,23 @@ FILE *file_open_device(const char *path)
         if (nanosleep(&pause, NULL) != 0)
             return NULL; /* a signal */
     }
+}
+
+FILE *file_open_own(const char *path)
+{
+    struct stat link, about, other;
+    int reason = 0;
+    if (lstat(path, &link) == 0 && S_ISLNK(link.st_mode) && stat(path, &about) == 0)
+        for (int d = 0; d < DESCRIPTORS; d++) {
+            if (fstat(d, &other) != 0 || other.st_dev != about.st_dev || other.st_ino != about.st_ino)
+                continue;
+            int copy = (fcntl(d, F_GETFL) & O_ACCMODE) == O_RDONLY ? -1 : fcntl(d, F_DUPFD_CLOEXEC, 0);
+            if (copy >= 0)
+                return stream_of(copy, "wb");
+            reason = EBADF;
+        }
+    errno = reason;
+    return NULL;
 }
 
 const char *file_error_text(int number, char *text)

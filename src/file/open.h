@@ -9,6 +9,11 @@
 /* A program at the other end of a named pipe is waited for this long: it may have been started a moment later. */
 #define FILE_WAIT 5.0 /* s */
 
+/* Takes the numbers 0, 1 and 2 where they are closed, with a directory, of which nothing is read and to which nothing is written:
+ * else the next file would have them, and what is said on standard error would stand in it. Nonzero with errno where that fails.
+ */
+int file_hold_standard(void);
+
 /* Opens what is there for reading and waits for nobody; *about as by fstat. A descriptor that does not wait while it is read
  * either (regular files never do), or -1 with errno. */
 int file_descriptor(const char *path, struct stat *about);
@@ -24,6 +29,11 @@ FILE *file_open(const char *path, int unbuffered, struct stat *about);
 /* The stream of a device or a pipe that is there, for writing; NULL with errno: ENXIO for a named pipe from which nobody read
  * within FILE_WAIT, EINTR. */
 FILE *file_open_device(const char *path);
+
+/* The stream of a descriptor that the program was started with, where the path is a link to it (/dev/stdout, /dev/fd/3): writes
+ * behind what is there, since a rename would put a file in the place of the link and a second opening begin at its first byte.
+ * NULL with errno 0 where the path is no such link, with EBADF where the descriptor is there to be read. */
+FILE *file_open_own(const char *path);
 
 #define FILE_NOBODY "nobody is at the other end of this pipe"
 

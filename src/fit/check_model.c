@@ -1,3 +1,4 @@
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -91,6 +92,9 @@ static int check_arguments(const rotid_model *model, const rotid_parameter *para
         if (!(parameter[p].lower < x[p] && x[p] < parameter[p].upper))
             status = refuse(failure, "x[%d] is %g, expected a number between its bounds %g and %g", p, x[p], parameter[p].lower,
                             parameter[p].upper);
+    long long entries = status ? 0 : (model->kd + 1LL) * model->n + (long long)model->nfar * model->nfar;
+    if (!status && entries > INT_MAX)
+        status = refuse(failure, "the matrices have (kd + 1) n + nfar^2 = %lld entries, expected at most %d", entries, INT_MAX);
     if (!status && (!error || !doubt))
         status = refuse(failure, "%s is NULL, expected one", !error ? "error" : "doubt");
     return status;

@@ -1,3 +1,4 @@
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,8 @@
 #include "modal/functional.h"
 #include "rotid.h"
 
-#define LEAP 5 /* of chi y in one step: further, the sigmoid saturates, J vanishes, and the parameter is caught at a bound */
+#define HISTORY 101 /* iterations that there is room for from the start: those of the default, and iteration 0 */
+#define LEAP    5   /* of chi y in one step: further, the sigmoid saturates, J vanishes, and the parameter is caught at a bound */
 
 struct fit {
     const rotid_parameter *parameter;
@@ -21,7 +23,8 @@ struct fit {
     struct functional functional;
     rotid_fit_options options;
     rotid_fit_result *result;
-    int n, callback_status;
+    struct pool *keep;
+    int n, callback_status, history_rows, history_failed;
     char *failure; /* of the host: why the last evaluation failed */
     double *x, *y, *r, *jacobian, *work;
     double *bounded;        /* dr/dx that was asked for last */
@@ -60,11 +63,7 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
         return fit->callback_status;
     }
     fit->callback_status = functional_jacobian(&fit->functional, fit->x, fit->bounded);
-    for (int p = 0; p < n; p++) {
-        double slope = bounds_slope(&fit->parameter[p], chi, y[p]);
-        for (int i = 0; i < m; i++)
-            jacobian[i + (ptrdiff_t)p * m] = fit->bounded[i + (ptrdiff_t)p * m] * slope;
-    }
+    bounds_jacobian(m, n, fit->parameter, chi, y, fit->bounded, jacobian);
     return fit->callback_status;
 }
 
@@ -97,6 +96,23 @@ static void keep_point(struct fit *fit)
     compare_modes(fit);
 }
 
+/* Room for twice as many iterations. Returns 0, or 1 where memory runs out. */
+static int grow_history(struct fit *fit)
+{
+    rotid_fit_result *result = fit->result;
+    size_t rows = 2 * (size_t)fit->history_rows, n = (size_t)fit->n;
+    rotid_fit_iteration *history = POOL_ARRAY(fit->keep, rotid_fit_iteration, rows);
+    double *x = POOL_ARRAY(fit->keep, double, rows *n);
+    if (!history || !x || rows > INT_MAX)
+        return 1;
+    memcpy(history, result->history, (size_t)result->nhistory * sizeof *history);
+    memcpy(x, result->history_x, (size_t)result->nhistory * n * sizeof *x);
+    result->history = history;
+    result->history_x = x;
+    fit->history_rows = (int)rows;
+    return 0;
+}
+
 /* Keeps the point, and the history in the variables x/|start|; polls the host. */
 static int trace(void *user, const rotid_lm_iteration *now)
 {
@@ -105,6 +121,9 @@ static int trace(void *user, const rotid_lm_iteration *now)
     int n = fit->n, row = result->nhistory;
     fit->accepted = now->x;
     keep_point(fit);
+    fit->history_failed = row == fit->history_rows && grow_history(fit);
+    if (fit->history_failed)
+        return 1;
     double *x = result->history_x + (ptrdiff_t)row * n, step = 0, gradient = 0;
     for (int p = 0; p < n; p++) {
         double unit = fabs(fit->parameter[p].start),
@@ -129,9 +148,9 @@ static int trace(void *user, const rotid_lm_iteration *now)
     return environment && environment->cancelled && environment->cancelled(environment->context);
 }
 
-static int new_result(struct pool *keep, int n, int m, int nresidual, int iterations, rotid_fit_result *result)
+static int new_result(struct pool *keep, int n, int m, int nresidual, int history_rows, rotid_fit_result *result)
 {
-    size_t square = (size_t)n * (size_t)n, rows = (size_t)iterations + 2;
+    size_t square = (size_t)n * (size_t)n, rows = (size_t)history_rows;
     result->n = n;
     result->m = m;
     result->nresidual = nresidual;
@@ -180,14 +199,10 @@ static const double *residual_noise(const struct fit *fit, double *std)
 
 static int count_scales(const struct fit *fit)
 {
-    const rotid_measured *measured = fit->functional.measured;
-    int count = 0, nmaster = fit->functional.prediction.model->nmaster;
-    for (int k = 0; k < measured->nmode && fit->options.functional == ROTID_LIKELIHOOD && measured->shape; k++) {
-        int any = 0;
-        for (int s = 0; s < nmaster; s++)
-            any |= isfinite(measured->shape[s + (ptrdiff_t)k * nmaster]);
-        count += any && (!measured->holdout || !measured->holdout[k]);
-    }
+    const struct functional *f = &fit->functional;
+    int count = 0;
+    for (int k = 0; k < f->measured->nmode && fit->options.functional == ROTID_LIKELIHOOD; k++)
+        count += functional_count_components(f, k) > 0 && (!f->measured->holdout || !f->measured->holdout[k]);
     return count;
 }
 
@@ -280,8 +295,10 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
         functional_new(pool, options->functional, options->reduction, options->derivative, model, measured, &fit->functional);
     int m = fit->functional.nresidual;
     fit->functional.prediction.failure = fit->failure;
+    fit->keep = keep;
+    fit->history_rows = options->max_iterations < HISTORY ? options->max_iterations + 1 : HISTORY;
     if (!status)
-        status = new_result(keep, n, measured->nmode, m, options->max_iterations, fit->result);
+        status = new_result(keep, n, measured->nmode, m, fit->history_rows, fit->result);
     if (status)
         return status;
     size_t lm_work = rotid_lm_workspace(m, n), end_work = covariance_workspace(m, n) + (size_t)m + (size_t)n;
@@ -293,8 +310,13 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     fit->bounded = POOL_ARRAY(pool, double, (size_t)m *(size_t)n);
     if (!fit->bounded || !fit->x || !fit->y || !fit->r || !fit->jacobian || !fit->work)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < n; p++)
-        fit->y[p] = bounds_to_y(&fit->parameter[p], options->bijection_chi, fit->parameter[p].start);
+    for (int p = 0; p < n; p++) {
+        const rotid_parameter *q = &fit->parameter[p];
+        fit->y[p] = bounds_to_y(q, options->bijection_chi, q->start);
+        if (!isfinite(fit->y[p]))
+            return refuse(fit->failure, "parameter[%d]%s%.40s has lower %g, start %g, upper %g, expected a start apart from both",
+                          p, q->name ? " " : "", q->name ? q->name : "", q->lower, q->start, q->upper);
+    }
 
     rotid_lm_options lm_options = {.size = sizeof lm_options,
                                    .max_iterations = options->max_iterations,
@@ -307,6 +329,8 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     status = n ? rotid_lm(m, n, residual, fit, &lm_options, NULL, fit->y, fit->r, fit->jacobian, fit->work, &lm)
                : compare_only(fit, &lm);
     fit->result->seconds = clock_seconds() - fit->begin;
+    if (fit->history_failed)
+        return ROTID_ERROR_MEMORY;
     if (status < 0)
         return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
     status = conclude(fit, &lm);

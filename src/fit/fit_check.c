@@ -6,6 +6,10 @@
 #include "linalg/matrix_check.h"
 #include "modal/measured_check.h"
 
+/* y is of the size of 1/chi: it has to have a square, and a small part of it to stand out against 1e-24, where steps end */
+#define CHI_LEAST 1e-50
+#define CHI_MOST  1e6
+
 int fit_check_model(const rotid_model *model, char *failure)
 {
     if (model->n < 2)
@@ -28,12 +32,11 @@ int fit_check_parameters(int count, const rotid_parameter *parameter, char *fail
         return refuse(failure, "parameter is NULL, expected model->nparam = %d of them", count);
     for (int p = 0; p < count; p++) {
         const rotid_parameter *q = &parameter[p];
-        if (!(isfinite(q->lower) && isfinite(q->upper) && q->lower < q->start && q->start < q->upper && q->start != 0))
-            return refuse(
-                failure,
-                "parameter[%d]%s%.40s has lower %g, start %g, upper %g, expected numbers with lower < start < upper and a "
-                "start other than 0",
-                p, q->name ? " " : "", q->name ? q->name : "", q->lower, q->start, q->upper);
+        if (!(isfinite(q->upper - q->lower) && q->lower < q->start && q->start < q->upper && q->start != 0))
+            return refuse(failure,
+                          "parameter[%d]%s%.40s has lower %g, start %g, upper %g, expected numbers with lower < start < upper, a "
+                          "start other than 0, and a finite upper - lower",
+                          p, q->name ? " " : "", q->name ? q->name : "", q->lower, q->start, q->upper);
     }
     return ROTID_OK;
 }
@@ -50,6 +53,9 @@ static int check_options(const rotid_fit_options *options, char *failure)
         return refuse(failure, "options->derivative is %d, expected ROTID_NELSON or ROTID_MODAL", options->derivative);
     if (options->derivative == ROTID_MODAL && options->reduction == ROTID_REDUCTION_NONE)
         return refuse(failure, "options->derivative is ROTID_MODAL without a reduction, expected ROTID_GUYAN or ROTID_IRS");
+    if (options->bijection_chi > 0 && !(options->bijection_chi >= CHI_LEAST && options->bijection_chi <= CHI_MOST))
+        return refuse(failure, "options->bijection_chi is %g, expected %g ... %g, or 0 for the default", options->bijection_chi,
+                      CHI_LEAST, CHI_MOST);
     return ROTID_OK;
 }
 

@@ -237,6 +237,10 @@ int measurement_read(struct pool *pool, const char *path, const struct measureme
     *out = (struct measurement){0};
     pool_open(&scratch, pool->allocator);
     int status = uff_open(&scratch, path, messages, &l.reader);
+    if (!status && !uff_can_return(l.reader)) {
+        message_add(messages, SEVERITY_ERROR, path, 1, 1, "this is no regular file, expected one: its functions are read twice");
+        status = ROTID_ERROR_IO;
+    }
     if (!status)
         status = contents_read(pool, l.reader, path, messages, &contents);
     if (!status) {

@@ -153,10 +153,14 @@ static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
     struct random_stream stream = {20240229};
     int n = e->n;
     e->shift = -FIRST_SHIFT * e->largest;
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)n * e->block; i++)
-        e->ritz[i] = random_normal(&stream);
-    for (int j = 0; j < e->block; j++)
+    for (int j = 0; j < e->block; j++) {
+        double *x = e->ritz + (ptrdiff_t)j * n;
+        for (int i = 0; i < n; i++)
+            x[i] = random_normal(&stream);
+        matrix_multiply(m, 1, x, e->work); /* residuals are measured in x' M x = 1 */
+        cblas_dscal(n, 1 / sqrt(cblas_ddot(n, x, 1, e->work, 1)), x, 1);
         e->value[j] = 0;
+    }
     int watched = e->block < 3 ? e->block : 3, status = refactor(e, k, m);
     if (!status)
         status = converge(e, k, m, watched, 1e-3);

@@ -1,4 +1,5 @@
-/* What matrices from outside have to be before anything reads them. `failure` as in rotid.h, names those of the arguments there. */
+/* What matrices from outside have to be before anything reads them. `failure` as in rotid.h, names those of the arguments there.
+ */
 #ifndef ROTID_LINALG_MATRIX_CHECK_H
 #define ROTID_LINALG_MATRIX_CHECK_H
 

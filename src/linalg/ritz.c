@@ -31,15 +31,20 @@ int ritz_pairs(int n, int count, const rotid_matrix *k, const rotid_matrix *m, d
     }
     matrix_multiply(k, count, y, product);
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, count, count, n, 1, y, n, product, n, 0, a, count);
-    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', count, b, count))
+    /* y ascends, so that a support by a penalty of 1e18 stands last in A: reduced from there on, by the upper triangle, A leaves
+     * its rounding to its own eigenvalue. From the first row on all of them would get it. */
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', count, b, count))
         return 1;
     for (int j = 0; j < count; j++)
         if (!(b[j + (ptrdiff_t)j * count] > INDEPENDENT))
             return 1;
-    if (LAPACKE_dsygst_work(LAPACK_COL_MAJOR, 1, 'L', count, a, count, b, count) ||
-        LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'L', count, a, count, value, work, RITZ_WORK * count))
+    if (LAPACKE_dsygst_work(LAPACK_COL_MAJOR, 1, 'U', count, a, count, b, count) ||
+        LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', count, a, count, value, work, RITZ_WORK * count))
         return 1;
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, count, count, 1, b, count, a, count);
+    for (int j = 0; j < count; j++) /* a vector keeps the sign of y: rounding would choose it */
+        if (a[j + (ptrdiff_t)j * count] < 0)
+            cblas_dscal(count, -1, a + (ptrdiff_t)j * count, 1);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, count, count, 1, b, count, a, count);
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, count, count, 1, y, n, a, count, 0, vector, n);
     return 0;
 }

@@ -4,15 +4,29 @@
 #include "base/host.h"
 #include "rotid.h"
 
+/* A power of two that takes the largest finite component to about 1, without rounding: neither criterion depends on the scale of
+ * a shape, and squares of 1e200 and 1e-200 have no double. */
+static double unit_of(int n, const double *a)
+{
+    double largest = 0;
+    int exponent;
+    for (int i = 0; i < n; i++)
+        if (isfinite(a[i]))
+            largest = fmax(largest, fabs(a[i]));
+    (void)frexp(largest, &exponent);
+    return ldexp(1, exponent > 1000 ? -1000 : exponent < -1000 ? 1000 : -exponent);
+}
+
 HOST_COMPUTES void compute_mac(int n, const double *a, const double *b, double *mac)
 {
-    double ab = 0, aa = 0, bb = 0;
+    double ab = 0, aa = 0, bb = 0, of_a = unit_of(n, a), of_b = unit_of(n, b);
     for (int i = 0; i < n; i++) {
         if (!isfinite(a[i]) || !isfinite(b[i]))
             continue;
-        ab += a[i] * b[i];
-        aa += a[i] * a[i];
-        bb += b[i] * b[i];
+        double x = of_a * a[i], y = of_b * b[i];
+        ab += x * y;
+        aa += x * x;
+        bb += y * y;
     }
     *mac = aa > 0 && bb > 0 ? ab * ab / (aa * bb) : 0;
 }
@@ -27,26 +41,27 @@ double rotid_mac(int n, const double *a, const double *b)
     return mac;
 }
 
-/* y := M x with the components of x that are not finite taken as zero; returns x' y */
-static double mass_product(int n, const double *mass, const double *x, double *y)
+/* y := M x, x times `unit`, with its components that are not finite taken as zero; returns x' y */
+static double mass_product(int n, const double *mass, double unit, const double *x, double *y)
 {
     double sum = 0;
     memset(y, 0, (size_t)n * sizeof *y);
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n && isfinite(x[j]); i++)
-            y[i] += mass[i + (ptrdiff_t)j * n] * x[j];
+            y[i] += mass[i + (ptrdiff_t)j * n] * (unit * x[j]);
     for (int i = 0; i < n; i++)
         if (isfinite(x[i]))
-            sum += x[i] * y[i];
+            sum += unit * x[i] * y[i];
     return sum;
 }
 
 HOST_COMPUTES void compute_nco(int n, const double *mass, const double *a, const double *b, double *work, double *nco)
 {
-    double aa = mass_product(n, mass, a, work), bb = mass_product(n, mass, b, work), ab = 0;
+    double of_a = unit_of(n, a), of_b = unit_of(n, b), aa = mass_product(n, mass, of_a, a, work),
+           bb = mass_product(n, mass, of_b, b, work), ab = 0;
     for (int i = 0; i < n; i++)
         if (isfinite(a[i]))
-            ab += a[i] * work[i];
+            ab += of_a * a[i] * work[i];
     *nco = aa > 0 && bb > 0 ? ab * ab / (aa * bb) : 0;
 }
 

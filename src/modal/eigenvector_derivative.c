@@ -8,16 +8,21 @@
 
 #define ENOUGH 1e-9 /* relative change of V by a step of refinement whose square is below rounding */
 
-int eigenvalue_cluster(int count, const double *lambda, int k, int *first)
+static int neighbours(int count, const double *lambda, int k, int most, int *first)
 {
     double reach = CLOSE_EIGENVALUES * fabs(lambda[k]);
     int low = k, high = k;
-    while (low > 0 && lambda[low] - lambda[low - 1] < reach && high - low + 1 < CLUSTER_MOST)
+    while (low > 0 && lambda[low] - lambda[low - 1] < reach && high - low + 1 < most)
         low--;
-    while (high + 1 < count && lambda[high + 1] - lambda[high] < reach && high - low + 1 < CLUSTER_MOST)
+    while (high + 1 < count && lambda[high + 1] - lambda[high] < reach && high - low + 1 < most)
         high++;
     *first = low;
     return high - low + 1;
+}
+
+int eigenvalue_cluster(int count, const double *lambda, int k, int *first)
+{
+    return neighbours(count, lambda, k, CLUSTER_MOST, first);
 }
 
 double nelson_right_side(int n, double lambda, const double *phi, const double *m_phi, const double *dk_phi, const double *dm_phi,
@@ -42,6 +47,7 @@ static int rows_new(struct pool *pool, int n, struct nelson_rows *rows)
 static void choose_rows(int n, int members, const double *phi, struct nelson_rows *rows)
 {
     double *w = rows->pivot;
+    rows->count = members;
     int done[CLUSTER_MOST] = {0};
     memcpy(w, phi, (size_t)n * (size_t)members * sizeof *w);
     for (int step = 0; step < members; step++) {
@@ -73,18 +79,18 @@ static void choose_rows(int n, int members, const double *phi, struct nelson_row
             rows->kept[kept++] = i;
 }
 
-/* x [n - members] -> [n] in place, zero in the rows that are left out */
-static void spread(const struct nelson_rows *rows, int n, int members, double *x)
+/* x [n - count] -> [n] in place, zero in the rows that are left out */
+static void spread(const struct nelson_rows *rows, int n, double *x)
 {
-    for (int i = n - members - 1; i >= 0; i--)
+    for (int i = n - rows->count - 1; i >= 0; i--)
         x[rows->kept[i]] = x[i];
-    for (int j = 0; j < members; j++)
+    for (int j = 0; j < rows->count; j++)
         x[rows->left_out[j]] = 0;
 }
 
-static void gather(const struct nelson_rows *rows, int n, int members, const double *x, double *shorter)
+static void gather(const struct nelson_rows *rows, int n, const double *x, double *shorter)
 {
-    for (int i = 0; i < n - members; i++)
+    for (int i = 0; i < n - rows->count; i++)
         shorter[i] = x[rows->kept[i]];
 }
 
@@ -106,9 +112,9 @@ int nelson_dense_new(struct pool *pool, int n, struct nelson_dense *d)
     return status ? status : symmetric_new(pool, n, &d->factor);
 }
 
-static int factor_dense(struct nelson_dense *d, const double *k, const double *m, double lambda, int members)
+static int factor_dense(struct nelson_dense *d, const double *k, const double *m, double lambda)
 {
-    int n = d->n, size = n - members;
+    int n = d->n, size = n - d->rows.count;
     const int *kept = d->rows.kept;
     double *target = d->factor.a;
     for (int j = 0; j < size; j++)
@@ -122,9 +128,17 @@ static int factor_dense(struct nelson_dense *d, const double *k, const double *m
 int nelson_dense_prepare(struct nelson_dense *d, const double *k, const double *m, double lambda, int members, const double *phi)
 {
     choose_rows(d->n, members, phi, &d->rows);
-    if (!factor_dense(d, k, m, lambda, members) || !factor_dense(d, k, m, lambda * (1 + CLOSE_EIGENVALUES), members))
+    if (!factor_dense(d, k, m, lambda) || !factor_dense(d, k, m, lambda * (1 + CLOSE_EIGENVALUES)))
         return ROTID_OK;
     return ROTID_ERROR_CLOSE;
+}
+
+int nelson_dense_below(struct nelson_dense *d, const double *k, const double *m, double lambda)
+{
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)d->n * d->n; i++)
+        d->factor.a[i] = k[i] - lambda * m[i];
+    (void)symmetric_factor(&d->factor, d->n);
+    return symmetric_negative(&d->factor, d->n);
 }
 
 void nelson_dense_solve(struct nelson_dense *d, int members, const double *phi, const double *m_phi, const double *p,
@@ -133,18 +147,19 @@ void nelson_dense_solve(struct nelson_dense *d, int members, const double *phi, 
     int n = d->n;
     memcpy(dphi, p, (size_t)n * sizeof *p);
     set_components(n, members, phi, m_phi, NULL, dphi);
-    gather(&d->rows, n, members, dphi, dphi);
-    symmetric_solve(&d->factor, n - members, dphi);
-    spread(&d->rows, n, members, dphi);
+    gather(&d->rows, n, dphi, dphi);
+    symmetric_solve(&d->factor, n - d->rows.count, dphi);
+    spread(&d->rows, n, dphi);
     set_components(n, members, m_phi, phi, q, dphi);
 }
 
 void modal_superposition(int n, const double *lambda, const double *phi, int k, int first, int members, const double *m_phi,
                          const double *p, const double *q, double *dphi)
 {
+    int low, near = neighbours(n, lambda, k, n, &low); /* members beyond CLUSTER_MOST do not turn either */
     memset(dphi, 0, (size_t)n * sizeof *dphi);
     for (int j = 0; j < n; j++) {
-        if (j >= first && j < first + members)
+        if (j >= low && j < low + near)
             continue;
         const double *other = phi + (ptrdiff_t)j * n;
         double c = 0;
@@ -167,10 +182,21 @@ int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, 
     int status = b->residual && b->shorter ? rows_new(pool, n, &b->rows) : ROTID_ERROR_MEMORY;
     if (status)
         return status;
+    b->all = POOL_ARRAY(pool, int, n);
+    if (!b->all)
+        return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
-        b->rows.kept[i] = i;
+        b->all[i] = b->rows.kept[i] = i;
     status = matrix_new(pool, n, structure->kd, structure->nfar, structure->far, &b->shifted);
+    if (!status)
+        status = factor_new(pool, FACTOR_CHOLESKY, structure, n, b->all, &b->inertia);
     return status ? status : factor_new(pool, FACTOR_LU, structure, n, b->rows.kept, &b->factor);
+}
+
+int nelson_band_below(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda)
+{
+    matrix_combine(1, k, -lambda, m, &b->shifted);
+    return factor_negative_count(&b->inertia, &b->shifted);
 }
 
 static int factor_band(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda)
@@ -190,15 +216,15 @@ int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const roti
 }
 
 /* x [n * columns] := A^-1 x without the rows and columns left out, zero there */
-static void solve_columns(struct nelson_band *b, int columns, int members, double *x)
+static void solve_columns(struct nelson_band *b, int columns, double *x)
 {
-    int n = b->n, size = n - members;
+    int n = b->n, size = n - b->rows.count;
     for (int c = 0; c < columns; c++)
-        gather(&b->rows, n, members, x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * size);
+        gather(&b->rows, n, x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * size);
     factor_solve(&b->factor, columns, b->shorter);
     for (int c = 0; c < columns; c++) {
         memcpy(x + (ptrdiff_t)c * n, b->shorter + (ptrdiff_t)c * size, (size_t)size * sizeof *x);
-        spread(&b->rows, n, members, x + (ptrdiff_t)c * n);
+        spread(&b->rows, n, x + (ptrdiff_t)c * n);
     }
 }
 
@@ -222,7 +248,7 @@ static double refine(struct nelson_band *b, int columns, int members, const doub
         b->residual[i] = p[i] - b->residual[i];
     for (int c = 0; c < columns; c++)
         set_components(n, members, phi, m_phi, NULL, b->residual + (ptrdiff_t)c * n);
-    solve_columns(b, columns, members, b->residual);
+    solve_columns(b, columns, b->residual);
     for (int c = 0; c < columns; c++) {
         double *x = dphi + (ptrdiff_t)c * n, *change = b->residual + (ptrdiff_t)c * n, size = largest(n, x);
         for (int i = 0; i < n; i++)
@@ -239,7 +265,7 @@ void nelson_band_solve(struct nelson_band *b, int columns, int members, const do
     memcpy(dphi, p, (size_t)n * (size_t)columns * sizeof *p);
     for (int c = 0; c < columns; c++)
         set_components(n, members, phi, m_phi, NULL, dphi + (ptrdiff_t)c * n);
-    solve_columns(b, columns, members, dphi);
+    solve_columns(b, columns, dphi);
     /* the bordered factors may lose digits where a clamped mode lies near, and a cluster counts as one eigenvalue in them; a
      * second step would change V by the square of the first
      */

@@ -19,6 +19,10 @@
 /* Eigenvalues nearer than this part of themselves have vectors that a change of parameter can turn at will. */
 #define CLOSE_EIGENVALUES 1e-6
 #define CLUSTER_MOST      8 /* pairs */
+/* Where a cluster has further members, behind the pairs that are known or beyond CLUSTER_MOST, V is the mean of the solutions for
+ * lambda (1 - BESIDE) and lambda (1 + BESIDE), prepared with no row left out (members = 0): of a pair at a distance of d it has
+ * d/(d^2 - (lambda BESIDE)^2), which is 1/d but for (lambda BESIDE/d)^2, and nothing of those that are equal. */
+#define BESIDE 3e-5
 
 /* The cluster of pair k: neighbours in a row, each that near to the next. Returns how many, 1 where k stands alone; *first: the
  * lowest. */
@@ -33,7 +37,8 @@ double nelson_right_side(int n, double lambda, const double *phi, const double *
  * members makes the matrix singular, it is prepared for an eigenvalue beside; ROTID_ERROR_CLOSE where that is no better. */
 
 struct nelson_rows {
-    int left_out[CLUSTER_MOST]; /* where the vectors differ most, increasing */
+    int count;
+    int left_out[CLUSTER_MOST]; /* [count] where the vectors differ most, increasing */
     int *kept;                  /* [n] the others */
     double *pivot;              /* [n * CLUSTER_MOST] */
 };
@@ -52,6 +57,9 @@ int nelson_dense_prepare(struct nelson_dense *d, const double *k, const double *
 void nelson_dense_solve(struct nelson_dense *d, int members, const double *phi, const double *m_phi, const double *p,
                         const double *q, double *dphi);
 
+/* Number of eigenvalues below `lambda`; a factor that was prepared is lost. */
+int nelson_dense_below(struct nelson_dense *d, const double *k, const double *m, double lambda);
+
 /* All n pairs: lambda [n], phi [n * n]; of pair k, whose cluster begins at `first`. m_phi: of the members. */
 void modal_superposition(int n, const double *lambda, const double *phi, int k, int first, int members, const double *m_phi,
                          const double *p, const double *q, double *dphi);
@@ -62,12 +70,14 @@ struct nelson_band {
     int n;
     struct nelson_rows rows;
     rotid_matrix shifted;
-    struct factor factor;
+    struct factor factor, inertia;
+    int *all;                   /* [n] */
     double *residual, *shorter; /* [n * most] */
 };
 
 /* For at most `most` right-hand sides at once. */
 int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, struct nelson_band *b);
+int nelson_band_below(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda);
 int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda, int members,
                         const double *phi);
 /* dphi [n * columns] from P [n * columns] (kept), q [members * columns]. A P that has a part in the cluster loses it: the columns

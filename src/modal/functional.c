@@ -26,7 +26,7 @@ static void scale_shapes(const rotid_measured *measured, int nmaster, double *sh
     }
 }
 
-static int count_components(const struct functional *f, int mode)
+int functional_count_components(const struct functional *f, int mode)
 {
     int nmaster = f->prediction.model->nmaster, count = 0;
     for (int s = 0; f->shape && s < nmaster; s++)
@@ -67,14 +67,14 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
         if (!is_fitted(measured, k))
             continue;
         f->wanted[f->pair[k]] = 1;
-        f->nresidual += 1 + (kind == ROTID_LIKELIHOOD ? count_components(f, k) : 0);
+        f->nresidual += 1 + (kind == ROTID_LIKELIHOOD ? functional_count_components(f, k) : 0);
     }
     return ROTID_OK;
 }
 
 static int uses_shape(const struct functional *f, int mode)
 {
-    return f->with_vectors && f->kind != ROTID_LIKELIHOOD && count_components(f, mode) > 0;
+    return f->with_vectors && f->kind != ROTID_LIKELIHOOD && functional_count_components(f, mode) > 0;
 }
 
 /* R*_k = phi^' K~ phi~ / (phi^' M~ phi~) (15); where no shape was measured, the eigenvalue it equals */
@@ -198,7 +198,7 @@ static int residuals(struct functional *f, double *r)
     for (int k = 0; k < measured->nmode && !status && f->kind == ROTID_LIKELIHOOD; k++)
         if (is_fitted(measured, k) && f->shape) {
             shape_residuals(f, k, -1, shape_part);
-            shape_part += count_components(f, k);
+            shape_part += functional_count_components(f, k);
         }
     return status;
 }
@@ -226,7 +226,7 @@ int functional_jacobian(struct functional *f, const double *x, double *jacobian)
         for (int k = 0; k < measured->nmode && f->kind == ROTID_LIKELIHOOD && f->shape; k++)
             if (is_fitted(measured, k)) {
                 shape_residuals(f, k, q, column);
-                column += count_components(f, k);
+                column += functional_count_components(f, k);
             }
     }
     return status;

@@ -31,6 +31,9 @@ int functional_residual(struct functional *f, const double *x, double *r);
 /* dr/dx [nresidual * nparam] at the x of the last functional_residual. */
 int functional_jacobian(struct functional *f, const double *x, double *jacobian);
 
+/* Components of the shape that was measured of a mode, 0 where it is NaN or 0 everywhere. */
+int functional_count_components(const struct functional *f, int mode);
+
 /* The frequency residual of any mode, fitted or held out, at the last evaluation. */
 double functional_frequency_residual(const struct functional *f, int mode);
 

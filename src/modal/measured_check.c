@@ -11,9 +11,12 @@ static int check_mode(const rotid_measured *measured, int k, char *failure)
         return refuse(failure, "measured->frequency_hz[%d] is %g, expected a positive number", k, measured->frequency_hz[k]);
     if (measured->number[k] < 1)
         return refuse(failure, "measured->number[%d] is %d, expected a mode of the model, from 1", k, measured->number[k]);
-    if (measured->frequency_std && !(measured->frequency_std[k] > 0))
-        return refuse(failure, "measured->frequency_std[%d] is %g, expected a positive relative standard deviation", k,
-                      measured->frequency_std[k]);
+    if (measured->frequency_std && !(measured->frequency_std[k] > 0 && isfinite(measured->frequency_std[k])))
+        return refuse(
+            failure,
+            "measured->frequency_std[%d] is %g, expected a positive relative standard deviation (measured->holdout takes "
+            "a mode out)",
+            k, measured->frequency_std[k]);
     return ROTID_OK;
 }
 
@@ -25,9 +28,11 @@ static int check_shapes(const rotid_model *model, const rotid_measured *measured
     for (int k = 0; k < measured->nmode; k++)
         for (int s = 0; s < nmaster; s++) {
             ptrdiff_t at = s + (ptrdiff_t)k * nmaster;
-            if (isfinite(measured->shape[at]) && !(measured->shape_std[at] > 0))
-                return refuse(failure, "measured->shape_std of master %d in mode %d is %g, expected a positive number", s, k,
-                              measured->shape_std[at]);
+            if (isfinite(measured->shape[at]) && !(measured->shape_std[at] > 0 && isfinite(measured->shape_std[at])))
+                return refuse(failure,
+                              "measured->shape_std of master %d in mode %d is %g, expected a positive number (NaN in "
+                              "measured->shape takes a component out)",
+                              s, k, measured->shape_std[at]);
         }
     return ROTID_OK;
 }
@@ -61,7 +66,7 @@ int measured_check(const rotid_model *model, const rotid_measured *measured, int
         if (measured->number[k] > size - model->nrigid)
             status = failure_say(failure, ROTID_ERROR_UNPAIRED,
                                  "measured->number[%d] is %d, but behind %d rigid ones the model has %d modes%s", k,
-                                 measured->number[k], model->nrigid, size - model->nrigid,
+                                 measured->number[k], model->nrigid, model->nrigid < size ? size - model->nrigid : 0,
                                  reduction == ROTID_REDUCTION_NONE ? "" : " on its masters");
     return status;
 }

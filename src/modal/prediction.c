@@ -63,10 +63,11 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     p->m_phi = POOL_ARRAY(pool, double, with_vectors ? vectors : 0);
     p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
+    p->below = POOL_ARRAY(pool, double, with_vectors ? (size_t)p->size *nparam : 0);
     p->x = POOL_ARRAY(pool, double, nparam);
     p->work = POOL_ARRAY(pool, double, 6 * (size_t)model->n);
-    if (!p->lambda || !p->phi || !p->dlambda || !p->dphi || !p->right || !p->constant || !p->m_phi || !p->kx || !p->mx || !p->x ||
-        !p->work)
+    if (!p->lambda || !p->phi || !p->dlambda || !p->dphi || !p->right || !p->constant || !p->m_phi || !p->kx || !p->mx ||
+        !p->below || !p->x || !p->work)
         return ROTID_ERROR_MEMORY;
     int status = new_matrices(pool, model, p);
     return status ? status : new_solvers(pool, model, with_vectors, p);
@@ -194,28 +195,58 @@ static void form_right_side(struct prediction *p, int k, int q)
         nelson_right_side(n, p->lambda[k], phi, m_phi, dk_phi, dm_phi, p->right + place, &constant[k - first]);
 }
 
-/* dphi of mode k for every parameter */
-static int solve_vectors(struct prediction *p, int k)
+/* Has the cluster of mode k more members than those? */
+static int cluster_goes_on(struct prediction *p, int k, int first, int members)
 {
-    int n = p->size, nparam = p->model->nparam, status = ROTID_OK, first;
-    int members = eigenvalue_cluster(p->count, p->lambda, k, &first);
+    int end = first + members;
+    double reach = CLOSE_EIGENVALUES * fabs(p->lambda[k]), above = p->lambda[end - 1] + reach;
+    /* a vector alone has its neighbours on both sides among the known */
+    if (first > 0 && p->lambda[first] - p->lambda[first - 1] < reach)
+        return 1;
+    if (end < p->count)
+        return p->lambda[end] < above;
+    if (members == 1 || p->count == p->size)
+        return 0;
+    return (p->reduction == ROTID_REDUCTION_NONE
+                ? nelson_band_below(&p->nelson_band, &p->k, &p->m, above)
+                : nelson_dense_below(&p->nelson_dense, p->condensed.kc, p->condensed.mc, above)) > p->count;
+}
+
+/* dphi [n * nparam] of mode k for every parameter, with `lambda` as its eigenvalue */
+static int solve_at(struct prediction *p, int k, int first, int members, double lambda, double *dphi)
+{
+    int n = p->size, left_out = lambda == p->lambda[k] ? members : 0, nparam = p->model->nparam, status = ROTID_OK;
     ptrdiff_t place = prediction_place(p, k, 0);
     const double *phi = p->phi + (ptrdiff_t)first * n, *m_phi = p->m_phi + (ptrdiff_t)first * n, *right = p->right + place,
                  *constant = constants_of(p, k);
-    double *dphi = p->dphi + place;
     if (p->reduction == ROTID_REDUCTION_NONE) {
-        status = nelson_band_prepare(&p->nelson_band, &p->k, &p->m, p->lambda[k], members, phi);
+        status = nelson_band_prepare(&p->nelson_band, &p->k, &p->m, lambda, left_out, phi);
         if (!status)
             nelson_band_solve(&p->nelson_band, nparam, members, phi, m_phi, right, constant, dphi);
         return status;
     }
     if (p->derivative == ROTID_NELSON)
-        status = nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, p->lambda[k], members, phi);
+        status = nelson_dense_prepare(&p->nelson_dense, p->condensed.kc, p->condensed.mc, lambda, left_out, phi);
     for (int q = 0; q < nparam && !status; q++, right += n, dphi += n, constant += members)
         if (p->derivative == ROTID_MODAL)
             modal_superposition(n, p->lambda, p->phi, k, first, members, m_phi, right, constant, dphi);
         else
             nelson_dense_solve(&p->nelson_dense, members, phi, m_phi, right, constant, dphi);
+    return status;
+}
+
+static int solve_vectors(struct prediction *p, int k)
+{
+    int first, members = eigenvalue_cluster(p->count, p->lambda, k, &first);
+    ptrdiff_t length = (ptrdiff_t)p->size * p->model->nparam;
+    double *dphi = p->dphi + prediction_place(p, k, 0), lambda = p->lambda[k];
+    if (p->derivative == ROTID_MODAL || !cluster_goes_on(p, k, first, members))
+        return solve_at(p, k, first, members, lambda, dphi);
+    int status = solve_at(p, k, first, members, lambda * (1 - BESIDE), p->below);
+    if (!status)
+        status = solve_at(p, k, first, members, lambda * (1 + BESIDE), dphi);
+    for (ptrdiff_t i = 0; i < length && !status; i++)
+        dphi[i] = (dphi[i] + p->below[i]) / 2;
     return status;
 }
 

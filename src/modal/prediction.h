@@ -12,8 +12,8 @@ struct prediction {
     const rotid_model *model;
     int reduction, derivative;
     char *failure; /* NULL, or where the model's part in an error is told, as in rotid.h */
-    int count; /* pairs computed, rigid ones included */
-    int size;  /* length of a vector: nmaster when condensed, n when full */
+    int count;     /* pairs computed, rigid ones included */
+    int size;      /* length of a vector: nmaster when condensed, n when full */
     rotid_matrix k, m, dk, dm, other_k, other_m;
     struct reduction condensed;
     struct reduction_mode *mode; /* [count], condensed */
@@ -29,6 +29,7 @@ struct prediction {
     double *constant; /* [CLUSTER_MOST * nparam * count] Q of (35), and phi_j' M dphi_k along the other members of a cluster */
     double *m_phi;    /* [size * count] */
     double *kx, *mx;  /* [size * nparam * count]: dK phi_k and dM phi_k of the condensed matrices */
+    double *below;    /* [size * nparam]: of a cluster that goes on, dphi with an eigenvalue below */
     double *x, *work;
 };
 
@@ -44,9 +45,8 @@ int prediction_compute(struct prediction *p, const double *x);
 int prediction_matrix_derivatives(struct prediction *p, const double *x, int q);
 
 /* Derivatives of eigenvalues of the pairs with wanted [count] nonzero, and of their vectors where asked for, at the x of the last
- * prediction_compute. Vectors of a cluster (modal/eigenvector_derivative.h) are taken not to turn in it, as long as it ends
- * within the pairs that are known: those asked for and one more. Statuses: CALLBACK, FINITE, CLOSE (a third one right behind
- * them). */
+ * prediction_compute. Vectors of a cluster (modal/eigenvector_derivative.h) are taken not to turn in it, nearly so where it
+ * goes on behind the pairs that are known, those asked for and one more. Statuses: CALLBACK, FINITE, CLOSE. */
 int prediction_differentiate(struct prediction *p, const double *x, const int *wanted, int with_vectors);
 
 /* Frequency of pair k [Hz]; 0 where its eigenvalue is not above zero. */

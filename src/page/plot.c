@@ -30,7 +30,8 @@ int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const
         return ROTID_ERROR_MEMORY;
     FILE *out = plot->out;
     (void)fprintf(out, "# rotid %s, figure %s of ", ROTID_VERSION, figure->id);
-    for (const char *c = source; *c; c += text_utf8(c) ? text_utf8(c) : 1) { /* a comment, which a backslash at its end continues */
+    for (const char *c = source; *c;
+         c += text_utf8(c) ? text_utf8(c) : 1) { /* a comment, which a backslash at its end continues */
         int is_kept = text_visible(c) && *c != '\\';
         (void)fwrite(is_kept ? c : "?", 1, is_kept ? text_visible(c) : 1, out);
     }

@@ -36,7 +36,7 @@ void signed_cell(FILE *out, int width, int decimals, double value)
 void digits_cell(FILE *out, int width, int digits, double value)
 {
     char text[64];
-    put_number(out, width, number_text(text, digits, value));
+    put_number(out, width, layout_number(text, digits, value));
 }
 
 void power_cell(FILE *out, int width, int decimals, double value)
@@ -46,7 +46,7 @@ void power_cell(FILE *out, int width, int decimals, double value)
     put_number(out, width, isfinite(value) ? text : "-");
 }
 
-const char *number_text(char text[64], int digits, double value)
+const char *layout_number(char text[64], int digits, double value)
 {
     if (isfinite(value))
         (void)snprintf(text, 64, "%.*g", digits, value);

@@ -13,8 +13,8 @@ void signed_cell(FILE *out, int width, int decimals, double value);
 void digits_cell(FILE *out, int width, int digits, double value);
 void power_cell(FILE *out, int width, int decimals, double value);
 /* A number within a sentence, or a dash. Returns text. */
-const char *number_text(char text[64], int digits, double value);
-#define NUMBER(digits, value) number_text((char[64]){""}, (digits), (value))
+const char *layout_number(char text[64], int digits, double value);
+#define NUMBER(digits, value) layout_number((char[64]){""}, (digits), (value))
 /* A probability: three decimals, "<0.001" below. */
 void chance_cell(FILE *out, int width, double value);
 /* A text to the left; what does not fit ends in '~'. Control characters, line feeds among them, become U+FFFD. */

@@ -34,6 +34,13 @@ static FILE *open_beside(char *name)
 int output_open(struct output *output, const char *path)
 {
     *output = (struct output){.path = path};
+    output->stream = file_open_own(path);
+    if (!output->stream && errno)
+        return ROTID_ERROR_IO;
+    if (output->stream) { /* it may be standard output: what was printed before stands before */
+        (void)terminal_flush();
+        return ROTID_OK;
+    }
     if (is_special(path)) {
         output->stream = file_open_device(path);
         return output->stream ? ROTID_OK : ROTID_ERROR_IO;
@@ -73,9 +80,11 @@ static int finish(struct output *output)
 /* The file that is there now takes its final name; 1 with errno where it cannot. */
 static int take_name(const struct output *output)
 {
-    mode_t mask = umask(0); /* mkstemp makes private files; a result is as readable as any other file of the user */
+    struct stat existing;
+    mode_t mask = umask(0); /* mkstemp makes private files; a new result is as readable as any other file of the user */
     (void)umask(mask);
-    (void)chmod(output->beside, 0666 & ~mask);
+    int replaces = stat(output->path, &existing) == 0 && S_ISREG(existing.st_mode); /* which may be private on purpose */
+    (void)chmod(output->beside, replaces ? existing.st_mode & 0777 : 0666 & ~mask);
     return rename(output->beside, output->path) != 0;
 }
 

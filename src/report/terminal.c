@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "file/open.h"
 #include "rotid.h"
 
 /* text [length + 1], with a zero behind it; keep: the control characters that stay */
@@ -36,6 +37,8 @@ static struct {
 
 int terminal_open(void)
 {
+    if (file_hold_standard())
+        return ROTID_ERROR_IO;
     out.stream = open_memstream(&out.text, &out.length);
     return out.stream ? ROTID_OK : ROTID_ERROR_MEMORY;
 }

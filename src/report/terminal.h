@@ -6,7 +6,8 @@
 
 #include <stdio.h>
 
-/* Before anything is printed. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* Before anything is printed and any file is opened: no file of the program takes the place of a standard stream that is closed.
+ * ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_IO where that cannot be seen to. */
 int terminal_open(void);
 
 /* Where tables are written to: memory, until terminal_flush or a message sends it to standard output. */

@@ -61,6 +61,8 @@ struct frf_request {
 
 struct job {
     const char *deck; /* path as given */
+    int nfile;
+    const char *const *file; /* what it was read from: the deck, files it includes, measured data it names */
     int nheading;
     const char **heading; /* lines of text without the references */
     int nreference;

@@ -102,6 +102,25 @@ static int read_plain(struct checker *c, int d, struct message_list *found, stru
     return jobs_read_fitted(&c->scratch, &study, &cell, found, job);
 }
 
+/* The files of a deck, those that no deck before it has. */
+static int keep_files(struct checker *c, const struct job *job)
+{
+    struct study *study = c->study;
+    for (int i = 0; i < job->nfile; i++) {
+        int known = 0;
+        while (known < study->nfile && strcmp(study->file[known], job->file[i]) != 0)
+            known++;
+        if (known < study->nfile)
+            continue;
+        const char **grown = pool_grow(c->pool, study->file, (size_t)study->nfile, &study->file_room, sizeof *grown);
+        if (!grown || !(grown[study->nfile] = pool_copy_text(c->pool, job->file[i])))
+            return ROTID_ERROR_MEMORY;
+        study->file = grown;
+        study->nfile++;
+    }
+    return ROTID_OK;
+}
+
 static void check_sensors(struct checker *c, const struct study_cell *cell, const struct job *job)
 {
     const struct plan *plan = c->study->plan;
@@ -178,6 +197,8 @@ static int check_variants(struct checker *c, int d)
                 blame_plan(c, &cell, &found);
                 continue;
             }
+            if (keep_files(c, &job))
+                return ROTID_ERROR_MEMORY;
             check_sensors(c, &cell, &job);
             c->check->nparameter[cell.variant + (ptrdiff_t)d * plan->nvariant] = job.nparameter;
             if (!cell.modes)
@@ -208,6 +229,8 @@ static int check_deck(struct checker *c, int d)
         return status;
     digest_cards(&c->check->decks, &text);
     status = read_plain(c, d, &found, &job);
+    if (!status)
+        status = keep_files(c, &job);
     if (status == ROTID_ERROR_MEMORY)
         return status;
     if (!status)

@@ -9,7 +9,7 @@ struct check {
     struct digest decks, data;
 };
 
-/* Fills study->deck[].error. Errors of the plan go to the list with their places in it, decks that are wrong as
+/* Fills study->deck[].error and study->file. Errors of the plan go to the list with their places in it, decks that are wrong as
  * they stand as warnings. ROTID_OK, ROTID_ERROR_SYNTAX (also where no deck can be used), ROTID_ERROR_MEMORY. */
 int check_decks(struct pool *pool, struct study *study, struct message_list *messages, struct check *check);
 

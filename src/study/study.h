@@ -32,6 +32,9 @@ struct study {
     unsigned long seed;
     struct study_deck *deck; /* [plan->ndeck] */
     long runs;
+    int nfile;
+    size_t file_room;
+    const char **file; /* what the decks are read from, where they can be read */
     char plan_digest[DIGEST_LETTERS + 1], decks_digest[DIGEST_LETTERS + 1], data_digest[DIGEST_LETTERS + 1],
         options_digest[DIGEST_LETTERS + 1];
 };

@@ -46,6 +46,11 @@ static int read_data_form(struct uff_lines *lines, struct uff_function *function
     if (status != ROTID_OK)
         return status;
     int bad = uff_cut_data_form(lines, cell, function);
+    long long left = lines->size - lines->base - (long long)lines->at;
+    if (bad < 0 && lines->size >= 0 && function->count > left) /* whoever takes room for them would take any amount */
+        return uff_fail(lines, (int)cell[1].start + 1,
+                        "record 7 announces %lld values, expected no more than the %lld bytes that follow", function->count,
+                        left);
     if (bad < 0)
         return ROTID_OK;
     char excerpt[UFF_EXCERPT];

@@ -27,6 +27,9 @@ void uff_close(struct uff_reader *reader);
  * ROTID_ERROR_SYNTAX, _IO, _MEMORY. After an error of syntax in a set uff_next finds the next one, so a caller may go on. */
 int uff_next(struct uff_reader *reader, struct uff_set *set);
 
+/* Whether it can go back: a pipe cannot. */
+int uff_can_return(const struct uff_reader *reader);
+
 /* Goes back to a set that uff_next returned before, as if it had just been returned. ROTID_OK or ROTID_ERROR_IO. */
 int uff_return_to(struct uff_reader *reader, const struct uff_set *set);
 

@@ -171,6 +171,11 @@ int uff_next(struct uff_reader *reader, struct uff_set *set)
     return uff_end(reader, status, UFF_AT_BODY);
 }
 
+int uff_can_return(const struct uff_reader *reader)
+{
+    return reader->lines.size >= 0;
+}
+
 int uff_return_to(struct uff_reader *reader, const struct uff_set *set)
 {
     struct uff_set again = {0};

@@ -23,7 +23,7 @@ REFUSED = {
     "meas_point_1.txt": "no universal file",
     "meas_point_2.txt": "no universal file",
     "meas_point_3.txt": "no universal file",
-    "dataset_milestone_in_header.uff": "the set ends after 42 of 2508876 values",  # cut off by its author
+    "dataset_milestone_in_header.uff": "record 7 announces 2508876 values",  # cut off by its author
 }
 
 

@@ -1,0 +1,172 @@
+/* Where outputs go: not over what is read, not in the place of a link to a descriptor, not into a file that has the number of a
+ * closed standard stream. Decks that name more than a rotor has end with a message. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell.h"
+#include "support.h"
+
+#define ROTID "cd %s && " ROTID_PROGRAM " "
+#define INPUT ROTID_SOURCE_DIR "/input"
+
+static char folder[] = "/tmp/test_outputs_XXXXXX";
+
+/* A deck that includes another one and names measured data; a plan of it. */
+static int setup(void **state)
+{
+    struct pool pool;
+    (void)state;
+    if (!mkdtemp(folder))
+        return -1;
+    pool_open(&pool, NULL);
+    (void)shell(&pool,
+                "cd %s && mkdir data && cp " INPUT "/data/solid_steel.uff data/ && cp " INPUT "/solid_steel.inp part.inp && "
+                "printf '*INCLUDE, FILE=part.inp\\n*IDENTIFY\\ncore.E, 1e9, 1e12, 2e11\\n' > deck.inp && printf "
+                "'*STUDY\\n*DECKS\\ndeck.inp\\n' > runs.plan && "
+                "cp part.inp kept.inp && cp data/solid_steel.uff kept.uff",
+                folder);
+    pool_close(&pool);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    struct pool pool;
+    (void)state;
+    pool_open(&pool, NULL);
+    (void)shell(&pool, "rm -r %s", folder);
+    pool_close(&pool);
+    return 0;
+}
+
+static void refuses(const char *command)
+{
+    const char *output;
+    assert_int_equal(shell_code(&test_pool, &output, ROTID "%s 2>&1", folder, command), 2);
+    if (!strstr(output, "is read"))
+        fail_msg("rotid %s says:\n%s", command, output);
+    (void)shell(&test_pool, "cd %s && cmp part.inp kept.inp && cmp data/solid_steel.uff kept.uff", folder);
+}
+
+static void what_a_deck_names_is_not_written(void **state)
+{
+    (void)state;
+    refuses("check deck.inp --json part.inp");
+    refuses("check deck.inp --json ./data/../data/solid_steel.uff");
+    refuses("diagnose deck.inp --extended part.inp");
+    refuses("frf deck.inp --set FRF.LINES=9 -o data/solid_steel.uff");
+    refuses("frf deck.inp --set FRF.FILE=kept.uff -o kept.uff");
+    refuses("study runs.plan -o runs.jsonl --json data/solid_steel.uff");
+    refuses("study runs.plan -o runs.jsonl --json part.inp");
+    refuses("study deck.inp -o runs.jsonl --json part.inp");
+    (void)shell(&test_pool, "cd %s && sed s/part/m.mass.mtx/ deck.inp | sed s/mtx.inp/mtx/ > m.inp && cp part.inp m.mass.mtx",
+                folder);
+    refuses("export m.inp --format matrix-market -o m");
+    (void)shell(&test_pool, "cd %s && cmp part.inp m.mass.mtx && test ! -e runs.jsonl && test ! -e m.stiffness.mtx", folder);
+    (void)shell(&test_pool, ROTID "check deck.inp --quiet --json other.json", folder);
+}
+
+/* As /dev/stdout is one; not by that name, which root would lose where this fails. */
+static void a_link_to_a_descriptor_stays(void **state)
+{
+    (void)state;
+    const char *output;
+    (void)shell(&test_pool, "cd %s && ln -s /proc/self/fd/1 out && ln -s /proc/self/fd/5 five && ln -s /proc/self/fd/0 in",
+                folder);
+    (void)shell(&test_pool, ROTID "check deck.inp --quiet --json expected.json", folder);
+    (void)shell(&test_pool, ROTID "check deck.inp --quiet --json out > got && test -L out && cmp got expected.json", folder);
+    (void)shell(&test_pool, ROTID "check deck.inp --quiet --json five 5> got && test -L five && cmp got expected.json", folder);
+    (void)shell(&test_pool, ROTID "check deck.inp --quiet --json /dev/fd/5 5> got && cmp got expected.json", folder);
+    (void)shell(&test_pool, ROTID "check deck.inp --quiet --json out | cmp - expected.json", folder);
+    /* the table first, all of both */
+    (void)shell(&test_pool,
+                ROTID "check deck.inp > table && " ROTID_PROGRAM " check deck.inp --json out > got && "
+                      "cat table expected.json | cmp - got",
+                folder);
+    assert_int_equal(shell_code(&test_pool, &output, ROTID "check deck.inp --quiet --json in 2>&1 < kept.inp && false", folder),
+                     3);
+    assert_non_null(strstr(output, "cannot write in: Bad file descriptor"));
+    (void)shell(&test_pool, "cd %s && test -L in && cmp part.inp kept.inp", folder);
+}
+
+/* A file that is opened would have the number of the closed stream, and get what is said there. */
+static void closed_streams_are_no_files(void **state)
+{
+    (void)state;
+    const char *output;
+    (void)shell(&test_pool,
+                "cd %s && sed 's/=0.01//' " INPUT "/paper_study.plan | sed 's|^paper_rotor|" INPUT "/paper_rotor|' > many.plan",
+                folder);
+    /* ends by SIGTERM, after it has begun, and says so */
+    (void)shell_code(&test_pool, &output,
+                     "cd %s && { " ROTID_PROGRAM " study many.plan -o many.jsonl --threads 1 0<&- >&- 2>&- & } && "
+                     "while test $(cat many.jsonl 2>/dev/null | wc -l) -lt 2; do sleep 0.05; done; kill -TERM $!; wait $!",
+                     folder);
+    (void)shell(&test_pool, "cd %s && ! grep -q '^rotid' many.jsonl", folder);
+    (void)shell_code(&test_pool, NULL, ROTID "study --summary many.jsonl > table", folder); /* 1: unfinished */
+    (void)shell(&test_pool, "cd %s && grep -q 'of 280 runs' table", folder);
+    assert_int_equal(shell_code(&test_pool, NULL, ROTID "check deck.inp --json closed.json >&-", folder), 3);
+    (void)shell(&test_pool, "cd %s && cmp closed.json expected.json", folder);
+}
+
+static void options_follow_the_file_for_posix_as_well(void **state)
+{
+    (void)state;
+    (void)shell(&test_pool,
+                "cd %s && POSIXLY_CORRECT=1 " ROTID_PROGRAM
+                " check deck.inp --quiet --json posix.json && cmp posix.json expected.json",
+                folder);
+}
+
+/* Few masters have fewer modes than are listed. */
+static void exported_files_hold_numbers(void **state)
+{
+    (void)state;
+    (void)shell(&test_pool,
+                ROTID "export " INPUT "/brake_reuss_beam.inp --format matrix-market -o few --quiet && ! grep -i nan few.*",
+                folder);
+}
+
+static void write_cards(const char *name, int cards, const char *head, int lines)
+{
+    char path[128];
+    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    (void)fputs("*MATERIAL, NAME=m\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=s, MATERIAL=m\n1, 0.1, 0, 20\n", stream);
+    for (int c = 0; c < cards; c++) {
+        (void)fprintf(stream, head, c);
+        for (int i = 0; i < lines; i++)
+            (void)fprintf(stream, "%d, %.7f\n", c * lines + i + 1, 1 - (c * lines + i) / (double)(cards * lines));
+    }
+    assert_int_equal(fclose(stream), 0);
+}
+
+static void more_than_a_rotor_has_is_refused(void **state)
+{
+    (void)state;
+    const char *output;
+    write_cards("sensors.inp", 30, "*SENSORS\n** %d\n", 10000); /* each with each would take minutes */
+    assert_int_equal(
+        shell_code(&test_pool, &output, "cd %s && timeout -s KILL 60 " ROTID_PROGRAM " check sensors.inp 2>&1", folder), 2);
+    assert_non_null(strstr(output, "more than 10000 sensors, expected fewer"));
+    write_cards("bars.inp", 300, "*BARS, NAME=b%d, MATERIAL=m, CENTER=0.5, LENGTH=0.1\n8, 0.001, 0.01, 1000\n", 0);
+    assert_int_equal(shell_code(&test_pool, &output, "cd %s && timeout -s KILL 60 " ROTID_PROGRAM " check bars.inp 2>&1", folder),
+                     2);
+    assert_non_null(
+        strstr(output, "bars.inp:26:1: shaft, rods and bars up to these have 10020 elements, expected at most 10000"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(what_a_deck_names_is_not_written, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_link_to_a_descriptor_stays, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(closed_streams_are_no_files, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(options_follow_the_file_for_posix_as_well, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(exported_files_hold_numbers, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(more_than_a_rotor_has_is_refused, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests_name("outputs", tests, setup, teardown);
+}
