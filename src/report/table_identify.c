@@ -174,7 +174,7 @@ static void print_head(FILE *out, const rotid_identification *fit)
     (void)fputs("\n\n", out);
 }
 
-void table_identify(FILE *out, const struct result *result, const char *no_baseline, int history)
+void table_identify(FILE *out, const struct result *result, int baseline, int history)
 {
     const rotid_identification *fit = result->identify;
     table_heading(out, &result->head);
@@ -182,8 +182,8 @@ void table_identify(FILE *out, const struct result *result, const char *no_basel
     print_parameters(out, fit);
     if (fit->nbaseline)
         print_baseline(out, fit);
-    else if (no_baseline)
-        (void)fprintf(out, "\nno minimiser beside it: %s\n", no_baseline);
+    else if (baseline && !fit->nlopt)
+        (void)fprintf(out, "\nno minimiser beside it: this rotid is built without NLopt (WITH_NLOPT=0)\n");
     if (history)
         print_history(out, fit);
     (void)fputc('\n', out);
