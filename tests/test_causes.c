@@ -206,7 +206,7 @@ static void bounds_of_mass_rest_on_the_mass_of_the_model(void **state)
     double lower, upper;
     bench_build(rotor, 0, NULL, &beam);
     beam_mass_properties(&beam, &properties);
-    assert_close(mass_of_rotor(rotor), properties.mass, 1e-12, 0);
+    assert_close(rotor_mass(rotor), properties.mass, 1e-12, 0);
     cause_added_mass.bounds(rotor, &effect, 0, &lower, &upper);
     assert_close(upper, 0.03 * properties.mass, 1e-12, 0);
 }

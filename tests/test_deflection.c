@@ -43,7 +43,7 @@ static void members_follow_a_motion_that_all_elements_can_follow(void **state)
     struct json_deck deck;
     struct spectrum s;
     json_deck_open(&deck, MEMBERS);
-    assert_status(spectrum_compute(&deck.pool, &deck.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &s), ROTID_OK);
+    assert_status(spectrum_compute(&deck.pool, NULL, &deck.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &s), ROTID_OK);
     double *u = POOL_ARRAY(&deck.pool, double, s.beam->mesh.ndof);
     for (int m = 0; m < 3; m++) {
         const double *q = motion[m];

@@ -142,7 +142,7 @@ static void test_what_ross_leaves_out_is_said(void **state)
     for (int j = 0; j < 3; j++) {
         double nearest = INFINITY; /* what is called its partner is a mode of the deck */
         struct spectrum deck;
-        assert_status(spectrum_compute(&test_pool, &model.job->rotor, 0, NULL, NULL, ROTID_GUYAN, 20, &deck), ROTID_OK);
+        assert_status(spectrum_compute(&test_pool, NULL, &model.job->rotor, 0, NULL, NULL, ROTID_GUYAN, 20, &deck), ROTID_OK);
         for (int i = 0; i < deck.count; i++)
             nearest = fmin(nearest, fabs(deck.full_hz[i] - ross.deck_hz[j]));
         assert_close(nearest, 0, 0, 1e-6);

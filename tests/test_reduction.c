@@ -9,7 +9,7 @@
 #include "linalg/eigen.h"
 #include "linalg/matrix.h"
 #include "linalg/reduction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 static const int kinds[2] = {ROTID_GUYAN, ROTID_IRS};
 
@@ -22,7 +22,7 @@ static rotid_matrix like(struct pool *pool, const rotid_matrix *a)
 
 /* K, M and their derivatives of the paper's rotor. */
 struct rotor_model {
-    struct client client;
+    struct rotor_model client;
     rotid_matrix k, m, dk, dm;
 };
 
@@ -31,8 +31,8 @@ static void open_rotor(struct pool *pool, enum bundle_model bundle, int self_equ
 {
     int failed;
     const struct rotor *rotor = paper_rotor(bundle, self_equilibrated);
-    assert_status(client_open(pool, rotor, nparameter, parameter, 1, &r->client, &failed), ROTID_OK);
-    const rotid_model *model = &r->client.model;
+    assert_status(model_open(pool, NULL, rotor, nparameter, parameter, 1, &r->client, &failed), ROTID_OK);
+    const rotid_model *model = &r->client.equations;
     rotid_matrix *all[4] = {&r->k, &r->m, &r->dk, &r->dm};
     for (int i = 0; i < 4; i++)
         assert_status(matrix_new(pool, model->n, model->kd, model->nfar, model->far, all[i]), ROTID_OK);
@@ -80,8 +80,8 @@ static void condensed_matrices_of_the_papers_rotor_are_those_of_the_dense_formul
     for (int bundle = BUNDLE_RODS; bundle <= BUNDLE_TUBE; bundle++) {
         struct rotor_model r;
         open_rotor(*state, (enum bundle_model)bundle, 1, 2, paper_parameters, paper_start, &r);
-        assert_int_equal(r.client.model.nmaster, PAPER_SENSORS);
-        check_against_dense(*state, &r.k, &r.m, PAPER_SENSORS, r.client.model.master, 1e-9);
+        assert_int_equal(r.client.equations.nmaster, PAPER_SENSORS);
+        check_against_dense(*state, &r.k, &r.m, PAPER_SENSORS, r.client.equations.master, 1e-9);
     }
 }
 
@@ -110,7 +110,7 @@ static void guyan_keeps_the_static_flexibility_of_the_masters(void **state)
 /* Frequencies of modes 1-6 in Hz: condensed, or full with kind ROTID_REDUCTION_NONE. */
 static void bending_frequencies(struct pool *pool, const struct rotor_model *r, int kind, double *hz)
 {
-    int count = r->client.model.nrigid + PAPER_MODES, nc = r->client.model.nmaster;
+    int count = r->client.equations.nrigid + PAPER_MODES, nc = r->client.equations.nmaster;
     double *lambda = numbers(pool, count), *phi = numbers(pool, (ptrdiff_t)r->k.n * count);
     if (kind == ROTID_REDUCTION_NONE) {
         struct eigen_band e;
@@ -119,13 +119,13 @@ static void bending_frequencies(struct pool *pool, const struct rotor_model *r, 
     } else {
         struct reduction reduction;
         struct eigen_dense e;
-        assert_status(reduction_new(pool, kind, &r->k, nc, r->client.model.master, &reduction), ROTID_OK);
+        assert_status(reduction_new(pool, kind, &r->k, nc, r->client.equations.master, &reduction), ROTID_OK);
         assert_status(reduction_compute(&reduction, &r->k, &r->m), ROTID_OK);
         assert_status(eigen_dense_new(pool, nc, count, &e), ROTID_OK);
         assert_status(eigen_dense_solve(&e, reduction.kc, reduction.mc, lambda, phi), ROTID_OK);
     }
     for (int j = 0; j < PAPER_MODES; j++)
-        hz[j] = sqrt(lambda[r->client.model.nrigid + j]) / 6.28318530717958647692;
+        hz[j] = sqrt(lambda[r->client.equations.nrigid + j]) / 6.28318530717958647692;
 }
 
 /* Per cent by which Guyan with 68 masters raises the frequencies; from SciPy, dense. IRS on the same masters is nearer. */
@@ -161,7 +161,7 @@ static void condensed_at(struct rotor_model *r, struct reduction *reduction, int
     x[p] *= 1 + by;
     matrix_zero(&r->k);
     matrix_zero(&r->m);
-    assert_int_equal(r->client.model.matrices(r->client.model.user, x, &r->k, &r->m), 0);
+    assert_int_equal(r->client.equations.matrices(r->client.equations.user, x, &r->k, &r->m), 0);
     assert_status(reduction_compute(reduction, &r->k, &r->m), ROTID_OK);
     size_t square = (size_t)reduction->nc * (size_t)reduction->nc, tall = (size_t)reduction->n * (size_t)reduction->nc;
     memcpy(all, reduction->t, tall * sizeof *all);
@@ -195,7 +195,7 @@ static void derivatives_match_central_differences(void **state)
         struct rotor_model r;
         struct reduction reduction;
         open_rotor(*state, BUNDLE_RODS, 0, 6, six, values, &r);
-        const rotid_model *model = &r.client.model;
+        const rotid_model *model = &r.client.equations;
         int n = model->n, nc = model->nmaster;
         size_t square = (size_t)nc * (size_t)nc, tall = (size_t)n * (size_t)nc;
         assert_status(reduction_new(*state, kinds[kind], &r.k, nc, model->master, &reduction), ROTID_OK);

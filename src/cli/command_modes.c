@@ -10,7 +10,7 @@ int command_modes(struct command *command)
     struct comparison compared;
     int count = comparison_candidates(job), reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
     count = count > MODES_SHOWN ? count : MODES_SHOWN;
-    int status = spectrum_compute(&command->pool, &job->rotor, 0, NULL, NULL, reduction, count, &spectrum);
+    int status = spectrum_compute(&command->pool, job->models, &job->rotor, 0, NULL, NULL, reduction, count, &spectrum);
     if (!status)
         status = comparison_make(&command->pool, job, &spectrum, &command->messages, &compared);
     if (status)

@@ -156,8 +156,8 @@ static void add_cause(struct json_tree *tree, struct pool *pool, cJSON *list, co
 
 void json_geometry(struct json_tree *tree, const struct job *job, const struct spectrum *spectrum)
 {
-    const struct beam *beam = spectrum->beam;
-    const struct rotor *rotor = beam ? &beam->rotor : &job->rotor;
+    const struct rotor_model *model = spectrum->model;
+    const struct rotor *rotor = model ? model->rotor : &job->rotor;
     cJSON *geometry = json_object(tree, tree->root, "geometry"), *causes;
     struct pool pool;
     json_rounded(tree, geometry, "length_m", rotor_length(rotor));
@@ -169,5 +169,5 @@ void json_geometry(struct json_tree *tree, const struct job *job, const struct s
     for (int i = 0; i < rotor->neffect; i++)
         add_cause(tree, &pool, causes, rotor, &rotor->effect[i]);
     pool_close(&pool);
-    json_digits(tree, geometry, "nodes_z_m", beam ? beam->mesh.naxis : 0, beam ? beam->mesh.z : NULL);
+    json_digits(tree, geometry, "nodes_z_m", model ? model->naxis : 0, model ? model->z : NULL);
 }

@@ -5,7 +5,7 @@
 #include "result/json_tree.h"
 
 /* "geometry" of the root: of the model of the spectrum, with the values of the parameters and the end springs that it has; of the
- * job as it stands, without nodes, where there is no spectrum (spectrum->beam NULL). */
+ * job as it stands, without nodes, where there is no spectrum (spectrum->model NULL). */
 void json_geometry(struct json_tree *tree, const struct job *job, const struct spectrum *spectrum);
 
 #endif

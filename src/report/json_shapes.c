@@ -67,7 +67,7 @@ static void add_matrix(struct json_tree *tree, cJSON *object, const char *key, c
 static void add_shapes(struct json_tree *tree, cJSON *object, const struct job *job, const struct identification *result,
                        const struct mode_shapes *shapes, double *work)
 {
-    const struct rotor *rotor = &result->spectrum.beam->rotor;
+    const struct rotor *rotor = result->spectrum.model->rotor;
     cJSON *item = json_object(tree, object, "shapes"), *list = json_array(tree, item, "sensor_id");
     for (int s = 0; s < shapes->nsensor; s++) {
         json_number(tree, list, NULL, rotor->sensor[s].id);
@@ -92,7 +92,7 @@ void json_shapes(struct json_tree *tree, cJSON *object, const struct job *job, c
 {
     struct pool pool;
     struct mode_shapes shapes;
-    if (!result->spectrum.beam) {
+    if (!result->spectrum.model) {
         json_null(tree, object, "shapes");
         return;
     }
