@@ -48,7 +48,7 @@ cJSON *json_deck_check(struct json_deck *deck)
     struct spectrum spectrum;
     struct mass_properties mass;
     assert_status(spectrum_compute(&deck->pool, NULL, &deck->job.rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &spectrum), ROTID_OK);
-    beam_mass_properties(spectrum.model, &mass);
+    model_mass_properties(spectrum.model, &mass);
     return parsed(json_check(&provenance, &deck->job, &mass, &spectrum, &deck->messages));
 }
 

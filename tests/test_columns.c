@@ -87,10 +87,10 @@ static void difference(struct columns *c, int p, double h, int side, double *col
     static const double weight[3][5] = {{1, -8, 0, 8, -1}, {-25, 48, -36, 16, -3}, {25, -48, 36, -16, 3}};
     int scheme = side < 0 ? 2 : side;
     double x[16], r[MOST];
-    assert_true(c->client.equations.nparam <= 16 && c->nrow <= MOST);
+    assert_true(c->model.equations.nparam <= 16 && c->nrow <= MOST);
     memset(column, 0, (size_t)c->nrow * sizeof *column);
     for (int s = 0; s < 5; s++) {
-        memcpy(x, c->x, (size_t)c->client.equations.nparam * sizeof *x);
+        memcpy(x, c->x, (size_t)c->model.equations.nparam * sizeof *x);
         x[p] += h * at[scheme][s];
         assert_status(columns_residual(c, x, r), ROTID_OK);
         for (int i = 0; i < c->nrow; i++)

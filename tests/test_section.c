@@ -1,6 +1,8 @@
 /* Cross sections against sums over holes and rods, limits of Cowper's coefficient and inversion. */
 #include <math.h>
 
+#include "beam/cylinder.h"
+#include "beam/shear_coefficient.h"
 #include "rotor/section.h"
 #include "support.h"
 
