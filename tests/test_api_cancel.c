@@ -84,8 +84,8 @@ static void a_fit_evaluates_nothing_more(void **state)
     paper_fit_open(&fit, BUNDLE_TUBE);
     fit.options.baseline = 1;
     for (int k = 1; !ended; k = k < 8 ? k + 1 : k * 3 / 2) {
-        struct host host = {.stop_at = k, .once = 1, .model = &fit.client.model};
-        rotid_model model = fit.client.model;
+        struct host host = {.stop_at = k, .once = 1, .model = &fit.client.equations};
+        rotid_model model = fit.client.equations;
         const rotid_environment environment = environment_of(&host, NULL);
         rotid_fit_result *result;
         model.matrices = matrices;

@@ -39,7 +39,7 @@ static char *noisy_deck(const char *noise, int with_std)
         (void)snprintf(sensors + strlen(sensors), sizeof sensors - strlen(sensors), "%d, %.3f\n", 10 + i, 0.125 * i);
     (void)snprintf(text, sizeof text, SHAFT "%s", sensors);
     json_deck_open(&deck, text);
-    assert_status(spectrum_compute(&deck.pool, &deck.job->rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &s), ROTID_OK);
+    assert_status(spectrum_compute(&deck.pool, NULL, &deck.job->rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &s), ROTID_OK);
     (void)snprintf(text, sizeof text, SHAFT MODES IDENTIFY "%s%s", noise, sensors);
     for (int k = 0; k < 2; k++) {
         (void)snprintf(text + strlen(text), 64, "*SHAPE, MODE=%d\n", k + 1);
@@ -336,7 +336,7 @@ static void a_large_result_stays_small(void **state)
     for (int i = 0; i < 500; i++)
         ADD("%s%d, %.3f\n", i ? "" : "*SENSORS\n", i + 1, 0.004 * i);
     json_deck_open(&deck, text);
-    assert_status(spectrum_compute(&deck.pool, &deck.job->rotor, 0, NULL, NULL, ROTID_GUYAN, 10, &s), ROTID_OK);
+    assert_status(spectrum_compute(&deck.pool, NULL, &deck.job->rotor, 0, NULL, NULL, ROTID_GUYAN, 10, &s), ROTID_OK);
     ADD("*NOISE, FREQUENCY=0.001, SHAPE=0.02\n" IDENTIFY "*MODES\n");
     for (int k = 0; k < 10; k++)
         ADD("%d, %.9g\n", k + 1, s.full_hz[k] * (1 + 1e-3 * random_normal(&stream)));

@@ -154,7 +154,7 @@ static void fill_shapes(struct result_memory *memory, const struct job *job, con
                         rotid_identification *out)
 {
     struct mode_shapes shapes;
-    const struct rotor *rotor = &found->spectrum.beam->rotor;
+    const struct rotor *rotor = found->spectrum.model->rotor;
     if (mode_shapes_make(&memory->pool, job, &found->spectrum, &found->compared, &shapes) ||
         !(out->shapes = RESULT_NEW(memory, rotid_shapes))) {
         memory->missing = 1;
@@ -226,7 +226,7 @@ rotid_identification *result_identification(struct result_memory *memory, const 
         fill_parameters(memory, job, fit, out);
         fill_modes(memory, job, found, out);
         fill_history(memory, found, out);
-        if (found->spectrum.beam)
+        if (found->spectrum.model)
             fill_shapes(memory, job, found, out);
     }
     found->fit = NULL;
