@@ -19,25 +19,25 @@ struct state {
 };
 
 struct moved {
-    const struct told_parameter *parameter;
+    const rotid_changed_parameter *parameter;
     struct human_unit unit;
     struct state state[STATES]; /* in that unit, NaN: there is none */
 };
 
-static const struct fitted_parameter *in(const struct fitted *fit, const char *name)
+static const rotid_fitted_parameter *in(const rotid_identification *fit, const char *name)
 {
-    for (int p = 0; fit && p < fit->nparameter; p++)
-        if (!strcmp(fit->parameter[p].name, name))
-            return &fit->parameter[p];
+    for (int p = 0; fit && p < fit->nparameters; p++)
+        if (!strcmp(fit->parameters[p].name, name))
+            return &fit->parameters[p];
     return NULL;
 }
 
-static int collect(const struct diagnosis_outcome *d, struct moved moved[MOST_PANELS])
+static int collect(const rotid_diagnosis *d, struct moved moved[MOST_PANELS])
 {
     int count = 0;
-    for (int p = 0; p < d->nparameter && count < MOST_PANELS; p++) {
-        const struct told_parameter *q = &d->parameter[p];
-        const struct fitted_parameter *today = in(diagnosis_today(d), q->name);
+    for (int p = 0; p < d->gain.nparameters && count < MOST_PANELS; p++) {
+        const rotid_changed_parameter *q = &d->gain.parameters[p];
+        const rotid_fitted_parameter *today = in(diagnosis_today(d), q->name);
         if (!isfinite(q->before))
             continue;
         struct moved *m = &moved[count++];
@@ -45,9 +45,9 @@ static int collect(const struct diagnosis_outcome *d, struct moved moved[MOST_PA
         *m = (struct moved){.parameter = q, .unit = human_unit(q->before, q->unit)};
         f = m->unit.factor;
         m->state[0] =
-            today ? (struct state){f * today->value, {f * today->ci[0], f * today->ci[1]}} : (struct state){NAN, {NAN, NAN}};
-        m->state[1] = (struct state){f * q->before, {f * q->before_ci[0], f * q->before_ci[1]}};
-        m->state[2] = (struct state){f * q->after, {f * q->after_ci[0], f * q->after_ci[1]}};
+            today ? (struct state){f * today->value, {f * today->ci95[0], f * today->ci95[1]}} : (struct state){NAN, {NAN, NAN}};
+        m->state[1] = (struct state){f * q->before, {f * q->before_ci95[0], f * q->before_ci95[1]}};
+        m->state[2] = (struct state){f * q->after, {f * q->after_ci95[0], f * q->after_ci95[1]}};
     }
     return count;
 }
@@ -120,21 +120,21 @@ static int script(struct document *document, struct figure *figure, const struct
     return plot_close(&plot);
 }
 
-static struct number_table *changes_table(struct pool *pool, const struct diagnosis_outcome *d)
+static struct number_table *changes_table(struct pool *pool, const rotid_diagnosis *d)
 {
-    struct number_table *table = table_new(pool, d->nparameter, 5);
+    struct number_table *table = table_new(pool, d->gain.nparameters, 5);
     table_head(table, 0, "parameter");
     table_head(table, 1, "as the deck fits");
     table_head(table, 2, d->extended ? "without the cause" : "full model");
     table_head(table, 3, "with it");
     table_head(table, 4, "change [%]");
-    for (int p = 0; p < d->nparameter; p++) {
-        const struct told_parameter *q = &d->parameter[p];
-        const struct fitted_parameter *today = in(diagnosis_today(d), q->name);
+    for (int p = 0; p < d->gain.nparameters; p++) {
+        const rotid_changed_parameter *q = &d->gain.parameters[p];
+        const rotid_fitted_parameter *today = in(diagnosis_today(d), q->name);
         table_cell(table, p, 0, q->name);
-        table_cell(table, p, 1, today ? human_interval(pool, today->value, today->ci, today->unit) : "\xe2\x80\x93");
-        table_cell(table, p, 2, human_interval(pool, q->before, q->before_ci, q->unit));
-        table_cell(table, p, 3, human_interval(pool, q->after, q->after_ci, q->unit));
+        table_cell(table, p, 1, today ? human_interval(pool, today->value, today->ci95, today->unit) : "\xe2\x80\x93");
+        table_cell(table, p, 2, human_interval(pool, q->before, q->before_ci95, q->unit));
+        table_cell(table, p, 3, human_interval(pool, q->after, q->after_ci95, q->unit));
         table_cell(table, p, 4, human_signed(pool, 100 * (q->after / q->before - 1), 1));
     }
     return table;
@@ -161,7 +161,7 @@ static const char *movements(struct pool *pool, int count, const struct moved *m
 
 void figure_change(struct document *document, const struct result *result)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
+    const rotid_diagnosis *d = result->diagnose;
     struct pool *pool = document->pool;
     struct moved moved[MOST_PANELS];
     int count = collect(d, moved), shown[STATES], nshown = 0, has[STATES] = {diagnosis_today(d) != NULL, 1, d->extended != NULL};

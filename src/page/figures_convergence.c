@@ -10,7 +10,7 @@
 enum { OBJECTIVE, GRADIENT, STEP, DAMPING, CURVES };
 #define MOST_DECADES 18
 
-static struct number_table *iterations_table(struct pool *pool, const struct fitted *fit)
+static struct number_table *iterations_table(struct pool *pool, const rotid_identification *fit)
 {
     static const char *const head[] = {"iteration",      "objective [1]", "gradient [1]", "damping [1]",
                                        "gain ratio [1]", "step [1]",      "time [ms]"};
@@ -18,7 +18,7 @@ static struct number_table *iterations_table(struct pool *pool, const struct fit
     for (int j = 0; j < 7; j++)
         table_head(table, j, head[j]);
     for (int i = 0; i < fit->nhistory; i++) {
-        const struct fitted_iteration *now = &fit->history[i];
+        const rotid_history_entry *now = &fit->history[i];
         table_cell(table, i, 0, human_fixed(pool, now->iteration, 0));
         table_cell(table, i, 1, human_digits(pool, now->objective, 8));
         table_cell(table, i, 2, human_digits(pool, now->gradient, 3));
@@ -31,12 +31,12 @@ static struct number_table *iterations_table(struct pool *pool, const struct fit
 }
 
 /* The four curves over the iteration, [nhistory] each, NaN where a logarithm has none; NULL: memory is out. */
-static double *curves(struct pool *pool, const struct fitted *fit)
+static double *curves(struct pool *pool, const rotid_identification *fit)
 {
     int n = fit->nhistory;
     double *y = POOL_ARRAY(pool, double, (CURVES + 1) * (size_t)n);
     for (int i = 0; i < n && y; i++) {
-        const struct fitted_iteration *now = &fit->history[i];
+        const rotid_history_entry *now = &fit->history[i];
         const double value[CURVES] = {now->objective, now->gradient, now->step, now->mu};
         y[i] = now->iteration;
         for (int c = 0; c < CURVES; c++)
@@ -63,7 +63,7 @@ static struct plot_range decades(int n, const double *y, int *drawn)
     return *drawn == CURVES ? all : others;
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct fitted *fit,
+static int script(struct document *document, struct figure *figure, const struct result *result, const rotid_identification *fit,
                   const double *y)
 {
     static const char *const text[CURVES] = {"functional", "gradient", "step", "damping \xce\xbc"};
@@ -93,14 +93,14 @@ static int script(struct document *document, struct figure *figure, const struct
     return plot_close(&plot);
 }
 
-void figure_convergence(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_convergence(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
     if (fit->nhistory < 2)
         return;
     struct figure *figure =
         document_figure(document, "convergence", "Functional, gradient, damping and step over the iterations");
-    const struct fitted_iteration *first = &fit->history[0], *last = &fit->history[fit->nhistory - 1];
+    const rotid_history_entry *first = &fit->history[0], *last = &fit->history[fit->nhistory - 1];
     const double *y = curves(pool, fit);
     int drawn = CURVES;
     if (y)

@@ -18,13 +18,13 @@ enum fate { FATE_NAMED, FATE_POSSIBLE, FATE_LOSES, FATE_REFUSED, FATE_SCANNED, F
 static const char *const fate_color[FATES] = {"VERMILION", "PURPLE", "BLUE", "MUTED", "BLUE"};
 
 struct bar {
-    const struct evidence *evidence;
+    const rotid_candidate *evidence;
     enum fate fate;
     double drop;
     const char *label;
 };
 
-struct bars {
+struct bar_list {
     int count, hidden, has[FATES];
     struct bar bar[MOST_BARS]; /* longest first */
 };
@@ -36,22 +36,25 @@ static int longer(const void *a, const void *b)
 }
 
 /* The longest ones, the set in any case. NULL: memory is out. */
-static struct bars *collect(struct pool *pool, const struct evidence_round *round)
+static struct bar_list *collect(struct pool *pool, const rotid_diagnosis *d, int number)
 {
-    struct bars *bars = POOL_NEW(pool, struct bars);
-    struct bar *all = POOL_ARRAY(pool, struct bar, round->ncandidate);
+    int ncandidate;
+    const rotid_candidate *candidate = diagnosis_candidates(d, number, &ncandidate);
+    const rotid_round *round = &d->rounds[number];
+    struct bar_list *bars = POOL_NEW(pool, struct bar_list);
+    struct bar *all = POOL_ARRAY(pool, struct bar, ncandidate);
     int count = 0;
     if (!bars || !all)
         return NULL;
-    for (int i = 0; i < round->ncandidate; i++) {
-        const struct evidence *c = &round->candidate[i];
+    for (int i = 0; i < ncandidate; i++) {
+        const rotid_candidate *c = &candidate[i];
         double drop = c->refitted ? c->chi2_drop : c->predicted_drop;
-        enum fate fate = i < round->nset         ? round->kind == TOLD_NAMED ? FATE_NAMED : FATE_POSSIBLE
+        enum fate fate = i < round->set          ? round->kind == ROTID_NAMED ? FATE_NAMED : FATE_POSSIBLE
                          : !c->refitted          ? FATE_SCANNED
-                         : diagnosis_is_rival(c) ? FATE_LOSES
+                         : candidate_is_rival(c) ? FATE_LOSES
                                                  : FATE_REFUSED;
         if (isfinite(drop))
-            all[count++] = (struct bar){c, fate, fmax(drop, 0), cause_label(pool, &c->cause)};
+            all[count++] = (struct bar){c, fate, fmax(drop, 0), cause_label(pool, d, &c->cause)};
     }
     qsort(all, (size_t)count, sizeof *all, longer);
     for (int i = 0; i < count; i++) {
@@ -64,7 +67,7 @@ static struct bars *collect(struct pool *pool, const struct evidence_round *roun
     return bars;
 }
 
-static int legend_of(const struct bars *bars, const struct evidence_round *round, int with_margin, struct plot_entry *entry)
+static int legend_of(const struct bar_list *bars, const rotid_round *round, int with_margin, struct plot_entry *entry)
 {
     static const char *const texts[FATES] = {"named", "possible, not to be told apart", "fitted, loses",
                                              "refused for a reason of its own", "only scanned: the drop expected"};
@@ -94,7 +97,7 @@ static double behind(double drop, double most, const char *text, int layout, con
     return at;
 }
 
-static void draw_bars(struct plot *plot, const struct bars *bars, double most, const double line[2])
+static void draw_bars(struct plot *plot, const struct bar_list *bars, double most, const double line[2])
 {
     int n = bars->count;
     for (int i = 0; i < n; i++) {
@@ -133,8 +136,8 @@ static void upright(struct plot *plot, double x, int n, int style)
         100 * style, x, x, style, n, 100 * style, x, x, style);
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result,
-                  const struct evidence_round *round, const struct bars *bars, double margin_at)
+static int script(struct document *document, struct figure *figure, const struct result *result, const rotid_round *round,
+                  const struct bar_list *bars, double margin_at)
 {
     struct plot plot;
     struct plot_entry entry[FATES + 2];
@@ -178,7 +181,7 @@ static int script(struct document *document, struct figure *figure, const struct
     return plot_close(&plot);
 }
 
-static struct number_table *bars_table(struct pool *pool, const struct bars *bars)
+static struct number_table *bars_table(struct pool *pool, const struct bar_list *bars)
 {
     static const char *const fates[FATES] = {"named", "possible", "loses", "refused for a reason of its own", "only scanned"};
     struct number_table *table = table_new(pool, bars->count, 4);
@@ -196,31 +199,33 @@ static struct number_table *bars_table(struct pool *pool, const struct bars *bar
 }
 
 /* Who leads whom, and by how much. */
-static const char *lead(struct pool *pool, const struct evidence_round *round, const struct bars *bars)
+static const char *lead(struct pool *pool, const rotid_diagnosis *d, int number, const struct bar_list *bars)
 {
-    int first, second;
-    diagnosis_leaders(round, &first, &second);
-    const struct evidence *best = first >= 0 ? &round->candidate[first] : NULL, *longest = bars->bar[0].evidence;
-    const char *name = best ? cause_label(pool, &best->cause) : "",
-               *next = second >= 0 ? cause_label(pool, &round->candidate[second].cause) : "";
+    int first, second, count;
+    const rotid_round *round = &d->rounds[number];
+    const rotid_candidate *candidate = diagnosis_candidates(d, number, &count);
+    diagnosis_leaders(d, number, &first, &second);
+    const rotid_candidate *best = first >= 0 ? &candidate[first] : NULL, *longest = bars->bar[0].evidence;
+    const char *name = best ? cause_label(pool, d, &best->cause) : "",
+               *next = second >= 0 ? cause_label(pool, d, &candidate[second].cause) : "";
     const char *asked = human_trimmed(pool, round->required_margin, 3), *text = "";
-    if (round->kind == TOLD_NAMED && best)
+    if (round->kind == ROTID_NAMED && best)
         text = pool_format(pool, "%s lowers the misfit of %s by %s", name, human_digits(pool, round->chi2, 4),
                            human_digits(pool, best->chi2_drop, 3));
-    if (round->kind == TOLD_NAMED && best && second >= 0 && text)
+    if (round->kind == ROTID_NAMED && best && second >= 0 && text)
         text = pool_format(pool, "%s and leads the runner-up, %s, by %s, with 3 charged for each parameter; a name asks for %s",
-                           text, next, human_digits(pool, diagnosis_lead(best, &round->candidate[second]), 3), asked);
-    else if (round->kind == TOLD_NAMED && best && longest != best && text)
+                           text, next, human_digits(pool, candidate_lead(best, &candidate[second]), 3), asked);
+    else if (round->kind == ROTID_NAMED && best && longest != best && text)
         text = pool_format(pool, "%s. %s does so by more and was refused: %s", text, bars->bar[0].label,
                            longest->rejected_because ? longest->rejected_because : "");
-    else if (round->nset > 1)
+    else if (round->set > 1)
         text = pool_format(pool,
                            "%s causes explain the data about equally well: a name asks for a lead of %s over every other, with 3 "
                            "charged for each parameter",
-                           words_sentence(pool, human_count(pool, round->nset)), asked);
-    else if (round->nset == 1 && round->kind != TOLD_NAMED)
+                           words_sentence(pool, human_count(pool, round->set)), asked);
+    else if (round->set == 1 && round->kind != ROTID_NAMED)
         text = pool_format(pool, "%s leads, but these data cannot carry its name", name);
-    else if (!round->nset)
+    else if (!round->set)
         text =
             pool_format(pool, "Nothing is left to name: the longest bar, %s, was refused%s%s", bars->bar[0].label,
                         longest->rejected_because ? " because " : "", longest->rejected_because ? longest->rejected_because : "");
@@ -229,17 +234,19 @@ static const char *lead(struct pool *pool, const struct evidence_round *round, c
 
 void figure_evidence(struct document *document, const struct result *result, int number)
 {
-    const struct evidence_round *round = &result->diagnosis->round[number];
+    const rotid_diagnosis *d = result->diagnose;
+    const rotid_round *round = &d->rounds[number];
     struct pool *pool = document->pool;
-    struct bars *bars = collect(pool, round);
-    int first, second;
+    struct bar_list *bars = collect(pool, d, number);
+    int first, second, count;
+    const rotid_candidate *candidate = diagnosis_candidates(d, number, &count);
     if (!bars || !bars->count ||
         (!bars->has[FATE_NAMED] && !bars->has[FATE_POSSIBLE] && !bars->has[FATE_LOSES] && !bars->has[FATE_REFUSED])) {
         document->failed |= !bars;
         return;
     }
-    diagnosis_leaders(round, &first, &second);
-    double margin_at = first >= 0 ? round->candidate[first].chi2_drop - round->required_margin : NAN;
+    diagnosis_leaders(d, number, &first, &second);
+    double margin_at = first >= 0 ? candidate[first].chi2_drop - round->required_margin : NAN;
     if (!(margin_at > 0) || !bars->has[FATE_LOSES])
         margin_at = NAN;
     struct figure *figure =
@@ -252,7 +259,7 @@ void figure_evidence(struct document *document, const struct result *result, int
                *hidden = bars->hidden ? pool_format(pool, " %s shorter ones stand in the table.",
                                                     words_sentence(pool, human_count(pool, bars->hidden)))
                                       : "";
-    const char *says = lead(pool, round, bars);
+    const char *says = lead(pool, d, number, bars);
     figure->caption = pool_format(pool, "%s%s%s%s", says, *says ? "." : "", chance ? chance : "", hidden ? hidden : "");
     figure->alt = pool_format(pool, "Bars of %d causes, the longest %s with %s, the shortest %s with %s.", bars->count,
                               bars->bar[0].label, human_digits(pool, bars->bar[0].drop, 3), bars->bar[bars->count - 1].label,

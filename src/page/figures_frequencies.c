@@ -18,24 +18,24 @@ struct error_series {
     double *percent; /* [nmode] */
 };
 
-static double *errors_of(struct pool *pool, const struct fitted *fit, const double *hz)
+static double *errors_of(struct pool *pool, const rotid_identification *fit, const double *hz)
 {
-    double *percent = POOL_ARRAY(pool, double, fit->nmode);
-    for (int k = 0; k < fit->nmode && percent; k++)
-        percent[k] = 100 * (hz[k] / fit->mode[k].measured_hz - 1);
+    double *percent = POOL_ARRAY(pool, double, fit->nmodes);
+    for (int k = 0; k < fit->nmodes && percent; k++)
+        percent[k] = 100 * (hz[k] / fit->modes[k].measured_hz - 1);
     return percent;
 }
 
 /* The series there are, the fit first; -1: memory is out. */
-static int collect(struct pool *pool, const struct result *result, const struct fitted *fit, struct error_series *series)
+static int collect(struct pool *pool, const struct result *result, const rotid_identification *fit, struct error_series *series)
 {
-    const struct reference_values *reference = result_reference(result, "error_percent");
-    int n = fit->nmode, count = 1;
+    const rotid_reference *reference = result_reference(result, "error_percent");
+    int n = fit->nmodes, count = 1;
     series[0] = (struct error_series){"Levenberg-Marquardt", 1, POOL_ARRAY(pool, double, n)};
     if (!series[0].percent)
         return -1;
     for (int k = 0; k < n; k++)
-        series[0].percent[k] = fit->mode[k].error_percent;
+        series[0].percent[k] = fit->modes[k].error_percent;
     for (int b = 0; b < fit->nbaseline && count < MOST_SERIES - 1; b++)
         if (fit->baseline[b].predicted_hz) {
             const char *name = pool_format(pool, "NLopt %s", fit->baseline[b].algorithm);
@@ -48,46 +48,46 @@ static int collect(struct pool *pool, const struct result *result, const struct 
         if (!percent)
             return -1;
         for (int k = 0; k < n; k++)
-            percent[k] = k < reference->count ? reference->value[k] : (double)NAN;
+            percent[k] = k < reference->nvalues ? reference->values[k] : (double)NAN;
         series[count++] = (struct error_series){"reference in the deck", 5, percent};
     }
     return count;
 }
 
-static struct number_table *errors_table(struct pool *pool, const struct fitted *fit, const struct error_series *series,
+static struct number_table *errors_table(struct pool *pool, const rotid_identification *fit, const struct error_series *series,
                                          int count)
 {
-    struct number_table *table = table_new(pool, fit->nmode, 3 + count);
+    struct number_table *table = table_new(pool, fit->nmodes, 3 + count);
     table_head(table, 0, "mode");
     table_head(table, 1, "measured [Hz]");
     table_head(table, 2, "predicted [Hz]");
     for (int s = 0; s < count; s++)
         table_head(table, 3 + s, pool_format(pool, "error, %s [%%]", series[s].name));
-    for (int k = 0; k < fit->nmode; k++) {
-        table_cell(table, k, 0, human_fixed(pool, fit->mode[k].mode, 0));
-        table_cell(table, k, 1, human_fixed(pool, fit->mode[k].measured_hz, 3));
-        table_cell(table, k, 2, human_fixed(pool, fit->mode[k].predicted_hz, 3));
+    for (int k = 0; k < fit->nmodes; k++) {
+        table_cell(table, k, 0, human_fixed(pool, fit->modes[k].mode, 0));
+        table_cell(table, k, 1, human_fixed(pool, fit->modes[k].measured_hz, 3));
+        table_cell(table, k, 2, human_fixed(pool, fit->modes[k].predicted_hz, 3));
         for (int s = 0; s < count; s++)
             table_cell(table, k, 3 + s, human_signed(pool, series[s].percent[k], 3));
     }
     return table;
 }
 
-static void draw_modes(struct plot *plot, const struct fitted *fit)
+static void draw_modes(struct plot *plot, const rotid_identification *fit)
 {
     FILE *out = plot->out;
     (void)fputs("set xtics (", out);
-    int every = 1 + fit->nmode / MOST_TICKS;
-    for (int k = 0; k < fit->nmode; k += every)
-        (void)fprintf(out, "%s'%d%s' %d", k ? ", " : "", fit->mode[k].mode, fit->mode[k].holdout ? "*" : "", k + 1);
+    int every = 1 + fit->nmodes / MOST_TICKS;
+    for (int k = 0; k < fit->nmodes; k += every)
+        (void)fprintf(out, "%s'%d%s' %d", k ? ", " : "", fit->modes[k].mode, fit->modes[k].holdout ? "*" : "", k + 1);
     (void)fputs(")\n", out);
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct fitted *fit,
+static int script(struct document *document, struct figure *figure, const struct result *result, const rotid_identification *fit,
                   const struct error_series *series, int count)
 {
     struct pool *pool = document->pool;
-    int n = fit->nmode, noisy = 0;
+    int n = fit->nmodes, noisy = 0;
     struct plot plot;
     struct plot_entry entry[MOST_SERIES + 1];
     double *x = POOL_ARRAY(pool, double, n), *noise = POOL_ARRAY(pool, double, n);
@@ -98,7 +98,7 @@ static int script(struct document *document, struct figure *figure, const struct
     struct plot_range range = {0, 0};
     for (int k = 0; k < n; k++) {
         x[k] = k + 1;
-        noise[k] = 100 * NORMAL_95 * fit->mode[k].frequency_std;
+        noise[k] = 100 * NORMAL_95 * fit->modes[k].frequency_std;
         noisy |= noise[k] > 0;
         plot_range_join(&range, noise[k]);
         plot_range_join(&range, -noise[k]);
@@ -135,7 +135,7 @@ static int script(struct document *document, struct figure *figure, const struct
 }
 
 /* What the others say, in a sentence that begins with a blank. */
-static const char *compared(struct pool *pool, const struct fitted *fit, const struct error_series *series, int count)
+static const char *compared(struct pool *pool, const rotid_identification *fit, const struct error_series *series, int count)
 {
     double furthest = 0;
     int others = 0;
@@ -143,7 +143,7 @@ static const char *compared(struct pool *pool, const struct fitted *fit, const s
         if (strncmp(series[s].name, "NLopt", 5) != 0)
             continue;
         others++;
-        for (int k = 0; k < fit->nmode; k++)
+        for (int k = 0; k < fit->nmodes; k++)
             furthest = fmax(furthest, fabs(series[s].percent[k] - series[0].percent[k]));
     }
     if (!others)
@@ -154,11 +154,11 @@ static const char *compared(struct pool *pool, const struct fitted *fit, const s
     return text ? text : "";
 }
 
-void figure_frequencies(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_frequencies(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
     struct error_series series[MOST_SERIES];
-    int worst = fitted_worst(fit), held = 0;
+    int worst = fit_worst_mode(fit), held = 0;
     if (worst < 0)
         return;
     struct figure *figure = document_figure(document, "frequencies", "Errors of the predicted frequencies");
@@ -167,18 +167,18 @@ void figure_frequencies(struct document *document, const struct result *result, 
         document->failed = 1;
         return;
     }
-    for (int k = 0; k < fit->nmode; k++)
-        held += fit->mode[k].holdout;
+    for (int k = 0; k < fit->nmodes; k++)
+        held += fit->modes[k].holdout;
     const char *left = held ? pool_format(pool, "; modes with a star were held out of the fit (rms %s\xc2\xa0%%)",
-                                          human_digits(pool, fitted_rms_percent(fit, 1), 2))
+                                          human_digits(pool, fit_rms_percent(fit, 1), 2))
                             : "";
     figure->caption =
         pool_format(pool, "Predicted over measured frequency, less one: %s\xc2\xa0%% rms, largest %s\xc2\xa0%% in mode %d%s.%s",
-                    human_digits(pool, fitted_rms_percent(fit, 0), 2), human_signed(pool, fit->mode[worst].error_percent, 2),
-                    fit->mode[worst].mode, left ? left : "", compared(pool, fit, series, count));
-    figure->alt = pool_format(pool, "For each of %d modes its error in per cent, from %s to %s.", fit->nmode,
-                              human_signed(pool, plot_range_of(fit->nmode, series[0].percent, 0).from, 2),
-                              human_signed(pool, plot_range_of(fit->nmode, series[0].percent, 0).to, 2));
+                    human_digits(pool, fit_rms_percent(fit, 0), 2), human_signed(pool, fit->modes[worst].error_percent, 2),
+                    fit->modes[worst].mode, left ? left : "", compared(pool, fit, series, count));
+    figure->alt = pool_format(pool, "For each of %d modes its error in per cent, from %s to %s.", fit->nmodes,
+                              human_signed(pool, plot_range_of(fit->nmodes, series[0].percent, 0).from, 2),
+                              human_signed(pool, plot_range_of(fit->nmodes, series[0].percent, 0).to, 2));
     figure->table = errors_table(pool, fit, series, count);
     document->failed |= !figure->caption || !figure->alt || script(document, figure, result, fit, series, count) != ROTID_OK;
 }

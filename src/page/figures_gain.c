@@ -10,38 +10,36 @@
 #define MOST_ROW 4
 
 struct gain_row {
-    enum gain_kind gain;
+    const rotid_pair *pair;
     const char *text;
     double factor; /* to per cent */
 };
 
-static const struct gain_row rows[2][MOST_ROW] = {
-    {{GAIN_FREQUENCY, "fitted", 1},
-     {GAIN_HELD_FREQUENCY, "modes held out by the deck", 1},
-     {GAIN_MODE_FREQUENCY, "modes left out in turn", 1},
-     {GAINS, NULL, 0}},
-    {{GAIN_SHAPE, "fitted", 100},
-     {GAIN_HELD_SHAPE, "modes held out by the deck", 100},
-     {GAIN_MODE_SHAPE, "modes left out in turn", 100},
-     {GAIN_SENSOR_SHAPE, "sensors left out in turn", 100}},
-};
-
 /* The rows of a panel that have both numbers, and their number. */
-static int rows_of(const struct diagnosis_outcome *d, int panel, const struct gain_row *shown[MOST_ROW])
+static int rows_of(const rotid_diagnosis *d, int panel, struct gain_row shown[MOST_ROW])
 {
+    const rotid_gain *gain = &d->gain;
+    const struct gain_row rows[2][MOST_ROW] = {
+        {{&gain->frequency_rms_percent, "fitted", 1},
+         {&gain->holdout_frequency_rms_percent, "modes held out by the deck", 1},
+         {&gain->mode_out_frequency_rms_percent, "modes left out in turn", 1}},
+        {{&gain->shape_rms, "fitted", 100},
+         {&gain->holdout_shape_rms, "modes held out by the deck", 100},
+         {&gain->mode_out_shape_rms, "modes left out in turn", 100},
+         {&gain->sensor_out_shape_rms, "sensors left out in turn", 100}},
+    };
     int count = 0;
     for (int i = 0; i < MOST_ROW && rows[panel][i].text; i++)
-        if (isfinite(d->gain[rows[panel][i].gain].before) && isfinite(d->gain[rows[panel][i].gain].after))
-            shown[count++] = &rows[panel][i];
+        if (isfinite(rows[panel][i].pair->before) && isfinite(rows[panel][i].pair->after))
+            shown[count++] = rows[panel][i];
     return count;
 }
 
-static void draw(struct plot *plot, const struct diagnosis_outcome *d, const char *name, int n, int most_rows,
-                 const struct gain_row *const shown[], const char *axis)
+static void draw(struct plot *plot, const char *name, int n, int most_rows, const struct gain_row *shown, const char *axis)
 {
     double most = 0;
     for (int i = 0; i < n; i++)
-        most = fmax(most, shown[i]->factor * fmax(d->gain[shown[i]->gain].before, d->gain[shown[i]->gain].after));
+        most = fmax(most, shown[i].factor * fmax(shown[i].pair->before, shown[i].pair->after));
     most = most > 0 ? most : 1;
     plot_line(plot, "set xrange [0:%.6g]\nset yrange [%g:%g]\nunset ytics\nset border 1\nset xtics %g", 1.08 * most,
               n - most_rows + 0.5, n + 0.75, plot_tic(most, 4));
@@ -49,7 +47,7 @@ static void draw(struct plot *plot, const struct diagnosis_outcome *d, const cha
     for (int i = 0; i < n; i++) {
         char where[48];
         (void)snprintf(where, sizeof where, "graph 0, first %g", n - i + 0.36);
-        plot_label(plot, shown[i]->text, where, "INK", "left");
+        plot_label(plot, shown[i].text, where, "INK", "left");
     }
     plot_line(plot,
               "plot $%s using 2:1:($3-$2):(0) with vectors nohead lc rgb MUTED lw 1.5, \\\n"
@@ -61,8 +59,8 @@ static int script(struct document *document, struct figure *figure, const struct
 {
     static const char *const names[] = {"frequencies", "shapes"};
     static const char *const axes[] = {"error of the frequencies, rms [%]", "error of the shapes, rms [% of the largest]"};
-    const struct diagnosis_outcome *d = result->diagnosis;
-    const struct gain_row *shown[2][MOST_ROW];
+    const rotid_diagnosis *d = result->diagnose;
+    struct gain_row shown[2][MOST_ROW];
     const struct plot_entry entry[] = {{.text = "without the cause", .style = 2, .keys = KEY_MARK},
                                        {.text = "with it", .style = 1, .keys = KEY_MARK}};
     int count[2] = {rows_of(d, 0, shown[0]), rows_of(d, 1, shown[1])}, panels = (count[0] > 0) + (count[1] > 0),
@@ -78,8 +76,8 @@ static int script(struct document *document, struct figure *figure, const struct
         double data[3][MOST_ROW];
         for (int i = 0; i < count[p]; i++) {
             data[0][i] = count[p] - i;
-            data[1][i] = shown[p][i]->factor * d->gain[shown[p][i]->gain].before;
-            data[2][i] = shown[p][i]->factor * d->gain[shown[p][i]->gain].after;
+            data[1][i] = shown[p][i].factor * shown[p][i].pair->before;
+            data[2][i] = shown[p][i].factor * shown[p][i].pair->after;
         }
         if (count[p])
             plot_data(&plot, names[p], count[p], 3, (const double *const[]){data[0], data[1], data[2]});
@@ -91,29 +89,29 @@ static int script(struct document *document, struct figure *figure, const struct
         plot_panel(&plot, panel);
         if (!panel++)
             plot_legend(&plot, entry, 2);
-        draw(&plot, d, names[p], count[p], most, shown[p], axes[p]);
+        draw(&plot, names[p], count[p], most, shown[p], axes[p]);
     }
     return plot_close(&plot);
 }
 
-static const char *one(struct pool *pool, const struct diagnosis_outcome *d, enum gain_kind gain, double factor, const char *what)
+static const char *one(struct pool *pool, const rotid_pair *pair, double factor, const char *what)
 {
-    const char *text = pool_format(pool, "%s from %s to %s\xc2\xa0%%", what, human_digits(pool, factor * d->gain[gain].before, 2),
-                                   human_digits(pool, factor * d->gain[gain].after, 2));
-    return isfinite(d->gain[gain].before) && isfinite(d->gain[gain].after) && text ? text : "";
+    const char *text = pool_format(pool, "%s from %s to %s\xc2\xa0%%", what, human_digits(pool, factor * pair->before, 2),
+                                   human_digits(pool, factor * pair->after, 2));
+    return isfinite(pair->before) && isfinite(pair->after) && text ? text : "";
 }
 
 void figure_gain(struct document *document, const struct result *result)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
+    const rotid_diagnosis *d = result->diagnose;
     struct pool *pool = document->pool;
-    const struct gain_row *shown[MOST_ROW];
+    struct gain_row shown[MOST_ROW];
     if (!d->extended || (!rows_of(d, 0, shown) && !rows_of(d, 1, shown)))
         return;
     struct figure *figure = document_figure(document, "gain", "Fitted and left out, before and after");
-    const char *parts[] = {one(pool, d, GAIN_HELD_FREQUENCY, 1, "frequencies held out by the deck go"),
-                           one(pool, d, GAIN_MODE_FREQUENCY, 1, "frequencies of modes left out in turn go"),
-                           one(pool, d, GAIN_SENSOR_SHAPE, 100, "shapes at sensors left out in turn go")};
+    const char *parts[] = {one(pool, &d->gain.holdout_frequency_rms_percent, 1, "frequencies held out by the deck go"),
+                           one(pool, &d->gain.mode_out_frequency_rms_percent, 1, "frequencies of modes left out in turn go"),
+                           one(pool, &d->gain.sensor_out_shape_rms, 100, "shapes at sensors left out in turn go")};
     const char *text = "";
     for (int i = 0; i < 3 && text; i++)
         if (*parts[i])

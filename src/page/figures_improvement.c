@@ -9,17 +9,17 @@
 #define MOST_TICKS 24
 
 struct change { /* of a frequency */
-    const struct fitted_mode *before, *after;
+    const rotid_compared_mode *before, *after;
 };
 
 /* Modes of both models by the number of the test, in the order of the first. NULL: memory is out. */
-static struct change *pair(struct pool *pool, const struct diagnosis_outcome *d, int *count)
+static struct change *pair(struct pool *pool, const rotid_diagnosis *d, int *count)
 {
-    struct change *change = POOL_ARRAY(pool, struct change, d->base->nmode);
+    struct change *change = POOL_ARRAY(pool, struct change, d->base->nmodes);
     *count = 0;
-    for (int k = 0; k < d->base->nmode && change; k++)
-        for (int j = 0; j < d->extended->nmode; j++) {
-            const struct fitted_mode *before = &d->base->mode[k], *after = &d->extended->mode[j];
+    for (int k = 0; k < d->base->nmodes && change; k++)
+        for (int j = 0; j < d->extended->nmodes; j++) {
+            const rotid_compared_mode *before = &d->base->modes[k], *after = &d->extended->modes[j];
             if (before->measured_hz != after->measured_hz || !isfinite(before->error_percent) || !isfinite(after->error_percent))
                 continue;
             change[(*count)++] = (struct change){before, after};
@@ -96,7 +96,7 @@ static struct number_table *changes_table(struct pool *pool, int n, const struct
 
 void figure_improvement(struct document *document, const struct result *result)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
+    const rotid_diagnosis *d = result->diagnose;
     struct pool *pool = document->pool;
     int count, held = 0;
     if (!d->base || !d->extended)
@@ -111,15 +111,15 @@ void figure_improvement(struct document *document, const struct result *result)
     struct figure *figure = document_figure(document, "improvement", "Errors of the frequencies, before and after");
     const char *left =
         held ? pool_format(pool, " Modes with a star were held out by the deck: %s\xc2\xa0%% rms before, %s\xc2\xa0%% after.",
-                           human_digits(pool, fitted_rms_percent(d->base, 1), 2),
-                           human_digits(pool, fitted_rms_percent(d->extended, 1), 2))
+                           human_digits(pool, fit_rms_percent(d->base, 1), 2),
+                           human_digits(pool, fit_rms_percent(d->extended, 1), 2))
              : " No mode was held out by the deck.";
     figure->caption = pool_format(
         pool,
         "With what was named in the model the errors of the fitted frequencies fall from %s to %s\xc2\xa0%% rms, the largest "
         "from %s to %s\xc2\xa0%%.%s",
-        human_digits(pool, fitted_rms_percent(d->base, 0), 2), human_digits(pool, fitted_rms_percent(d->extended, 0), 2),
-        human_digits(pool, d->gain[GAIN_FREQUENCY_MOST].before, 2), human_digits(pool, d->gain[GAIN_FREQUENCY_MOST].after, 2),
+        human_digits(pool, fit_rms_percent(d->base, 0), 2), human_digits(pool, fit_rms_percent(d->extended, 0), 2),
+        human_digits(pool, d->gain.frequency_max_percent.before, 2), human_digits(pool, d->gain.frequency_max_percent.after, 2),
         left ? left : "");
     figure->alt = pool_format(pool, "For each of %d modes its error before and after, joined by a line.", count);
     figure->table = changes_table(pool, count, change);

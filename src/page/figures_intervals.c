@@ -8,20 +8,20 @@
 #define ROW_PX       44.0
 #define MOST_PERCENT 300.0 /* of the value: beyond that an interval says nothing but that */
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct fitted *fit)
+static int script(struct document *document, struct figure *figure, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
-    int n = fit->nparameter;
+    int n = fit->nparameters;
     struct plot plot;
     struct plot_range range = {-1, 1};
     double *data = POOL_ARRAY(pool, double, 3 * (size_t)n);
     if (!data || plot_open(&plot, pool, figure, result->file))
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n; p++) {
-        const struct fitted_parameter *parameter = &fit->parameter[p];
+        const rotid_fitted_parameter *parameter = &fit->parameters[p];
         data[p] = n - p;
         for (int e = 0; e < 2; e++) {
-            double percent = 100 * (parameter->ci[e] - parameter->value) / fabs(parameter->value);
+            double percent = 100 * (parameter->ci95[e] - parameter->value) / fabs(parameter->value);
             percent = isfinite(percent) ? fmin(fmax(percent, -MOST_PERCENT), MOST_PERCENT) : (double)NAN;
             data[p + (ptrdiff_t)(e + 1) * n] = percent;
             plot_range_join(&range, percent);
@@ -37,11 +37,11 @@ static int script(struct document *document, struct figure *figure, const struct
               n + 0.6);
     plot_axes(&plot, "deviation from the identified value [%]", NULL);
     for (int p = 0; p < n; p++) {
-        const struct fitted_parameter *parameter = &fit->parameter[p];
+        const rotid_fitted_parameter *parameter = &fit->parameters[p];
         const char *text = pool_format(pool, "%s = %s%s", parameter->name,
-                                       human_interval(pool, parameter->value, parameter->ci, parameter->unit),
+                                       human_interval(pool, parameter->value, parameter->ci95, parameter->unit),
                                        parameter->at_bound                                ? ", at its bound"
-                                       : !isfinite(parameter->ci[0])                      ? ", no interval"
+                                       : !isfinite(parameter->ci95[0])                    ? ", no interval"
                                        : fabs(data[p + 2 * (ptrdiff_t)n]) >= MOST_PERCENT ? ", wider than drawn"
                                                                                           : "");
         char where[48];
@@ -53,29 +53,29 @@ static int script(struct document *document, struct figure *figure, const struct
     return plot_close(&plot);
 }
 
-void figure_intervals(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_intervals(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
     const char *says = "";
-    if (!fit->nparameter)
+    if (!fit->nparameters)
         return;
     struct figure *figure = document_figure(document, "intervals", "Parameters with their 95 % intervals");
-    for (int p = 0; p < fit->nparameter && p < 4 && says; p++) {
-        double half = human_half_width_percent(fit->parameter[p].value, fit->parameter[p].ci);
+    for (int p = 0; p < fit->nparameters && p < 4 && says; p++) {
+        double half = human_half_width_percent(fit->parameters[p].value, fit->parameters[p].ci95);
         says = isfinite(half) ? pool_format(pool, "%s%s%s is known to \xc2\xb1%s\xc2\xa0%%", says, p ? ", " : "",
-                                            fit->parameter[p].name, human_digits(pool, half, 2))
-                              : pool_format(pool, "%s%s%s has no interval", says, p ? ", " : "", fit->parameter[p].name);
+                                            fit->parameters[p].name, human_digits(pool, half, 2))
+                              : pool_format(pool, "%s%s%s has no interval", says, p ? ", " : "", fit->parameters[p].name);
     }
-    const char *correlated = fit->nparameter == 2 && fit->correlation && isfinite(fit->correlation[1])
+    const char *correlated = fit->nparameters == 2 && fit->correlation && isfinite(fit->correlation[1])
                                  ? pool_format(pool, " Their correlation is %s.", human_fixed(pool, fit->correlation[1], 2))
                                  : "";
     figure->caption = pool_format(pool, "%s%s.%s The intervals rest on %s.", says ? says : "",
-                                  fit->nparameter > 4 ? ", and so on" : "", correlated ? correlated : "",
-                                  !isfinite(fit->chi2)  ? "the misfit that is left, since no noise is stated"
-                                  : fit->widened_by > 1 ? "the stated noise, widened because the misfit exceeds it"
-                                                        : "the stated noise of the measurement");
+                                  fit->nparameters > 4 ? ", and so on" : "", correlated ? correlated : "",
+                                  !isfinite(fit->chi2)            ? "the misfit that is left, since no noise is stated"
+                                  : fit->intervals_widened_by > 1 ? "the stated noise, widened because the misfit exceeds it"
+                                                                  : "the stated noise of the measurement");
     figure->alt = pool_format(pool, "One bar for each of %d parameters, from the lower to the upper end of its interval: %s.",
-                              fit->nparameter, says ? says : "");
+                              fit->nparameters, says ? says : "");
     /* its numbers: tables_parameters */
     document->failed |= !figure->caption || !figure->alt || script(document, figure, result, fit) != ROTID_OK;
 }

@@ -12,20 +12,20 @@
 #define END_PX      14.0 /* beside a label */
 
 /* x/x(end) of parameter p over the iterations; NaN where it ends at zero. */
-static void relative(const struct fitted *fit, int p, double *value)
+static void relative(const rotid_identification *fit, int p, double *value)
 {
     double end = fit->history[fit->nhistory - 1].x[p];
     for (int i = 0; i < fit->nhistory; i++)
         value[i] = end != 0 ? fit->history[i].x[p] / end : (double)NAN;
 }
 
-static struct number_table *iterates_table(struct pool *pool, const struct fitted *fit, int count)
+static struct number_table *iterates_table(struct pool *pool, const rotid_identification *fit, int count)
 {
     struct number_table *table = table_new(pool, fit->nhistory, count + 1);
     table_head(table, 0, "iteration");
     for (int p = 0; p < count; p++) {
-        struct human_unit unit = human_unit(fit->parameter[p].value, fit->parameter[p].unit);
-        table_head(table, p + 1, pool_format(pool, "%s [%s]", fit->parameter[p].name, *unit.text ? unit.text : "1"));
+        struct human_unit unit = human_unit(fit->parameters[p].value, fit->parameters[p].unit);
+        table_head(table, p + 1, pool_format(pool, "%s [%s]", fit->parameters[p].name, *unit.text ? unit.text : "1"));
         for (int i = 0; i < fit->nhistory; i++) {
             table_cell(table, i, 0, human_fixed(pool, fit->history[i].iteration, 0));
             table_cell(table, i, p + 1, human_digits(pool, unit.factor * fit->history[i].x[p], 7));
@@ -35,18 +35,18 @@ static struct number_table *iterates_table(struct pool *pool, const struct fitte
 }
 
 /* Iterations after which every parameter stays within one per cent of its end. */
-static int settled(const struct fitted *fit)
+static int settled(const rotid_identification *fit)
 {
     int n = fit->nhistory, last = 0;
     for (int i = 0; i < n; i++)
-        for (int p = 0; p < fit->nparameter; p++)
+        for (int p = 0; p < fit->nparameters; p++)
             if (fabs(fit->history[i].x[p] - fit->history[n - 1].x[p]) > 0.01 * fabs(fit->history[n - 1].x[p]))
                 last = i + 1;
     return fit->history[last < n ? last : n - 1].iteration;
 }
 
 static int iterates_script(struct document *document, struct figure *figure, const struct result *result,
-                           const struct fitted *fit, int count)
+                           const rotid_identification *fit, int count)
 {
     int n = fit->nhistory, steps = fit->history[n - 1].iteration;
     struct pool *pool = document->pool;
@@ -63,7 +63,7 @@ static int iterates_script(struct document *document, struct figure *figure, con
     for (int p = 0; p < count; p++) {
         relative(fit, p, y + (ptrdiff_t)(p + 1) * n);
         data[p + 1] = y + (ptrdiff_t)(p + 1) * n;
-        name[p] = fit->parameter[p].name;
+        name[p] = fit->parameters[p].name;
         color[p] = series_color[p % SERIES];
         widest = fmax(widest, plot_width(name[p]));
     }
@@ -94,27 +94,27 @@ static int iterates_script(struct document *document, struct figure *figure, con
     return plot_close(&plot);
 }
 
-void figure_iterates(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_iterates(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
-    int count = fit->nparameter < MOST_CURVES ? fit->nparameter : MOST_CURVES, n = fit->nhistory;
+    int count = fit->nparameters < MOST_CURVES ? fit->nparameters : MOST_CURVES, n = fit->nhistory;
     if (n < 2 || !count)
         return;
     struct figure *figure = document_figure(document, "iterates", "Parameters over the iterations, relative to the end");
     const char *from = "";
     for (int p = 0; p < count && p < 3 && from; p++)
-        from = pool_format(pool, "%s%s%s from %s to %s", from, p ? ", " : "", fit->parameter[p].name,
-                           human_value(pool, fit->parameter[p].start, fit->parameter[p].unit),
-                           human_value(pool, fit->parameter[p].value, fit->parameter[p].unit));
+        from = pool_format(pool, "%s%s%s from %s to %s", from, p ? ", " : "", fit->parameters[p].name,
+                           human_value(pool, fit->parameters[p].start, fit->parameters[p].unit),
+                           human_value(pool, fit->parameters[p].value, fit->parameters[p].unit));
     double ms = 1e3 * fit->history[n - 1].seconds;
     figure->caption =
         pool_format(pool, "The iteration takes %s. From iteration %d on %s within 1\xc2\xa0%% of the end%s%s.%s",
                     from ? from : "", settled(fit), count > 1 ? "all parameters stay" : "it stays",
                     isfinite(ms) ? "; the last point is reached after " : "", isfinite(ms) ? human_seconds(pool, ms / 1e3) : "",
-                    fit->nparameter > count ? " Of more than ten parameters the first ten are drawn." : "");
+                    fit->nparameters > count ? " Of more than ten parameters the first ten are drawn." : "");
     double lowest = 1, highest = 1;
     for (int p = 0; p < count; p++) {
-        double first = fit->parameter[p].value != 0 ? fit->history[0].x[p] / fit->parameter[p].value : 1;
+        double first = fit->parameters[p].value != 0 ? fit->history[0].x[p] / fit->parameters[p].value : 1;
         lowest = fmin(lowest, first);
         highest = fmax(highest, first);
     }
@@ -126,19 +126,19 @@ void figure_iterates(struct document *document, const struct result *result, con
 }
 
 /* The bijection (30): x = lower + (upper - lower)/(1 + exp(u)), u = chi y. Its inverse; NaN at a bound. */
-static double unbounded(const struct fitted_parameter *p, double x)
+static double unbounded(const rotid_fitted_parameter *p, double x)
 {
     return log((p->upper - x) / (x - p->lower));
 }
 
-static double share(const struct fitted_parameter *p, double x)
+static double share(const rotid_fitted_parameter *p, double x)
 {
     return (x - p->lower) / (p->upper - p->lower);
 }
 
-static void bijection_panel(struct plot *plot, const struct fitted *fit, int p, double most)
+static void bijection_panel(struct plot *plot, const rotid_identification *fit, int p, double most)
 {
-    const struct fitted_parameter *parameter = &fit->parameter[p];
+    const rotid_fitted_parameter *parameter = &fit->parameters[p];
     struct pool *pool = plot->pool;
     const char *title = pool_format(pool, "%s: %s \xe2\x86\x92 %s", parameter->name,
                                     human_value(pool, fit->history[0].x[p], parameter->unit),
@@ -159,7 +159,7 @@ static void bijection_panel(struct plot *plot, const struct fitted *fit, int p, 
 }
 
 static int bijection_script(struct document *document, struct figure *figure, const struct result *result,
-                            const struct fitted *fit, int count)
+                            const rotid_identification *fit, int count)
 {
     struct pool *pool = document->pool;
     int n = fit->nhistory;
@@ -171,8 +171,8 @@ static int bijection_script(struct document *document, struct figure *figure, co
     for (int p = 0; p < count; p++) {
         char name[32];
         for (int i = 0; i < n; i++) {
-            u[i] = unbounded(&fit->parameter[p], fit->history[i].x[p]) / chi;
-            u[i + n] = share(&fit->parameter[p], fit->history[i].x[p]);
+            u[i] = unbounded(&fit->parameters[p], fit->history[i].x[p]) / chi;
+            u[i + n] = share(&fit->parameters[p], fit->history[i].x[p]);
             u[i + 2 * n] = fit->history[i].iteration;
             if (isfinite(u[i]))
                 most = fmax(most, fabs(u[i] * chi) + 1);
@@ -193,14 +193,14 @@ static int bijection_script(struct document *document, struct figure *figure, co
     return plot_close(&plot);
 }
 
-static struct number_table *bounds_table(struct pool *pool, const struct fitted *fit)
+static struct number_table *bounds_table(struct pool *pool, const rotid_identification *fit)
 {
     static const char *const head[] = {"parameter", "unit", "lower bound", "start", "end", "upper bound", "place [%]"};
-    struct number_table *table = table_new(pool, fit->nparameter, 7);
+    struct number_table *table = table_new(pool, fit->nparameters, 7);
     for (int j = 0; j < 7; j++)
         table_head(table, j, head[j]);
-    for (int p = 0; p < fit->nparameter; p++) {
-        const struct fitted_parameter *parameter = &fit->parameter[p];
+    for (int p = 0; p < fit->nparameters; p++) {
+        const rotid_fitted_parameter *parameter = &fit->parameters[p];
         struct human_unit unit = human_unit(parameter->value, parameter->unit);
         const double value[] = {parameter->lower, parameter->start, parameter->value, parameter->upper};
         table_cell(table, p, 0, parameter->name);
@@ -212,23 +212,23 @@ static struct number_table *bounds_table(struct pool *pool, const struct fitted 
     return table;
 }
 
-void figure_bijection(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_bijection(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
-    int count = fit->nparameter < MOST_PANELS ? fit->nparameter : MOST_PANELS;
+    int count = fit->nparameters < MOST_PANELS ? fit->nparameters : MOST_PANELS;
     const char *ends = "";
     if (!count || !fit->nhistory)
         return;
     struct figure *figure =
         document_figure(document, "bijection", "Iterates on the bijection that keeps them within their bounds");
     for (int p = 0; p < count && p < 4 && ends; p++)
-        ends = pool_format(pool, "%s%s%s ends at %s\xc2\xa0%%", ends, p ? ", " : "", fit->parameter[p].name,
-                           human_fixed(pool, 100 * share(&fit->parameter[p], fit->parameter[p].value), 0));
+        ends = pool_format(pool, "%s%s%s ends at %s\xc2\xa0%%", ends, p ? ", " : "", fit->parameters[p].name,
+                           human_fixed(pool, 100 * share(&fit->parameters[p], fit->parameters[p].value), 0));
     figure->caption = pool_format(
         pool,
         "%s of the way from its lower to its upper bound%s. Where the curve is flat, close to 0 or 1, a bound "
         "would hold a parameter rather than the data.",
-        ends ? ends : "", count < fit->nparameter ? "; of more than twelve parameters the first twelve are drawn" : "");
+        ends ? ends : "", count < fit->nparameters ? "; of more than twelve parameters the first twelve are drawn" : "");
     figure->alt =
         pool_format(pool, "%d %s with the falling S-shaped curve of the bijection and %d iterates of a parameter on it.", count,
                     human_plural(count, "panel", "panels"), fit->nhistory);

@@ -22,51 +22,53 @@ double chi_square_limit(double outside, int dof)
     return (low + high) / 2;
 }
 
-struct told_misfit {
+struct misfit {
     int worst, beyond, fitted; /* mode with the largest residual, -1: none; fitted ones beyond the threshold, and in all */
     int shapes, sensors, loud, loudest; /* fitted shapes; sensors with a number, beyond the limit; the worst, -1: none */
     double limit;                       /* of a sensor */
 };
 
-static struct told_misfit sum_up(const struct diagnosis_outcome *d)
+static struct misfit sum_up(const rotid_diagnosis *d)
 {
-    struct told_misfit m = {.worst = -1, .loudest = -1, .limit = NAN};
-    const struct fitted *base = d->base;
-    for (int k = 0; k < d->nmode; k++) {
-        if (!isfinite(d->mode_z[k]))
+    struct misfit m = {.worst = -1, .loudest = -1, .limit = NAN};
+    const rotid_identification *base = d->base;
+    for (int k = 0; k < d->nmodes_standardised; k++) {
+        if (!isfinite(d->modes_standardised[k]))
             continue;
-        if (!base->mode[k].holdout) {
+        if (!base->modes[k].holdout) {
             m.fitted++;
-            m.beyond += fabs(d->mode_z[k]) > NORMAL_95;
+            m.beyond += fabs(d->modes_standardised[k]) > NORMAL_95;
         }
-        if (m.worst < 0 || fabs(d->mode_z[k]) > fabs(d->mode_z[m.worst]))
+        if (m.worst < 0 || fabs(d->modes_standardised[k]) > fabs(d->modes_standardised[m.worst]))
             m.worst = k;
     }
-    for (int k = 0; base->shapes && k < base->shapes->nmode && k < base->nmode; k++)
-        m.shapes += base->shapes->mode[k].measured && !base->mode[k].holdout;
+    for (int k = 0; base->shapes && k < base->shapes->nmodes && k < base->nmodes; k++)
+        m.shapes += base->shapes->modes[k].measured && !base->modes[k].holdout;
     if (m.shapes)
         m.limit = sqrt(chi_square_limit(OUTSIDE, m.shapes) / m.shapes);
-    for (int s = 0; s < d->nsensor; s++) {
-        if (!isfinite(d->sensor[s].rms))
+    for (int s = 0; s < d->nsensors; s++) {
+        if (!isfinite(d->sensors[s].rms))
             continue;
         m.sensors++;
-        m.loud += d->sensor[s].rms > m.limit;
-        if (m.loudest < 0 || d->sensor[s].rms > d->sensor[m.loudest].rms)
+        m.loud += d->sensors[s].rms > m.limit;
+        if (m.loudest < 0 || d->sensors[s].rms > d->sensors[m.loudest].rms)
             m.loudest = s;
     }
     return m;
 }
 
-static void draw_modes(struct plot *plot, const struct diagnosis_outcome *d, const double *z)
+static void draw_modes(struct plot *plot, const rotid_diagnosis *d, const double *z)
 {
-    struct plot_range range = plot_range_of(d->nmode, z, 0);
+    struct plot_range range = plot_range_of(d->nmodes_standardised, z, 0);
     plot_range_join(&range, NORMAL_95);
     plot_range_join(&range, -NORMAL_95);
     double pad = 0.1 * (range.to - range.from);
-    plot_line(plot, "set xrange [0.4:%g]\nset yrange [%.6g:%.6g]", d->nmode + 0.6, range.from - pad, range.to + pad);
+    plot_line(plot, "set xrange [0.4:%g]\nset yrange [%.6g:%.6g]", d->nmodes_standardised + 0.6, range.from - pad,
+              range.to + pad);
     (void)fputs("set xtics (", plot->out);
-    for (int k = 0; k < d->nmode; k += 1 + d->nmode / MOST_TICKS)
-        (void)fprintf(plot->out, "%s'%d%s' %d", k ? ", " : "", d->base->mode[k].mode, d->base->mode[k].holdout ? "*" : "", k + 1);
+    for (int k = 0; k < d->nmodes_standardised; k += 1 + d->nmodes_standardised / MOST_TICKS)
+        (void)fprintf(plot->out, "%s'%d%s' %d", k ? ", " : "", d->base->modes[k].mode, d->base->modes[k].holdout ? "*" : "",
+                      k + 1);
     (void)fputs(")\n", plot->out);
     plot_axes(plot, "mode of the model [1]", "residual over noise [1]");
     plot_line(plot, "set style fill solid noborder\nset boxwidth 0.6");
@@ -76,11 +78,11 @@ static void draw_modes(struct plot *plot, const struct diagnosis_outcome *d, con
               NORMAL_95, NORMAL_95);
 }
 
-static void draw_sensors(struct plot *plot, const struct result *result, const double *rms, const struct told_misfit *m)
+static void draw_sensors(struct plot *plot, const struct result *result, const double *rms, const struct misfit *m)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
-    struct plot_range range = plot_range_of(d->nsensor, rms, 0);
-    double length = result->geometry ? result->geometry->length : d->sensor[d->nsensor - 1].z;
+    const rotid_diagnosis *d = result->diagnose;
+    struct plot_range range = plot_range_of(d->nsensors, rms, 0);
+    double length = result_geometry(result) ? result_geometry(result)->length_m : d->sensors[d->nsensors - 1].z_m;
     length = length > 0 ? length : 1;
     range.to = fmax(range.to, fmax(1, m->limit));
     plot_line(plot, "set xrange [%.6g:%.6g]\nset yrange [0:%.6g]\nset xtics %g", -0.02 * length, 1.02 * length, 1.1 * range.to,
@@ -92,11 +94,11 @@ static void draw_sensors(struct plot *plot, const struct result *result, const d
               plot_number(plot, m->limit));
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct told_misfit *m)
+static int script(struct document *document, struct figure *figure, const struct result *result, const struct misfit *m)
 {
     struct pool *pool = document->pool;
-    const struct diagnosis_outcome *d = result->diagnosis;
-    int n = d->nmode, sensors = m->sensors ? d->nsensor : 0;
+    const rotid_diagnosis *d = result->diagnose;
+    int n = d->nmodes_standardised, sensors = m->sensors ? d->nsensors : 0;
     double *x = POOL_ARRAY(pool, double, n), *z = POOL_ARRAY(pool, double, sensors), *rms = POOL_ARRAY(pool, double, sensors);
     const struct plot_entry entry[] = {
         {.text = "residual", .keys = KEY_FACE, .face = "BLUE"},
@@ -116,18 +118,18 @@ static int script(struct document *document, struct figure *figure, const struct
     for (int k = 0; k < n; k++)
         x[k] = k + 1;
     for (int s = 0; s < sensors; s++) {
-        z[s] = d->sensor[s].z;
-        rms[s] = d->sensor[s].rms;
+        z[s] = d->sensors[s].z_m;
+        rms[s] = d->sensors[s].rms;
     }
     plot_line(&plot,
               "# columns: place of the mode, error of its frequency over its noise; then: z of a sensor [m], rms over noise");
-    plot_data(&plot, "modes", n, 2, (const double *const[]){x, d->mode_z});
+    plot_data(&plot, "modes", n, 2, (const double *const[]){x, d->modes_standardised});
     if (sensors)
         plot_data(&plot, "sensors", sensors, 2, (const double *const[]){z, rms});
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
     plot_legend(&plot, entry, 2);
-    draw_modes(&plot, d, d->mode_z);
+    draw_modes(&plot, d, d->modes_standardised);
     if (sensors) {
         plot_panel(&plot, 1);
         draw_sensors(&plot, result, rms, m);
@@ -146,36 +148,36 @@ static const char *none_or(struct pool *pool, int count)
     return count ? human_count(pool, count) : "none";
 }
 
-static struct number_table *residuals_table(struct pool *pool, const struct diagnosis_outcome *d, int sensors)
+static struct number_table *residuals_table(struct pool *pool, const rotid_diagnosis *d, int sensors)
 {
-    struct number_table *table = table_new(pool, d->nmode + (sensors ? d->nsensor : 0), 3);
+    struct number_table *table = table_new(pool, d->nmodes_standardised + (sensors ? d->nsensors : 0), 3);
     table_head(table, 0, "mode, or sensor");
     table_head(table, 1, "measured [Hz], or z [m]");
     table_head(table, 2, "residual over noise [1]");
-    for (int k = 0; k < d->nmode; k++) {
-        const struct fitted_mode *mode = &d->base->mode[k];
+    for (int k = 0; k < d->nmodes_standardised; k++) {
+        const rotid_compared_mode *mode = &d->base->modes[k];
         table_cell(table, k, 0, pool_format(pool, "mode %d%s", mode->mode, mode->holdout ? ", held out" : ""));
         table_cell(table, k, 1, human_fixed(pool, mode->measured_hz, 3));
-        table_cell(table, k, 2, human_signed(pool, d->mode_z[k], 2));
+        table_cell(table, k, 2, human_signed(pool, d->modes_standardised[k], 2));
     }
-    for (int s = 0; sensors && s < d->nsensor; s++) {
-        table_cell(table, d->nmode + s, 0, pool_format(pool, "sensor %.0f", d->sensor[s].id));
-        table_cell(table, d->nmode + s, 1, human_fixed(pool, d->sensor[s].z, 4));
-        table_cell(table, d->nmode + s, 2, human_fixed(pool, d->sensor[s].rms, 2));
+    for (int s = 0; sensors && s < d->nsensors; s++) {
+        table_cell(table, d->nmodes_standardised + s, 0, pool_format(pool, "sensor %d", d->sensors[s].id));
+        table_cell(table, d->nmodes_standardised + s, 1, human_fixed(pool, d->sensors[s].z_m, 4));
+        table_cell(table, d->nmodes_standardised + s, 2, human_fixed(pool, d->sensors[s].rms, 2));
     }
     return table;
 }
 
 void figure_residuals(struct document *document, const struct result *result)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
+    const rotid_diagnosis *d = result->diagnose;
     struct pool *pool = document->pool;
-    if (!d->base || !d->nmode)
+    if (!d->base || !d->nmodes_standardised)
         return;
-    struct told_misfit m = sum_up(d);
+    struct misfit m = sum_up(d);
     int held = 0;
-    for (int k = 0; k < d->nmode; k++)
-        held |= d->base->mode[k].holdout;
+    for (int k = 0; k < d->nmodes_standardised; k++)
+        held |= d->base->modes[k].holdout;
     if (m.worst < 0)
         return;
     const char *sensors =
@@ -183,10 +185,10 @@ void figure_residuals(struct document *document, const struct result *result)
             ? " No shape was fitted, so nothing can be said of single sensors."
             : pool_format(pool,
                           " Sensors: 1 is noise alone; %s of %d exceed %s, where noise alone lets %s. The worst is sensor "
-                          "%.0f at %s\xc2\xa0m with %s.",
+                          "%d at %s\xc2\xa0m with %s.",
                           none_or(pool, m.loud), m.sensors, human_fixed(pool, m.limit, 2),
-                          m.sensors * OUTSIDE < 0.5 ? "hardly one" : about(pool, OUTSIDE * m.sensors), d->sensor[m.loudest].id,
-                          human_trimmed(pool, d->sensor[m.loudest].z, 4), human_fixed(pool, d->sensor[m.loudest].rms, 2));
+                          m.sensors * OUTSIDE < 0.5 ? "hardly one" : about(pool, OUTSIDE * m.sensors), d->sensors[m.loudest].id,
+                          human_trimmed(pool, d->sensors[m.loudest].z_m, 4), human_fixed(pool, d->sensors[m.loudest].rms, 2));
     struct figure *figure =
         document_figure(document, "residuals",
                         m.loudest < 0 ? "What the model misses, mode by mode" : "What the model misses, by modes and by sensors");
@@ -195,11 +197,11 @@ void figure_residuals(struct document *document, const struct result *result)
                     "Modes: the error of each frequency over its noise; %s of %s fitted ones lie beyond \xc2\xb1%g, the "
                     "largest is %s in mode %d%s.%s",
                     m.beyond == m.fitted ? "all" : none_or(pool, m.beyond), human_count(pool, m.fitted), NORMAL_95,
-                    human_signed(pool, d->mode_z[m.worst], 1), d->base->mode[m.worst].mode,
+                    human_signed(pool, d->modes_standardised[m.worst], 1), d->base->modes[m.worst].mode,
                     held ? "; modes with a star were held out of the fit" : "", sensors ? sensors : "");
-    figure->alt = pool_format(pool, "Bars for %d modes, from %s to %s times their noise%s.", d->nmode,
-                              human_signed(pool, plot_range_of(d->nmode, d->mode_z, 0).from, 1),
-                              human_signed(pool, plot_range_of(d->nmode, d->mode_z, 0).to, 1),
+    figure->alt = pool_format(pool, "Bars for %d modes, from %s to %s times their noise%s.", d->nmodes_standardised,
+                              human_signed(pool, plot_range_of(d->nmodes_standardised, d->modes_standardised, 0).from, 1),
+                              human_signed(pool, plot_range_of(d->nmodes_standardised, d->modes_standardised, 0).to, 1),
                               m.sensors ? "; beside them one line for each sensor along the rotor" : "");
     figure->table = residuals_table(pool, d, m.sensors);
     document->failed |= !sensors || !figure->caption || !figure->alt || script(document, figure, result, &m) != ROTID_OK;

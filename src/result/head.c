@@ -1,5 +1,7 @@
 #include "result/head.h"
 
+#include "result/record.h"
+
 static const struct field reference_fields[] = {
     TEXT(rotid_reference, quantity, 0),
     NUMBERS(rotid_reference, values, ELEMENTS_MAY_BE_NULL),

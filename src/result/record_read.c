@@ -224,9 +224,10 @@ static void read_maps(const struct json_place *above, const struct field *field,
 static void read_matrix(const struct json_place *above, const struct field *field, void *record)
 {
     int *rows = member(record, field->count), *columns = member(record, field->columns), size[2] = {*rows, *columns}, found[2];
+    int is_square = rows == columns, known = is_square || size[0] || size[1]; /* of a square one the size stands before it */
     struct json_place list;
     if (find(above, field, PLACE_LIST, &list) &&
-        place_matrix(above, field->key, 0, size[0] || size[1] ? size : NULL, &found[0], &found[1], member(record, field->offset))) {
+        place_matrix(above, field->key, 0, known ? size : NULL, &found[0], &found[1], member(record, field->offset))) {
         *rows = found[0];
         *columns = found[1];
     }
