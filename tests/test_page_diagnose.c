@@ -8,7 +8,7 @@
 
 #include "fit/quantile.h"
 #include "json_value.h"
-#include "page/cause_place.h"
+#include "result/cause_place.h"
 #include "page/figures_diagnosis.h"
 #include "page/result.h"
 #include "page_bench.h"

@@ -29,7 +29,7 @@ static double *errors_of(struct pool *pool, const rotid_identification *fit, con
 /* The series there are, the fit first; -1: memory is out. */
 static int collect(struct pool *pool, const struct result *result, const rotid_identification *fit, struct error_series *series)
 {
-    const rotid_reference *reference = result_reference(result, "error_percent");
+    const rotid_reference *reference = head_reference(&result->head, "error_percent");
     int n = fit->nmodes, count = 1;
     series[0] = (struct error_series){"Levenberg-Marquardt", 1, POOL_ARRAY(pool, double, n)};
     if (!series[0].percent)

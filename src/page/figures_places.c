@@ -1,7 +1,7 @@
 /* Where along the axis the misfit acts, under the rotor, with the places of what may cause it between the two. */
 #include <math.h>
 
-#include "page/cause_place.h"
+#include "result/cause_place.h"
 #include "page/cause_words.h"
 #include "page/figures_diagnosis.h"
 #include "page/geometry.h"

@@ -11,7 +11,7 @@
 static const rotid_reference *reference_of(struct pool *pool, const struct result *result, const char *parameter)
 {
     const char *quantity = pool_format(pool, "sensitivity %s", parameter);
-    return quantity ? result_reference(result, quantity) : NULL;
+    return quantity ? head_reference(&result->head, quantity) : NULL;
 }
 
 static double reference_value(const rotid_reference *reference, int k)

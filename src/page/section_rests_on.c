@@ -9,7 +9,7 @@
 
 static const char *noise_of(struct pool *pool, const struct result *result)
 {
-    const rotid_noise *noise = result_noise(result);
+    const rotid_noise *noise = result_used_noise(result);
     if (!noise || !result_fit(result) || !(noise->intervals_from || result->diagnose))
         return NULL;
     const char *frequency = isfinite(noise->frequency)

@@ -82,15 +82,7 @@ const rotid_identification *result_fit(const struct result *result)
     return result->diagnose ? result->diagnose->base : result->identify;
 }
 
-const rotid_noise *result_noise(const struct result *result)
+const rotid_noise *result_used_noise(const struct result *result)
 {
     return result->diagnose ? &result->diagnose->noise : result->identify ? result->identify->noise : NULL;
-}
-
-const rotid_reference *result_reference(const struct result *result, const char *quantity)
-{
-    for (int i = 0; i < result->head.nreferences; i++)
-        if (!strcmp(result->head.references[i].quantity, quantity))
-            return &result->head.references[i];
-    return NULL;
 }

@@ -37,11 +37,6 @@ struct result_reader {
     void (*read)(const struct json_place *root, struct result *result);
 };
 
-/* The i-th command whose results have a table; NULL behind the last. */
-const char *result_command(int i);
-/* The table of the results of a command, NULL where no result of the command has one. */
-const struct record *result_record(const char *command);
-
 /* The result as JSON: a text to be freed with json_free, or NULL where memory is out. */
 char *result_json(const struct result *result);
 
@@ -56,11 +51,10 @@ int result_read(struct pool *pool, const char *file, struct message_list *messag
  * as a mistake of `root` where they are not. */
 void result_check(const struct json_place *root, const struct result *result);
 
-/* The rotor of a result, the fit that it is about (its own, or the model that a diagnosis judged), the noise of its data, the
- * values of a reference of its heading; NULL where it has none. */
+/* The rotor of a result, the fit that it is about (its own, or the model that a diagnosis judged), the noise of its data; NULL
+ * where it has none. */
 const rotid_geometry *result_geometry(const struct result *result);
 const rotid_identification *result_fit(const struct result *result);
-const rotid_noise *result_noise(const struct result *result);
-const rotid_reference *result_reference(const struct result *result, const char *quantity);
+const rotid_noise *result_used_noise(const struct result *result);
 
 #endif
