@@ -379,10 +379,9 @@ static void a_text_in_a_deck_stays_a_text(void **state)
     replace_text(json, "deck", hostile);
     replace_text(json, "commit", hostile);
     replace_text(json, "stop_reason", hostile);
-    replace_text(json, "reduction", hostile);
     replace_text(cJSON_GetArrayItem(cJSON_GetObjectItem(json, "parameters"), 0), "name", hostile);
     replace_text(cJSON_GetArrayItem(cJSON_GetObjectItem(json, "parameters"), 0), "unit", hostile);
-    replace_text(cJSON_GetArrayItem(cJSON_GetObjectItem(json, "baseline"), 0), "algorithm", hostile);
+    replace_text(cJSON_GetArrayItem(cJSON_GetObjectItem(json, "baseline"), 0), "result", hostile);
     cJSON_AddItemToArray(cJSON_GetObjectItem(json, "warnings"), cJSON_CreateString(hostile));
     cJSON *group = cJSON_GetArrayItem(cJSON_GetObjectItem(geometry, "groups"), 1);
     replace_text(group, "name", hostile);

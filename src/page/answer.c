@@ -200,10 +200,10 @@ void answer_plain(struct document *document, const struct result *result)
         text = pool_format(pool, "%d transfer %s from %s to %s\xc2\xa0Hz", result->transfer->nfunction,
                            human_plural(result->transfer->nfunction, "function", "functions"),
                            human_trimmed(pool, result->transfer->low_hz, 4), human_trimmed(pool, result->transfer->high_hz, 5));
-    } else if (result_geometry(result)) {
-        text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d %s", human_trimmed(pool, result_geometry(result)->length_m, 4),
-                           geometry_elements(result_geometry(result)),
-                           human_plural(geometry_elements(result_geometry(result)), "element", "elements"));
+    } else if (geometry_of_result(result)) {
+        text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d %s", human_trimmed(pool, geometry_of_result(result)->length_m, 4),
+                           geometry_elements(geometry_of_result(result)),
+                           human_plural(geometry_elements(geometry_of_result(result)), "element", "elements"));
     }
     document->answer = text ? text : "";
 }

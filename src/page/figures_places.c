@@ -1,13 +1,13 @@
 /* Where along the axis the misfit acts, under the rotor, with the places of what may cause it between the two. */
 #include <math.h>
 
-#include "result/cause_place.h"
 #include "page/cause_words.h"
 #include "page/figures_diagnosis.h"
 #include "page/geometry.h"
 #include "page/human.h"
 #include "page/plot.h"
 #include "page/rotor.h"
+#include "result/cause_place.h"
 
 #define LEFT_PX    54.0
 #define RIGHT_PX   14.0
@@ -38,7 +38,7 @@ static struct places find_places(struct pool *pool, const struct result *result)
     const rotid_cause *cause = d->verdict.ncauses ? d->verdict.causes : d->verdict.alternative_causes;
     for (int i = 0; i < count; i++) {
         struct lane lane = {.cause = &cause[i]};
-        int has_place = cause_place(result_geometry(result), lane.cause, &lane.place);
+        int has_place = cause_place(geometry_of_result(result), lane.cause, &lane.place);
         if (has_place && places.count < MOST_LANES)
             places.lane[places.count++] = lane;
         else
@@ -117,7 +117,7 @@ static int script(struct document *document, struct figure *figure, const struct
 {
     struct pool *pool = document->pool;
     const rotid_diagnosis *d = result->diagnose;
-    const rotid_geometry *geometry = result_geometry(result);
+    const rotid_geometry *geometry = geometry_of_result(result);
     double rotor[LAYOUTS] = {0, 0}, lanes = LANE_PX * places->count, radius = geometry ? geometry_radius(geometry) : 1,
            length = geometry ? geometry->length_m : d->localisation[d->nlocalisation - 1].z_m;
     struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .left = LEFT_PX, .right = RIGHT_PX, .top = 0, .bottom = AXIS_PX};
@@ -227,11 +227,11 @@ void figure_places(struct document *document, const struct result *result)
         return;
     struct places places = find_places(pool, result);
     struct figure *figure = document_figure(document, "places", "Where the misfit acts");
-    figure->caption =
-        pool_format(pool,
-                    "The misfit is mended best by a force at %s\xc2\xa0m, where the indicator is 1.%s The curve is a hint "
-                    "where to look, no cause: an error anywhere smears over its neighbourhood.",
-                    human_digits(pool, d->localisation[most].z_m, 3), which(pool, d, &places, result_geometry(result) != NULL));
+    figure->caption = pool_format(
+        pool,
+        "The misfit is mended best by a force at %s\xc2\xa0m, where the indicator is 1.%s The curve is a hint "
+        "where to look, no cause: an error anywhere smears over its neighbourhood.",
+        human_digits(pool, d->localisation[most].z_m, 3), which(pool, d, &places, geometry_of_result(result) != NULL));
     figure->alt = pool_format(pool, "The rotor, %s places of causes under it, and a curve along its axis with its peak at %s m.",
                               human_count(pool, places.count), human_digits(pool, d->localisation[most].z_m, 3));
     figure->table = places_table(pool, d);

@@ -82,7 +82,7 @@ static void draw_sensors(struct plot *plot, const struct result *result, const d
 {
     const rotid_diagnosis *d = result->diagnose;
     struct plot_range range = plot_range_of(d->nsensors, rms, 0);
-    double length = result_geometry(result) ? result_geometry(result)->length_m : d->sensors[d->nsensors - 1].z_m;
+    double length = geometry_of_result(result) ? geometry_of_result(result)->length_m : d->sensors[d->nsensors - 1].z_m;
     length = length > 0 ? length : 1;
     range.to = fmax(range.to, fmax(1, m->limit));
     plot_line(plot, "set xrange [%.6g:%.6g]\nset yrange [0:%.6g]\nset xtics %g", -0.02 * length, 1.02 * length, 1.1 * range.to,

@@ -253,7 +253,7 @@ void figure_shapes(struct document *document, const struct result *result, const
         return;
     }
     struct shapes_figure all = {.count = count, .panel = panel};
-    shade(pool, result_geometry(result), fit, &all);
+    shade(pool, geometry_of_result(result), fit, &all);
     figure->caption = shapes_caption(pool, fit, count, with_shape);
     figure->alt =
         pool_format(pool, "%d panels, one a mode: deflection over the position along the rotor, as a line for the model%s.",

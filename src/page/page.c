@@ -45,9 +45,9 @@ void page_compose(struct document *document, int count, const struct result *res
         answer_plain(document, result);
     section_rests_on(document, count, result);
     for (int i = 0; i < count; i++) { /* one picture of the rotor does */
-        if (!result_geometry(&result[i]))
+        if (!geometry_of_result(&result[i]))
             continue;
-        section_rotor(document, &result[i], result_fit(&result[i]));
+        section_rotor(document, &result[i], fit_of_result(&result[i]));
         break;
     }
     for (int i = 0; i < count; i++) {

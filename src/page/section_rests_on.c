@@ -9,8 +9,8 @@
 
 static const char *noise_of(struct pool *pool, const struct result *result)
 {
-    const rotid_noise *noise = result_used_noise(result);
-    if (!noise || !result_fit(result) || !(noise->intervals_from || result->diagnose))
+    const rotid_noise *noise = noise_of_result(result);
+    if (!noise || !fit_of_result(result) || !(noise->intervals_from || result->diagnose))
         return NULL;
     const char *frequency = isfinite(noise->frequency)
                                 ? pool_format(pool, "frequencies %s\xc2\xa0%%%s", human_digits(pool, 100 * noise->frequency, 2),
@@ -25,7 +25,7 @@ static const char *noise_of(struct pool *pool, const struct result *result)
 
 static const char *data_of(struct pool *pool, const struct result *result)
 {
-    const rotid_identification *fit = result_fit(result);
+    const rotid_identification *fit = fit_of_result(result);
     int shapes = 0;
     if (!fit || !fit->nmodes)
         return NULL;
@@ -47,8 +47,8 @@ static const char *data_of(struct pool *pool, const struct result *result)
 
 static const char *model_of(struct pool *pool, const struct result *result)
 {
-    const rotid_identification *fit = result_fit(result);
-    const rotid_geometry *geometry = result_geometry(result);
+    const rotid_identification *fit = fit_of_result(result);
+    const rotid_geometry *geometry = geometry_of_result(result);
     const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length_m, 4),
                                               geometry_elements(geometry),
                                               human_plural(geometry_elements(geometry), "element", "elements"))

@@ -9,7 +9,7 @@
 void section_rotor(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     document_section(document, "model", "The rotor");
-    figure_rotor(document, result, result_geometry(result), fit);
+    figure_rotor(document, result, geometry_of_result(result), fit);
 }
 
 void section_identify(struct document *document, const struct result *result)

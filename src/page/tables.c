@@ -43,7 +43,8 @@ struct number_table *tables_fitted_modes(struct pool *pool, const struct result 
     static const char *const head[] = {"mode",      "measured [Hz]",  "predicted [Hz]",     "error [%]", "noise [%]",
                                        "MAC [1]",   "NCO [1]",        "condensation [%]",   "mesh [%]",  "in the fit",
                                        "paired by", "reference [Hz]", "reference error [%]"};
-    const rotid_reference *hz = head_reference(&result->head, "predicted_hz"), *error = head_reference(&result->head, "error_percent");
+    const rotid_reference *hz = head_reference(&result->head, "predicted_hz"),
+                          *error = head_reference(&result->head, "error_percent");
     int columns = hz || error ? 13 : 11;
     struct number_table *table = table_new(pool, fit->nmodes, columns);
     for (int j = 0; j < columns; j++)

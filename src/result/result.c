@@ -68,7 +68,7 @@ char *result_json(const struct result *result)
     return json_close(&tree);
 }
 
-const rotid_geometry *result_geometry(const struct result *result)
+const rotid_geometry *geometry_of_result(const struct result *result)
 {
     return result->identify   ? result->identify->geometry
            : result->diagnose ? result->diagnose->geometry
@@ -77,12 +77,12 @@ const rotid_geometry *result_geometry(const struct result *result)
                               : NULL;
 }
 
-const rotid_identification *result_fit(const struct result *result)
+const rotid_identification *fit_of_result(const struct result *result)
 {
     return result->diagnose ? result->diagnose->base : result->identify;
 }
 
-const rotid_noise *result_used_noise(const struct result *result)
+const rotid_noise *noise_of_result(const struct result *result)
 {
     return result->diagnose ? &result->diagnose->noise : result->identify ? result->identify->noise : NULL;
 }

@@ -53,8 +53,8 @@ void result_check(const struct json_place *root, const struct result *result);
 
 /* The rotor of a result, the fit that it is about (its own, or the model that a diagnosis judged), the noise of its data; NULL
  * where it has none. */
-const rotid_geometry *result_geometry(const struct result *result);
-const rotid_identification *result_fit(const struct result *result);
-const rotid_noise *result_used_noise(const struct result *result);
+const rotid_geometry *geometry_of_result(const struct result *result);
+const rotid_identification *fit_of_result(const struct result *result);
+const rotid_noise *noise_of_result(const struct result *result);
 
 #endif

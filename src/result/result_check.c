@@ -100,7 +100,7 @@ static void check_diagnosis(const struct json_place *root, const rotid_diagnosis
 
 void result_check(const struct json_place *root, const struct result *result)
 {
-    const rotid_geometry *geometry = result_geometry(result);
+    const rotid_geometry *geometry = geometry_of_result(result);
     if (root->reader->status)
         return;
     if (geometry)
