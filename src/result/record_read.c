@@ -248,12 +248,21 @@ static void read_one(const struct json_place *above, const struct field *field, 
     read_value(&at, field, to);
 }
 
+/* Whether the keys of a struct stand here: the first one that results of all versions have tells. */
+static int stands_here(const struct json_place *at, const struct record *record)
+{
+    const struct field *field = record->field;
+    while (field->bits & SINCE_LATER)
+        field++;
+    return place_has(at, field->key);
+}
+
 void record_read(const struct json_place *at, const struct record *record, void *to)
 {
     for (const struct field *field = record->field; field->key; field++) {
         void *inside = member(to, field->offset);
         if (field->kind == FIELD_INLINE) {
-            if (field->bits & IF_KNOWN && !place_has(at, field->record->field->key))
+            if (field->bits & IF_KNOWN && !stands_here(at, field->record))
                 continue;
             if (field->bits & BEHIND_POINTER) { /* the keys of one struct may stand in two places */
                 void **pointer = inside;
