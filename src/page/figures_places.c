@@ -5,8 +5,8 @@
 #include "page/figures_diagnosis.h"
 #include "page/geometry.h"
 #include "page/human.h"
-#include "page/plot.h"
 #include "page/rotor.h"
+#include "page/series.h"
 #include "result/cause_place.h"
 
 #define LEFT_PX    54.0
@@ -113,60 +113,48 @@ static void margins(struct plot *plot, const char *top, const char *bottom)
     plot_line(plot, "set tmargin at screen 1-(HEAD+%s)/H; set bmargin at screen 1-(HEAD+%s)/H", top, bottom);
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct places *places)
+static void script(struct plot *plot, const struct result *result, const struct series *series, const struct places *places)
 {
-    struct pool *pool = document->pool;
     const rotid_diagnosis *d = result->diagnose;
     const rotid_geometry *geometry = geometry_of_result(result);
     double rotor[LAYOUTS] = {0, 0}, lanes = LANE_PX * places->count, radius = geometry ? geometry_radius(geometry) : 1,
            length = geometry ? geometry->length_m : d->localisation[d->nlocalisation - 1].z_m;
     struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .left = LEFT_PX, .right = RIGHT_PX, .top = 0, .bottom = AXIS_PX};
-    struct plot plot;
-    int n = d->nlocalisation;
-    double *data = POOL_ARRAY(pool, double, 2 * (size_t)n);
-    for (int i = 0; i < n && data; i++) {
-        data[i] = d->localisation[i].z_m;
-        data[i + n] = d->localisation[i].indicator;
-    }
     for (int l = 0; l < LAYOUTS && geometry; l++)
         rotor[l] = 12 + fmin(2 * radius * ((l == WIDE ? WIDE_PX : NARROW_PX) - LEFT_PX - RIGHT_PX) / length, MOST_ROTOR);
     layout.height = 6 + rotor[WIDE] + lanes + CURVE_PX + AXIS_PX;
     layout.narrow_height = 6 + rotor[NARROW] + lanes + CURVE_PX + AXIS_PX;
-    if (!data || plot_open(&plot, pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "# columns: z [m], force that the model lacks there, largest 1 [1]");
-    plot_data(&plot, "indicator", n, 2, (const double *const[]){data, data + n});
-    plot_begin(&plot, &layout);
-    plot_line(&plot,
+    plot_series(plot, series);
+    plot_begin(plot, &layout);
+    plot_line(plot,
               "# heights [px] of the rotor, of the places under it and of the curve\nROTOR = narrow ? %g : %g; LANES = "
               "%g; CURVE = %g",
               rotor[NARROW], rotor[WIDE], lanes, CURVE_PX);
     if (geometry) {
-        plot_panel(&plot, 0);
-        margins(&plot, "4", "ROTOR");
-        plot_line(&plot, "set xrange [0:%.6g]\nset yrange [%.6g:%.6g]\nset border 0; unset tics; unset grid", length,
+        plot_panel(plot, 0);
+        margins(plot, "4", "ROTOR");
+        plot_line(plot, "set xrange [0:%.6g]\nset yrange [%.6g:%.6g]\nset border 0; unset tics; unset grid", length,
                   -1.02 * radius, 1.02 * radius);
-        (void)rotor_draw(&plot, geometry, NULL, 0);
-        plot_line(&plot, "plot NaN");
+        (void)rotor_draw(plot, geometry, NULL, 0);
+        plot_line(plot, "plot NaN");
     }
     if (geometry && places->count) {
-        plot_panel(&plot, 0);
-        margins(&plot, "ROTOR", "ROTOR+LANES");
-        plot_line(&plot, "set xrange [0:%.6g]\nset yrange [0:%d]\nset border 0; unset tics; unset grid", length, places->count);
-        draw_lanes(&plot, d, geometry, places);
+        plot_panel(plot, 0);
+        margins(plot, "ROTOR", "ROTOR+LANES");
+        plot_line(plot, "set xrange [0:%.6g]\nset yrange [0:%d]\nset border 0; unset tics; unset grid", length, places->count);
+        draw_lanes(plot, d, geometry, places);
     }
-    plot_panel(&plot, 0);
-    margins(&plot, "ROTOR+LANES+6", "ROTOR+LANES+6+CURVE");
-    plot_line(&plot,
+    plot_panel(plot, 0);
+    margins(plot, "ROTOR+LANES+6", "ROTOR+LANES+6+CURVE");
+    plot_line(plot,
               "set xrange [0:%.6g]\nset yrange [0:1.05]\nset border 3; set grid ls 20\nset xtics 0,%g nomirror out scale 0.5 "
               "offset 0,0.25 textcolor rgb INK; set ytics 0.5 nomirror out scale 0.5 offset 0.5,0 textcolor rgb INK",
               length, plot_tic(length, 6));
     if (geometry)
-        draw_named(&plot, geometry, places);
-    plot_axes(&plot, "z [m]", "indicator [1]");
-    plot_line(&plot, "plot $indicator using 1:2 with filledcurves y1=0 fc rgb BLUE fs transparent solid 0.25 noborder, \\\n"
-                     "    $indicator using 1:2 with lines ls 1");
-    return plot_close(&plot);
+        draw_named(plot, geometry, places);
+    plot_axes(plot, "z [m]", "indicator [1]");
+    plot_line(plot, "plot $indicator using 1:2 with filledcurves y1=0 fc rgb BLUE fs transparent solid 0.25 noborder, \\\n"
+                    "    $indicator using 1:2 with lines ls 1");
 }
 
 /* What the places are, in a sentence that begins with a blank. */
@@ -202,16 +190,13 @@ static const char *which(struct pool *pool, const rotid_diagnosis *d, const stru
     return text ? text : "";
 }
 
-static struct number_table *places_table(struct pool *pool, const rotid_diagnosis *d)
+static struct series *collect(struct document *document, const rotid_diagnosis *d)
 {
-    struct number_table *table = table_new(pool, d->nlocalisation, 2);
-    table_head(table, 0, "z [m]");
-    table_head(table, 1, "indicator [1]");
-    for (int i = 0; i < d->nlocalisation; i++) {
-        table_cell(table, i, 0, human_fixed(pool, d->localisation[i].z_m, 4));
-        table_cell(table, i, 1, human_fixed(pool, d->localisation[i].indicator, 3));
-    }
-    return table;
+    static const struct column columns[] = {{"z", "m", AS_FIXED, 4}, {"indicator", "1", AS_FIXED, 3}};
+    struct series *series = series_new(document, "indicator", d->nlocalisation, 2, columns);
+    for (int i = 0; i < d->nlocalisation; i++)
+        series_row(series, i, (const double[]){d->localisation[i].z_m, d->localisation[i].indicator});
+    return series;
 }
 
 void figure_places(struct document *document, const struct result *result)
@@ -234,6 +219,11 @@ void figure_places(struct document *document, const struct result *result)
         human_digits(pool, d->localisation[most].z_m, 3), which(pool, d, &places, geometry_of_result(result) != NULL));
     figure->alt = pool_format(pool, "The rotor, %s places of causes under it, and a curve along its axis with its peak at %s m.",
                               human_count(pool, places.count), human_digits(pool, d->localisation[most].z_m, 3));
-    figure->table = places_table(pool, d);
-    document->failed |= !figure->caption || !figure->alt || script(document, figure, result, &places) != ROTID_OK;
+    struct series *series = collect(document, d);
+    struct plot plot;
+    figure->table = series_table(series);
+    if (!figure_begin(document, figure, result->file, &plot))
+        return;
+    script(&plot, result, series, &places);
+    figure_end(document, &plot);
 }

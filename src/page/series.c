@@ -1,6 +1,7 @@
 #include "page/series.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "page/human.h"
 
@@ -67,24 +68,58 @@ static const char *cell_of(const struct series *series, int row, int column)
                                   : human_digits(pool, value, c->digits);
 }
 
-struct number_table *series_table(const struct series *series)
+static int columns_shown(const struct series *series)
 {
     int shown = 0;
-    if (!series)
-        return NULL;
     for (int j = 0; j < series->columns; j++)
         shown += series->column[j].look != AS_PLACE;
-    struct number_table *table = table_new(series->document->pool, series->rows, shown);
-    for (int j = 0, k = 0; j < series->columns; j++) {
-        const struct column *c = &series->column[j];
-        if (c->look == AS_PLACE)
-            continue;
-        table_head(table, k, c->unit ? pool_format(series->document->pool, "%s [%s]", c->name, c->unit) : c->name);
-        for (int i = 0; i < series->rows; i++)
-            table_cell(table, i, k, cell_of(series, i, j));
-        k++;
+    return shown;
+}
+
+/* Column k of the table, from 0. */
+static int shown_column(const struct series *series, int k)
+{
+    int j = 0;
+    while (series->column[j].look == AS_PLACE || k--)
+        j++;
+    return j;
+}
+
+static const char *head_of(const struct series *series, int k)
+{
+    const struct column *c = &series->column[shown_column(series, k)];
+    const char *text = c->unit ? pool_format(series->document->pool, "%s [%s]", c->name, c->unit) : c->name;
+    return text ? text : "";
+}
+
+struct number_table *series_table_of(int count, const struct series *const series[])
+{
+    int rows = 0, row = 0;
+    for (int s = 0; s < count; s++) {
+        if (!series[s])
+            return NULL;
+        rows += series[s]->rows;
     }
+    int columns = columns_shown(series[0]);
+    struct pool *pool = series[0]->document->pool;
+    struct number_table *table = table_new(pool, rows, columns);
+    for (int k = 0; k < columns; k++) {
+        const char *head = head_of(series[0], k);
+        for (int s = 1; s < count && head; s++)
+            if (strcmp(head_of(series[s], k), head_of(series[0], k)) != 0)
+                head = pool_format(pool, "%s, or %s", head, head_of(series[s], k));
+        table_head(table, k, head);
+    }
+    for (int s = 0; s < count; s++)
+        for (int i = 0; i < series[s]->rows; i++, row++)
+            for (int k = 0; k < columns; k++)
+                table_cell(table, row, k, cell_of(series[s], i, shown_column(series[s], k)));
     return table;
+}
+
+struct number_table *series_table(const struct series *series)
+{
+    return series_table_of(1, &series);
 }
 
 void plot_series(struct plot *plot, const struct series *series)

@@ -39,6 +39,9 @@ double *series_values(struct series *series, int column);
 
 /* The table of numbers; NULL where memory is out. */
 struct number_table *series_table(const struct series *series);
+/* The rows of several ones, one after the other, under a head of the first one's names and of the others' where they differ:
+ * "measured [Hz], or z [m]". They have as many columns that are shown. */
+struct number_table *series_table_of(int count, const struct series *const series[]);
 /* The data with a comment that names the columns, before plot_begin. */
 void plot_series(struct plot *plot, const struct series *series);
 
