@@ -5,7 +5,7 @@
 #include "page/cause_words.h"
 #include "page/figures_diagnosis.h"
 #include "page/human.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_BARS 14
 #define WIDE_ROW  24.0
@@ -136,10 +136,27 @@ static void upright(struct plot *plot, double x, int n, int style)
         100 * style, x, x, style, n, 100 * style, x, x, style);
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const rotid_round *round,
-                  const struct bar_list *bars, double margin_at)
+static struct series *collect_series(struct document *document, const struct bar_list *bars)
 {
-    struct plot plot;
+    static const char *const fates[FATES] = {"named", "possible", "loses", "refused for a reason of its own", "only scanned"};
+    static const struct column columns[] = {{"row from below", NULL, AS_PLACE, 0},
+                                            {"cause", NULL, AS_TEXT, 0},
+                                            {"drop expected", "1", AS_DIGITS, 4},
+                                            {"drop reached", "1", AS_DIGITS, 4},
+                                            {"fate", NULL, AS_TEXT, 0}};
+    struct series *series = series_new(document, "candidates", bars->count, 5, columns);
+    for (int i = 0; i < bars->count; i++) {
+        const struct bar *bar = &bars->bar[i];
+        series_row(series, i, (const double[]){bars->count - i, bar->evidence->predicted_drop, bar->evidence->chi2_drop});
+        series_text(series, i, 1, bar->label);
+        series_text(series, i, 4, fates[bar->fate]);
+    }
+    return series;
+}
+
+static void script(struct plot *plot, const struct series *series, const rotid_round *round, const struct bar_list *bars,
+                   double margin_at)
+{
     struct plot_entry entry[FATES + 2];
     int n = bars->count, nentry = legend_of(bars, round, isfinite(margin_at), entry);
     double most = fmax(bars->bar[0].drop, isfinite(round->threshold) ? round->threshold : 0);
@@ -151,51 +168,24 @@ static int script(struct document *document, struct figure *figure, const struct
                                  .right = NUMBER_PX,
                                  .top = 10,
                                  .bottom = 52};
-    double *data = POOL_ARRAY(document->pool, double, 3 * (size_t)n);
     most = most > 0 ? most : 1;
     plot_head(entry, nentry, layout.head);
-    if (!data || plot_open(&plot, document->pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < n; i++) {
-        data[i] = n - i;
-        data[i + n] = bars->bar[i].evidence->predicted_drop;
-        data[i + 2 * (ptrdiff_t)n] = bars->bar[i].evidence->chi2_drop;
-    }
-    plot_line(&plot, "set style line 11 lc rgb INK lw 1.25 dt (2,3)\nset style line 12 lc rgb INK lw 1.25 dt (8,4)");
-    plot_line(&plot, "# columns: row from below, drop of chi2 expected by the linear scan, reached by the fit");
-    plot_data(&plot, "candidates", n, 3, (const double *const[]){data, data + n, data + 2 * (ptrdiff_t)n});
-    plot_begin(&plot, &layout);
-    plot_panel(&plot, 0);
-    plot_line(&plot,
+    plot_line(plot, "set style line 11 lc rgb INK lw 1.25 dt (2,3)\nset style line 12 lc rgb INK lw 1.25 dt (8,4)");
+    plot_series(plot, series);
+    plot_begin(plot, &layout);
+    plot_panel(plot, 0);
+    plot_line(plot,
               "# of a row: width of a bar, and how far it lies under the middle\nBAR = narrow ? 0.36 : 0.62; LIFT = narrow ? "
               "0.2 : 0");
-    plot_line(&plot, "if (narrow) { set lmargin at screen %g/W }", EDGE_PX);
-    plot_line(&plot, "set xrange [0:%.6g]\nset yrange [0.5:%g]\nunset ytics\nset border 1\nset xtics %g", most * 1.02, n + 0.5,
+    plot_line(plot, "if (narrow) { set lmargin at screen %g/W }", EDGE_PX);
+    plot_line(plot, "set xrange [0:%.6g]\nset yrange [0.5:%g]\nunset ytics\nset border 1\nset xtics %g", most * 1.02, n + 0.5,
               plot_tic(most, 5));
-    plot_legend(&plot, entry, nentry);
-    plot_axes(&plot, "drop of the misfit \xcf\x87\xc2\xb2 [1]", NULL);
-    draw_bars(&plot, bars, most, (const double[]){round->threshold, margin_at});
-    upright(&plot, round->threshold, n, 11);
-    upright(&plot, margin_at, n, 12);
-    plot_line(&plot, "plot $candidates using 3:1 with dots lc rgb PAPER");
-    return plot_close(&plot);
-}
-
-static struct number_table *bars_table(struct pool *pool, const struct bar_list *bars)
-{
-    static const char *const fates[FATES] = {"named", "possible", "loses", "refused for a reason of its own", "only scanned"};
-    struct number_table *table = table_new(pool, bars->count, 4);
-    table_head(table, 0, "cause");
-    table_head(table, 1, "drop expected [1]");
-    table_head(table, 2, "drop reached [1]");
-    table_head(table, 3, "fate");
-    for (int i = 0; i < bars->count; i++) {
-        table_cell(table, i, 0, bars->bar[i].label);
-        table_cell(table, i, 1, human_digits(pool, bars->bar[i].evidence->predicted_drop, 4));
-        table_cell(table, i, 2, human_digits(pool, bars->bar[i].evidence->chi2_drop, 4));
-        table_cell(table, i, 3, fates[bars->bar[i].fate]);
-    }
-    return table;
+    plot_legend(plot, entry, nentry);
+    plot_axes(plot, "drop of the misfit \xcf\x87\xc2\xb2 [1]", NULL);
+    draw_bars(plot, bars, most, (const double[]){round->threshold, margin_at});
+    upright(plot, round->threshold, n, 11);
+    upright(plot, margin_at, n, 12);
+    plot_line(plot, "plot $candidates using 3:1 with dots lc rgb PAPER");
 }
 
 /* Who leads whom, and by how much. */
@@ -264,7 +254,11 @@ void figure_evidence(struct document *document, const struct result *result, int
     figure->alt = pool_format(pool, "Bars of %d causes, the longest %s with %s, the shortest %s with %s.", bars->count,
                               bars->bar[0].label, human_digits(pool, bars->bar[0].drop, 3), bars->bar[bars->count - 1].label,
                               human_digits(pool, bars->bar[bars->count - 1].drop, 3));
-    figure->table = bars_table(pool, bars);
-    document->failed |= !figure->caption || !figure->alt || !figure->title ||
-                        script(document, figure, result, round, bars, margin_at) != ROTID_OK;
+    struct series *series = collect_series(document, bars);
+    struct plot plot;
+    figure->table = series_table(series);
+    if (!figure_begin(document, figure, result->file, &plot))
+        return;
+    script(&plot, series, round, bars, margin_at);
+    figure_end(document, &plot);
 }

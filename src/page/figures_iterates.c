@@ -4,34 +4,39 @@
 #include "page/figures.h"
 #include "page/human.h"
 #include "page/palette.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_CURVES 10 /* of parameters: as many styles as there are */
 #define MOST_PANELS 12 /* of bijections */
 #define PLOT_HEIGHT 230.0
 #define END_PX      14.0 /* beside a label */
 
-/* x/x(end) of parameter p over the iterations; NaN where it ends at zero. */
-static void relative(const rotid_identification *fit, int p, double *value)
+/* The iterates, then x/x(end) of each, NaN where one ends at zero. */
+static struct series *collect(struct document *document, const rotid_identification *fit, int count)
 {
-    double end = fit->history[fit->nhistory - 1].x[p];
-    for (int i = 0; i < fit->nhistory; i++)
-        value[i] = end != 0 ? fit->history[i].x[p] / end : (double)NAN;
-}
-
-static struct number_table *iterates_table(struct pool *pool, const rotid_identification *fit, int count)
-{
-    struct number_table *table = table_new(pool, fit->nhistory, count + 1);
-    table_head(table, 0, "iteration");
+    struct column column[1 + 2 * MOST_CURVES] = {{"iteration", NULL, AS_FIXED, 0}};
+    double factor[MOST_CURVES];
+    int n = fit->nhistory;
     for (int p = 0; p < count; p++) {
         struct human_unit unit = human_unit(fit->parameters[p].value, fit->parameters[p].unit);
-        table_head(table, p + 1, pool_format(pool, "%s [%s]", fit->parameters[p].name, *unit.text ? unit.text : "1"));
-        for (int i = 0; i < fit->nhistory; i++) {
-            table_cell(table, i, 0, human_fixed(pool, fit->history[i].iteration, 0));
-            table_cell(table, i, p + 1, human_digits(pool, unit.factor * fit->history[i].x[p], 7));
-        }
+        const char *text = *unit.text ? pool_copy_text(document->pool, unit.text) : "1",
+                   *relative = pool_format(document->pool, "%s over its end", fit->parameters[p].name);
+        document->failed |= !text || !relative;
+        factor[p] = unit.factor;
+        column[1 + p] = (struct column){fit->parameters[p].name, text, AS_DIGITS, 7};
+        column[1 + count + p] = (struct column){relative ? relative : "", "1", AS_PLACE, 0};
     }
-    return table;
+    struct series *series = series_new(document, "parameters", n, 1 + 2 * count, column);
+    for (int i = 0; i < n; i++) {
+        double row[1 + 2 * MOST_CURVES] = {fit->history[i].iteration};
+        for (int p = 0; p < count; p++) {
+            double x = fit->history[i].x[p], end = fit->history[n - 1].x[p];
+            row[1 + p] = factor[p] * x;
+            row[1 + count + p] = end != 0 ? x / end : (double)NAN;
+        }
+        series_row(series, i, row);
+    }
+    return series;
 }
 
 /* Iterations after which every parameter stays within one per cent of its end. */
@@ -45,53 +50,38 @@ static int settled(const rotid_identification *fit)
     return fit->history[last < n ? last : n - 1].iteration;
 }
 
-static int iterates_script(struct document *document, struct figure *figure, const struct result *result,
-                           const rotid_identification *fit, int count)
+static void iterates_script(struct plot *plot, struct series *series, const rotid_identification *fit, int count)
 {
     int n = fit->nhistory, steps = fit->history[n - 1].iteration;
-    struct pool *pool = document->pool;
-    struct plot plot;
-    double *y = POOL_ARRAY(pool, double, (size_t)(count + 1) * (size_t)n), height[MOST_CURVES];
-    const double *data[MOST_CURVES + 1];
+    double height[MOST_CURVES], widest = 0;
     const char *name[MOST_CURVES], *color[MOST_CURVES];
-    double widest = 0;
-    if (!y || plot_open(&plot, pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < n; i++)
-        y[i] = fit->history[i].iteration;
-    data[0] = y;
+    struct plot_range range = plot_range_of(count * n, series_values(series, 1 + count), 0.06);
+    double tic = plot_tic(range.to - range.from, 6);
     for (int p = 0; p < count; p++) {
-        relative(fit, p, y + (ptrdiff_t)(p + 1) * n);
-        data[p + 1] = y + (ptrdiff_t)(p + 1) * n;
         name[p] = fit->parameters[p].name;
         color[p] = series_color[p % SERIES];
         widest = fmax(widest, plot_width(name[p]));
+        height[p] = plot_share(&range, 1);
     }
-    plot_line(&plot, "# columns: iteration, then each parameter over its value at the end");
-    plot_data(&plot, "parameters", n, count + 1, data);
-    struct plot_range range = plot_range_of(count * n, y + n, 0.06);
-    double tic = plot_tic(range.to - range.from, 6);
-    plot_begin(&plot, &(struct plot_layout){.panels = 1,
-                                            .columns = {1, 1},
-                                            .height = PLOT_HEIGHT + 60,
-                                            .left = plot_left(&range, tic),
-                                            .right = END_PX + widest,
-                                            .top = 12,
-                                            .bottom = 48});
-    plot_panel(&plot, 0);
-    plot_line(&plot, "set xrange [%g:%g]\nset yrange [%.6g:%.6g]\nset ytics %g", -0.02 * (steps + 1), steps * 1.02 + 0.02,
+    plot_series(plot, series);
+    plot_begin(plot, &(struct plot_layout){.panels = 1,
+                                           .columns = {1, 1},
+                                           .height = PLOT_HEIGHT + 60,
+                                           .left = plot_left(&range, tic),
+                                           .right = END_PX + widest,
+                                           .top = 12,
+                                           .bottom = 48});
+    plot_panel(plot, 0);
+    plot_line(plot, "set xrange [%g:%g]\nset yrange [%.6g:%.6g]\nset ytics %g", -0.02 * (steps + 1), steps * 1.02 + 0.02,
               range.from, range.to, tic);
     if (steps <= 12)
-        plot_line(&plot, "set xtics 1");
-    plot_axes(&plot, "iteration [1]", "value over value at the end [1]");
-    for (int p = 0; p < count; p++)
-        height[p] = plot_share(&range, 1);
-    plot_end_labels(&plot, count, name, height, color);
-    plot_line(
-        &plot,
-        "plot 1 with lines lc rgb MUTED lw 0.75, for [c = 2:%d] $parameters using 1:c with linespoints ls c-1 pointinterval %d",
-        count + 1, 1 + n / 25);
-    return plot_close(&plot);
+        plot_line(plot, "set xtics 1");
+    plot_axes(plot, "iteration [1]", "value over value at the end [1]");
+    plot_end_labels(plot, count, name, height, color);
+    plot_line(plot,
+              "plot 1 with lines lc rgb MUTED lw 0.75, for [p = 1:%d] $parameters using 1:(column(1+%d+p)) with linespoints ls p "
+              "pointinterval %d",
+              count, count, 1 + n / 25);
 }
 
 void figure_iterates(struct document *document, const struct result *result, const rotid_identification *fit)
@@ -121,8 +111,13 @@ void figure_iterates(struct document *document, const struct result *result, con
     figure->alt = pool_format(pool, "%d %s over %d iterations: from %s to %s of the final value at the start, 1 at the end.",
                               count, human_plural(count, "curve", "curves"), fit->history[n - 1].iteration,
                               human_digits(pool, lowest, 2), human_digits(pool, highest, 2));
-    figure->table = iterates_table(pool, fit, count);
-    document->failed |= !figure->caption || !figure->alt || iterates_script(document, figure, result, fit, count) != ROTID_OK;
+    struct series *series = collect(document, fit, count);
+    struct plot plot;
+    figure->table = series_table(series);
+    if (!series || !figure_begin(document, figure, result->file, &plot))
+        return;
+    iterates_script(&plot, series, fit, count);
+    figure_end(document, &plot);
 }
 
 /* The bijection (30): x = lower + (upper - lower)/(1 + exp(u)), u = chi y. Its inverse; NaN at a bound. */
@@ -158,39 +153,33 @@ static void bijection_panel(struct plot *plot, const rotid_identification *fit, 
         p + 1, p + 1, fit->nhistory - 1);
 }
 
-static int bijection_script(struct document *document, struct figure *figure, const struct result *result,
-                            const rotid_identification *fit, int count)
+static void bijection_script(struct document *document, struct plot *plot, const rotid_identification *fit, int count)
 {
-    struct pool *pool = document->pool;
-    int n = fit->nhistory;
-    double *u = POOL_ARRAY(pool, double, 3 * (size_t)n), chi = isfinite(fit->bijection_chi) ? fit->bijection_chi : 1, most = 5;
-    struct plot plot;
-    if (!u || plot_open(&plot, pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "# columns of an iterate: y, share of the way from the lower to the upper bound, iteration");
+    static const struct column columns[] = {{"y", "1", AS_PLACE, 0},
+                                            {"share of the way from the lower to the upper bound", "1", AS_PLACE, 0},
+                                            {"iteration", NULL, AS_PLACE, 0}};
+    double chi = isfinite(fit->bijection_chi) ? fit->bijection_chi : 1, most = 5;
     for (int p = 0; p < count; p++) {
-        char name[32];
-        for (int i = 0; i < n; i++) {
-            u[i] = unbounded(&fit->parameters[p], fit->history[i].x[p]) / chi;
-            u[i + n] = share(&fit->parameters[p], fit->history[i].x[p]);
-            u[i + 2 * n] = fit->history[i].iteration;
-            if (isfinite(u[i]))
-                most = fmax(most, fabs(u[i] * chi) + 1);
+        const char *name = pool_format(document->pool, "iterates%d", p + 1);
+        struct series *series = series_new(document, name ? name : "", fit->nhistory, 3, columns);
+        for (int i = 0; i < fit->nhistory; i++) {
+            const rotid_history_entry *now = &fit->history[i];
+            double u = unbounded(&fit->parameters[p], now->x[p]);
+            series_row(series, i, (const double[]){u / chi, share(&fit->parameters[p], now->x[p]), now->iteration});
+            most = isfinite(u) ? fmax(most, fabs(u) + 1) : most;
         }
-        (void)snprintf(name, sizeof name, "iterates%d", p + 1);
-        plot_data(&plot, name, n, 3, (const double *const[]){u, u + n, u + 2 * (ptrdiff_t)n});
+        plot_series(plot, series);
     }
-    plot_line(&plot, "chi = %g\nshare(y) = 1 / (1 + exp(chi * y))", chi);
-    plot_begin(&plot, &(struct plot_layout){.panels = count,
-                                            .columns = {count > 1 ? 2 : 1, 1},
-                                            .height = PLOT_HEIGHT + 20,
-                                            .left = 58,
-                                            .right = 14,
-                                            .top = 30,
-                                            .bottom = 48});
+    plot_line(plot, "chi = %g\nshare(y) = 1 / (1 + exp(chi * y))", chi);
+    plot_begin(plot, &(struct plot_layout){.panels = count,
+                                           .columns = {count > 1 ? 2 : 1, 1},
+                                           .height = PLOT_HEIGHT + 20,
+                                           .left = 58,
+                                           .right = 14,
+                                           .top = 30,
+                                           .bottom = 48});
     for (int p = 0; p < count; p++)
-        bijection_panel(&plot, fit, p, most / chi);
-    return plot_close(&plot);
+        bijection_panel(plot, fit, p, most / chi);
 }
 
 static struct number_table *bounds_table(struct pool *pool, const rotid_identification *fit)
@@ -233,5 +222,9 @@ void figure_bijection(struct document *document, const struct result *result, co
         pool_format(pool, "%d %s with the falling S-shaped curve of the bijection and %d iterates of a parameter on it.", count,
                     human_plural(count, "panel", "panels"), fit->nhistory);
     figure->table = bounds_table(pool, fit);
-    document->failed |= !figure->caption || !figure->alt || bijection_script(document, figure, result, fit, count) != ROTID_OK;
+    struct plot plot;
+    if (!figure_begin(document, figure, result->file, &plot))
+        return;
+    bijection_script(document, &plot, fit, count);
+    figure_end(document, &plot);
 }
