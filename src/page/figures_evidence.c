@@ -100,13 +100,6 @@ static double behind(double drop, double most, const char *text, int layout, con
 static void draw_bars(struct plot *plot, const struct bar_list *bars, double most, const double line[2])
 {
     int n = bars->count;
-    for (int i = 0; i < n; i++) {
-        const struct bar *bar = &bars->bar[i];
-        const char *how =
-            bar->fate == FATE_SCANNED ? "fs transparent pattern 4 border lc rgb BLUE fc rgb BLUE" : "fs solid noborder fc rgb ";
-        plot_line(plot, "set object %d rectangle from 0,%d-LIFT-0.5*BAR to %.6g,%d-LIFT+0.5*BAR front %s%s", i + 1, n - i,
-                  bar->drop, n - i, how, bar->fate == FATE_SCANNED ? "" : fate_color[bar->fate]);
-    }
     for (int l = 0; l < LAYOUTS; l++) {
         plot_line(plot, l == WIDE ? "if (!narrow) {" : "} else {");
         for (int i = 0; i < n; i++) {
@@ -143,13 +136,17 @@ static struct series *collect_series(struct document *document, const struct bar
                                             {"cause", NULL, AS_TEXT, 0},
                                             {"drop expected", "1", AS_DIGITS, 4},
                                             {"drop reached", "1", AS_DIGITS, 4},
+                                            {"length of the bar", "1", AS_PLACE, 0},
+                                            {"number of its fate", NULL, AS_PLACE, 0},
                                             {"fate", NULL, AS_TEXT, 0}};
-    struct series *series = series_new(document, "candidates", bars->count, 5, columns);
+    struct series *series = series_new(document, "candidates", bars->count, 7, columns);
     for (int i = 0; i < bars->count; i++) {
         const struct bar *bar = &bars->bar[i];
-        series_row(series, i, (const double[]){bars->count - i, bar->evidence->predicted_drop, bar->evidence->chi2_drop});
+        series_row(
+            series, i,
+            (const double[]){bars->count - i, bar->evidence->predicted_drop, bar->evidence->chi2_drop, bar->drop, bar->fate});
         series_text(series, i, 1, bar->label);
-        series_text(series, i, 4, fates[bar->fate]);
+        series_text(series, i, 6, fates[bar->fate]);
     }
     return series;
 }
@@ -185,7 +182,18 @@ static void script(struct plot *plot, const struct series *series, const rotid_r
     draw_bars(plot, bars, most, (const double[]){round->threshold, margin_at});
     upright(plot, round->threshold, n, 11);
     upright(plot, margin_at, n, 12);
-    plot_line(plot, "plot $candidates using 3:1 with dots lc rgb PAPER");
+    const char *between = "plot ";
+    for (int f = 0; f < FATES; f++) {
+        if (!bars->has[f])
+            continue;
+        (void)fprintf(
+            plot->out,
+            "%s$candidates using 4:($5 == %d ? $1-LIFT : NaN):(0):4:($1-LIFT-0.5*BAR):($1-LIFT+0.5*BAR) with boxxyerror %s%s",
+            between, f, f == FATE_SCANNED ? "fs transparent pattern 4 border lc rgb BLUE lw 1 " : "fs solid noborder fc rgb ",
+            f == FATE_SCANNED ? "fc rgb BLUE" : fate_color[f]);
+        between = ", \\\n    ";
+    }
+    (void)fputc('\n', plot->out);
 }
 
 /* Who leads whom, and by how much. */
