@@ -75,7 +75,7 @@ void figure_matrices(struct document *document, const struct result *result, con
     const double *const matrix[2] = {fit->nco_matrix, fit->mac_matrix};
     static const char *const title[] = {"NCO", "MAC"};
     static const char *const full[] = {"NCO, weighed with the mass", "MAC, without the mass"};
-    struct matrix_panel panel[2];
+    struct matrix_panel panel[MATRIX_MOST];
     const char *says = "";
     int count = 0, rows = fit->nmatrix_rows, columns = fit->nmatrix_columns;
     if (rows > MOST_SIDE || columns > MOST_SIDE || !rows || !columns || !fit->matrix_rows || !fit->matrix_columns)
@@ -107,8 +107,7 @@ void figure_matrices(struct document *document, const struct result *result, con
     figure->caption = pool_format(pool, "%s1 is the same shape, 0 a shape that has nothing in common.", says ? says : "");
     figure->alt = pool_format(pool, "%d fields of %d by %d cells, dark where a measured shape is like one of the model.", count,
                               panel[0].rows, panel[0].columns);
-    figure->table = matrix_table(pool, count, panel);
-    document->failed |= !figure->caption || !figure->alt || matrix_script(pool, figure, result->file, count, panel) != ROTID_OK;
+    matrix_figure(document, figure, result->file, count, panel);
 }
 
 void figure_correlation(struct document *document, const struct result *result, const rotid_identification *fit)
@@ -151,6 +150,5 @@ void figure_correlation(struct document *document, const struct result *result, 
                     name[first], name[second], human_fixed(pool, fit->correlation[first + (ptrdiff_t)second * n], 2),
                     human_digits(pool, fit->condition_number, 3));
     figure->alt = pool_format(pool, "A field of %d by %d cells, dark where two parameters depend on each other.", n, n);
-    figure->table = matrix_table(pool, 1, &panel);
-    document->failed |= !figure->caption || !figure->alt || matrix_script(pool, figure, result->file, 1, &panel) != ROTID_OK;
+    matrix_figure(document, figure, result->file, 1, &panel);
 }

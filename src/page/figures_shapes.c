@@ -4,7 +4,7 @@
 #include "page/figures.h"
 #include "page/geometry.h"
 #include "page/human.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_PANELS 24  /* modes that are drawn */
 #define MOST_POINTS 120 /* of a measured shape that get bars for their noise and whole marks */
@@ -54,20 +54,28 @@ static int legend_of(int count, const struct shape_panel *panel, const char *sha
     return n;
 }
 
-static void data_of(struct plot *plot, const struct shape_panel *panel, int i)
+static void curve(struct document *document, struct plot *plot, const char *kind, int i, int n, const double *z,
+                  const double *value, const double *bar)
 {
-    char name[32];
-    (void)snprintf(name, sizeof name, "model%d", i + 1);
-    plot_data(plot, name, panel->nline, 2, (const double *const[]){panel->line_z, panel->line});
+    static const struct column columns[] = {
+        {"z", "m", AS_PLACE, 0}, {"deflection", "1", AS_PLACE, 0}, {"half of the 95 % of its noise", "1", AS_PLACE, 0}};
+    const char *name = pool_format(document->pool, "%s%d", kind, i + 1);
+    struct series *series = series_new(document, name ? name : "", n, bar ? 3 : 2, columns);
+    for (int k = 0; k < n; k++)
+        series_row(series, k, (const double[]){z[k], value[k], bar ? bar[k] : 0});
+    plot_series(plot, series);
+}
+
+static void data_of(struct document *document, struct plot *plot, const struct shape_panel *panel, int i)
+{
+    curve(document, plot, "model", i, panel->nline, panel->line_z, panel->line, NULL);
     for (int m = 0; m < panel->ntierods + panel->nbars; m++) {
         const rotid_member_shape *member = m < panel->ntierods ? &panel->tierods[m] : &panel->bars[m - panel->ntierods];
-        (void)snprintf(name, sizeof name, "member%d_%d", i + 1, m + 1);
-        plot_data(plot, name, member->nz_m, 2, (const double *const[]){member->z_m, member->shape});
+        const char *kind = pool_format(document->pool, "member%d_", i + 1);
+        curve(document, plot, kind ? kind : "", m, member->nz_m, member->z_m, member->shape, NULL);
     }
-    (void)snprintf(name, sizeof name, "measured%d", i + 1);
     if (panel->point)
-        plot_data(plot, name, panel->npoint, panel->bar ? 3 : 2,
-                  (const double *const[]){panel->point_z, panel->point, panel->bar ? panel->bar : panel->point});
+        curve(document, plot, "measured", i, panel->npoint, panel->point_z, panel->point, panel->bar);
 }
 
 static void draw_panel(struct plot *plot, const struct shapes_figure *all, int i)
@@ -99,7 +107,7 @@ static void draw_panel(struct plot *plot, const struct shapes_figure *all, int i
     (void)fputc('\n', out);
 }
 
-static int shapes_script(struct document *document, struct figure *figure, const char *source, const struct shapes_figure *all)
+static void shapes_script(struct document *document, struct figure *figure, const char *source, const struct shapes_figure *all)
 {
     struct plot plot;
     struct plot_entry entry[4];
@@ -113,12 +121,11 @@ static int shapes_script(struct document *document, struct figure *figure, const
                                  .top = TITLE_ROOM,
                                  .bottom = 47};
     plot_head(entry, nentry, layout.head);
-    if (plot_open(&plot, document->pool, figure, source))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "# columns: z [m], deflection [1], and of measured points half the 95 %% of their noise");
+    if (!figure_begin(document, figure, source, &plot))
+        return;
     struct plot_range range = {-1, 1};
     for (int i = 0; i < count; i++) {
-        data_of(&plot, &panel[i], i);
+        data_of(document, &plot, &panel[i], i);
         for (int j = 0; j < panel[i].nline; j++)
             plot_range_join(&range, panel[i].line[j]);
         for (int j = 0; j < panel[i].npoint && panel[i].point; j++)
@@ -133,7 +140,7 @@ static int shapes_script(struct document *document, struct figure *figure, const
             plot_legend(&plot, entry, nentry);
         draw_panel(&plot, all, i);
     }
-    return plot_close(&plot);
+    figure_end(document, &plot);
 }
 
 /* Groups with a parameter that was identified. */
@@ -153,26 +160,29 @@ static void shade(struct pool *pool, const rotid_geometry *geometry, const rotid
     all->nband = all->shaded ? all->nband : 0; /* the whole rotor is no part to set off */
 }
 
-static struct number_table *sensors_table(struct pool *pool, const rotid_shapes *shapes, int count)
+/* Columns of the model after those of the measurement, mode by mode. */
+static struct number_table *sensors_table(struct document *document, const rotid_shapes *shapes, int count)
 {
-    struct number_table *table = table_new(pool, shapes->nsensor_id, 2 + 2 * count);
-    table_head(table, 0, "sensor");
-    table_head(table, 1, "z [m]");
-    for (int k = 0; k < count; k++) {
-        const rotid_mode_shapes *shape = &shapes->modes[k];
-        table_head(table, 2 + 2 * k, pool_format(pool, "mode %d measured [1]", shape->mode));
-        table_head(table, 3 + 2 * k, pool_format(pool, "mode %d model [1]", shape->mode));
-    }
+    struct column column[2 + 2 * MOST_PANELS] = {{"sensor", NULL, AS_FIXED, 0}, {"z", "m", AS_FIXED, 4}};
+    for (int k = 0; k < count; k++)
+        for (int m = 0; m < 2; m++) {
+            const char *name = pool_format(document->pool, "mode %d %s", shapes->modes[k].mode, m ? "model" : "measured");
+            document->failed |= !name;
+            column[2 + 2 * k + m] = (struct column){name ? name : "", "1", AS_FIXED, 3};
+        }
+    struct series *series = series_new(document, "sensors", shapes->nsensor_id, 2 + 2 * count, column);
     for (int s = 0; s < shapes->nsensor_id; s++) {
-        table_cell(table, s, 0, human_fixed(pool, shapes->sensor_id[s], 0));
-        table_cell(table, s, 1, human_fixed(pool, shapes->z_m[s], 4));
+        double row[2 + 2 * MOST_PANELS] = {shapes->sensor_id[s], shapes->z_m[s]};
         for (int k = 0; k < count; k++) {
             const rotid_mode_shapes *shape = &shapes->modes[k];
-            table_cell(table, s, 2 + 2 * k, shape->measured ? human_fixed(pool, shape->measured[s], 3) : "");
-            table_cell(table, s, 3 + 2 * k, human_fixed(pool, shape->predicted[s], 3));
+            row[2 + 2 * k] = shape->measured ? shape->measured[s] : (double)NAN;
+            row[3 + 2 * k] = shape->predicted[s];
+            if (!shape->measured)
+                series_text(series, s, 2 + 2 * k, "");
         }
+        series_row(series, s, row);
     }
-    return table;
+    return series_table(series);
 }
 
 /* Half the 95 % of the noise of each component, NULL where it is not known. */
@@ -258,22 +268,26 @@ void figure_shapes(struct document *document, const struct result *result, const
     figure->alt =
         pool_format(pool, "%d panels, one a mode: deflection over the position along the rotor, as a line for the model%s.",
                     count, with_shape ? " and points for what was measured" : "");
-    figure->table = shapes->nsensor_id ? sensors_table(pool, shapes, count) : NULL;
-    document->failed |= !figure->caption || !figure->alt || shapes_script(document, figure, result->file, &all) != ROTID_OK;
+    figure->table = shapes->nsensor_id ? sensors_table(document, shapes, count) : NULL;
+    shapes_script(document, figure, result->file, &all);
 }
 
-static struct number_table *points_table(struct pool *pool, const rotid_spectrum *modes, int count)
+static struct number_table *points_table(struct document *document, const rotid_spectrum *modes, int count)
 {
-    struct number_table *table = table_new(pool, modes->nsensor_z_m, 1 + count);
-    table_head(table, 0, "z [m]");
-    for (int k = 0; k < count; k++)
-        table_head(table, 1 + k, pool_format(pool, "mode %d [1]", modes->modes[k].mode));
-    for (int s = 0; s < modes->nsensor_z_m; s++) {
-        table_cell(table, s, 0, human_fixed(pool, modes->sensor_z_m[s], 4));
-        for (int k = 0; k < count; k++)
-            table_cell(table, s, 1 + k, human_fixed(pool, modes->modes[k].shape[s], 3));
+    struct column column[1 + MOST_PANELS] = {{"z", "m", AS_FIXED, 4}};
+    for (int k = 0; k < count; k++) {
+        const char *name = pool_format(document->pool, "mode %d", modes->modes[k].mode);
+        document->failed |= !name;
+        column[1 + k] = (struct column){name ? name : "", "1", AS_FIXED, 3};
     }
-    return table;
+    struct series *series = series_new(document, "points", modes->nsensor_z_m, 1 + count, column);
+    for (int s = 0; s < modes->nsensor_z_m; s++) {
+        double row[1 + MOST_PANELS] = {modes->sensor_z_m[s]};
+        for (int k = 0; k < count; k++)
+            row[1 + k] = modes->modes[k].shape[s];
+        series_row(series, s, row);
+    }
+    return series_table(series);
 }
 
 void figure_modes(struct document *document, const struct result *result)
@@ -303,6 +317,6 @@ void figure_modes(struct document *document, const struct result *result)
                                   human_trimmed(pool, modes->modes[count - 1].full_hz, 5), modes->nsensor_z_m,
                                   all.sparse ? " (joined by straight lines)" : "");
     figure->alt = pool_format(pool, "%d panels, one a mode: deflection over the position along the rotor.", count);
-    figure->table = points_table(pool, modes, count);
-    document->failed |= !figure->caption || !figure->alt || shapes_script(document, figure, result->file, &all) != ROTID_OK;
+    figure->table = points_table(document, modes, count);
+    shapes_script(document, figure, result->file, &all);
 }
