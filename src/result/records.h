@@ -17,6 +17,7 @@ extern const struct record identification_record;       /* rotid_identification 
 extern const struct record identification_alone_record; /* these two */
 extern const struct record noise_record;                /* rotid_noise */
 extern const struct record diagnosis_record;            /* rotid_diagnosis */
+extern const struct record head_alone_record;           /* struct result of a command without a table */
 
 /* The i-th command whose results have a table; NULL behind the last. */
 const char *result_command(int i);
