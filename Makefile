@@ -18,6 +18,7 @@
 #   make coverage   share of the lines of src that the tests run
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
+#   make options    completions and the option lists of docs/rotid.1 anew, from src/cli/option_table.c
 #   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
 #                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
@@ -156,7 +157,7 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(PROGRAM_OBJECTS) $(OBJECTS)
 MPICC ?= mpicc
 STUDY_RUNS ?= 1000
 $(BUILD)/src/mpi/%.o: override CC = $(MPICC)
-$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(PROGRAM_OBJECTS) $(OBJECTS)
+$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c %/command_table.c,$(CLI_SOURCES))) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 check-mpi:
@@ -182,7 +183,7 @@ power: $(BUILD)/power
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
@@ -194,6 +195,13 @@ sweep: all $(BUILD)/tests/test_report_sweep
 
 abi: $(BUILD)/tests/test_abi
 	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
+
+# The table of options is the program's, so the test of what follows from it links the program but for its main.
+$(BUILD)/tests/test_manual: $(call OBJECTS_OF,$(wildcard tools/options/*.c) $(filter-out %/main.c,$(CLI_SOURCES)))
+$(BUILD)/tools/options/%.o: ALL_CFLAGS += -Itools
+.PHONY: options
+options: all $(BUILD)/tests/test_manual
+	@$(BUILD)/tests/test_manual --write
 
 demo: all
 	@sh tools/demo $(BUILD)/rotid $(BUILD)/demo

@@ -12,7 +12,7 @@ int command_identify(struct command *command)
                     "the deck names nothing to identify, expected a card *IDENTIFY");
         return command_fail(command, ROTID_ERROR_ARGUMENT);
     }
-    int status = identify_run(&command->pool, job, command->baseline, &environment, &command->messages, &result);
+    int status = identify_run(&command->pool, job, !command->no_baseline, &environment, &command->messages, &result);
     if (environment.progress)
         terminal_progress_end();
     if (status)
@@ -21,7 +21,7 @@ int command_identify(struct command *command)
     const rotid_fit_result *fit = result.fit;
     int code = fit->converged && !fit->any_at_bound && !fit->any_undetermined ? EXIT_DONE : EXIT_DOUBTFUL;
     if (command_wants_table(command)) {
-        table_identify(terminal_out(), job, &result, command->baseline, command->verbose);
+        table_identify(terminal_out(), job, &result, !command->no_baseline, command->verbose);
         table_notes(terminal_out(), &command->messages);
     }
     if (fit->status == ROTID_STOP_CANCELLED) {
