@@ -18,7 +18,7 @@
 #   make coverage   share of the lines of src that the tests run
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
-#   make options    completions and the option lists of docs/rotid.1 anew, from src/cli/option_table.c
+#   make tables     completions, the option lists of docs/rotid.1 and the card tables of docs/deck.md anew, from their rows in src
 #   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
 #                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
@@ -196,11 +196,11 @@ sweep: all $(BUILD)/tests/test_report_sweep
 abi: $(BUILD)/tests/test_abi
 	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
 
-# The table of options is the program's, so the test of what follows from it links the program but for its main.
-$(BUILD)/tests/test_manual: $(call OBJECTS_OF,$(wildcard tools/options/*.c) $(filter-out %/main.c,$(CLI_SOURCES)))
-$(BUILD)/tools/options/%.o: ALL_CFLAGS += -Itools
-.PHONY: options
-options: all $(BUILD)/tests/test_manual
+# The table of options is that of the program, so the test of what follows from it links the program except its main.
+$(BUILD)/tests/test_manual: $(call OBJECTS_OF,$(wildcard tools/tables/*.c) $(filter-out %/main.c,$(CLI_SOURCES)))
+$(BUILD)/tools/tables/%.o: ALL_CFLAGS += -Itools
+.PHONY: tables
+tables: all $(BUILD)/tests/test_manual
 	@$(BUILD)/tests/test_manual --write
 
 demo: all

@@ -1,7 +1,7 @@
 # Completion of rotid for bash: commands, the options of each, the files they read. Needs nothing of bash-completion.
 
 # Commands and the endings of their files; options, the commands that have each, and what completes its value.
-# what follows is written by make options
+# what follows is written by make tables
 _rotid_commands=(
     'check:inp'
     'modes:inp'
@@ -62,7 +62,7 @@ _rotid_options=(
     '--merge:study::'
     '--summary:study::'
 )
-# end of what make options writes
+# end of what make tables writes
 
 # Paths that begin with $1, those with an ending of $2 (separated by bars) and folders; where none has it, all.
 _rotid_files() {

@@ -2,7 +2,7 @@
 
 set -l overrides 'FIT.FUNCTIONAL= FIT.REDUCTION= FIT.MODES= FIT.HOLDOUT= FIT.DERIVATIVE= NOISE.FREQUENCY= NOISE.SHAPE= TIEROD.MODEL= MEASURED.FILE= FRF.FILE='
 complete -c rotid -f
-# what follows is written by make options
+# what follows is written by make tables
 set -l commands check modes sensitivity identify diagnose frf ema export uff report study
 set -l none "not __fish_seen_subcommand_from $commands"
 complete -c rotid -n $none -a check -d 'parse a deck; mass, centre of mass, length, mesh, sensors, warnings'
@@ -72,4 +72,4 @@ complete -c rotid -n '__fish_seen_subcommand_from study' -l timeout -x -d 'a run
 complete -c rotid -n '__fish_seen_subcommand_from study' -l retry-failed -d 'runs that have failed once again'
 complete -c rotid -n '__fish_seen_subcommand_from study' -l merge -d 'files of shards into the one of --output'
 complete -c rotid -n '__fish_seen_subcommand_from study' -l summary -d 'the table of a file of results, finished or not'
-# end of what make options writes
+# end of what make tables writes

@@ -1,13 +1,13 @@
-/* What the program offers beside what the manual page and the completions of the shells say of it. With --write (make options):
- * writes what the table of options gives for them. */
+/* What the program offers beside what the manual page and the completions of the shells say of it. With --write (make tables):
+ * writes what the tables of options and cards give. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/options.h"
-#include "options/option_files.h"
 #include "shell.h"
 #include "support.h"
+#include "tables/generated.h"
 
 #define MOST   200
 #define MANUAL ROTID_SOURCE_DIR "/docs/rotid.1"
@@ -251,20 +251,20 @@ static void bash_completes_values_and_files(void **state)
     (void)shell(&test_pool, "rm -r %s", folder);
 }
 
-static const char *path_of(const struct option_file *file)
+static const char *path_of(const struct generated *part)
 {
-    return pool_format(&test_pool, ROTID_SOURCE_DIR "/%s", file->path);
+    return pool_format(&test_pool, ROTID_SOURCE_DIR "/%s", part->path);
 }
 
-static void completions_and_manual_are_those_of_the_table(void **state)
+static void generated_parts_are_those_of_the_tables(void **state)
 {
     (void)state;
-    for (const struct option_file *file = option_files; file->path; file++) {
-        const char *text = shell_file(&test_pool, path_of(file));
-        char *wanted = option_file_text(file, text);
+    for (const struct generated *part = generated_parts; part->path; part++) {
+        const char *text = shell_file(&test_pool, path_of(part));
+        char *wanted = generated_text(part, text);
         assert_non_null(wanted);
         if (strcmp(text, wanted) != 0)
-            fail_msg("%s is not what src/cli/option_table.c gives, expected it after make options", file->path);
+            fail_msg("%s is not what its table gives, expected it after make tables", part->path);
         free(wanted);
     }
 }
@@ -327,11 +327,11 @@ static void an_old_name_is_taken(void **state)
 static int write_files(void)
 {
     int code = 0;
-    for (const struct option_file *file = option_files; file->path; file++) {
-        char *text = option_file_text(file, shell_file(&test_pool, path_of(file)));
-        FILE *out = text ? fopen(path_of(file), "w") : NULL;
+    for (const struct generated *part = generated_parts; part->path; part++) {
+        char *text = generated_text(part, shell_file(&test_pool, path_of(part)));
+        FILE *out = text ? fopen(path_of(part), "w") : NULL;
         if (!out || fputs(text, out) < 0 || fclose(out)) {
-            print_error("cannot write %s\n", file->path);
+            print_error("cannot write %s\n", part->path);
             code = 1;
         }
         free(text);
@@ -351,7 +351,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(bash_offers_every_command_and_option, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(bash_offers_what_a_command_takes, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(bash_completes_values_and_files, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(completions_and_manual_are_those_of_the_table, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(generated_parts_are_those_of_the_tables, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(rows_are_sound, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(an_option_of_another_command_is_refused, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(an_old_name_is_taken, open_test_pool, close_test_pool),

@@ -1,5 +1,5 @@
 /* The options of the program, a row each. From the rows follow what is accepted and what is said where it is not (arguments.c),
- * `rotid COMMAND --help` (help.c), and the completions of the shells and the lists of docs/rotid.1, which `make options` writes.
+ * `rotid COMMAND --help` (help.c), and the completions of the shells and the lists of docs/rotid.1, which `make tables` writes.
  */
 #ifndef ROTID_CLI_OPTIONS_H
 #define ROTID_CLI_OPTIONS_H

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "deck/deck_frequencies.h"
+#include "deck/deck_row.h"
 #include "diagnose/causes/sensor.h"
 #include "rotid.h"
 #include "run/point_fit.h"
@@ -34,7 +35,7 @@ int deck_point_is_far(const struct job *job, int mode, double hz)
 void deck_frequencies(struct deck_reader *reader, const struct card *card)
 {
     static const char *const answers[] = {"NO", "YES", NULL};
-    static const char layout[] = "sensor id, frequency [Hz] [, standard deviation of it [Hz]]";
+    const char *layout = deck_card_find(card->name)->lines;
     struct job *job = reader->job;
     const struct card_option *option = card_option(card, "MODE"), *mean = card_option(card, "MEAN");
     double number;

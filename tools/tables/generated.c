@@ -1,4 +1,4 @@
-#include "option_files.h"
+#include "generated.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -6,6 +6,7 @@
 
 #include "cli/arguments.h"
 #include "cli/options.h"
+#include "deck/deck_row.h"
 
 /* ---- words */
 
@@ -46,8 +47,9 @@ static int takes_value(const struct option_row *row)
 /* ---- completions */
 
 /* Names; commands; "" without a value, words, files and their endings, or value */
-static void write_bash(FILE *out)
+static void write_bash(FILE *out, int section)
 {
+    (void)section;
     (void)fputs("_rotid_commands=(\n", out);
     for (const struct command_entry *c = command_table; c->name; c++)
         (void)fprintf(out, "    '%s:%s'\n", c->name, c->files);
@@ -70,8 +72,9 @@ static void write_bash(FILE *out)
     (void)fputs(")\n", out);
 }
 
-static void write_zsh(FILE *out)
+static void write_zsh(FILE *out, int section)
 {
+    (void)section;
     (void)fputs("_rotid_rows() {\n    commands=(\n", out);
     for (const struct command_entry *c = command_table; c->name; c++) {
         (void)fprintf(out, "        '%s:", c->name);
@@ -115,8 +118,9 @@ static void write_zsh(FILE *out)
     (void)fputs("}\n", out);
 }
 
-static void write_fish(FILE *out)
+static void write_fish(FILE *out, int section)
 {
+    (void)section;
     (void)fputs("set -l commands ", out);
     put_commands(out);
     (void)fputs("\nset -l none \"not __fish_seen_subcommand_from $commands\"\n", out);
@@ -215,8 +219,9 @@ static void put_item(FILE *out, const struct option_row *row)
 }
 
 /* Rows that belong to the same command, or to all or several, stand together. */
-static void write_manual(FILE *out)
+static void write_manual(FILE *out, int section)
 {
+    (void)section;
     for (const struct option_row *row = option_table; row->name; row++) {
         const struct option_row *before = row == option_table ? NULL : row - 1;
         if (!before || is_of_one(before) != is_of_one(row) || (is_of_one(row) && strcmp(before->commands, row->commands) != 0)) {
@@ -230,25 +235,76 @@ static void write_manual(FILE *out)
     (void)fputs(".El\n", out);
 }
 
+/* ---- docs/deck.md */
+
+/* `NAME=FIRST` (default), `OTHER`; or `NAME` and what stands behind it, of a number its unit */
+static void put_option(FILE *out, const struct deck_row *row)
+{
+    const char *what = row->what ? row->what : "", *unit = row->kind == ROW_OTHER ? what : strpbrk(what, "[(");
+    (void)fprintf(out, "`%s", row->option);
+    if (row->words) {
+        int standard = row->standard < 0 ? 0 : row->standard;
+        (void)fprintf(out, "=%s`%s", row->words[standard], row->standard < 0 ? "" : " (default)");
+        for (int i = 0; row->words[i]; i++)
+            if (i != standard)
+                (void)fprintf(out, ", `%s`", row->words[i]);
+        return;
+    }
+    (void)fprintf(out, "`%s%s", unit && *unit ? " " : "", unit ? unit : "");
+    if (row->kind == ROW_NAME && row->bits & ROW_MAY_LACK)
+        (void)fputs(" (optional)", out);
+}
+
+static void write_cards(FILE *out, int section)
+{
+    (void)fputs("| card | options | data lines |\n| --- | --- | --- |\n", out);
+    for (const struct deck_card *kind = deck_card_table; kind->name; kind++) {
+        int count = 0;
+        if ((int)kind->section != section)
+            continue;
+        (void)fprintf(out, "| `*%s` |", kind->name);
+        for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
+            if (row->option) {
+                (void)fputs(count++ ? "; " : " ", out);
+                put_option(out, row);
+            }
+        (void)fprintf(out, " | %s |\n", kind->lines ? kind->lines : "none");
+    }
+}
+
 /* ---- */
 
-const struct option_file option_files[] = {
-    {"completions/rotid.bash", "# what follows is written by make options\n", "# end of what make options writes\n", write_bash},
-    {"completions/_rotid", "# what follows is written by make options\n", "# end of what make options writes\n", write_zsh},
-    {"completions/rotid.fish", "# what follows is written by make options\n", "# end of what make options writes\n", write_fish},
-    {"docs/rotid.1", ".\\\" what follows is written by make options\n", ".\\\" end of what make options writes\n", write_manual},
-    {NULL, NULL, NULL, NULL}};
+#define SHELL(PATH, WRITE)                                                                                                       \
+    {                                                                                                                            \
+        PATH, "# what follows is written by make tables\n", "# end of what make tables writes\n", WRITE, 0                       \
+    }
+#define CARDS(NAME, SECTION)                                                                                                     \
+    {                                                                                                                            \
+        "docs/deck.md", "<!-- " NAME ", written by make tables -->\n", "<!-- end -->\n", write_cards, SECTION                    \
+    }
 
-char *option_file_text(const struct option_file *file, const char *text)
+const struct generated generated_parts[] = {
+    SHELL("completions/rotid.bash", write_bash),
+    SHELL("completions/_rotid", write_zsh),
+    SHELL("completions/rotid.fish", write_fish),
+    {"docs/rotid.1", ".\\\" what follows is written by make tables\n", ".\\\" end of what make tables writes\n", write_manual, 0},
+    CARDS("cards of the model", CARD_MODEL),
+    CARDS("cards of the measured data", CARD_MEASURED),
+    CARDS("card of the causes", CARD_CAUSE),
+    CARDS("cards of the identification", CARD_IDENTIFICATION),
+    CARDS("card of the transfer functions", CARD_FRF),
+    {NULL, NULL, NULL, NULL, 0}};
+
+char *generated_text(const struct generated *part, const char *text)
 {
-    const char *begin = strstr(text, file->begin), *end = begin ? strstr(begin, file->end) : NULL;
+    const char *begin = strstr(text, part->begin), *end = begin ? strstr(begin, part->end) : NULL;
     char *whole = NULL;
     size_t size;
     FILE *out = end ? open_memstream(&whole, &size) : NULL;
     if (!out)
         return NULL;
-    (void)fwrite(text, 1, (size_t)(begin - text) + strlen(file->begin), out);
-    file->write(out);
+    (void)fwrite(text, 1, (size_t)(begin - text) + strlen(part->begin), out);
+    part->write(out, part->section);
     (void)fputs(end, out);
     if (fclose(out)) {
         free(whole);

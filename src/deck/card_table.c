@@ -1,0 +1,206 @@
+#include "deck/deck_row.h"
+
+#define IN(S, M)      .offset = offsetof(S, M)
+#define FROM_TO(A, B) .least = (A), .most = (B)
+#define NAME(S)                                                                                                                  \
+    {                                                                                                                            \
+        .option = "NAME", .kind = ROW_NAME, IN(S, name), .what = "name"                                                          \
+    }
+#define MATERIAL(S)                                                                                                              \
+    {                                                                                                                            \
+        .option = "MATERIAL", .kind = ROW_MATERIAL, IN(S, material), .what = "name of a material"                                \
+    }
+#define POSITION(S, M)   .kind = ROW_POSITION, IN(S, M), .what = "position"
+#define NUMBER(S, M, W)  .kind = ROW_NUMBER, IN(S, M), .what = (W)
+#define ABOVE_0(S, M, W) NUMBER(S, M, W), .range = POSITIVE
+#define FROM_0(S, M, W)  NUMBER(S, M, W), .range = NOT_NEGATIVE
+#define WHOLE(S, M, W)   .kind = ROW_WHOLE, IN(S, M), .what = (W)
+#define ELEMENTS(S)                                                                                                              \
+    {                                                                                                                            \
+        WHOLE(S, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS)                                                 \
+    }
+#define WORD(S, M, W) .kind = ROW_WORD, IN(S, M), .words = (W)
+#define OTHER(O, ...)                                                                                                            \
+    {                                                                                                                            \
+        .option = (O), .kind = ROW_OTHER, __VA_ARGS__                                                                            \
+    }
+#define OPTIONAL .bits = ROW_MAY_LACK
+#define LAST                                                                                                                     \
+    {                                                                                                                            \
+        .option = NULL, .what = NULL                                                                                             \
+    }
+
+static const char *const answers[] = {"NO", "YES", NULL}, *const types[] = {"ISOTROPIC", "SHEAR", NULL},
+                         *const models[] = {"RODS", "TUBE", NULL}, *const axes[] = {"X", "Y", "Z", NULL},
+                         *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL},
+                         *const functionals[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL},
+                         *const reductions[] = {"NONE", "GUYAN", "IRS", NULL}, *const derivatives[] = {"NELSON", "MODAL", NULL},
+                         *const ties[] = {"E:G", NULL};
+
+/* clang-format off */
+
+/* ---- the model */
+
+static const struct deck_row nothing[] = {LAST}, material[] = {NAME(struct material), LAST},
+    elastic[] = {OTHER("TYPE", .words = types), LAST},
+    group[] = {OTHER("NAME", .what = ""), OTHER("MATERIAL", .what = ""), LAST}, of_group[] = {OTHER("GROUP", .what = ""), LAST};
+
+const struct deck_row deck_elastic_rows[] = {
+    {ABOVE_0(struct material, e, "Young's modulus E [Pa]")},
+    {NUMBER(struct material, nu, "Poisson ratio nu")},
+    LAST};
+const struct deck_row deck_shear_rows[] = {
+    {ABOVE_0(struct material, e, "Young's modulus E [Pa]")},
+    {ABOVE_0(struct material, g, "shear modulus G [Pa]")},
+    {NUMBER(struct material, nu, "Poisson ratio nu")},
+    LAST};
+const struct deck_row deck_density_rows[] = {
+    {ABOVE_0(struct material, rho, "density [kg/m3]")},
+    LAST};
+const struct deck_row deck_shaft_rows[] = {
+    {ABOVE_0(struct segment, length, "length [m]")},
+    {ABOVE_0(struct segment, outer, "outer diameter [m]")},
+    {FROM_0(struct segment, inner, "inner diameter [m]")},
+    ELEMENTS(struct segment),
+    {ABOVE_0(struct segment, stiff_outer, "outer diameter that carries stiffness [m]"), OPTIONAL,
+     .as = offsetof(struct segment, outer)},
+    LAST};
+const struct deck_row deck_beam_rows[] = {
+    {ABOVE_0(struct segment, length, "length [m]")},
+    {ABOVE_0(struct segment, height, "height in the bending plane [m]")},
+    {ABOVE_0(struct segment, width, "width [m]")},
+    ELEMENTS(struct segment),
+    LAST};
+const struct deck_row deck_perforation_rows[] = {
+    {WHOLE(struct group, holes, "number of holes"), FROM_TO(3, 10000)},
+    {ABOVE_0(struct group, hole_diameter, "hole diameter [m]")},
+    {ABOVE_0(struct group, hole_pitch, "pitch radius [m]")},
+    LAST};
+const struct deck_row deck_tierod_rows[] = {
+    NAME(struct tierod),
+    MATERIAL(struct tierod),
+    {.option = "FROM", POSITION(struct tierod, from)},
+    {.option = "TO", POSITION(struct tierod, to)},
+    {.option = "MODEL", WORD(struct tierod, model, models)},
+    {.option = "SELF_EQUILIBRATED", WORD(struct tierod, self_equilibrated, answers), .standard = 1},
+    {WHOLE(struct tierod, number, "number of rods"), FROM_TO(3, 10000)},
+    {ABOVE_0(struct tierod, diameter, "diameter [m]")},
+    {ABOVE_0(struct tierod, pitch, "pitch radius [m]")},
+    {NUMBER(struct tierod, tension, "tension per rod [N]")},
+    {WHOLE(struct tierod, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS), OPTIONAL},
+    LAST};
+const struct deck_row deck_bars_rows[] = {
+    NAME(struct bars),
+    MATERIAL(struct bars),
+    {.option = "CENTER", POSITION(struct bars, center)},
+    {.option = "LENGTH", ABOVE_0(struct bars, length, "length [m]")},
+    {.option = "MODEL", WORD(struct bars, model, models)},
+    {WHOLE(struct bars, number, "number of bars"), FROM_TO(3, 10000)},
+    {ABOVE_0(struct bars, diameter, "diameter [m]")},
+    {ABOVE_0(struct bars, pitch, "pitch radius [m]")},
+    {WHOLE(struct bars, elements, "number of elements"), FROM_TO(2, DECK_MOST_ELEMENTS)},
+    LAST};
+static const struct deck_row disk[] = {
+    {.option = "NAME", .kind = ROW_NAME, IN(struct disk, name), OPTIONAL, .what = "name"},
+    {POSITION(struct disk, position)},
+    {FROM_0(struct disk, mass, "mass [kg]")},
+    {FROM_0(struct disk, diametral, "diametral inertia [kg.m2]"), OPTIONAL},
+    {FROM_0(struct disk, polar, "polar inertia [kg.m2]"), OPTIONAL},
+    LAST};
+static const struct deck_row spring[] = {
+    {.option = "NAME", .kind = ROW_NAME, IN(struct spring, name), OPTIONAL, .what = "name"},
+    {POSITION(struct spring, position)},
+    {FROM_0(struct spring, lateral, "lateral stiffness [N/m]")},
+    {FROM_0(struct spring, rotational, "rotational stiffness [N.m/rad]"), OPTIONAL},
+    LAST};
+const struct deck_row deck_sling_rows[] = {
+    {.option = "LENGTH", ABOVE_0(struct rotor, sling, "length [m]")},
+    LAST};
+
+/* ---- measured data, causes, identification, transfer functions */
+
+static const struct deck_row mode[] = {OTHER("MODE", .what = ""), LAST},
+    frequencies[] = {OTHER("MODE", .what = ""), OTHER("MEAN", .words = answers, .standard = 1), LAST};
+static const struct deck_row measured[] = {
+    OTHER("FILE", .what = ""),
+    OTHER("AXIS", .words = axes, .standard = 2),
+    OTHER("DIRECTION", .words = axes),
+    OTHER("ORIGIN", .what = "[m]"),
+    OTHER("FLIP", .words = answers),
+    OTHER("SCALE", .what = "(1)"),
+    OTHER("HAMMER", .what = ""),
+    LAST};
+const struct deck_row deck_noise_rows[] = {
+    {.option = "FREQUENCY", ABOVE_0(struct deck_reader, noise_frequency, ""), OPTIONAL},
+    {.option = "SHAPE", ABOVE_0(struct deck_reader, noise_shape, ""), OPTIONAL},
+    {.option = "FLOOR_FREQUENCY", FROM_0(struct deck_reader, floor_frequency, "(0)"), OPTIONAL},
+    {.option = "FLOOR_SHAPE", FROM_0(struct deck_reader, floor_shape, "(0)"), OPTIONAL},
+    LAST};
+static const struct deck_row cause[] = {
+    OTHER("NAME", .what = ""),
+    OTHER("TYPE", .what = ""),
+    OTHER("GROUP", .what = ""),
+    OTHER("AT", .what = ""),
+    OTHER("SENSOR", .what = ""),
+    OTHER("BETWEEN", .what = ""),
+    OTHER("SHAPE", .what = ""),
+    OTHER("MOUNT", .what = ""),
+    OTHER("SUSPECT", .words = answers),
+    LAST};
+const struct deck_row deck_fit_rows[] = {
+    {.option = "FUNCTIONAL", WORD(rotid_fit_options, functional, functionals), OPTIONAL, .standard = -1},
+    {.option = "REDUCTION", WORD(rotid_fit_options, reduction, reductions), OPTIONAL},
+    OTHER("MODES", .what = ""),
+    OTHER("HOLDOUT", .what = ""),
+    {.option = "DERIVATIVE", WORD(rotid_fit_options, derivative, derivatives), OPTIONAL},
+    OTHER("TIE", .words = ties, .standard = -1),
+    LAST};
+const struct deck_row deck_frf_rows[] = {
+    OTHER("FILE", .what = ""),
+    {.option = "LOW", ABOVE_0(struct frf_request, low_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    {.option = "HIGH", ABOVE_0(struct frf_request, high_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    {.option = "STEP", ABOVE_0(struct frf_request, step_hz, "[Hz]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    {.option = "LINES", WHOLE(struct frf_request, nline, "(1601)"), FROM_TO(2, FRF_MOST_LINES),
+     .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    OTHER("QUANTITY", .words = quantities, .standard = 2),
+    OTHER("DAMPING", .what = ""),
+    OTHER("AXIS", .words = axes, .standard = 2),
+    OTHER("ORIGIN", .what = "[m]"),
+    OTHER("FLIP", .words = answers),
+    LAST};
+
+#define BY_CODE    .size = 0
+#define LIST(S, M) .size = sizeof(struct S), .list = offsetof(struct rotor, M), .count = offsetof(struct rotor, n##M)
+
+/* In the order of docs/deck.md. */
+const struct deck_card deck_card_table[] = {
+    {"HEADING", CARD_MODEL, 2, deck_heading, "text; see [References](#references-in-the-heading)", nothing, BY_CODE},
+    {"MATERIAL", CARD_MODEL, 0, deck_material, NULL, material, BY_CODE},
+    {"ELASTIC", CARD_MODEL, 0, deck_elastic, "E [Pa], nu; with SHEAR: E [Pa], G [Pa], nu", elastic, BY_CODE},
+    {"DENSITY", CARD_MODEL, 0, deck_density, "density [kg/m3]", deck_density_rows, BY_CODE},
+    {"SHAFT", CARD_MODEL, 1, deck_shaft,
+     "length, outer diameter, inner diameter [m], elements [, outer diameter that carries stiffness]", group, BY_CODE},
+    {"BEAM", CARD_MODEL, 1, deck_beam, "length, height in the bending plane, width [m], elements", group, BY_CODE},
+    {"PERFORATION", CARD_MODEL, 2, deck_perforation, "number, hole diameter [m], pitch radius [m]", of_group, BY_CODE},
+    {"TIEROD", CARD_MODEL, 2, deck_tierod, "number, diameter [m], pitch radius [m], tension per rod [N] [, elements]",
+     deck_tierod_rows, BY_CODE},
+    {"BARS", CARD_MODEL, 2, deck_bars, "number, diameter [m], pitch radius [m], elements", deck_bars_rows, BY_CODE},
+    {"PRELOAD", CARD_MODEL, 2, deck_preload, "axial force [N], tension positive", of_group, BY_CODE},
+    {"DISK", CARD_MODEL, 2, NULL, "position, mass [kg], diametral inertia, polar inertia [kg.m2]", disk, LIST(disk, disk)},
+    {"SPRING", CARD_MODEL, 2, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]", spring,
+     LIST(spring, spring)},
+    {"SLING", CARD_MODEL, 2, deck_sling, NULL, deck_sling_rows, BY_CODE},
+    {"SENSORS", CARD_MEASURED, 2, deck_sensors, "sensor id, position", nothing, BY_CODE},
+    {"MODES", CARD_MEASURED, 3, deck_modes,
+     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", nothing, BY_CODE},
+    {"SHAPE", CARD_MEASURED, 4, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, BY_CODE},
+    {"FREQUENCIES", CARD_MEASURED, 4, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
+     frequencies, BY_CODE},
+    {"MEASURED", CARD_MEASURED, 4, deck_measured, NULL, measured, BY_CODE},
+    {"NOISE", CARD_MEASURED, 3, deck_noise, NULL, deck_noise_rows, BY_CODE},
+    {"CAUSE", CARD_CAUSE, 5, deck_cause, "parameter, value", cause, BY_CODE},
+    {"IDENTIFY", CARD_IDENTIFICATION, 6, deck_identify, "parameter, lower bound, upper bound, start", nothing, BY_CODE},
+    {"FIT", CARD_IDENTIFICATION, 6, deck_fit, NULL, deck_fit_rows, BY_CODE},
+    {"FRF", CARD_FRF, 4, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, BY_CODE},
+    {.name = NULL}};
+/* clang-format on */
