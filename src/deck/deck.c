@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "deck/card_table.h"
 #include "deck/deck_cards.h"
 #include "deck/deck_frequencies.h"
-#include "deck/deck_row.h"
 #include "rotid.h"
 
 #define LAST_PHASE 6
@@ -186,10 +186,11 @@ static void read_card(struct deck_reader *reader, const struct card *card, int p
     const struct deck_card *kind = deck_card_find(card->name);
     if (!kind || kind->phase != phase)
         return;
+    reader->layout = kind->lines;
     if (kind->read)
         kind->read(reader, card);
     else
-        deck_read_list(reader, card, kind);
+        deck_read_list(reader, card, kind, &reader->list_room[kind - deck_card_table]);
 }
 
 static void read_cards(struct deck_reader *reader)

@@ -21,6 +21,7 @@ struct deck_reader {
     size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,
         bounds_room, effect_room, suspect_room, correction_room, correction_place_room, pair_room;
     struct place *correction_place; /* of the CAUSE cards of the measurement chain */
+    const char *layout;             /* what a data line of the card at hand holds */
     double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;

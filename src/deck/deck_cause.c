@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "deck/deck_cause.h"
-#include "deck/deck_row.h"
 
 /* Why a finding of the diagnosis has no card. */
 static const char *without_card(const struct cause_kind *kind)
@@ -103,7 +102,7 @@ static int find_value(const struct cause_card *c, const struct field *field, int
 /* The data lines: values [count] of the parameters `known` [count], given [count] says which were there. */
 static int read_values(struct cause_card *c, int count, const struct effect_parameter_name *known, double *value, int *given)
 {
-    const char *layout = deck_card_find(c->card->name)->lines;
+    const char *layout = c->reader->layout;
     int bad = 0;
     for (int i = 0; i < c->card->nline; i++) {
         const struct data_line *line = &c->card->line[i];

@@ -25,7 +25,7 @@ static void check_effect_bounds(struct deck_reader *reader, const struct data_li
 
 void deck_identify(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct job *job = reader->job;
     reader->identify_card = card;
     for (int i = 0, count = deck_lines(reader, card, 1, 100, layout); i < count; i++) {

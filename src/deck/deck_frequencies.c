@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "deck/deck_frequencies.h"
-#include "deck/deck_row.h"
 #include "diagnose/causes/sensor.h"
 #include "rotid.h"
 #include "run/point_fit.h"
@@ -35,7 +34,7 @@ int deck_point_is_far(const struct job *job, int mode, double hz)
 void deck_frequencies(struct deck_reader *reader, const struct card *card)
 {
     static const char *const answers[] = {"NO", "YES", NULL};
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct job *job = reader->job;
     const struct card_option *option = card_option(card, "MODE"), *mean = card_option(card, "MEAN");
     double number;

@@ -77,7 +77,7 @@ static int is_sensor(const struct rotor *rotor, int id)
 /* Ids that are no sensors may be nodes of the file, which is read when the functions are. */
 static void read_pairs(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct frf_request *frf = &reader->job->frf;
     for (int i = 0, count = deck_lines(reader, card, 0, DECK_MOST_LINES, layout); i < count; i++) {
         const struct data_line *line = &card->line[i];

@@ -57,7 +57,7 @@ void deck_heading(struct deck_reader *reader, const struct card *card)
 
 void deck_sensors(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct rotor *rotor = &reader->job->rotor;
     int count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count; i++) {
@@ -94,7 +94,7 @@ void deck_sensors(struct deck_reader *reader, const struct card *card)
 
 void deck_modes(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct job *job = reader->job;
     if (reader->modes_card) {
         deck_error(reader, card->place, "*MODES is given twice, expected once");
@@ -168,7 +168,7 @@ static void new_shapes(struct deck_reader *reader)
 
 void deck_shape(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct job *job = reader->job;
     const struct card_option *option = card_option(card, "MODE");
     double number;

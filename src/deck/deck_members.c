@@ -19,7 +19,7 @@ static struct group *named_group(struct deck_reader *reader, const struct card *
 
 void deck_perforation(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct group *group = named_group(reader, card);
     if (!group || deck_lines(reader, card, 1, 1, layout) != 1)
         return;
@@ -61,7 +61,7 @@ void deck_preload(struct deck_reader *reader, const struct card *card)
 
 void deck_tierod(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct rotor *rotor = &reader->job->rotor;
     struct tierod rod = {.elements = 1};
     int bad = deck_read_options(reader, card, deck_tierod_rows, &rod);
@@ -91,7 +91,7 @@ void deck_tierod(struct deck_reader *reader, const struct card *card)
 
 void deck_bars(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct rotor *rotor = &reader->job->rotor;
     struct bars bars = {0};
     int bad = deck_read_options(reader, card, deck_bars_rows, &bars);

@@ -60,7 +60,7 @@ void deck_elastic(struct deck_reader *reader, const struct card *card)
 
 void deck_density(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     struct material *material = current_material(reader, card, 2);
     if (material && deck_lines(reader, card, 1, 1, layout) == 1)
         (void)deck_read_values(reader, &card->line[0], deck_density_rows, layout, material);
@@ -106,7 +106,7 @@ static struct segment *add_segment(struct deck_reader *reader, int group)
 
 void deck_shaft(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count && group >= 0; i++) {
         const struct data_line *line = &card->line[i];
@@ -127,7 +127,7 @@ void deck_shaft(struct deck_reader *reader, const struct card *card)
 
 void deck_beam(struct deck_reader *reader, const struct card *card)
 {
-    const char *layout = deck_card_find(card->name)->lines;
+    const char *layout = reader->layout;
     int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count && group >= 0; i++) {
         struct segment *s = add_segment(reader, group);

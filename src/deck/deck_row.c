@@ -3,14 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct deck_card *deck_card_find(const char *name)
-{
-    for (const struct deck_card *kind = deck_card_table; kind->name; kind++)
-        if (!strcmp(kind->name, name))
-            return kind;
-    return NULL;
-}
-
 int deck_row_is_last(const struct deck_row *row)
 {
     return !row->option && !row->what;
@@ -93,14 +85,14 @@ int deck_read_values(struct deck_reader *reader, const struct data_line *line, c
     return bad;
 }
 
-void deck_read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind)
+void deck_read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind, size_t *room)
 {
     char *rotor = (char *)&reader->job->rotor;
     void **list = (void **)(rotor + kind->list);
     int *count = (int *)(rotor + kind->count);
     int lines = deck_lines(reader, card, 1, card_option(card, "NAME") ? 1 : DECK_MOST_LINES, kind->lines);
     for (int i = 0; i < lines; i++) {
-        char *added = deck_append(reader, list, *count, &reader->list_room[kind - deck_card_table], kind->size);
+        char *added = deck_append(reader, list, *count, room, kind->size);
         if (!added)
             return;
         memset(added, 0, kind->size);
@@ -166,20 +158,16 @@ static const char *name_of(const struct deck_card *kind, const void *from)
     return NULL;
 }
 
-void deck_write_lists(struct deck_writer *w)
+void deck_write_list(struct deck_writer *w, const struct deck_card *kind)
 {
-    const char *rotor = (const char *)&w->rotor;
-    for (const struct deck_card *kind = deck_card_table; kind->name; kind++) {
-        int count = kind->read ? 0 : *(const int *)(rotor + kind->count);
-        const char *list = kind->read ? NULL : *(const char *const *)(rotor + kind->list);
-        for (int i = 0; i < count; i++) {
-            const char *one = list + (size_t)i * kind->size;
-            if (!i || name_of(kind, one) || name_of(kind, one - kind->size)) {
-                deck_put_card(w, kind->name);
-                deck_write_options(w, kind->row, one);
-                deck_put(w, "\n");
-            }
-            deck_write_values(w, "", kind->row, one);
+    const char *rotor = (const char *)&w->rotor, *list = *(const char *const *)(rotor + kind->list);
+    for (int i = 0; i < *(const int *)(rotor + kind->count); i++) {
+        const char *one = list + (size_t)i * kind->size;
+        if (!i || name_of(kind, one) || name_of(kind, one - kind->size)) {
+            deck_put_card(w, kind->name);
+            deck_write_options(w, kind->row, one);
+            deck_put(w, "\n");
         }
+        deck_write_values(w, "", kind->row, one);
     }
 }

@@ -35,6 +35,37 @@ struct deck_row {
     unsigned bits;            /* of enum row_bit */
 };
 
+/* For tables of rows. */
+#define IN(S, M)      .offset = offsetof(S, M)
+#define FROM_TO(A, B) .least = (A), .most = (B)
+#define NAME(S)                                                                                                                  \
+    {                                                                                                                            \
+        .option = "NAME", .kind = ROW_NAME, IN(S, name), .what = "name"                                                          \
+    }
+#define MATERIAL(S)                                                                                                              \
+    {                                                                                                                            \
+        .option = "MATERIAL", .kind = ROW_MATERIAL, IN(S, material), .what = "name of a material"                                \
+    }
+#define POSITION(S, M)   .kind = ROW_POSITION, IN(S, M), .what = "position"
+#define NUMBER(S, M, W)  .kind = ROW_NUMBER, IN(S, M), .what = (W)
+#define ABOVE_0(S, M, W) NUMBER(S, M, W), .range = POSITIVE
+#define FROM_0(S, M, W)  NUMBER(S, M, W), .range = NOT_NEGATIVE
+#define WHOLE(S, M, W)   .kind = ROW_WHOLE, IN(S, M), .what = (W)
+#define ELEMENTS(S)                                                                                                              \
+    {                                                                                                                            \
+        WHOLE(S, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS)                                                 \
+    }
+#define WORD(S, M, W) .kind = ROW_WORD, IN(S, M), .words = (W)
+#define OTHER(O, ...)                                                                                                            \
+    {                                                                                                                            \
+        .option = (O), .kind = ROW_OTHER, __VA_ARGS__                                                                            \
+    }
+#define OPTIONAL .bits = ROW_MAY_LACK
+#define LAST                                                                                                                     \
+    {                                                                                                                            \
+        .option = NULL, .what = NULL                                                                                             \
+    }
+
 enum card_section { CARD_MODEL, CARD_MEASURED, CARD_CAUSE, CARD_IDENTIFICATION, CARD_FRF };
 
 struct deck_card {
@@ -47,16 +78,10 @@ struct deck_card {
     size_t size, list, count;   /* of a list: a struct, and where in struct rotor pointer and number stand */
 };
 
-/* The cards there are, ended by one without a name. */
-extern const struct deck_card deck_card_table[];
-
 /* Rows of cards that have code of their own. */
 extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_density_rows[], deck_shaft_rows[], deck_beam_rows[],
     deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[], deck_sling_rows[], deck_noise_rows[], deck_frf_rows[],
     deck_fit_rows[];
-
-/* NULL where there is none of this name. */
-const struct deck_card *deck_card_find(const char *name);
 
 int deck_row_is_last(const struct deck_row *row);
 
@@ -66,13 +91,13 @@ int deck_read_options(struct deck_reader *reader, const struct card *card, const
 int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,
                      void *to);
 
-/* A card without code of its own: a struct for each data line, one where it has a name. */
-void deck_read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind);
+/* A card without code of its own: a struct for each data line, one where it has a name. room: of the list. */
+void deck_read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind, size_t *room);
 
 /* The same the other way: options go on in the line of the card; values begin with `before`. */
 void deck_write_options(struct deck_writer *w, const struct deck_row *row, const void *from);
 void deck_write_values(struct deck_writer *w, const char *before, const struct deck_row *row, const void *from);
-/* All cards without code of their own; structs without a name share a card with those before. */
-void deck_write_lists(struct deck_writer *w);
+/* The structs of a card without code of its own; those without a name share a card with those before. */
+void deck_write_list(struct deck_writer *w, const struct deck_card *kind);
 
 #endif

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "deck/deck_row.h"
+#include "deck/card_table.h"
 #include "diagnose/causes/catalogue.h"
 #include "rotid.h"
 

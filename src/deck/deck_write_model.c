@@ -1,5 +1,5 @@
 /* The cards of the rotor. */
-#include "deck/deck_row.h"
+#include "deck/card_table.h"
 
 /* A material of its own for every group and bundle: what is identified of one leaves the others alone. */
 static void write_material(struct deck_writer *w, const char *owner, const struct material *material)
@@ -59,7 +59,9 @@ void deck_write_model(struct deck_writer *w)
         write_bundle(w, "TIEROD", rotor->tierod[i].name, &rotor->tierod[i].material, deck_tierod_rows, &rotor->tierod[i]);
     for (int i = 0; i < rotor->nbars; i++)
         write_bundle(w, "BARS", rotor->bars[i].name, &rotor->bars[i].material, deck_bars_rows, &rotor->bars[i]);
-    deck_write_lists(w);
+    for (const struct deck_card *kind = deck_card_table; kind->name; kind++)
+        if (!kind->read)
+            deck_write_list(w, kind);
     if (rotor->sling > 0) {
         deck_put_card(w, "SLING");
         deck_write_options(w, deck_sling_rows, rotor);

@@ -6,7 +6,7 @@
 
 #include "cli/arguments.h"
 #include "cli/options.h"
-#include "deck/deck_row.h"
+#include "deck/card_table.h"
 
 /* ---- words */
 
