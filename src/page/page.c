@@ -62,7 +62,7 @@ void page_compose(struct document *document, int count, const struct result *res
             section_modes(document, &result[i]);
         if (result[i].sensitivity)
             section_sensitivity(document, &result[i]);
-        if (result[i].transfer)
+        if (result[i].frf)
             section_transfer(document, &result[i]);
     }
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "result/json_file.h"
+#include "result/records.h"
 
 static void read_noise(const struct json_place *root, struct result *result)
 {
@@ -15,6 +16,17 @@ static void read_noise(const struct json_place *root, struct result *result)
     result->frequency_assumed = place_flag(&noise, "frequency_assumed");
     result->shape_assumed = place_flag(&noise, "shape_assumed");
     result->intervals_from = place_string_if(&noise, "intervals_from");
+}
+
+/* NULL where something is wrong: the status of the reader tells. */
+static void *read_record(const struct json_place *root, const struct record *record)
+{
+    void *own = pool_get(root->reader->pool, 1, record->size);
+    if (own)
+        record_read(root, record, own);
+    else
+        root->reader->status = ROTID_ERROR_MEMORY;
+    return root->reader->status ? NULL : own;
 }
 
 static void read_identify(const struct json_place *root, struct result *result)
@@ -51,14 +63,14 @@ static void read_modes(const struct json_place *root, struct result *result)
 
 static void read_sensitivity(const struct json_place *root, struct result *result)
 {
-    result->sensitivity = sensitivity_read(root);
+    result->sensitivity = read_record(root, &sensitivity_record);
     if (result->sensitivity && !cJSON_HasObjectItem(root->json, "functional_growth"))
         result_lacks(result, "functional_growth", "the growth of the two functionals");
 }
 
 static void read_transfer(const struct json_place *root, struct result *result)
 {
-    result->transfer = transfer_read(root);
+    result->frf = read_record(root, &transfer_record);
 }
 
 static void read_check(const struct json_place *root, struct result *result)

@@ -8,6 +8,8 @@
 #include "page/geometry.h"
 #include "page/outcomes.h"
 #include "page/studied.h"
+#include "result/transfer.h"
+#include "run/sensitivity.h"
 
 /* What an older result does not hold, and what is left out for it. */
 struct lacking {
@@ -40,8 +42,8 @@ struct result {
     struct diagnosis_outcome *diagnosis;
     struct study_outcome *study;
     struct modes_outcome *modes;
-    struct sensitivity_outcome *sensitivity;
-    struct transfer_outcome *transfer;
+    struct sensitivity *sensitivity;
+    struct transfer_result *frf;
 };
 
 /* Reads a file. The structs hang on the pool. ROTID_OK; ROTID_ERROR_IO: it cannot be read; ROTID_ERROR_SYNTAX: no JSON, or not a

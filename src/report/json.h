@@ -19,8 +19,7 @@ char *json_check(const struct provenance *provenance, const struct job *job, con
                  const struct spectrum *spectrum, const struct message_list *notes);
 char *json_modes(const struct provenance *provenance, const struct job *job, const struct spectrum *spectrum,
                  const struct comparison *compared, const struct message_list *notes);
-char *json_sensitivity(const struct provenance *provenance, const struct job *job, const rotid_parameter *parameter,
-                       const struct sensitivity_options *options, const struct sensitivity *result);
+char *json_sensitivity(const struct provenance *provenance, const struct job *job, const struct sensitivity *sensitivity);
 char *json_identify(const struct provenance *provenance, const struct job *job, const struct identification *result,
                     const struct message_list *notes);
 void json_free(char *text);

@@ -14,8 +14,7 @@ void table_check(FILE *out, const struct job *job, const struct mass_properties 
 /* shapes: with the shape of every mode at every sensor. */
 void table_modes(FILE *out, const struct job *job, const struct spectrum *spectrum, const struct comparison *compared,
                  int shapes);
-void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter,
-                       const struct sensitivity_options *options, const struct sensitivity *result);
+void table_sensitivity(FILE *out, const struct job *job, const struct sensitivity *result);
 /* baseline: NLopt was asked for; history: with the iterations. */
 void table_identify(FILE *out, const struct job *job, const struct identification *result, int baseline, int history);
 

@@ -1,4 +1,5 @@
-/* The tables of the results of rotid.h. Their members, units and meaning stand there. */
+/* The tables of the results of rotid.h, where their members, units and meaning stand, of those of src/run, and of those of
+ * this room. */
 #ifndef ROTID_RESULT_RECORDS_H
 #define ROTID_RESULT_RECORDS_H
 
@@ -15,5 +16,8 @@ extern const struct record identification_record;       /* rotid_identification 
 extern const struct record identification_alone_record; /* these two */
 extern const struct record noise_record;                /* rotid_noise */
 extern const struct record diagnosis_record;            /* rotid_diagnosis */
+
+extern const struct record sensitivity_record;          /* struct sensitivity */
+extern const struct record transfer_record;             /* struct transfer_result */
 
 #endif

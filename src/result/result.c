@@ -4,34 +4,19 @@
 
 #include "result/records.h"
 
-#define HEAD     INLINE(struct result, head, 0, head_record)
-#define WARNINGS TEXTS(struct result, warnings, SINCE_LATER)
+/* Rows of the parts that results are made of. */
+#define PROVENANCE INLINE(struct result, head, 0, provenance_record)
+#define HEAD       PROVENANCE, INLINE(struct result, head, 0, deck_record)
+#define WARNINGS   TEXTS(struct result, warnings, SINCE_LATER)
+#define OWN(M, R)  INLINE(struct result, M, BEHIND_POINTER, R)
 
-static const struct field check_fields[] = {
-    HEAD,
-    INLINE(struct result, check, BEHIND_POINTER, check_record),
-    WARNINGS,
-    {0},
-};
-static const struct field modes_fields[] = {
-    HEAD,
-    INLINE(struct result, modes, BEHIND_POINTER, spectrum_record),
-    WARNINGS,
-    {0},
-};
+static const struct field check_fields[] = {HEAD, OWN(check, check_record), WARNINGS, {0}};
+static const struct field modes_fields[] = {HEAD, OWN(modes, spectrum_record), WARNINGS, {0}};
 static const struct field identify_fields[] = {
-    HEAD,
-    INLINE(struct result, identify, BEHIND_POINTER, identification_record),
-    INLINE(struct result, identify, BEHIND_POINTER, identification_alone_record),
-    WARNINGS,
-    {0},
-};
-static const struct field diagnose_fields[] = {
-    HEAD,
-    INLINE(struct result, diagnose, BEHIND_POINTER, diagnosis_record),
-    WARNINGS,
-    {0},
-};
+    HEAD, OWN(identify, identification_record), OWN(identify, identification_alone_record), WARNINGS, {0}};
+static const struct field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
+static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), {0}};
+static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), WARNINGS, {0}};
 
 static const struct {
     const char *command;
@@ -41,6 +26,8 @@ static const struct {
     {"modes", RECORD(struct result, modes_fields)},
     {"identify", RECORD(struct result, identify_fields)},
     {"diagnose", RECORD(struct result, diagnose_fields)},
+    {"sensitivity", RECORD(struct result, sensitivity_fields)},
+    {"frf", RECORD(struct result, frf_fields)},
 };
 #define COMMANDS (sizeof commands / sizeof *commands)
 

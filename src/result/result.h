@@ -13,6 +13,12 @@ struct result {
     rotid_spectrum *modes;
     rotid_identification *identify;
     rotid_diagnosis *diagnose;
+    const struct sensitivity *sensitivity;
+    const struct transfer_result *frf;
+    const struct ema_result *ema;
+    const struct uff_result *uff;
+    const struct export_result *export;
+    const struct study_result *study;
     int nwarnings;
     const char **warnings; /* what the reader of the deck, the pairing and the fit have to say; empty where there is nothing */
 };
