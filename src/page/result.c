@@ -21,7 +21,7 @@ static void read_noise(const struct json_place *root, struct result *result)
 /* NULL where something is wrong: the status of the reader tells. */
 static void *read_record(const struct json_place *root, const struct record *record)
 {
-    void *own = pool_get(root->reader->pool, 1, record->size);
+    void *own = pool_get(root->reader->pool, 1, record_size(record));
     if (own)
         record_read(root, record, own);
     else

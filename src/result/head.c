@@ -1,4 +1,5 @@
 #include "result/head.h"
+#include "result/record.h"
 
 static const struct field reference_fields[] = {
     TEXT(rotid_reference, quantity, 0),

@@ -2,8 +2,9 @@
 #ifndef ROTID_RESULT_HEAD_H
 #define ROTID_RESULT_HEAD_H
 
-#include "result/record.h"
 #include "rotid.h"
+
+struct record;
 
 struct result_head {
     int schema;          /* version of this schema */

@@ -11,8 +11,7 @@
 #include <stdio.h>
 
 #include "base/pool.h"
-#include "result/json_tree.h"
-#include "result/place.h"
+#include "result/records.h"
 #include "rotid.h"
 
 enum field_kind {
@@ -25,6 +24,8 @@ enum field_kind {
     FIELD_INLINE,  /* the same, its keys beside those of this struct; behind a pointer that is NULL they are left out */
     FIELD_MAP,     /* an object that has the names of rotid_components as its keys, or a list of such objects */
     FIELD_WORDS,   /* int, a bit for each of the words: the list of those whose bits are set */
+    FIELD_COUNTS,  /* int, one for each of the words in place: an object that has the words as its keys; null: the first is
+                      ROTID_NONE */
     FIELD_COUNT,   /* no key: int, takes a count of the struct above while reading, for the lists that have to be as long */
 };
 
@@ -104,17 +105,11 @@ struct record {
 /* One such object, with as many components as the member nM says. */
 #define MAP(S, M, BITS)                  RECORD_ROW(S, M, FIELD_MAP, SHAPE_ONE, BITS, .columns = offsetof(S, n##M))
 #define WORDS(S, M, BITS, WORDS)         RECORD_ROW(S, M, FIELD_WORDS, SHAPE_ONE, BITS, .words = (WORDS))
+#define COUNTS(S, M, BITS, WORDS)        RECORD_ROW(S, M, FIELD_COUNTS, SHAPE_ONE, (BITS) | FROM_0, .words = (WORDS))
 #define COUNT_OF(S, M, ABOVE, COUNT)     RECORD_ROW(S, M, FIELD_COUNT, SHAPE_ONE, 0, .count = offsetof(ABOVE, COUNT))
 #define RECORD(S, FIELDS) {.name = #S, .size = sizeof(S), .field = (FIELDS)}
 
 /* Bytes of one element of a list of this kind. */
 size_t record_element_size(const struct field *field);
-
-/* Writes the keys of `from`, a struct that `record` describes, into `object` of the tree. */
-void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from);
-
-/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with its
- * place, reader->status tells at the end. */
-void record_read(const struct json_place *at, const struct record *record, void *to);
 
 #endif

@@ -1,3 +1,4 @@
+#include "result/record.h"
 #include "result/records.h"
 
 static const char *const statuses[] = {"converged", "not_converged", "at_bound", NULL};

@@ -106,7 +106,7 @@ static void set_unknown(const struct field *field, void *to)
 {
     if (field->kind == FIELD_NUMBER)
         *(double *)to = NAN;
-    else if (field->kind == FIELD_INTEGER)
+    else if (field->kind == FIELD_INTEGER || field->kind == FIELD_COUNTS)
         *(int *)to = field->bits & (MAY_BE_NULL | IF_KNOWN | SINCE_LATER) ? ROTID_NONE : 0;
     else if (field->kind == FIELD_WORD || (field->kind == FIELD_FLAG && field->bits & SINCE_LATER))
         *(int *)to = -1;
@@ -121,6 +121,14 @@ static void read_words(const struct json_place *list, const struct field *field,
         int word = read_word(&item, field->words);
         *to |= word < 0 ? 0 : 1 << word;
     }
+}
+
+static void read_counts(const struct json_place *map, const struct field *field, int *to)
+{
+    struct json_place at;
+    for (int i = 0; field->words[i]; i++)
+        if (place_need(map, field->words[i], PLACE_NUMBER, &at))
+            read_integer(&at, field, &to[i]);
 }
 
 static void read_record(const struct json_place *at, const struct record *record, const void *above, void *to);
@@ -151,6 +159,9 @@ static void read_value(const struct json_place *at, const struct field *field, c
         break;
     case FIELD_TEXT:
         read_text(at, field, to);
+        break;
+    case FIELD_COUNTS:
+        read_counts(at, field, to);
         break;
     case FIELD_WORDS:
         read_words(at, field, to);
@@ -285,6 +296,9 @@ static void read_one(const struct json_place *above, const struct field *field, 
     struct json_place at;
     void *to = member(record, field->offset);
     int is_there = find(above, field, kind_of(field), &at);
+    const cJSON *json = above->json ? cJSON_GetObjectItemCaseSensitive(above->json, field->key) : NULL;
+    if (cJSON_IsNull(json) && (field->kind == FIELD_INTEGER || field->kind == FIELD_WORD) && !(field->bits & MAY_BE_NULL))
+        place_wrong(&at, "is null, expected %s", field->kind == FIELD_WORD ? "a text" : "a number");
     if (field->bits & BEHIND_POINTER) {
         void *room = is_there ? room_for(above, 1, field->record->size) : NULL;
         *(void **)to = room;

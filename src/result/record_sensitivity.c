@@ -1,3 +1,4 @@
+#include "result/record.h"
 #include "result/records.h"
 #include "run/sensitivity.h"
 

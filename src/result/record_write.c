@@ -48,6 +48,15 @@ static void write_value(struct json_tree *tree, cJSON *object, const char *key, 
     case FIELD_TEXT:
         json_text(tree, object, key, *(const char *const *)value);
         break;
+    case FIELD_COUNTS:
+        if (*(const int *)value == ROTID_NONE) {
+            json_null(tree, object, key);
+            break;
+        }
+        array = json_object(tree, object, key);
+        for (int i = 0; field->words[i]; i++)
+            json_number(tree, array, field->words[i], ((const int *)value)[i]);
+        break;
     case FIELD_WORDS:
         array = json_array(tree, object, key);
         for (int i = 0; field->words[i]; i++)
@@ -159,4 +168,9 @@ void record_write(struct json_tree *tree, cJSON *object, const struct record *re
             json_null(tree, object, field->key);
         }
     }
+}
+
+size_t record_size(const struct record *record)
+{
+    return record->size;
 }

@@ -3,10 +3,23 @@
 #ifndef ROTID_RESULT_RECORDS_H
 #define ROTID_RESULT_RECORDS_H
 
-#include "result/record.h"
+#include "result/json_tree.h"
+#include "result/place.h"
+
+struct record;
+
+/* Writes the keys of `from`, a struct that `record` describes, into `object` of the tree. */
+void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from);
+
+/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with its
+ * place, reader->status tells at the end. */
+void record_read(const struct json_place *at, const struct record *record, void *to);
+
+/* Bytes of the struct that a table describes. */
+size_t record_size(const struct record *record);
 
 /* Words of several of them. */
-extern const char *const functional_words[], *const reduction_words[], *const pairing_words[];
+extern const char *const functional_words[], *const reduction_words[], *const pairing_words[], *const verdict_words[];
 
 extern const struct record geometry_record;             /* rotid_geometry */
 extern const struct record sensor_record;               /* rotid_sensor */
@@ -19,5 +32,9 @@ extern const struct record diagnosis_record;            /* rotid_diagnosis */
 
 extern const struct record sensitivity_record;          /* struct sensitivity */
 extern const struct record transfer_record;             /* struct transfer_result */
+extern const struct record study_record;                /* struct study_result */
+extern const struct record study_header_record;         /* struct study_header */
+extern const struct record study_axes_record;           /* struct study_axes */
+extern const struct record study_run_record;            /* struct study_run */
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "result/records.h"
+#include "result/record.h"
 
 /* Rows of the parts that results are made of. */
 #define PROVENANCE INLINE(struct result, head, 0, provenance_record)
@@ -17,6 +18,7 @@ static const struct field identify_fields[] = {
 static const struct field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
 static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), {0}};
 static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), WARNINGS, {0}};
+static const struct field study_fields[] = {PROVENANCE, OWN(study, study_record), {0}};
 
 static const struct {
     const char *command;
@@ -28,6 +30,7 @@ static const struct {
     {"diagnose", RECORD(struct result, diagnose_fields)},
     {"sensitivity", RECORD(struct result, sensitivity_fields)},
     {"frf", RECORD(struct result, frf_fields)},
+    {"study", RECORD(struct result, study_fields)},
 };
 #define COMMANDS (sizeof commands / sizeof *commands)
 
