@@ -118,6 +118,13 @@ static const struct field diagnosis_fields[] = {
 };
 static const struct record diagnosis_record_of_run = RECORD(struct run_diagnosis, diagnosis_fields);
 
+static const struct field stamp_fields[] = {
+    TEXT(struct study_run, study, 0),
+    TEXT(struct study_run, digest, 0),
+    {0},
+};
+static const struct record stamp_record = RECORD(struct study_run, stamp_fields);
+
 static const struct field run_fields[] = {
     INTEGER(struct study_run, run, FROM_0),
     STRUCT(struct study_run, cell, 0, study_axes_record),
@@ -131,8 +138,7 @@ static const struct field run_fields[] = {
     INLINE(struct study_run, diagnosis, IF_KNOWN | BEHIND_POINTER, diagnosis_record_of_run),
     TEXTS(struct study_run, warnings, IF_KNOWN),
     NUMBER(struct study_run, seconds, FROM_0),
-    TEXT(struct study_run, study, IF_KNOWN),
-    TEXT(struct study_run, digest, IF_KNOWN),
+    ROWS(IF_KNOWN, stamp_record),
     {0},
 };
 const struct record study_run_record = RECORD(struct study_run, run_fields);
