@@ -19,7 +19,7 @@ void record_read(const struct json_place *at, const struct record *record, void 
 size_t record_size(const struct record *record);
 
 /* Words of several of them. */
-extern const char *const functional_words[], *const reduction_words[], *const pairing_words[], *const verdict_words[];
+extern const char *const functional_words[], *const reduction_words[], *const pairing_words[], *const fit_status_words[], *const verdict_words[];
 
 extern const struct record geometry_record;             /* rotid_geometry */
 extern const struct record sensor_record;               /* rotid_sensor */
@@ -32,6 +32,8 @@ extern const struct record diagnosis_record;            /* rotid_diagnosis */
 
 extern const struct record sensitivity_record;          /* struct sensitivity */
 extern const struct record transfer_record;             /* struct transfer_result */
+extern const struct record ema_record;                  /* struct ema_result */
+extern const struct record export_record;               /* struct export_result */
 extern const struct record study_record;                /* struct study_result */
 extern const struct record study_header_record;         /* struct study_header */
 extern const struct record study_axes_record;           /* struct study_axes */

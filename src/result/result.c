@@ -18,6 +18,8 @@ static const struct field identify_fields[] = {
 static const struct field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
 static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), {0}};
 static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), WARNINGS, {0}};
+static const struct field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
+static const struct field export_fields[] = {HEAD, OWN(export, export_record), WARNINGS, {0}};
 static const struct field study_fields[] = {PROVENANCE, OWN(study, study_record), {0}};
 
 static const struct {
@@ -30,6 +32,8 @@ static const struct {
     {"diagnose", RECORD(struct result, diagnose_fields)},
     {"sensitivity", RECORD(struct result, sensitivity_fields)},
     {"frf", RECORD(struct result, frf_fields)},
+    {"ema", RECORD(struct result, ema_fields)},
+    {"export", RECORD(struct result, export_fields)},
     {"study", RECORD(struct result, study_fields)},
 };
 #define COMMANDS (sizeof commands / sizeof *commands)
