@@ -96,7 +96,7 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all abi demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
+.PHONY: all abi schema check-schema demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
         coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -273,7 +273,19 @@ coverage:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 -g --coverage' LDFLAGS=--coverage test
 	@sh tools/coverage $(BUILD)/coverage
 
-lint:
+# docs/schema, from the tables of src/result and the comments of the structs that they describe
+SCHEMA_HEADERS := include/rotid.h $(wildcard src/result/*.h) src/run/growth.h src/run/sensitivity.h
+$(BUILD)/tools/schema/%.o: ALL_CFLAGS += -Itools/schema
+$(BUILD)/schema: $(call OBJECTS_OF,$(wildcard tools/schema/*.c)) $(PROGRAM_OBJECTS) $(OBJECTS)
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+schema: $(BUILD)/schema
+	@$(BUILD)/schema docs/schema $(SCHEMA_HEADERS)
+# they stand in docs/schema as they are generated
+check-schema: $(BUILD)/schema
+	@rm -rf $(BUILD)/docs-schema && cp -r docs/schema $(BUILD)/docs-schema && $(BUILD)/schema $(BUILD)/docs-schema $(SCHEMA_HEADERS) && \
+	    diff -r docs/schema $(BUILD)/docs-schema || { echo 'docs/schema is not as make schema writes it'; exit 1; }
+
+lint: check-schema
 	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
 	@sh tools/lint-manual
 
