@@ -53,11 +53,20 @@ int command_fail_with(struct command *command, int status, const char *failure)
     return command_fail(command, status);
 }
 
+/* The place of a message as the user knows it: the library calls an override by its text alone. */
+static const char *place_of(const struct command *command, const char *file)
+{
+    for (int i = 0; i < command->noverride && file; i++)
+        if (!strcmp(command->override[i].given, file))
+            return command->override[i].text;
+    return file;
+}
+
 void command_take_messages(struct command *command, int count, const rotid_message *message)
 {
     for (int i = 0; i < count; i++)
-        message_add(&command->messages, (enum severity)message[i].severity, message[i].file, message[i].line, message[i].column,
-                    "%s", message[i].text);
+        message_add(&command->messages, (enum severity)message[i].severity, place_of(command, message[i].file), message[i].line,
+                    message[i].column, "%s", message[i].text);
 }
 
 int command_read_deck(struct command *command)
@@ -67,7 +76,7 @@ int command_read_deck(struct command *command)
     if (!override)
         return command_fail(command, ROTID_ERROR_MEMORY);
     for (int i = 0; i < command->noverride; i++)
-        override[i] = command->override[i].text;
+        override[i] = command->override[i].given;
     int status = rotid_deck_read(command->deck, command->noverride, override, NULL, failure, &command->read);
     if (command->read) {
         command_take_messages(command, command->read->nmessage, command->read->message);

@@ -1,5 +1,4 @@
 #include "cli/command.h"
-#include "fit/baseline.h"
 #include "report/table.h"
 
 static int show(struct command *command, rotid_identification *found)
@@ -12,9 +11,7 @@ static int show(struct command *command, rotid_identification *found)
         return command_fail(command, ROTID_ERROR_MEMORY);
     result.identify = found;
     if (command_wants_table(command)) {
-        table_identify(terminal_out(), &result,
-                       command->baseline && !baseline_exists() ? "this rotid is built without NLopt (WITH_NLOPT=0)" : NULL,
-                       command->verbose);
+        table_identify(terminal_out(), &result, command->baseline, command->verbose);
         table_notes(terminal_out(), &command->messages);
     }
     if (fit->status == ROTID_STOP_CANCELLED) {

@@ -18,7 +18,7 @@ void table_check(FILE *out, const struct result *result, const struct job *job);
 void table_modes(FILE *out, const struct result *result, int shapes);
 void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter,
                        const struct sensitivity_options *options, const struct sensitivity *result);
-/* no_baseline: why there is no minimiser beside it, NULL where nobody asked for one; history: with the iterations. */
-void table_identify(FILE *out, const struct result *result, const char *no_baseline, int history);
+/* baseline: NLopt was asked for; history: with the iterations. */
+void table_identify(FILE *out, const struct result *result, int baseline, int history);
 
 #endif

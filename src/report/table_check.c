@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "beam/effects.h"
+#include "rotor/rotor.h"
 #include "report/layout.h"
 
 /* What an effect acts on, as its hooks tell; "" where that is the whole rotor. */
@@ -16,7 +16,7 @@ static void print_target(FILE *out, const struct rotor *rotor, const struct effe
         (void)fprintf(out, " at %s", rotor->tierod[target].name);
     else if (kind->joint && target >= 0 && target + 1 < rotor->ngroup)
         (void)fprintf(out, " between %s and %s", rotor->group[target].name, rotor->group[target + 1].name);
-    else if (kind->axis && target >= 0 && target < rotor->ngroup)
+    else if ((kind->field || kind->section) && target >= 0 && target < rotor->ngroup)
         (void)fprintf(out, " in %s", rotor->group[target].name);
 }
 

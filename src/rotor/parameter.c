@@ -1,6 +1,8 @@
+#include "rotor/parameter.h"
+
 #include <string.h>
 
-#include "beam/beam.h"
+#include "base/text.h"
 
 enum owner { OF_GROUP, OF_TIEROD, OF_SPRING, OF_DISK };
 
@@ -55,7 +57,7 @@ static int find_in_effects(const struct rotor *rotor, const char *name, size_t l
         result = 2;
         for (int p = 0; p < effect_parameters(effect); p++) {
             const struct effect_parameter_name *own = &effect->kind->parameter[p];
-            if (strlen(own->name) == strlen(suffix) && same(own->name, suffix, strlen(suffix))) {
+            if (same_text(own->name, suffix)) {
                 *parameter = (struct parameter){PARAMETER_EFFECT, i, p};
                 *unit = own->unit;
                 return 0;
@@ -70,7 +72,7 @@ int parameter_find(const struct rotor *rotor, const char *name, struct parameter
     const char *dot = strrchr(name, '.');
     if (!dot)
         return 1;
-    size_t length = (size_t)(dot - name), suffix = strlen(dot + 1);
+    size_t length = (size_t)(dot - name);
     int result = 1;
     for (size_t t = 0; t < sizeof table / sizeof *table; t++)
         for (int i = 0; i < count_of(rotor, table[t].owner); i++) {
@@ -78,7 +80,7 @@ int parameter_find(const struct rotor *rotor, const char *name, struct parameter
             if (!owner || strlen(owner) != length || !same(owner, name, length))
                 continue;
             result = 2;
-            if (strlen(table[t].suffix) == suffix && same(table[t].suffix, dot + 1, suffix)) {
+            if (same_text(table[t].suffix, dot + 1)) {
                 *parameter = (struct parameter){table[t].kind, i, 0};
                 *unit = table[t].unit;
                 return 0;
@@ -114,4 +116,10 @@ double *parameter_value(const struct rotor *rotor, struct parameter parameter)
     default:
         return &rotor->disk[i].diametral;
     }
+}
+
+void parameters_set(const struct rotor *rotor, int n, const struct parameter *parameter, const double *x)
+{
+    for (int p = 0; p < n; p++)
+        *parameter_value(rotor, parameter[p]) = x[p];
 }

@@ -1,7 +1,9 @@
 /* A rotor as the deck describes it: groups of segments laid end to end, and what is attached to them. Positions are metres from
- * the left end, resolved and inside [0, length]. */
-#ifndef ROTID_BEAM_ROTOR_H
-#define ROTID_BEAM_ROTOR_H
+ * the left end, resolved and inside [0, length]. How a rotor is discretised is no matter of this room: src/model. */
+#ifndef ROTID_ROTOR_ROTOR_H
+#define ROTID_ROTOR_ROTOR_H
+
+#include "base/pool.h"
 
 struct material {
     const char *name;
@@ -63,7 +65,7 @@ struct sensor {
     double position;
 };
 
-struct effect; /* beam/effect.h */
+struct effect; /* rotor/effect.h */
 
 struct rotor {
     int ngroup, nsegment, ntierod, nbars, ndisk, nspring, nsensor, neffect;
@@ -85,5 +87,27 @@ void rotor_group_span(const struct rotor *rotor, int group, double *from, double
 
 /* G of a material: its own, or E/2(1+nu). */
 double material_shear_modulus(const struct material *material);
+
+/* kg, from the dimensions alone: segments, holes, rods, bars and disks. */
+double rotor_mass(const struct rotor *rotor);
+
+/* A copy with arrays of its own; names are shared. A rotor that hangs on a sling gets two springs more, of no stiffness yet.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
+int rotor_copy(struct pool *pool, const struct rotor *rotor, struct rotor *copy);
+
+/* (44): a rotor_copy of this mass [kg] and centre of mass [m] hangs by its left end on the sling; sets the last two springs. */
+void rotor_set_sling(struct rotor *rotor, double mass, double center);
+
+/* Whether two rotors differ at most in names and in what rotor_same_values compares: whether a discretisation of one serves the
+ * other. */
+int rotor_same_shape(const struct rotor *a, const struct rotor *b);
+
+/* Whether two rotors of the same shape agree in all that a parameter can change. */
+int rotor_same_values(const struct rotor *a, const struct rotor *b);
+
+struct mass_properties {
+    double mass, center; /* kg, m from the left end */
+    double inertia;      /* kg.m2 about a diameter through the centre */
+};
 
 #endif
