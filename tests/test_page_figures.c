@@ -82,6 +82,8 @@ static void an_identification_is_plotted_as_it_is(void **state)
 {
     (void)state;
     static const struct expected expected[] = {
+        {"rotor", "sensors", "z [m]", "geometry.sensors[].z_m", 1},
+        {"rotor", "nodes", "z [m]", "geometry.nodes_z_m[]", 1},
         {"convergence", "iterations", "iteration [1]", "history[].iteration", 1},
         {"convergence", "iterations", "objective [1]", "history[].objective", 1},
         {"convergence", "iterations", "gradient [1]", "history[].gradient", 1},
