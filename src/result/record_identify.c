@@ -98,8 +98,8 @@ static const struct field minimiser_fields[] = {
 static const struct record minimiser_record = RECORD(rotid_minimiser, minimiser_fields);
 
 static const struct field noise_fields[] = {
-    NUMBER(rotid_noise, frequency, MAY_BE_NULL | ABOVE_0),
-    NUMBER(rotid_noise, shape, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_noise, frequency, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_noise, shape, MAY_BE_NULL | FROM_0),
     FLAG(rotid_noise, frequency_assumed, 0),
     FLAG(rotid_noise, shape_assumed, 0),
     TEXT_OF(rotid_noise, intervals_from, IF_KNOWN, grounds),
