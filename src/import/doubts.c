@@ -130,7 +130,7 @@ static void check_nodes(struct search *search)
 /* Functions are named by their number and place. */
 static const char *named(int item, const struct uff_function *f, char buffer[96])
 {
-    char place[PLACE_TEXT];
+    char place[PLACE_MOST];
     (void)snprintf(buffer, 96, "function %d (%s at %s)", item + 1, name_of_function(f->type, 0),
                    place_text(f->response_node, f->response_direction, place));
     return buffer;

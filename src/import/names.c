@@ -92,13 +92,13 @@ const char *name_of_units(int code)
     return code >= 0 && code < COUNT(names) ? names[code] : "unknown";
 }
 
-const char *place_text(int node, int direction, char buffer[PLACE_TEXT])
+const char *place_text(int node, int direction, char buffer[PLACE_MOST])
 {
     static const char *const axes[] = {"", "X", "Y", "Z", "RX", "RY", "RZ"};
     if (direction && abs(direction) < COUNT(axes))
-        (void)snprintf(buffer, PLACE_TEXT, "%d:%c%s", node, direction < 0 ? '-' : '+', axes[abs(direction)]);
+        (void)snprintf(buffer, PLACE_MOST, "%d:%c%s", node, direction < 0 ? '-' : '+', axes[abs(direction)]);
     else
-        (void)snprintf(buffer, PLACE_TEXT, "%d", node);
+        (void)snprintf(buffer, PLACE_MOST, "%d", node);
     return buffer;
 }
 

@@ -20,8 +20,8 @@ const char *name_of_analysis(int type);
 const char *name_of_units(int code);
 
 /* A degree of freedom as in "19:+X", "19" for a scalar, "19:-RZ" for a rotation. Returns buffer. */
-#define PLACE_TEXT 24
-const char *place_text(int node, int direction, char buffer[PLACE_TEXT]);
+#define PLACE_MOST 24
+const char *place_text(int node, int direction, char buffer[PLACE_MOST]);
 
 /* Whether the abscissa is time: by its data type or, where that says nothing, by the kind of function. */
 int has_time_axis(const struct uff_function *function);

@@ -1,219 +1,202 @@
 #include "report/json_uff.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "import/names.h"
-#include "result/json_tree.h"
+#include "report/json_result.h"
+#include "result/uff.h"
 
-static void add_text_or_null(struct json_tree *tree, cJSON *parent, const char *key, const char *text)
+static const char *text_or_null(const char *text)
 {
-    json_text(tree, parent, key, *text ? text : NULL);
+    return *text ? text : NULL;
 }
 
-static void add_ids(struct json_tree *tree, cJSON *parent, const char (*id)[UFF_TEXT + 1])
+static struct listed_axis axis(const struct uff_axis *axis)
 {
-    cJSON *array = json_array(tree, parent, "id");
-    for (int i = 0; i < UFF_ID_LINES; ++i)
-        add_text_or_null(tree, array, NULL, id[i]);
+    return (struct listed_axis){axis->specific_type, text_or_null(axis->label), text_or_null(axis->unit)};
 }
 
-static void add_sets(struct json_tree *tree, const struct listing *listing)
+/* NULL: memory is out; of all below. */
+static struct listed_set *sets(struct pool *pool, const struct listing *listing)
 {
-    cJSON *sets = json_array(tree, tree->root, "sets");
-    for (int i = 0; i < listing->set_count; ++i) {
+    struct listed_set *list = POOL_ARRAY(pool, struct listed_set, listing->set_count);
+    for (int i = 0; i < listing->set_count && list; ++i) {
         const struct listing_set *set = &listing->set[i];
-        cJSON *item = json_object(tree, sets, NULL);
-        json_number(tree, item, "line", set->set.line);
-        json_number(tree, item, "set", set->set.number);
-        json_flag(tree, item, "binary", set->set.is_binary);
-        json_text(tree, item, "name", name_of_set(set->set.number));
-        json_text(tree, item, "state", set->is_faulty ? "malformed" : set->is_read ? "read" : "not_known");
-        json_number(tree, item, "count", (double)set->size);
+        list[i] = (struct listed_set){.line = set->set.line,
+                                      .set = set->set.number,
+                                      .binary = set->set.is_binary,
+                                      .name = name_of_set(set->set.number),
+                                      .state = set->is_faulty ? "malformed" : set->is_read ? "read" : "not_known",
+                                      .count = (double)set->size};
     }
+    return list;
 }
 
-static void add_units(struct json_tree *tree, const struct uff_units *units)
+static struct listed_function *functions(struct pool *pool, const struct listing *listing)
 {
-    if (!units) {
-        json_null(tree, tree->root, "units");
-        return;
+    struct listed_function *list = POOL_ARRAY(pool, struct listed_function, listing->function_count);
+    for (int i = 0; i < listing->function_count && list; ++i) {
+        const struct uff_function *f = &listing->function[i].function;
+        const struct values *v = &listing->function[i].values;
+        int timed = has_time_axis(f);
+        char place[2][PLACE_MOST];
+        list[i] = (struct listed_function){
+            .line = f->line,
+            .type = f->type,
+            .kind = name_of_function(f->type, 0),
+            .response = pool_copy_text(pool, place_text(f->response_node, f->response_direction, place[0])),
+            .reference = pool_copy_text(pool, place_text(f->reference_node, f->reference_direction, place[1])),
+            .response_node = f->response_node,
+            .response_direction = f->response_direction,
+            .reference_node = f->reference_node,
+            .reference_direction = f->reference_direction,
+            .ordinate = f->ordinate,
+            .ordinate_name = name_of_ordinate(f->ordinate),
+            .binary = f->binary.is_binary,
+            .count = (double)f->count,
+            .even = f->is_even,
+            .start = v->x_first,
+            .step = f->is_even ? f->step : NAN,
+            .end = v->x_last,
+            .time = timed,
+            .sampling_rate_hz = timed && f->is_even ? 1 / (f->step * listing->function[i].x_si_factor) : NAN,
+            .abscissa = axis(&f->abscissa),
+            .numerator = axis(&f->numerator),
+            .denominator = axis(&f->denominator),
+            .si_factor = listing->function[i].si_factor,
+            .abscissa_si_factor = listing->function[i].x_si_factor,
+            .min = v->count ? v->min : NAN,
+            .max = v->count ? v->max : NAN,
+            .rms = v->count ? v->rms : NAN,
+            .nfirst = v->count ? 2 : 0,
+            .nlast = v->count ? 2 : 0,
+            .first = v->first,
+            .last = v->last,
+            .sum = {v->sum[0], v->sum[1]},
+        };
+        for (int k = 0; k < LISTED_ID_LINES; ++k)
+            list[i].id[k] = text_or_null(f->id[k]);
+        if (!list[i].response || !list[i].reference)
+            return NULL;
     }
-    cJSON *item = json_object(tree, tree->root, "units");
-    json_number(tree, item, "code", units->code);
-    json_text(tree, item, "name", name_of_units(units->code));
-    add_text_or_null(tree, item, "description", units->description);
-    json_number(tree, item, "length", units->length);
-    json_number(tree, item, "force", units->force);
-    json_number(tree, item, "temperature", units->temperature);
-    json_number(tree, item, "temperature_offset", units->temperature_offset);
+    return list;
 }
 
-static void add_header(struct json_tree *tree, const struct uff_header *header)
+static struct listed_shape *shapes(struct pool *pool, const struct listing *listing)
 {
-    if (!header) {
-        json_null(tree, tree->root, "header");
-        return;
+    struct listed_shape *list = POOL_ARRAY(pool, struct listed_shape, listing->shape_count);
+    for (int i = 0; i < listing->shape_count && list; ++i) {
+        const struct listing_shape *entry = &listing->shape[i];
+        const struct uff_shape *s = &entry->shape;
+        int values = s->component_count * s->node_count;
+        list[i] = (struct listed_shape){.line = s->line,
+                                        .analysis_type = s->analysis_type,
+                                        .analysis = name_of_analysis(s->analysis_type),
+                                        .mode = s->number,
+                                        .frequency_hz = s->frequency_hz,
+                                        .damping = s->damping,
+                                        .is_complex = s->is_complex,
+                                        .components = s->component_count,
+                                        .node_count = s->node_count,
+                                        .sum = {entry->sum[0], entry->sum[1]},
+                                        .rms = entry->rms,
+                                        .nnodes = s->node_count,
+                                        .nodes = s->node,
+                                        .nreal = values,
+                                        .real = s->real,
+                                        .nimag = s->imag ? values : 0,
+                                        .imag = s->imag};
+        for (int k = 0; k < LISTED_ID_LINES; ++k)
+            list[i].id[k] = text_or_null(s->id[k]);
     }
-    cJSON *item = json_object(tree, tree->root, "header");
-    add_text_or_null(tree, item, "model", header->model);
-    add_text_or_null(tree, item, "description", header->description);
-    add_text_or_null(tree, item, "program", header->program);
-    add_text_or_null(tree, item, "created", header->created);
-    add_text_or_null(tree, item, "saved", header->saved);
-    add_text_or_null(tree, item, "written_by", header->written_by);
-    add_text_or_null(tree, item, "written", header->written);
+    return list;
 }
 
-static void add_axis(struct json_tree *tree, cJSON *parent, const char *key, const struct uff_axis *axis)
+/* 0: memory is out. */
+static int add_nodes(struct pool *pool, const struct listing *listing, int all, struct listed_nodes *out)
 {
-    cJSON *item = json_object(tree, parent, key);
-    json_number(tree, item, "data_type", axis->specific_type);
-    add_text_or_null(tree, item, "label", axis->label);
-    add_text_or_null(tree, item, "unit", axis->unit);
-}
-
-static void add_values(struct json_tree *tree, cJSON *item, const struct values *v)
-{
-    json_number(tree, item, "min", v->count ? v->min : NAN);
-    json_number(tree, item, "max", v->count ? v->max : NAN);
-    json_number(tree, item, "rms", v->count ? v->rms : NAN);
-    json_list(tree, item, "first", v->count ? 2 : 0, v->first);
-    json_list(tree, item, "last", v->count ? 2 : 0, v->last);
-    json_list(tree, item, "sum", 2, v->sum);
-}
-
-static void add_function(struct json_tree *tree, cJSON *list, const struct listing_function *entry)
-{
-    const struct uff_function *f = &entry->function;
-    cJSON *item = json_object(tree, list, NULL);
-    char place[PLACE_TEXT];
-    json_number(tree, item, "line", f->line);
-    json_number(tree, item, "type", f->type);
-    json_text(tree, item, "kind", name_of_function(f->type, 0));
-    add_ids(tree, item, f->id);
-    json_text(tree, item, "response", place_text(f->response_node, f->response_direction, place));
-    json_text(tree, item, "reference", place_text(f->reference_node, f->reference_direction, place));
-    json_number(tree, item, "response_node", f->response_node);
-    json_number(tree, item, "response_direction", f->response_direction);
-    json_number(tree, item, "reference_node", f->reference_node);
-    json_number(tree, item, "reference_direction", f->reference_direction);
-    json_number(tree, item, "ordinate", f->ordinate);
-    json_text(tree, item, "ordinate_name", name_of_ordinate(f->ordinate));
-    json_flag(tree, item, "binary", f->binary.is_binary);
-    json_number(tree, item, "count", (double)f->count);
-    json_flag(tree, item, "even", f->is_even);
-    json_number(tree, item, "start", entry->values.x_first);
-    json_number(tree, item, "step", f->is_even ? f->step : NAN);
-    json_number(tree, item, "end", entry->values.x_last);
-    json_flag(tree, item, "time", has_time_axis(f));
-    json_number(tree, item, "sampling_rate_hz", has_time_axis(f) && f->is_even ? 1 / (f->step * entry->x_si_factor) : NAN);
-    add_axis(tree, item, "abscissa", &f->abscissa);
-    add_axis(tree, item, "numerator", &f->numerator);
-    add_axis(tree, item, "denominator", &f->denominator);
-    json_number(tree, item, "si_factor", entry->si_factor);
-    json_number(tree, item, "abscissa_si_factor", entry->x_si_factor);
-    add_values(tree, item, &entry->values);
-}
-
-static void add_shape(struct json_tree *tree, cJSON *list, const struct listing_shape *entry)
-{
-    const struct uff_shape *s = &entry->shape;
-    cJSON *item = json_object(tree, list, NULL);
-    json_number(tree, item, "line", s->line);
-    add_ids(tree, item, s->id);
-    json_number(tree, item, "analysis_type", s->analysis_type);
-    json_text(tree, item, "analysis", name_of_analysis(s->analysis_type));
-    json_number(tree, item, "mode", s->number);
-    json_number(tree, item, "frequency_hz", s->frequency_hz);
-    json_number(tree, item, "damping", s->damping);
-    json_flag(tree, item, "complex", s->is_complex);
-    json_number(tree, item, "components", s->component_count);
-    json_number(tree, item, "node_count", s->node_count);
-    json_list(tree, item, "sum", 2, entry->sum);
-    json_number(tree, item, "rms", entry->rms);
-    if (!s->node)
-        return;
-    cJSON *nodes = json_array(tree, item, "nodes");
-    for (int i = 0; i < s->node_count && nodes; ++i)
-        json_number(tree, nodes, NULL, s->node[i]);
-    int values = s->component_count * s->node_count;
-    json_list(tree, item, "real", values, s->real);
-    json_list(tree, item, "imag", s->imag ? values : 0, s->imag);
-}
-
-static void add_nodes(struct json_tree *tree, const struct listing *listing, int all)
-{
-    cJSON *item = json_object(tree, tree->root, "nodes");
-    double least[3] = {NAN, NAN, NAN}, most[3] = {NAN, NAN, NAN};
-    for (int i = 0; i < listing->node_count; ++i)
+    int n = listing->node_count;
+    *out = (struct listed_nodes){.count = n, .min = {NAN, NAN, NAN}, .max = {NAN, NAN, NAN}, .nids = n, .nx = 3};
+    if (all) {
+        out->ids = POOL_ARRAY(pool, int, n);
+        out->x = POOL_ARRAY(pool, double, 3 * (size_t)n);
+        if (!out->ids || !out->x)
+            return 0;
+    }
+    for (int i = 0; i < n; ++i) {
+        const double *x = listing->node[i].x;
         for (int c = 0; c < 3; ++c) {
-            least[c] = fmin(least[c], listing->node[i].x[c]); /* fmin and fmax pass over what is not a number */
-            most[c] = fmax(most[c], listing->node[i].x[c]);
+            out->min[c] = fmin(out->min[c], x[c]); /* fmin and fmax pass over what is not a number */
+            out->max[c] = fmax(out->max[c], x[c]);
+            if (all)
+                out->x[i + (ptrdiff_t)c * n] = x[c];
         }
-    json_number(tree, item, "count", listing->node_count);
-    json_list(tree, item, "min", 3, least);
-    json_list(tree, item, "max", 3, most);
-    if (!all)
-        return;
-    cJSON *ids = json_array(tree, item, "ids"), *x = json_array(tree, item, "x");
-    for (int i = 0; i < listing->node_count; ++i) {
-        json_number(tree, ids, NULL, listing->node[i].id);
-        json_list(tree, x, NULL, 3, listing->node[i].x);
+        if (all)
+            out->ids[i] = listing->node[i].id;
     }
+    return 1;
 }
 
-static void add_doubts(struct json_tree *tree, const struct listing *listing)
+static int add_doubts(struct pool *pool, const struct listing *listing, struct uff_result *out)
 {
-    cJSON *list = json_array(tree, tree->root, "doubtful");
-    for (size_t i = 0; i < listing->doubt_count; ++i) {
-        cJSON *item = json_object(tree, list, NULL);
-        json_text(tree, item, "kind", listing->doubt[i].kind);
-        json_number(tree, item, "line", listing->doubt[i].line > 0 ? (double)listing->doubt[i].line : (double)NAN);
-        json_text(tree, item, "text", listing->doubt[i].text);
+    out->doubtful = POOL_ARRAY(pool, struct listed_doubt, listing->doubt_count);
+    for (size_t i = 0; i < listing->doubt_count && out->doubtful; ++i) {
+        const struct listing_doubt *doubt = &listing->doubt[i];
+        out->doubtful[out->ndoubtful++] =
+            (struct listed_doubt){doubt->kind, doubt->line > 0 ? doubt->line : ROTID_NONE, doubt->text};
     }
+    return out->doubtful != NULL;
 }
 
 /* What stopped the reader in malformed sets, with its place. */
-static void add_errors(struct json_tree *tree, const struct message_list *messages)
+static int add_errors(struct pool *pool, const struct message_list *messages, struct uff_result *out)
 {
-    cJSON *list = json_array(tree, tree->root, "errors");
-    for (size_t i = 0; i < messages->count; ++i) {
+    out->errors = POOL_ARRAY(pool, struct listed_error, messages->count);
+    for (size_t i = 0; i < messages->count && out->errors; ++i) {
         const struct message *message = &messages->item[i];
-        if (message->severity != SEVERITY_ERROR)
-            continue;
-        cJSON *item = json_object(tree, list, NULL);
-        json_number(tree, item, "line", message->line);
-        json_number(tree, item, "column", message->column);
-        json_text(tree, item, "text", message->text);
+        if (message->severity == SEVERITY_ERROR)
+            out->errors[out->nerrors++] = (struct listed_error){message->line, message->column, message->text};
     }
+    return out->errors != NULL;
 }
 
 char *json_uff(const struct provenance *provenance, const char *path, const struct listing *listing, int summary_count,
                const char *const *summary, int all, const struct message_list *messages)
 {
-    struct json_tree tree;
-    json_open(&tree);
-    json_provenance(&tree, provenance);
-    json_text(&tree, tree.root, "file", path);
-    cJSON *lines = json_array(&tree, tree.root, "summary");
-    for (int i = 0; i < summary_count; ++i)
-        json_text(&tree, lines, NULL, summary[i]);
-    add_header(&tree, listing->header);
-    add_units(&tree, listing->units);
-    add_sets(&tree, listing);
-    add_nodes(&tree, listing, all);
-    json_number(&tree, tree.root, "elements", (double)listing->element_count);
-    json_number(&tree, tree.root, "trace_lines", listing->trace_count);
-    json_number(&tree, tree.root, "coordinate_systems", listing->system_count);
-    json_number(&tree, tree.root, "analyses", (double)listing->analysis_count);
-    cJSON *functions = json_array(&tree, tree.root, "functions");
-    for (int i = 0; i < listing->function_count; ++i)
-        add_function(&tree, functions, &listing->function[i]);
-    cJSON *shapes = json_array(&tree, tree.root, "shapes");
-    for (int i = 0; i < listing->shape_count; ++i)
-        add_shape(&tree, shapes, &listing->shape[i]);
-    add_doubts(&tree, listing);
-    add_errors(&tree, messages);
-    return json_close(&tree);
+    const struct uff_header *h = listing->header;
+    const struct uff_units *u = listing->units;
+    struct listed_header header;
+    struct listed_units units;
+    struct pool pool;
+    struct uff_result out = {.file = path,
+                             .nsummary = summary_count,
+                             .summary = summary,
+                             .nsets = listing->set_count,
+                             .elements = (double)listing->element_count,
+                             .trace_lines = listing->trace_count,
+                             .coordinate_systems = listing->system_count,
+                             .analyses = (double)listing->analysis_count,
+                             .nfunctions = listing->function_count,
+                             .nshapes = listing->shape_count};
+    struct result result = {.uff = &out};
+    if (h) {
+        header = (struct listed_header){text_or_null(h->model),   text_or_null(h->description), text_or_null(h->program),
+                                        text_or_null(h->created), text_or_null(h->saved),       text_or_null(h->written_by),
+                                        text_or_null(h->written)};
+        out.header = &header;
+    }
+    if (u) {
+        units = (struct listed_units){u->code,   name_of_units(u->code), text_or_null(u->description), u->length, u->force,
+                                      u->temperature, u->temperature_offset};
+        out.units = &units;
+    }
+    pool_open(&pool, NULL);
+    out.sets = sets(&pool, listing);
+    out.functions = functions(&pool, listing);
+    out.shapes = shapes(&pool, listing);
+    if (out.sets && out.functions && out.shapes && add_nodes(&pool, listing, all, &out.nodes) && add_doubts(&pool, listing, &out) &&
+        add_errors(&pool, messages, &out))
+        return json_result(&pool, provenance, NULL, NULL, &result);
+    pool_close(&pool);
+    return NULL;
 }

@@ -58,7 +58,7 @@ static void print_unit(FILE *out, const char *numerator, const char *denominator
 static void print_function(FILE *out, const struct listing *listing, struct row row)
 {
     const struct listing_function *f = function_of(listing, row.first), *g = function_of(listing, row.last);
-    char response[PLACE_TEXT], last[PLACE_TEXT], reference[PLACE_TEXT], places[4 * PLACE_TEXT];
+    char response[PLACE_MOST], last[PLACE_MOST], reference[PLACE_MOST], places[4 * PLACE_MOST];
     double min = INFINITY, max = -INFINITY, rms = 0;
     const char *unit = f->function.numerator.unit;
     (void)place_text(f->function.response_node, f->function.response_direction, response);

@@ -81,6 +81,8 @@ struct record {
 #define NUMBER(S, M, BITS)               RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_ONE, BITS, .fixed = 0)
 #define INTEGER(S, M, BITS)              RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_ONE, BITS, .fixed = 0)
 #define FLAG(S, M, BITS)                 RECORD_ROW(S, M, FIELD_FLAG, SHAPE_ONE, BITS, .fixed = 0)
+/* Of the member is_KEY, where the key is a word of C. */
+#define FLAG_IS(S, KEY, BITS)            {.key = #KEY, .kind = FIELD_FLAG, .bits = (BITS), .offset = offsetof(S, is_##KEY)}
 #define TEXT(S, M, BITS)                 RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .fixed = 0)
 #define TEXT_OF(S, M, BITS, WORDS)       RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .words = (WORDS))
 #define WORD(S, M, BITS, WORDS)          RECORD_ROW(S, M, FIELD_WORD, SHAPE_ONE, BITS, .words = (WORDS))

@@ -38,6 +38,7 @@ extern const struct record head_alone_record;           /* struct result of a st
 extern const struct record sensitivity_record;          /* struct sensitivity */
 extern const struct record transfer_record;             /* struct transfer_result */
 extern const struct record ema_record;                  /* struct ema_result */
+extern const struct record uff_record;                  /* struct uff_result */
 extern const struct record export_record;               /* struct export_result */
 extern const struct record study_record;                /* struct study_result */
 extern const struct record study_header_record;         /* struct study_header */

@@ -19,6 +19,7 @@ static const struct field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_rec
 static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), {0}};
 static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), WARNINGS, {0}};
 static const struct field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
+static const struct field uff_fields[] = {PROVENANCE, OWN(uff, uff_record), {0}};
 static const struct field export_fields[] = {HEAD, OWN(export, export_record), WARNINGS, {0}};
 static const struct field study_fields[] = {PROVENANCE, OWN(study, study_record), {0}};
 
@@ -37,6 +38,7 @@ static const struct {
     {"sensitivity", RECORD(struct result, sensitivity_fields), 1},
     {"frf", RECORD(struct result, frf_fields), 1},
     {"ema", RECORD(struct result, ema_fields), 0},
+    {"uff", RECORD(struct result, uff_fields), 0},
     {"export", RECORD(struct result, export_fields), 0},
     {"study", RECORD(struct result, study_fields), 1},
 };
