@@ -245,13 +245,21 @@ static void universal_files(void **state)
 
 /* ---- results: JSON that somebody else may have written */
 
-/* JSON with a text in every place of texts. */
+/* Keys of words: another text than one of them is refused before anything is shown. */
+static int is_word(const char *key)
+{
+    static const char *const words[] = {"command", "status", "functional", "reduction", "quantity", "unit", "damping_from"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (key && !strcmp(key, words[i]))
+            return 1;
+    return 0;
+}
+
+/* JSON with a text in every place of free texts. */
 static void poison(cJSON *json)
 {
     for (; json; json = json->next) {
-        if (cJSON_IsString(json) &&
-            (!json->string || (strcmp(json->string, "command") != 0 && strcmp(json->string, "status") != 0 &&
-                               strcmp(json->string, "functional") != 0)))
+        if (cJSON_IsString(json) && !is_word(json->string))
             assert_non_null(cJSON_SetValuestring(json, HOSTILE "\nrotid: a line of its own"));
         poison(json->child);
     }
@@ -281,7 +289,7 @@ static void results_of_commands(void **state)
         write_file("b.json", pool_format(&test_pool, "{\"command\": \"%s\", " HOSTILE "}", commands[c]));
         assert_run(RUN("report", "b.json", "-o", "b"), 2);
     }
-    assert_true(pages > 0);
+    assert_true(pages >= 2); /* of others the words of other keys are refused */
 }
 
 static void results_of_studies(void **state)
