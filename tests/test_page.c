@@ -420,25 +420,20 @@ static void a_text_in_a_deck_stays_a_text(void **state)
         assert_null(strstr(script, "\n`touch"));
         assert_false(page_exists("pwned") || page_exists("hostile/pwned") || page_exists("hostile/figures/pwned"));
     }
-    /* units that would end a text of a script, and that would name a typeface: gnuplot writes its name as it is */
+    /* units that would end a text of a script, and that would name a typeface: the unit of transfer functions is one of few words
+     */
     static const char *const units[] = {"'\nsystem('touch pwned')\n#", "{/X\"><script>alert(1)</script> y}",
                                         "{/X\" onload=\"alert(1) y}", "^{/:Bold a}_b"};
     make_result("frf", PAPER, "frf.json");
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        for (int real = 0; real < 1 + (page_run("gnuplot --version") == 0); real++) {
-            json = page_json("frf.json");
-            replace_text(json, "unit", units[i]);
-            page_write_json("unit.json", json);
-            cJSON_Delete(json);
-            assert_int_equal(
-                page_run("cd %s; %s %s report unit.json -o unit", page_path(""), real ? "" : page_stand_in(NULL), ROTID_PROGRAM),
-                0);
-            assert_int_equal(page_problems(page_read("unit/index.html")), 0);
-            assert_int_equal(picture_problems(page_read("unit/figures/transfer-19-1.svg")), 0);
-            assert_null(strstr(page_read("unit/figures/transfer-19-1.gp"), "\nsystem"));
-            if (real && i == 3) /* a text is drawn as it stands */
-                assert_says(page_read("unit/figures/transfer-19-1.svg"), "magnitude [^{/:Bold a}_b]");
-        }
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        json = page_json("frf.json");
+        replace_text(json, "unit", units[i]);
+        page_write_json("unit.json", json);
+        cJSON_Delete(json);
+        assert_int_equal(page_run("cd %s; %s report unit.json -o unit", page_path(""), ROTID_PROGRAM), 2);
+        assert_says(page_err, "unit: is '");
+        assert_false(page_exists("unit") || page_exists("pwned"));
+    }
 }
 
 /* ------------------------------------------------------------------------------------------------ size */
