@@ -19,6 +19,7 @@
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
 #   make tables     completions, the option lists of docs/rotid.1 and the card tables of docs/deck.md anew, from their rows in src
+#   make fortran    the types of results in include/rotid.f90 anew, from include/rotid.h
 #   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
 #                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
@@ -80,7 +81,7 @@ LIBRARY_LIBS := $(shell pkg-config --libs lapacke) $(BLAS_LIBS) $(if $(filter 1,
 PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(LIBRARY_LIBS)
 
 # the rooms that public routines reach, and those of the program alone
-LIBRARY_ROOMS := base linalg beam modal fit run diagnose/causes diagnose file uff deck api
+LIBRARY_ROOMS := base linalg rotor beam model modal fit run diagnose/causes diagnose file uff deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
 PROGRAM_SOURCES := $(foreach room,signal ema import result report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
@@ -202,6 +203,10 @@ $(BUILD)/tools/tables/%.o: ALL_CFLAGS += -Itools
 .PHONY: tables
 tables: all $(BUILD)/tests/test_manual
 	@$(BUILD)/tests/test_manual --write
+
+.PHONY: fortran
+fortran: $(BUILD)/tests/test_fortran
+	@$< --write
 
 demo: all
 	@sh tools/demo $(BUILD)/rotid $(BUILD)/demo

@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "report/output.h"
+#include "result/result.h"
 
 void command_print_messages(struct command *command)
 {
@@ -43,6 +44,29 @@ int command_fail(struct command *command, int status)
     }
 }
 
+int command_fail_with(struct command *command, int status, const char *failure)
+{
+    if (*failure && strcmp(failure, rotid_status_text(status)) != 0)
+        message_add(&command->messages, SEVERITY_ERROR, NULL, 0, 0, "%s", failure);
+    return command_fail(command, status);
+}
+
+/* The place of a message as the user knows it: the library calls an override by its text alone. */
+static const char *place_of(const struct command *command, const char *file)
+{
+    for (int i = 0; i < command->noverride && file; i++)
+        if (!strcmp(command->override[i].given, file))
+            return command->override[i].text;
+    return file;
+}
+
+void command_take_messages(struct command *command, int count, const rotid_message *message)
+{
+    for (int i = 0; i < count; i++)
+        message_add(&command->messages, (enum severity)message[i].severity, place_of(command, message[i].file), message[i].line,
+                    message[i].column, "%s", message[i].text);
+}
+
 int command_wants_table(const struct command *command)
 {
     return !command->quiet && !(command->json && !strcmp(command->json, "-"));
@@ -66,6 +90,41 @@ int command_write_json(struct command *command, char *text, int code)
     char *line = text ? pool_format(&command->pool, "%s\n", text) : NULL;
     json_free(text);
     return command_write_file(command, command->json, line, code);
+}
+
+int command_open_result(struct command *command, struct result *result)
+{
+    const struct provenance *p = &command->provenance;
+    const rotid_deck *deck = command->read;
+    int count = 0;
+    const char **warnings = POOL_ARRAY(&command->pool, const char *, (int)command->messages.count);
+    if (!warnings)
+        return ROTID_ERROR_MEMORY;
+    for (size_t i = 0; i < command->messages.count; i++)
+        if (command->messages.item[i].severity == SEVERITY_WARNING)
+            warnings[count++] = command->messages.item[i].text;
+    *result = (struct result){.head = {.schema = RESULT_SCHEMA,
+                                       .rotid = p->version,
+                                       .commit = p->commit,
+                                       .blas = p->blas,
+                                       .seed = (double)p->seed,
+                                       .threads = p->threads,
+                                       .command = p->command},
+                              .nwarnings = count,
+                              .warnings = warnings};
+    if (deck) {
+        result->head.deck = deck->path;
+        result->head.nheading = deck->nheading;
+        result->head.heading = deck->heading;
+        result->head.nreferences = deck->nreferences;
+        result->head.references = deck->references;
+    }
+    return ROTID_OK;
+}
+
+int command_write_result(struct command *command, const struct result *result, int code)
+{
+    return command->json ? command_write_json(command, result_json(result), code) : code;
 }
 
 int command_wants_progress(const struct command *command)

@@ -1,14 +1,26 @@
 /* The deck of a command. */
+#include "api/deck_handle.h"
 #include "cli/arguments.h"
-#include "deck/deck.h"
 
 int command_read_deck(struct command *command)
 {
-    int status =
-        deck_read(&command->pool, command->deck, command->noverride, command->override, &command->messages, &command->job);
+    char failure[ROTID_FAILURE_LENGTH];
+    const char **override = POOL_ARRAY(&command->pool, const char *, command->noverride);
+    if (!override)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    for (int i = 0; i < command->noverride; i++)
+        override[i] = command->override[i].given;
+    int status = rotid_deck_read(command->deck, command->noverride, override, NULL, failure, &command->read);
+    if (command->read) {
+        command_take_messages(command, command->read->nmessage, command->read->message);
+        command->messages.errors = command->read->nerror;
+    }
+    if (status && (!command->read || !command->read->nerror)) /* no message says why */
+        return command_fail_with(command, status, failure);
     if (status)
         return command_fail(command, status);
-    int refused = arguments_refuse_read(command, command->job.nfile, command->job.file);
+    command->job = deck_job_of(command->read);
+    int refused = arguments_refuse_read(command, command->job->nfile, command->job->file);
     if (refused >= 0)
         return refused;
     command_print_messages(command);

@@ -21,7 +21,7 @@ int command_report(struct command *command)
     struct page_written written;
     int status = result ? ROTID_OK : ROTID_ERROR_MEMORY;
     for (int i = 0; i < command->nfile && result; i++) {
-        int wrong = result_read(pool, command->file[i], &command->messages, &result[i]);
+        int wrong = page_result_read(pool, command->file[i], &command->messages, &result[i]);
         status = status ? status : wrong; /* all files are judged */
     }
     if (status)

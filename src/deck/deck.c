@@ -127,15 +127,12 @@ static void check_masters(struct deck_reader *reader)
             job->rotor.nsensor, highest);
 }
 
-/* Builds the beam once, for what only the mesh and the sections can tell. */
-static void check_beam(struct deck_reader *reader)
+/* Discretises the rotor, for what only the mesh and the sections can tell; the run goes on with that. */
+static void check_model(struct deck_reader *reader)
 {
     struct job *job = reader->job;
-    struct pool scratch;
-    struct beam beam;
-    int failed;
-    pool_open(&scratch, reader->pool->allocator);
-    int status = beam_build(&scratch, &job->rotor, 0, NULL, 1, &beam, &failed);
+    struct model_size size;
+    int failed, status = models_begin(reader->pool, &job->rotor, &job->models, &size, &failed);
     if (status == ROTID_ERROR_SECTION) {
         reader->no_section = 1;
         int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
@@ -150,16 +147,15 @@ static void check_beam(struct deck_reader *reader)
         reader->out_of_memory = 1;
     }
     for (int s = 1; s < job->rotor.nsensor && !status; s++)
-        if (beam.mesh.sensor_node[s] == beam.mesh.sensor_node[s - 1])
+        if (size.sensor_node[s] == size.sensor_node[s - 1])
             deck_error(reader, reader->sensor_place[s], "sensors %d and %d lie at the same node, expected one sensor a position",
                        job->rotor.sensor[s - 1].id, job->rotor.sensor[s].id);
-    int modes = status ? 0 : beam.mesh.ndof - 2; /* elastic ones, where two motions are free */
+    int modes = status ? 0 : size.ndof - 2; /* elastic ones, where two motions are free */
     for (int k = 0; k < job->nmode && !status; k++)
         if (job->number[k] > modes)
             deck_error(reader, (reader->modes_card ? reader->modes_card : reader->measured_card)->place,
                        "mode %d is measured and the mesh has %d, expected more elements, or mode numbers that count from 1",
                        job->number[k], modes);
-    pool_close(&scratch);
 }
 
 static void check_elements(struct deck_reader *reader)
@@ -225,7 +221,7 @@ static void read_cards(struct deck_reader *reader)
         return;
     choose_functional(reader);
     check_masters(reader);
-    check_beam(reader);
+    check_model(reader);
 }
 
 static int add_cards(struct pool *pool, struct deck_text *text, int ncard, const struct card *card)
