@@ -51,22 +51,6 @@ int command_fail_with(struct command *command, int status, const char *failure)
     return command_fail(command, status);
 }
 
-/* The place of a message as the user knows it: the library calls an override by its text alone. */
-static const char *place_of(const struct command *command, const char *file)
-{
-    for (int i = 0; i < command->noverride && file; i++)
-        if (!strcmp(command->override[i].given, file))
-            return command->override[i].text;
-    return file;
-}
-
-void command_take_messages(struct command *command, int count, const rotid_message *message)
-{
-    for (int i = 0; i < count; i++)
-        message_add(&command->messages, (enum severity)message[i].severity, place_of(command, message[i].file), message[i].line,
-                    message[i].column, "%s", message[i].text);
-}
-
 int command_wants_table(const struct command *command)
 {
     return !command->quiet && !(command->json && !strcmp(command->json, "-"));

@@ -1,6 +1,24 @@
 /* The deck of a command. */
+#include <string.h>
+
 #include "api/deck_handle.h"
 #include "cli/arguments.h"
+
+/* The place of a message as the user knows it: the library calls an override by its text alone. */
+static const char *place_of(const struct command *command, const char *file)
+{
+    for (int i = 0; i < command->noverride && file; i++)
+        if (!strcmp(command->override[i].given, file))
+            return command->override[i].text;
+    return file;
+}
+
+void command_take_messages(struct command *command, int count, const rotid_message *message)
+{
+    for (int i = 0; i < count; i++)
+        message_add(&command->messages, (enum severity)message[i].severity, place_of(command, message[i].file), message[i].line,
+                    message[i].column, "%s", message[i].text);
+}
 
 int command_read_deck(struct command *command)
 {

@@ -194,12 +194,12 @@ void answer_plain(struct document *document, const struct result *result)
             pool_format(pool, "%d bending modes from %s to %s\xc2\xa0Hz", result->modes->nmodes,
                         human_trimmed(pool, mode[0].full_hz, 5), human_trimmed(pool, mode[result->modes->nmodes - 1].full_hz, 5));
     } else if (result->sensitivity) {
-        text = pool_format(pool, "How %d modes depend on %d %s", result->sensitivity->nmode, result->sensitivity->nparameter,
-                           human_plural(result->sensitivity->nparameter, "parameter", "parameters"));
-    } else if (result->transfer) {
-        text = pool_format(pool, "%d transfer %s from %s to %s\xc2\xa0Hz", result->transfer->nfunction,
-                           human_plural(result->transfer->nfunction, "function", "functions"),
-                           human_trimmed(pool, result->transfer->low_hz, 4), human_trimmed(pool, result->transfer->high_hz, 5));
+        text = pool_format(pool, "How %d modes depend on %d %s", result->sensitivity->nfrequency_hz, result->sensitivity->nparameters,
+                           human_plural(result->sensitivity->nparameters, "parameter", "parameters"));
+    } else if (result->frf) {
+        text = pool_format(pool, "%d transfer %s from %s to %s\xc2\xa0Hz", result->frf->nfunctions,
+                           human_plural(result->frf->nfunctions, "function", "functions"),
+                           human_trimmed(pool, result->frf->low_hz, 4), human_trimmed(pool, result->frf->high_hz, 5));
     } else if (geometry_of_result(result)) {
         text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d %s", human_trimmed(pool, geometry_of_result(result)->length_m, 4),
                            geometry_elements(geometry_of_result(result)),

@@ -4,7 +4,6 @@
 #include "page/figures.h"
 #include "page/geometry.h"
 #include "page/human.h"
-#include "page/plot.h"
 #include "page/rotor.h"
 #include "page/rotor_marks.h"
 
@@ -41,8 +40,8 @@ static int legend_of(struct pool *pool, const rotid_geometry *geometry, const ro
     return n;
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const rotid_geometry *geometry,
-                  const rotid_identification *fit)
+static void script(struct document *document, struct figure *figure, const struct result *result, const rotid_geometry *geometry,
+                   const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
     struct plot plot;
@@ -51,16 +50,18 @@ static int script(struct document *document, struct figure *figure, const struct
     struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .bottom = AXIS_PX};
     int nentry = legend_of(pool, geometry, fit, entry);
     for (int l = 0; l < LAYOUTS; l++)
-        if (rotor_measure(pool, geometry, l, &d[l]))
-            return ROTID_ERROR_MEMORY;
+        if (rotor_measure(pool, geometry, l, &d[l])) {
+            document->failed = 1;
+            return;
+        }
     layout.height = d[WIDE].above + d[WIDE].below + AXIS_PX;
     layout.narrow_height = d[NARROW].above + d[NARROW].below + AXIS_PX;
     plot_head(entry, nentry, layout.head);
-    if (plot_open(&plot, pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
+    if (!figure_begin(document, figure, result->file, &plot))
+        return;
     plot_line(&plot, "set style line 11 lc rgb VERMILION pt 7 ps 0.4\nset style line 12 lc rgb INK pt 13 ps 0.9\n"
                      "set style line 13 lc rgb PURPLE pt 11 ps 0.9\nset style line 14 lc rgb INK pt 6 ps 1 lw 1.5");
-    rotor_marks_data(&plot, geometry, fit);
+    rotor_marks_data(document, &plot, geometry, fit);
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
     plot_line(&plot, "# S: px a metre, the same along both axes\nS = narrow ? %.4f : %.4f; Z0 = narrow ? %.3f : %.3f",
@@ -91,36 +92,33 @@ static int script(struct document *document, struct figure *figure, const struct
         "\\\n"
         "    $sensors using 1:($2+4/S) with points ls 11, $causes using 1:($2+10/S) with points ls 13, \\\n"
         "    '+' every ::::0 using (center):(0) with points ls 14, '' every ::::0 using (center):(0) with points ls 14 pt 1");
-    return plot_close(&plot);
+    figure_end(document, &plot);
 }
 
-static struct number_table *groups_table(struct pool *pool, const rotid_geometry *geometry)
+static struct series *groups_of(struct document *document, const rotid_geometry *geometry)
 {
-    static const char *const head[] = {"group",    "from [m]", "to [m]",  "largest diameter [m]", "elements",
-                                       "material", "E [GPa]",  "G [GPa]", "\xce\xbd [1]",         "\xcf\x81 [kg/m\xc2\xb3]"};
-    struct number_table *table = table_new(pool, geometry->ngroups, 10);
-    for (int j = 0; j < 10; j++)
-        table_head(table, j, head[j]);
+    static const struct column columns[] = {{"group", NULL, AS_TEXT, 0},     {"from", "m", AS_FIXED, 4},
+                                            {"to", "m", AS_FIXED, 4},        {"largest diameter", "m", AS_FIXED, 4},
+                                            {"elements", NULL, AS_FIXED, 0}, {"material", NULL, AS_TEXT, 0},
+                                            {"E", "GPa", AS_DIGITS, 4},      {"G", "GPa", AS_DIGITS, 4},
+                                            {"\xce\xbd", "1", AS_DIGITS, 3}, {"\xcf\x81", "kg/m\xc2\xb3", AS_DIGITS, 5}};
+    struct series *series = series_new(document, "groups", geometry->ngroups, 10, columns);
     for (int g = 0; g < geometry->ngroups; g++) {
         const rotid_group *group = &geometry->groups[g];
+        const rotid_material *m = &group->material;
         double diameter = 0;
         int elements = 0;
         for (int s = 0; s < group->nsegments; s++) {
             diameter = fmax(diameter, segment_height(&group->segments[s]));
             elements += group->segments[s].elements;
         }
-        table_cell(table, g, 0, group->name);
-        table_cell(table, g, 1, human_fixed(pool, group->from_m, 4));
-        table_cell(table, g, 2, human_fixed(pool, group->to_m, 4));
-        table_cell(table, g, 3, human_fixed(pool, diameter, 4));
-        table_cell(table, g, 4, human_fixed(pool, elements, 0));
-        table_cell(table, g, 5, material_name(&group->material));
-        table_cell(table, g, 6, human_digits(pool, group->material.e_pa / 1e9, 4));
-        table_cell(table, g, 7, human_digits(pool, group->material.g_pa / 1e9, 4));
-        table_cell(table, g, 8, human_digits(pool, group->material.nu, 3));
-        table_cell(table, g, 9, human_digits(pool, group->material.rho_kg_m3, 5));
+        series_row(
+            series, g,
+            (const double[]){group->from_m, group->to_m, diameter, elements, m->e_pa / 1e9, m->g_pa / 1e9, m->nu, m->rho_kg_m3});
+        series_text(series, g, 0, group->name);
+        series_text(series, g, 5, material_name(m));
     }
-    return table;
+    return series;
 }
 
 static const char *what_is_identified(struct pool *pool, const rotid_identification *fit)
@@ -160,6 +158,6 @@ void figure_rotor(struct document *document, const struct result *result, const 
                                   springs ? springs : "", what_is_identified(pool, fit));
     figure->alt = pool_format(pool, "Longitudinal section of a rotor with %d groups of sections, %d sensors and %d springs.",
                               geometry->ngroups, geometry->nsensors, geometry->nsprings);
-    figure->table = groups_table(pool, geometry);
-    document->failed |= !figure->caption || !figure->alt || script(document, figure, result, geometry, fit) != ROTID_OK;
+    figure->table = series_table(groups_of(document, geometry));
+    script(document, figure, result, geometry, fit);
 }

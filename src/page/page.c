@@ -39,7 +39,7 @@ void page_compose(struct document *document, int count, const struct result *res
         answer_identify(document, result, result->identify);
     else if (result->diagnose)
         answer_diagnose(document, result);
-    else if (result->study)
+    else if (result->studied)
         answer_study(document, result);
     else
         answer_plain(document, result);
@@ -56,13 +56,13 @@ void page_compose(struct document *document, int count, const struct result *res
             section_identify(document, &result[i]);
         if (result[i].diagnose)
             section_diagnose(document, &result[i]);
-        if (result[i].study)
+        if (result[i].studied)
             section_study(document, &result[i]);
         if (result[i].modes)
             section_modes(document, &result[i]);
         if (result[i].sensitivity)
             section_sensitivity(document, &result[i]);
-        if (result[i].transfer)
+        if (result[i].frf)
             section_transfer(document, &result[i]);
     }
 }

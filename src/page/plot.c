@@ -24,8 +24,8 @@ static void styles(FILE *out)
 
 void plot_comment(struct plot *plot, const char *text)
 {
-    for (const char *c = text; *c; c += text_utf8(c) ? text_utf8(c) : 1) { /* a backslash at its end would continue a comment */
-        int is_kept = text_visible(c) && *c != '\\';
+    for (const char *c = text; *c; c += text_utf8(c) ? text_utf8(c) : 1) {
+        int is_kept = text_visible(c) && *c != '\\'; /* at its end a backslash would continue the comment */
         (void)fwrite(is_kept ? c : "?", 1, is_kept ? text_visible(c) : 1, plot->out);
     }
 }

@@ -2,17 +2,7 @@
 
 static void read_study(const struct json_place *root, struct result *result)
 {
-    result->study = study_read(root);
-}
-
-static void read_sensitivity(const struct json_place *root, struct result *result)
-{
-    result->sensitivity = sensitivity_read(root);
-}
-
-static void read_transfer(const struct json_place *root, struct result *result)
-{
-    result->transfer = transfer_read(root);
+    result->studied = study_read(root);
 }
 
 /* A file of results of a study: its first line says what it is. */
@@ -28,12 +18,11 @@ static void read_lines(const struct json_place *lines, struct result *result)
                                         .commit = place_string(&head, "commit"),
                                         .seed = place_number(&head, "seed")};
     if (!lines->reader->status)
-        result->study = study_read_lines(lines);
+        result->studied = study_read_lines(lines);
 }
 
 int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result)
 {
-    static const struct result_reader readers[] = {
-        {"sensitivity", read_sensitivity}, {"frf", read_transfer}, {"study", read_study}, {NULL, read_lines}};
-    return result_read(pool, file, messages, readers, result);
+    static const struct result_reader study = {read_study, read_lines};
+    return result_read(pool, file, messages, &study, result);
 }

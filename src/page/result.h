@@ -2,12 +2,13 @@
 #ifndef ROTID_PAGE_RESULT_H
 #define ROTID_PAGE_RESULT_H
 
-#include "page/outcomes.h"
 #include "page/studied.h"
 #include "result/judgement.h"
 #include "result/result.h"
+#include "result/transfer.h"
+#include "run/sensitivity.h"
 
-/* result_read, and the results that have no table. The structs hang on the pool; statuses as of result_read. */
+/* result_read, and the results of studies. The structs hang on the pool; statuses as of result_read. */
 int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result);
 
 #endif

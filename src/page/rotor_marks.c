@@ -119,24 +119,37 @@ static double below(const rotid_geometry *geometry, const struct rotor_drawing *
     return px;
 }
 
-static void point_data(struct plot *plot, const rotid_geometry *geometry, const rotid_identification *fit)
+/* What stands at the surface of the rotor, each at its z. */
+static void points(struct document *document, struct plot *plot, const rotid_geometry *geometry, const char *name, int n,
+                   double (*z_of)(const rotid_geometry *geometry, int i))
 {
-    FILE *out = plot->out;
-    (void)fputs("# sensors: z, radius [m]\n$sensors << end\n", out);
-    for (int s = 0; s < geometry->nsensors; s++)
-        (void)fprintf(out, "%.6g %.6g\n", geometry->sensors[s].z_m, geometry_radius_at(geometry, geometry->sensors[s].z_m));
-    (void)fputs("end\n# disks: z, radius [m]\n$disks << end\n", out);
-    for (int i = 0; i < geometry->ndisks; i++)
-        (void)fprintf(out, "%.6g %.6g\n", geometry->disks[i].z_m, geometry_radius_at(geometry, geometry->disks[i].z_m));
-    (void)fputs("end\n# causes in the model: z, radius [m]\n$causes << end\n", out);
-    for (int i = 0; i < geometry->ncauses; i++)
-        if (isfinite(model_cause_z(&geometry->causes[i])))
-            (void)fprintf(out, "%.6g %.6g\n", model_cause_z(&geometry->causes[i]),
-                          geometry_radius_at(geometry, model_cause_z(&geometry->causes[i])));
-    (void)fputs("end\n# nodes of the mesh: z [m]\n$nodes << end\n", out);
-    for (int i = 0; i < geometry->nnodes_z_m; i++)
-        (void)fprintf(out, "%.6g\n", geometry->nodes_z_m[i]);
-    (void)fprintf(out, "end\ncenter = %s\n", plot_number(plot, fit ? fit->center_of_mass_m : (double)NAN));
+    static const struct column columns[] = {{"z", "m", AS_PLACE, 0}, {"radius", "m", AS_PLACE, 0}};
+    struct series *series = series_new(document, name, n, 2, columns);
+    for (int i = 0; i < n; i++) {
+        double z = z_of(geometry, i);
+        series_row(series, i, (const double[]){z, isfinite(z) ? geometry_radius_at(geometry, z) : (double)NAN});
+    }
+    plot_series(plot, series);
+}
+
+static double sensor_z(const rotid_geometry *geometry, int i)
+{
+    return geometry->sensors[i].z_m;
+}
+
+static double disk_z(const rotid_geometry *geometry, int i)
+{
+    return geometry->disks[i].z_m;
+}
+
+static double cause_z(const rotid_geometry *geometry, int i)
+{
+    return model_cause_z(&geometry->causes[i]);
+}
+
+static double node_z(const rotid_geometry *geometry, int i)
+{
+    return geometry->nodes_z_m[i];
 }
 
 int rotor_measure(struct pool *pool, const rotid_geometry *geometry, int layout, struct rotor_drawing *d)
@@ -153,9 +166,14 @@ int rotor_measure(struct pool *pool, const rotid_geometry *geometry, int layout,
     return ROTID_OK;
 }
 
-void rotor_marks_data(struct plot *plot, const rotid_geometry *geometry, const rotid_identification *fit)
+void rotor_marks_data(struct document *document, struct plot *plot, const rotid_geometry *geometry,
+                      const rotid_identification *fit)
 {
-    point_data(plot, geometry, fit);
+    points(document, plot, geometry, "sensors", geometry->nsensors, sensor_z);
+    points(document, plot, geometry, "disks", geometry->ndisks, disk_z);
+    points(document, plot, geometry, "causes", geometry->ncauses, cause_z);
+    points(document, plot, geometry, "nodes", geometry->nnodes_z_m, node_z);
+    plot_line(plot, "center = %s", plot_number(plot, fit ? fit->center_of_mass_m : (double)NAN));
     spring_data(plot, geometry);
 }
 

@@ -136,7 +136,9 @@ void plot_series(struct plot *plot, const struct series *series)
         data[count++] = series->value[j];
         (void)fprintf(plot->out, "#   %d ", count);
         plot_comment(plot, c->name);
-        (void)fprintf(plot->out, " [%s]\n", c->unit ? c->unit : "1");
+        (void)fputs(" [", plot->out);
+        plot_comment(plot, c->unit ? c->unit : "1");
+        (void)fputs("]\n", plot->out);
     }
     series->document->failed |= !data;
     if (data)

@@ -119,18 +119,20 @@ struct number_table *tables_modes(struct pool *pool, const rotid_spectrum *modes
     return table;
 }
 
-struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_outcome *out)
+struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_result *out)
 {
     static const char *const head[] = {"mode",         "model [Hz]", "measured [Hz]", "damping ratio [%]",
                                        "damping from", "FRAC [1]",   "level [dB]",    "phase [\xc2\xb0]"};
+    static const struct transfer_mode_agreement none = {.frac = NAN, .level_db = NAN, .phase_deg = NAN};
     int shown = 0, row = 0;
-    for (int m = 0; m < out->nmode; m++)
-        shown += out->mode[m].model_hz <= out->high_hz;
+    for (int m = 0; m < out->nmodes; m++)
+        shown += out->modes[m].model_hz <= out->high_hz;
     struct number_table *table = table_new(pool, shown, 8);
     for (int j = 0; j < 8; j++)
         table_head(table, j, head[j]);
-    for (int m = 0; m < out->nmode && row < shown; m++) {
-        const struct transfer_mode *mode = &out->mode[m];
+    for (int m = 0; m < out->nmodes && row < shown; m++) {
+        const struct transfer_mode *mode = &out->modes[m];
+        const struct transfer_mode_agreement *agreement = mode->agreement ? mode->agreement : &none;
         char from[40];
         if (!(mode->model_hz <= out->high_hz))
             continue;
@@ -138,14 +140,14 @@ struct number_table *tables_transfer_modes(struct pool *pool, const struct trans
         for (; mode->damping_from[i] && i + 1 < sizeof from; i++)
             from[i] = mode->damping_from[i] == '_' ? ' ' : mode->damping_from[i];
         from[i] = 0;
-        table_cell(table, row, 0, mode->mode ? human_fixed(pool, mode->mode, 0) : "rigid");
+        table_cell(table, row, 0, mode->rigid ? "rigid" : human_fixed(pool, mode->mode, 0));
         table_cell(table, row, 1, human_fixed(pool, mode->model_hz, 3));
         table_cell(table, row, 2, human_fixed(pool, mode->measured_hz, 3));
         table_cell(table, row, 3, human_digits(pool, 100 * mode->damping, 4));
         table_cell(table, row, 4, pool_copy_text(pool, from));
-        table_cell(table, row, 5, human_fixed(pool, mode->frac, 3));
-        table_cell(table, row, 6, human_signed(pool, mode->level_db, 2));
-        table_cell(table, row++, 7, human_signed(pool, mode->phase_deg, 1));
+        table_cell(table, row, 5, human_fixed(pool, agreement->frac, 3));
+        table_cell(table, row, 6, human_signed(pool, agreement->level_db, 2));
+        table_cell(table, row++, 7, human_signed(pool, agreement->phase_deg, 1));
     }
     return table;
 }

@@ -11,6 +11,6 @@ struct number_table *tables_fitted_modes(struct pool *pool, const struct result 
 /* Levenberg-Marquardt and NLopt side by side. */
 struct number_table *tables_minimisers(struct pool *pool, const rotid_identification *fit);
 struct number_table *tables_modes(struct pool *pool, const rotid_spectrum *modes);
-struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_outcome *out);
+struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_result *out);
 
 #endif

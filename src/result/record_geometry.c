@@ -1,3 +1,4 @@
+#include "result/record.h"
 #include "result/records.h"
 
 static const char *const bundles[] = {"RODS", "TUBE", NULL};

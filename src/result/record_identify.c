@@ -1,6 +1,7 @@
+#include "result/record.h"
 #include "result/records.h"
 
-static const char *const statuses[] = {"converged", "not_converged", "at_bound", NULL};
+const char *const fit_status_words[] = {"converged", "not_converged", "at_bound", NULL};
 const char *const functional_words[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL};
 const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
 static const char *const derivatives[] = {"NELSON", "MODAL", NULL};
@@ -97,8 +98,8 @@ static const struct field minimiser_fields[] = {
 static const struct record minimiser_record = RECORD(rotid_minimiser, minimiser_fields);
 
 static const struct field noise_fields[] = {
-    NUMBER(rotid_noise, frequency, MAY_BE_NULL | ABOVE_0),
-    NUMBER(rotid_noise, shape, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_noise, frequency, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_noise, shape, MAY_BE_NULL | FROM_0),
     FLAG(rotid_noise, frequency_assumed, 0),
     FLAG(rotid_noise, shape_assumed, 0),
     TEXT_OF(rotid_noise, intervals_from, IF_KNOWN, grounds),
@@ -107,7 +108,7 @@ static const struct field noise_fields[] = {
 const struct record noise_record = RECORD(rotid_noise, noise_fields);
 
 static const struct field identification_fields[] = {
-    TEXT_OF(rotid_identification, status, 0, statuses),
+    TEXT_OF(rotid_identification, status, 0, fit_status_words),
     TEXT_OF(rotid_identification, functional, 0, functional_words),
     TEXT_OF(rotid_identification, reduction, 0, reduction_words),
     TEXT_OF(rotid_identification, derivative, 0, derivatives),

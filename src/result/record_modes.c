@@ -1,3 +1,4 @@
+#include "result/record.h"
 #include "result/records.h"
 
 static const struct field measured_fields[] = {

@@ -20,31 +20,34 @@ struct result {
     rotid_spectrum *modes;
     rotid_identification *identify;
     rotid_diagnosis *diagnose;
+    const struct sensitivity *sensitivity;
+    const struct transfer_result *frf;
+    const struct ema_result *ema;
+    const struct uff_result *uff;
+    const struct export_result *export;
+    const struct study_result *study;
     int nwarnings;
     const char **warnings; /* what the reader of the deck, the pairing and the fit have to say; empty where there is nothing */
     /* of a result that was read from a file */
     const char *file; /* as given */
     int nlacking;
     struct lacking lacking[LACKING_MOST];
-    struct study_outcome *study; /* of src/page, which reads these three; NULL of another command */
-    struct sensitivity_outcome *sensitivity;
-    struct transfer_outcome *transfer;
+    struct study_outcome *studied; /* of a study, as the reader of studies makes it */
 };
 
-/* The command of a result without a table here, and its reader, for what stands below the head. */
+/* Who reads a study: its summary, and its file of results, which has a value a line. */
 struct result_reader {
-    const char *command;
-    void (*read)(const struct json_place *root, struct result *result);
+    void (*summary)(const struct json_place *root, struct result *result);
+    void (*lines)(const struct json_place *lines, struct result *result);
 };
 
 /* The result as JSON: a text to be freed with json_free, or NULL where memory is out. */
 char *result_json(const struct result *result);
 
-/* Reads a file that a command wrote with --json. others: of the commands without a table, ends with a command NULL, whose reader
- * is for a file with a value a line. The structs hang on the pool. ROTID_OK; ROTID_ERROR_IO: the file cannot be read;
+/* Reads a file that a command wrote with --json, or a file of results of a study. The structs hang on the pool. ROTID_OK; ROTID_ERROR_IO: the file cannot be read;
  * ROTID_ERROR_SYNTAX: no JSON, no such result, or one that contradicts itself; ROTID_ERROR_MEMORY. The messages say what and
  * where. */
-int result_read(struct pool *pool, const char *file, struct message_list *messages, const struct result_reader *others,
+int result_read(struct pool *pool, const char *file, struct message_list *messages, const struct result_reader *study,
                 struct result *result);
 
 /* What the lengths of its lists, the order of its candidates and the sizes of its rotor have to be for a result to be used: told

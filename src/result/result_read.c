@@ -25,17 +25,21 @@ static void note_what_is_lacking(const struct json_place *root, struct result *r
 }
 
 /* "check, modes or study" */
-static const char *list_commands(struct pool *pool, const struct result_reader *others)
+static const char *list_commands(struct pool *pool)
 {
-    const char *text = "";
-    for (int i = 0; result_command(i) && text; i++)
-        text = pool_format(pool, "%s%s%s", text, i ? ", " : "", result_command(i));
-    for (; others->command && text; others++)
-        text = pool_format(pool, "%s%s%s", text, others[1].command ? ", " : " or ", others->command);
+    const char *text = "", *last = NULL, *command;
+    for (int i = 0; (command = result_command(i)) && text; i++) {
+        if (!result_has_page(command))
+            continue;
+        if (last)
+            text = pool_format(pool, "%s%s%s", text, *text ? ", " : "", last);
+        last = command;
+    }
+    text = text ? pool_format(pool, "%s or %s", text, last) : NULL;
     return text ? text : "";
 }
 
-static void read_root(const struct json_place *root, const struct result_reader *others, struct result *result)
+static void read_root(const struct json_place *root, const struct result_reader *study, struct result *result)
 {
     struct json_place at;
     const char *command;
@@ -48,25 +52,21 @@ static void read_root(const struct json_place *root, const struct result_reader 
     command = place_string(root, "command");
     if (root->reader->status)
         return;
-    const struct record *record = result_record(command);
-    const struct result_reader *other = others;
-    while (other->command && strcmp(other->command, command) != 0)
-        other++;
-    if (!record && !other->command) {
-        place_wrong(root, "command: is '%s', of which no page is made, expected %s", command,
-                    list_commands(root->reader->pool, others));
+    if (!result_has_page(command)) {
+        place_wrong(root, "command: is '%s', of which no page is made, expected %s", command, list_commands(root->reader->pool));
         return;
     }
-    record_read(root, record ? record : &head_alone_record, result);
+    int is_study = !strcmp(command, "study");
+    record_read(root, is_study ? &head_alone_record : result_record(command), result);
     if (root->reader->status)
         return;
-    if (!record)
-        other->read(root, result);
+    if (is_study)
+        study->summary(root, result);
     note_what_is_lacking(root, result);
     result_check(root, result);
 }
 
-int result_read(struct pool *pool, const char *file, struct message_list *messages, const struct result_reader *others,
+int result_read(struct pool *pool, const char *file, struct message_list *messages, const struct result_reader *study,
                 struct result *result)
 {
     struct reader reader = {.pool = pool, .messages = messages, .file = file};
@@ -79,11 +79,9 @@ int result_read(struct pool *pool, const char *file, struct message_list *messag
         return status;
     root.json = json;
     if (is_lines) {
-        while (others->command)
-            others++;
-        others->read(&root, result);
+        study->lines(&root, result);
     } else {
-        read_root(&root, others, result);
+        read_root(&root, study, result);
     }
     cJSON_Delete(json);
     return reader.status;
