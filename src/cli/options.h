@@ -1,10 +1,13 @@
-/* The options of the program, a row each. From the rows follow what is accepted and what is said where it is not (arguments.c),
- * `rotid COMMAND --help` (help.c), and the completions of the shells and the lists of docs/rotid.1, which `make tables` writes.
+/* The options of the program, a row each. From the rows follow what is accepted and what is said where it is not (arguments.c,
+ * option_value.c), `rotid COMMAND --help` (help.c), and the completions of the shells and the lists of docs/rotid.1, which `make
+ * tables` writes.
  */
 #ifndef ROTID_CLI_OPTIONS_H
 #define ROTID_CLI_OPTIONS_H
 
 #include <stddef.h>
+
+struct command;
 
 enum option_kind {
     OPTION_VERSION,
@@ -45,5 +48,11 @@ int option_of(const struct option_row *row, const char *command);
 
 /* The row of this name that a command has, or NULL. */
 const struct option_row *option_find(const char *name, const char *command);
+
+/* Sets members to what they are without an option. */
+void option_set_standards(struct command *command);
+
+/* Takes the value of an option, "" where it has none, into its member. 0, or the exit code after saying what was expected. */
+int option_take(struct command *command, const struct option_row *row, const char *text);
 
 #endif

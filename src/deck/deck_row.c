@@ -158,12 +158,21 @@ static const char *name_of(const struct deck_card *kind, const void *from)
     return NULL;
 }
 
+/* Whether the card of the struct before does for this one: it says nothing of either. */
+static int shares_card(const struct deck_card *kind, const char *before, const char *one)
+{
+    for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
+        if (row->option && row->kind != ROW_NAME)
+            return 0;
+    return !name_of(kind, before) && !name_of(kind, one);
+}
+
 void deck_write_list(struct deck_writer *w, const struct deck_card *kind)
 {
     const char *rotor = (const char *)&w->rotor, *list = *(const char *const *)(rotor + kind->list);
     for (int i = 0; i < *(const int *)(rotor + kind->count); i++) {
         const char *one = list + (size_t)i * kind->size;
-        if (!i || name_of(kind, one) || name_of(kind, one - kind->size)) {
+        if (!i || !shares_card(kind, one - kind->size, one)) {
             deck_put_card(w, kind->name);
             deck_write_options(w, kind->row, one);
             deck_put(w, "\n");

@@ -97,7 +97,7 @@ void deck_read_list(struct deck_reader *reader, const struct card *card, const s
 /* The same the other way: options go on in the line of the card; values begin with `before`. */
 void deck_write_options(struct deck_writer *w, const struct deck_row *row, const void *from);
 void deck_write_values(struct deck_writer *w, const char *before, const struct deck_row *row, const void *from);
-/* The structs of a card without code of its own; those without a name share a card with those before. */
+/* The structs of a card without code of its own; those without name and options share a card with those before. */
 void deck_write_list(struct deck_writer *w, const struct deck_card *kind);
 
 #endif

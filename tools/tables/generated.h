@@ -17,4 +17,14 @@ extern const struct generated generated_parts[];
  * memory. */
 char *generated_text(const struct generated *part, const char *text);
 
+/* What stands between the marks. section: of enum card_section, for the cards alone. */
+void write_bash(FILE *out, int section);
+void write_zsh(FILE *out, int section);
+void write_fish(FILE *out, int section);
+void write_manual(FILE *out, int section);
+void write_cards(FILE *out, int section);
+
+struct option_row;
+void put_words(FILE *out, const struct option_row *row, const char *between);
+
 #endif
