@@ -92,6 +92,9 @@ PROGRAM_OBJECTS := $(call OBJECTS_OF,$(PROGRAM_SOURCES))
 TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c)) \
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
+# archives, so that a test program links what it calls and no more
+SUPPORT := $(BUILD)/tests/support.a
+ROOMS := $(BUILD)/program-objects.a
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
 .PHONY: all abi demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
@@ -118,8 +121,12 @@ $(BUILD)/commit: FORCE
 FORCE:
 
 $(OBJECTS): $(LIBRARY_OBJECTS)
+$(SUPPORT): $(SUPPORT_OBJECTS)
+$(ROOMS): $(PROGRAM_OBJECTS)
+# q: members of one name stay beside each other
+$(OBJECTS) $(SUPPORT) $(ROOMS):
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(AR) qcs $@ $^
 
 # Static: every object for itself, so that a host links those alone that it calls. Their hidden names begin with rotid_private_
 # there, so that a host may have a pool_open too.
@@ -173,7 +180,7 @@ $(BUILD)/hammer: $(call OBJECTS_OF,$(wildcard tools/hammer/*.c tools/oracle/*.c)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
 # Fresh hidden effects by the thousand; POWER holds options, such as "--cases 200 --no-shapes".
-$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS) $(OBJECTS)
+$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 power: $(BUILD)/power
 	@OPENBLAS_NUM_THREADS=1 $(BUILD)/power $(POWER)
@@ -181,7 +188,7 @@ power: $(BUILD)/power
 # Some link hosts of their own, in the way the library was built.
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS) $(OBJECTS)
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
@@ -245,7 +252,7 @@ check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
 FUZZERS := uff deck plan results
-$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(PROGRAM_OBJECTS) $(OBJECTS)
+$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 fuzzers: $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
 fuzz:
