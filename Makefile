@@ -217,7 +217,7 @@ bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
 # without the programs that diagnose dozens of rotors: what they call is in the others
-DIAGNOSE_MANY := hidden_effects paper_variants diagnose_cases diagnose_bounds stiff_supports
+DIAGNOSE_MANY := hidden_effects diagnose_cases diagnose_bounds stiff_supports
 check-asan:
 	@ROTID_CHAIN_RUNS=2 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' WITHOUT='$(DIAGNOSE_MANY)' test

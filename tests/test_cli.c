@@ -249,6 +249,23 @@ static void a_parameter_without_effect_is_flagged_and_exits_1(void **state)
     cJSON_Delete(json);
 }
 
+/* Converged and at no bound: three frequencies of a slender bar say next to nothing of its shear modulus. */
+static void an_undetermined_parameter_exits_1(void **state)
+{
+    (void)state;
+    const char *deck = write_deck("deck.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                                              "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.02, 0, 20\n"
+                                              "*MODES\n1, 91.8\n2, 253.1\n3, 495.2\n"
+                                              "*IDENTIFY\nbar.E, 1e10, 1e12, 1.5e11\nbar.G, 1e9, 1e13, 8e10\n");
+    cJSON *json = json_of("identify", deck, NULL, NULL, 1);
+    const cJSON *parameters = get(json, "parameters");
+    assert_string_equal(get(json, "status")->valuestring, "converged");
+    for (int p = 0; p < 2; p++)
+        assert_true(cJSON_IsFalse(get(cJSON_GetArrayItem(parameters, p), "at_bound")));
+    assert_true(cJSON_IsFalse(get(cJSON_GetArrayItem(parameters, 1), "identifiable")));
+    cJSON_Delete(json);
+}
+
 static void nothing_to_identify_or_nothing_measured_exits_2(void **state)
 {
     (void)state;
@@ -382,6 +399,7 @@ int main(void)
         cmocka_unit_test(json_is_utf_8_whatever_the_deck_holds),
         cmocka_unit_test(a_result_at_a_bound_is_written_and_exits_1),
         cmocka_unit_test(a_parameter_without_effect_is_flagged_and_exits_1),
+        cmocka_unit_test(an_undetermined_parameter_exits_1),
         cmocka_unit_test(nothing_to_identify_or_nothing_measured_exits_2),
         cmocka_unit_test(the_same_run_gives_the_same_json_but_for_the_time),
         cmocka_unit_test(warnings_stand_on_standard_error_and_in_the_json),
