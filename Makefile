@@ -16,6 +16,7 @@
 #   make fuzz       the readers of decks, universal files, plans and results on random input, FUZZ_SECONDS (600) each
 #   make sweep      report, with gnuplot, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
+#   make mutate     makes the mistakes of tests/mutations one by one in a copy: does the named test fail? ROWS="covariance 118": of these
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
 #   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
@@ -208,19 +209,23 @@ demo: all
 figures: all
 	@sh tools/figures $(BUILD)/rotid $(BUILD)/figures
 
-# WITHOUT: names of programs that are left out
-TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT)),$(TEST_PROGRAMS))
+# WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
+LONGEST := $(addprefix $(BUILD)/tests/test_,hidden_effects chain limits diagnose_bounds diagnose ema_statistics diagnose_cases \
+           sensor_check accelerometer page_input study_run)
+TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: all $(TESTED)
 	@sh tools/run-tests $(TESTED)
 
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
-# without the programs that diagnose dozens of rotors: what they call is in the others
-DIAGNOSE_MANY := hidden_effects diagnose_cases diagnose_bounds stiff_supports
+# without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases: what they call is in the others
+DIAGNOSE_MANY := hidden_effects hidden_faults diagnose_cases diagnose_bounds stiff_supports
+COUNT_MANY := ema_statistics accelerometer hide
 check-asan:
-	@ROTID_CHAIN_RUNS=2 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
-	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' WITHOUT='$(DIAGNOSE_MANY)' test
+	@ROTID_CHAIN_RUNS=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
+	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
+	    WITHOUT='$(DIAGNOSE_MANY) $(COUNT_MANY)' test
 
 # Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
 # not start on kernels that randomise more bits than it knows of.
@@ -232,7 +237,7 @@ check-tsan:
 # without those and other long ones
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) chain ema_statistics api_cancel host threads study_run),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) $(COUNT_MANY) chain api_cancel host threads study_run),$(TEST_PROGRAMS))
 
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
@@ -262,6 +267,11 @@ fuzz:
 	    OPENBLAS_NUM_THREADS=1 $(BUILD)/fuzz/tests/fuzz/fuzz_$$name -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1024 \
 	    -max_len=65536 -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus/$$name \
 	    tests/fuzz/corpus/$$name || exit 1; done
+
+# Would the tests fail? ROWS: parts of file names, tests or line numbers of the list.
+.PHONY: mutate
+mutate:
+	@$(PYTHON) tools/mutate '$(BUILD)' $(ROWS)
 
 coverage:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 -g --coverage' LDFLAGS=--coverage test
