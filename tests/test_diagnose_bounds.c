@@ -1,4 +1,5 @@
 /* A parameter that ends at a bound of *IDENTIFY: the diagnosis gets off it again, and says what the bound may do. */
+#include "folder.h"
 #include "support.h"
 
 #include <math.h>
@@ -12,8 +13,6 @@
 #include "hidden.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"
-
-static char directory[] = "/tmp/bounds.XXXXXX";
 
 /* The text with `old` replaced, to be freed. */
 static char *replaced(const char *text, const char *old, const char *new)
@@ -55,17 +54,12 @@ struct run {
 static void diagnose(const char *text, struct run *r)
 {
     const struct diagnose_options options = {.threads = 2, .seed = 1};
-    char path[100];
-    (void)snprintf(path, sizeof path, "%s/deck.inp", directory);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    const char *path = folder_write("deck.inp", text);
     pool_open(&r->pool, NULL);
     message_open(&r->messages, &r->pool);
     assert_status(deck_read(&r->pool, path, 0, NULL, &r->messages, &r->job), ROTID_OK);
     message_open(&r->messages, &r->pool);
     assert_status(diagnose_run(&r->pool, &r->job, &options, NULL, &r->messages, &r->d), ROTID_OK);
-    (void)remove(path);
     print_message("%s\n", r->d.sentence);
     assert_true(r->d.base.fit->at_bound[0]);
     assert_nested(&r->d);
@@ -161,18 +155,6 @@ static void a_bound_that_keeps_the_truth_out_is_no_cause(void **state)
     close_run(&r);
 }
 
-static int open_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int close_directory(void **state)
-{
-    (void)state;
-    return rmdir(directory);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,5 +162,5 @@ int main(void)
         cmocka_unit_test(a_very_soft_joint_is_named_although_E_ends_at_a_bound),
         cmocka_unit_test(a_bound_that_keeps_the_truth_out_is_no_cause),
     };
-    return cmocka_run_group_tests(tests, open_directory, close_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
