@@ -19,6 +19,8 @@
 #   make mutate     makes the mistakes of tests/mutations one by one in a copy: does the named test fail? ROWS="covariance 118": of these
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
+#   make fortran    the types of results in include/rotid.f90 anew, from include/rotid.h
+#   make tables     completions, the option lists of docs/rotid.1 and the card tables of docs/deck.md anew, from their rows in src
 #   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
 #                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
@@ -80,7 +82,7 @@ LIBRARY_LIBS := $(shell pkg-config --libs lapacke) $(BLAS_LIBS) $(if $(filter 1,
 PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(LIBRARY_LIBS)
 
 # the rooms that public routines reach, and those of the program alone
-LIBRARY_ROOMS := base linalg beam modal fit run diagnose/causes diagnose file uff deck api
+LIBRARY_ROOMS := base linalg rotor beam model modal fit run diagnose/causes diagnose file uff deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
 PROGRAM_SOURCES := $(foreach room,signal ema import result report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
@@ -164,7 +166,7 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(PROGRAM_OBJECTS) $(OBJECTS)
 MPICC ?= mpicc
 STUDY_RUNS ?= 1000
 $(BUILD)/src/mpi/%.o: override CC = $(MPICC)
-$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(PROGRAM_OBJECTS) $(OBJECTS)
+$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c %/command_table.c,$(CLI_SOURCES))) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 check-mpi:
@@ -190,7 +192,7 @@ power: $(BUILD)/power
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT) $(ROOMS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
@@ -202,6 +204,17 @@ sweep: all $(BUILD)/tests/test_report_sweep
 
 abi: $(BUILD)/tests/test_abi
 	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
+
+.PHONY: fortran
+fortran: $(BUILD)/tests/test_fortran
+	@$< --write
+
+# The table of options is that of the program, so the test of what follows from it links the program except its main.
+$(BUILD)/tests/test_manual: $(call OBJECTS_OF,$(wildcard tools/tables/*.c) $(filter-out %/main.c,$(CLI_SOURCES)))
+$(BUILD)/tools/tables/%.o: ALL_CFLAGS += -Itools
+.PHONY: tables
+tables: all $(BUILD)/tests/test_manual
+	@$(BUILD)/tests/test_manual --write
 
 demo: all
 	@sh tools/demo $(BUILD)/rotid $(BUILD)/demo

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -223,12 +223,12 @@ int exact_count(const struct rotor *rotor, double hz)
 void mesh_hz(const struct rotor *rotor, int refine, int skip, int count, double *hz)
 {
     struct pool pool;
-    struct client client;
+    struct rotor_model client;
     struct prediction p;
     int failed;
     pool_open(&pool, NULL);
-    assert_status(client_open(&pool, rotor, 0, NULL, refine, &client, &failed), ROTID_OK);
-    assert_status(prediction_new(&pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, skip + count, 0, &p), ROTID_OK);
+    assert_status(model_open(&pool, NULL, rotor, 0, NULL, refine, &client, &failed), ROTID_OK);
+    assert_status(prediction_new(&pool, &client.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, skip + count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, NULL), ROTID_OK);
     for (int k = 0; k < count; k++)
         hz[k] = sqrt(p.lambda[skip + k]) / (2 * pi);

@@ -3,8 +3,8 @@
 #ifndef ROTID_TESTS_EXACT_H
 #define ROTID_TESTS_EXACT_H
 
-#include "beam/rotor.h"
 #include "oracle/oracle.h"
+#include "rotor/rotor.h"
 #include "support.h"
 
 #define EXACT_MODES 6

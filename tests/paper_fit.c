@@ -13,7 +13,7 @@ void paper_fit_open_rotor(struct paper_fit *fit, const struct rotor *rotor, int 
     memset(fit, 0, sizeof *fit);
     pool_open(&fit->pool, NULL);
     memcpy(fit->chosen, parameter, (size_t)nparameter * sizeof *parameter);
-    assert_status(client_open(&fit->pool, rotor, nparameter, fit->chosen, 1, &fit->client, &failed), ROTID_OK);
+    assert_status(model_open(&fit->pool, NULL, rotor, nparameter, fit->chosen, 1, &fit->client, &failed), ROTID_OK);
     for (int k = 0; k < PAPER_MODES; k++)
         fit->number[k] = k + 1;
     memcpy(fit->frequency_hz, paper_measured_hz, sizeof fit->frequency_hz);
@@ -38,7 +38,7 @@ void paper_fit_close(struct paper_fit *fit)
 
 static void predict_again(struct paper_fit *fit, int reduction, const double *x)
 {
-    const rotid_model *model = &fit->client.model;
+    const rotid_model *model = &fit->client.equations;
     int count = model->nrigid + PAPER_MODES;
     if (!fit->predicts || fit->reduction != reduction)
         assert_status(prediction_new(&fit->pool, model, reduction, ROTID_NELSON, count, 0, &fit->prediction), ROTID_OK);
@@ -51,7 +51,7 @@ void paper_predict(struct paper_fit *fit, int reduction, const double *x, double
 {
     predict_again(fit, reduction, x);
     for (int k = 0; k < PAPER_MODES; k++) {
-        int pair = fit->client.model.nrigid + k;
+        int pair = fit->client.equations.nrigid + k;
         double largest = 0;
         frequency_hz[k] = sqrt(fit->prediction.lambda[pair]) / two_pi;
         for (int s = 0; shape && s < PAPER_SENSORS; s++) {
@@ -79,7 +79,8 @@ void paper_synthesise(struct paper_fit *fit, const double *x, double frequency_s
 rotid_fit_result *paper_run(struct paper_fit *fit)
 {
     rotid_fit_result *result = NULL;
-    assert_status(rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, NULL, &result), ROTID_OK);
+    assert_status(rotid_fit(&fit->client.equations, fit->parameter, &fit->measured, &fit->options, NULL, NULL, &result),
+                  ROTID_OK);
     assert_non_null(result);
     return result;
 }
@@ -90,12 +91,12 @@ static double shape_misfit(const struct paper_fit *fit, int mode)
     const double *measured = fit->shape + PAPER_SENSORS * mode;
     double across = 0, own = 0, sum = 0;
     for (int s = 0; s < PAPER_SENSORS; s++) {
-        double phi = prediction_at_sensor(&fit->prediction, fit->client.model.nrigid + mode, s);
+        double phi = prediction_at_sensor(&fit->prediction, fit->client.equations.nrigid + mode, s);
         across += phi * measured[s];
         own += phi * phi;
     }
     for (int s = 0; s < PAPER_SENSORS; s++) {
-        double phi = prediction_at_sensor(&fit->prediction, fit->client.model.nrigid + mode, s);
+        double phi = prediction_at_sensor(&fit->prediction, fit->client.equations.nrigid + mode, s);
         double left = (across / own * phi - measured[s]) / fit->shape_std[s + PAPER_SENSORS * mode];
         sum += left * left / 2;
     }
@@ -107,7 +108,7 @@ double paper_objective(struct paper_fit *fit, const double *x)
     double sum = 0;
     predict_again(fit, fit->options.reduction, x);
     for (int k = 0; k < fit->measured.nmode; k++) {
-        double f = sqrt(fit->prediction.lambda[fit->client.model.nrigid + fit->number[k] - 1]) / two_pi,
+        double f = sqrt(fit->prediction.lambda[fit->client.equations.nrigid + fit->number[k] - 1]) / two_pi,
                ratio = f / fit->frequency_hz[k];
         double r = fit->options.functional == ROTID_HYBRID     ? 1 - ratio * ratio
                    : fit->options.functional == ROTID_HYBRID_F ? 1 - ratio
@@ -125,7 +126,7 @@ double paper_gradient(struct paper_fit *fit, const double *x, double *gradient)
 {
     static const double step[4] = {-2, -1, 1, 2}, weight[4] = {1, -8, 8, -1};
     double largest = 0, moved[PAPER_MOST_PARAMETERS];
-    int n = fit->client.model.nparam;
+    int n = fit->client.equations.nparam;
     memcpy(moved, x, (size_t)n * sizeof *x);
     for (int p = 0; p < n; p++) {
         double h = 3e-4 * fabs(fit->parameter[p].start), sum = 0; /* truncation h^4 and rounding eps/h are then both near 1e-12 */

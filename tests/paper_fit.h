@@ -3,15 +3,15 @@
 #define ROTID_TESTS_PAPER_FIT_H
 
 #include "modal/prediction.h"
+#include "model/model.h"
 #include "paper_rotor.h"
-#include "run/client.h"
 #include "support.h"
 
 #define PAPER_MOST_PARAMETERS 5
 
 struct paper_fit {
     struct pool pool;
-    struct client client;
+    struct rotor_model client;
     struct parameter chosen[PAPER_MOST_PARAMETERS];
     rotid_parameter parameter[PAPER_MOST_PARAMETERS];
     int number[PAPER_MODES], holdout[PAPER_MODES];

@@ -71,13 +71,13 @@ static void test_model_of_a_rotor_survives_every_failing_allocation(void **state
     while (status == ROTID_ERROR_MEMORY) {
         struct failing_allocator failing;
         struct pool pool;
-        struct client client;
+        struct rotor_model client;
         int failed;
         failing_allocator_open(&failing, ++n);
         pool_open(&pool, &failing.allocator);
         struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 0);
         rotor->sling = 0.5; /* two more springs to make room for */
-        status = client_open(&pool, rotor, 2, paper_parameters, 1, &client, &failed);
+        status = model_open(&pool, NULL, rotor, 2, paper_parameters, 1, &client, &failed);
         if (status)
             assert_int_equal(failing.until_failure, 0);
         pool_close(&pool);
@@ -85,14 +85,14 @@ static void test_model_of_a_rotor_survives_every_failing_allocation(void **state
         assert_true(n < 1000);
     }
     assert_status(status, ROTID_OK);
-    print_message("client_open: %d allocations\n", n - 1);
+    print_message("model_open: %d allocations\n", n - 1);
     assert_true(n > 10);
 }
 
 static int run_with(struct paper_fit *fit, const rotid_environment *environment, rotid_fit_result **result)
 {
     *result = (void *)fit; /* must be overwritten in any case */
-    return rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, environment, NULL, result);
+    return rotid_fit(&fit->client.equations, fit->parameter, &fit->measured, &fit->options, environment, NULL, result);
 }
 
 /* Returns how many allocations the fit needs. */

@@ -39,15 +39,15 @@ static struct job *open_job(enum bundle_model model)
     struct rotor *rotor = bench_rotor(model, 1, 5);
     bench = (struct bench){.parameter = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}}};
     place_sensors(rotor);
-    struct client client;
+    struct rotor_model client;
     struct prediction p;
     int failed;
-    assert_status(client_open(&test_pool, rotor, 0, NULL, 1, &client, &failed), ROTID_OK);
-    int count = client.model.nrigid + MODES;
-    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
+    assert_status(model_open(&test_pool, NULL, rotor, 0, NULL, 1, &client, &failed), ROTID_OK);
+    int count = client.equations.nrigid + MODES;
+    assert_status(prediction_new(&test_pool, &client.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, NULL), ROTID_OK);
     for (int k = 0; k < MODES; k++) {
-        int pair = client.model.nrigid + k;
+        int pair = client.equations.nrigid + k;
         double largest = 0;
         bench.number[k] = k + 1;
         bench.frequency_hz[k] = prediction_hz(&p, pair) * (1 + 0.01 * sin(3 * k + 1));
@@ -87,10 +87,10 @@ static void difference(struct columns *c, int p, double h, int side, double *col
     static const double weight[3][5] = {{1, -8, 0, 8, -1}, {-25, 48, -36, 16, -3}, {25, -48, 36, -16, 3}};
     int scheme = side < 0 ? 2 : side;
     double x[16], r[MOST];
-    assert_true(c->client.model.nparam <= 16 && c->nrow <= MOST);
+    assert_true(c->model.equations.nparam <= 16 && c->nrow <= MOST);
     memset(column, 0, (size_t)c->nrow * sizeof *column);
     for (int s = 0; s < 5; s++) {
-        memcpy(x, c->x, (size_t)c->client.model.nparam * sizeof *x);
+        memcpy(x, c->x, (size_t)c->model.equations.nparam * sizeof *x);
         x[p] += h * at[scheme][s];
         assert_status(columns_residual(c, x, r), ROTID_OK);
         for (int i = 0; i < c->nrow; i++)

@@ -11,7 +11,7 @@
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/causes/sensor.h"
 #include "modal/functional.h"
-#include "run/client.h"
+#include "model/model.h"
 #include "run/identify.h"
 #include "folder.h"
 #include "support.h"
@@ -232,15 +232,16 @@ static void read_data(struct reading *r, const double *position, const char *car
 static int residuals(struct reading *r, double *residual, double predicted[MODES][SENSORS])
 {
     struct job *job = &r->job;
-    struct client *client = POOL_NEW(&r->pool, struct client);
+    struct rotor_model *client = POOL_NEW(&r->pool, struct rotor_model);
     struct functional f;
     int failed;
-    assert_status(client_open(&r->pool, &job->rotor, 0, NULL, 1, client, &failed), ROTID_OK);
+    assert_status(model_open(&r->pool, NULL, &job->rotor, 0, NULL, 1, client, &failed), ROTID_OK);
     rotid_measured *measured = POOL_NEW(&r->pool, rotid_measured);
     *measured = (rotid_measured){sizeof *measured,   MODES,      job->number,    job->frequency_hz,
                                  job->frequency_std, job->shape, job->shape_std, NULL};
-    assert_status(functional_new(&r->pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &client->model, measured, &f),
-                  ROTID_OK);
+    assert_status(
+        functional_new(&r->pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &client->equations, measured, &f),
+        ROTID_OK);
     assert_status(functional_residual(&f, NULL, residual), ROTID_OK);
     for (int k = 0; k < MODES; k++)
         for (int s = 0; s < job->rotor.nsensor; s++)
@@ -436,7 +437,7 @@ static void assert_found(const char *truth, const char *deck, const double *expe
     struct identification result;
     char text[4096];
     read_text(&r, truth, NULL);
-    assert_status(spectrum_compute(&r.pool, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 6, &spectrum), ROTID_OK);
+    assert_status(spectrum_compute(&r.pool, NULL, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 6, &spectrum), ROTID_OK);
     size_t used = (size_t)snprintf(text, sizeof text, "%s*MODES\n", deck);
     for (int k = 0; k < 6; k++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%d, %.17g\n", k + 1, spectrum.full_hz[k]);
@@ -472,15 +473,15 @@ static void a_cause_that_stands_in_the_deck_is_part_of_the_model(void **state)
     struct reading r;
     struct spectrum plain, effect, suspected;
     read_text(&r, MODEL, NULL);
-    assert_status(spectrum_compute(&r.pool, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &plain), ROTID_OK);
+    assert_status(spectrum_compute(&r.pool, NULL, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &plain), ROTID_OK);
     double hz = plain.full_hz[0];
     pool_close(&r.pool);
     read_text(&r, MODEL "*CAUSE, NAME=j, TYPE=joint, AT=core.end\nflexibility, 5e-7\n", NULL);
-    assert_status(spectrum_compute(&r.pool, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &effect), ROTID_OK);
+    assert_status(spectrum_compute(&r.pool, NULL, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &effect), ROTID_OK);
     assert_true(effect.full_hz[0] < 0.99 * hz);
     pool_close(&r.pool);
     read_text(&r, MODEL "*CAUSE, NAME=j, TYPE=joint, AT=core.end, SUSPECT\nflexibility, 5e-7\n", NULL);
-    assert_status(spectrum_compute(&r.pool, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &suspected), ROTID_OK);
+    assert_status(spectrum_compute(&r.pool, NULL, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 3, &suspected), ROTID_OK);
     assert_true(suspected.full_hz[0] == hz);
     pool_close(&r.pool);
 }

@@ -1,8 +1,9 @@
 /* Deflection of tie rods and bars, beside motions that every element follows exactly. */
 #include "support.h"
 
-#include "beam/deflection.h"
 #include "json_deck.h"
+#include "run/spectrum.h"
+#include "model/deflection.h"
 
 #define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 #define SHAFT                                                                                                                    \
@@ -43,17 +44,14 @@ static void members_follow_a_motion_that_all_elements_can_follow(void **state)
     struct json_deck deck;
     struct spectrum s;
     json_deck_open(&deck, MEMBERS);
-    assert_status(spectrum_compute(&deck.pool, &deck.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &s), ROTID_OK);
-    double *u = POOL_ARRAY(&deck.pool, double, s.beam->mesh.ndof);
+    assert_status(spectrum_compute(&deck.pool, NULL, &deck.job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &s), ROTID_OK);
+    double *u = POOL_ARRAY(&deck.pool, double, s.model->equations.n);
     for (int m = 0; m < 3; m++) {
         const double *q = motion[m];
         static const double end[3][2] = {{0.3, 0.7}, {0.1, 0.8}, {0.35, 0.65}};
-        bend(s.beam, q[0], q[1], q[2], u);
+        bend(&s.model->beam, q[0], q[1], q[2], u);
         for (int member = 0; member < 3; member++) {
-            if (member < 2)
-                tierod_deflection(s.beam, member, u, 13, z, v);
-            else
-                bars_deflection(s.beam, 0, u, 13, z, v);
+            model_member_deflection(s.model, member, u, 13, z, v);
             assert_close(z[0], end[member][0], 1e-12, 0);
             assert_close(z[12], end[member][1], 1e-12, 0);
             for (int i = 0; i < 13; i++) {

@@ -7,7 +7,7 @@
 
 #include "linalg/matrix.h"
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 /* The left spring is stiff enough to be felt by the bending modes. */
 enum { nparam = 7 };
@@ -18,19 +18,19 @@ static const double rotor_values[nparam] = {0.6e11, 0.3e11, 0.28, 7380.66, 150e3
 /* relative: as large as the curvature allows, since the bending modes hardly feel some of these */
 static const double rotor_steps[nparam] = {2e-3, 2e-3, 1e-2, 2e-3, 0.5, 2e-2, 2e-2};
 
-static const rotid_model *open_rotor(struct pool *pool, enum bundle_model bundle, struct client *client)
+static const rotid_model *open_rotor(struct pool *pool, enum bundle_model bundle, struct rotor_model *client)
 {
     int failed;
     struct rotor *rotor = paper_rotor(bundle, 0);
     rotor->spring[0].lateral = rotor_values[6];
-    assert_status(client_open(pool, rotor, nparam, seven, 1, client, &failed), ROTID_OK);
-    return &client->model;
+    assert_status(model_open(pool, NULL, rotor, nparam, seven, 1, client, &failed), ROTID_OK);
+    return &client->equations;
 }
 
 static void derivatives_of_the_papers_rotor_match_differences(void **state)
 {
     for (int bundle = BUNDLE_RODS; bundle <= BUNDLE_TUBE; bundle++) {
-        struct client client;
+        struct rotor_model client;
         const rotid_model *model = open_rotor(*state, (enum bundle_model)bundle, &client);
         int first = model->nrigid, count = first + 4;
         check_derivatives(*state, model, ROTID_REDUCTION_NONE, ROTID_NELSON, first, count, rotor_values, rotor_steps, 1e-6);
@@ -43,7 +43,7 @@ static void derivatives_of_the_papers_rotor_match_differences(void **state)
 static void nelson_and_modal_superposition_agree(void **state)
 {
     for (int kind = ROTID_GUYAN; kind <= ROTID_IRS; kind++) {
-        struct client client;
+        struct rotor_model client;
         const rotid_model *model = open_rotor(*state, BUNDLE_TUBE, &client);
         struct prediction nelson, modal;
         int count = model->nrigid + 6, wanted[PAPER_SENSORS] = {0};
@@ -74,7 +74,7 @@ static void nelson_and_modal_superposition_agree(void **state)
 /* phi' M phi = 1 at every x: 2 phi' M dphi = -phi' dM phi; rho is what moves M. */
 static void derivatives_keep_the_normalisation(void **state)
 {
-    struct client client;
+    struct rotor_model client;
     const rotid_model *model = open_rotor(*state, BUNDLE_RODS, &client);
     struct prediction p;
     int n = model->n, count = model->nrigid + 6, wanted[16] = {0};
@@ -102,8 +102,8 @@ static void derivatives_keep_the_normalisation(void **state)
 static void a_model_without_derivatives_gets_the_same(void **state)
 {
     for (int kind = ROTID_REDUCTION_NONE; kind <= ROTID_IRS; kind++) {
-        struct client client;
-        rotid_model bare = *open_rotor(*state, BUNDLE_TUBE, &client), *models[2] = {&client.model, &bare};
+        struct rotor_model client;
+        rotid_model bare = *open_rotor(*state, BUNDLE_TUBE, &client), *models[2] = {&client.equations, &bare};
         struct prediction p[2];
         int count = bare.nrigid + 4, wanted[16] = {0};
         bare.derivatives = NULL;

@@ -12,8 +12,8 @@
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/diagnose.h"
 #include "modal/prediction.h"
-#include "run/client.h"
 #include "folder.h"
+#include "model/model.h"
 #include "support.h"
 
 #define SENSORS 17
@@ -71,7 +71,7 @@ static void simulate(const char *cause, uint64_t seed, struct data *d)
     struct pool pool;
     struct message_list messages;
     struct job job;
-    struct client client;
+    struct rotor_model client;
     struct prediction p;
     struct random_stream stream = {seed};
     int failed;
@@ -83,12 +83,13 @@ static void simulate(const char *cause, uint64_t seed, struct data *d)
     (void)folder_write("deck.inp", text);
     pool_open(&pool, NULL);
     assert_status(read_deck(&pool, &messages, &job), ROTID_OK);
-    assert_status(client_open(&pool, &job.rotor, 0, NULL, 4, &client, &failed), ROTID_OK); /* finer than the deck's own mesh */
-    int count = client.model.nrigid + MODES + 1;
-    assert_status(prediction_new(&pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
+    assert_status(model_open(&pool, NULL, &job.rotor, 0, NULL, 4, &client, &failed),
+                  ROTID_OK); /* finer than the deck's own mesh */
+    int count = client.equations.nrigid + MODES + 1;
+    assert_status(prediction_new(&pool, &client.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, NULL), ROTID_OK);
     for (int k = 0; k <= MODES; k++) {
-        int pair = client.model.nrigid + k;
+        int pair = client.equations.nrigid + k;
         double largest = 0;
         d->hz[k] = prediction_hz(&p, pair) * (1 + 0.001 * random_normal(&stream));
         for (int s = 0; s < SENSORS; s++)

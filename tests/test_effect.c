@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "beam/effects.h"
+#include "beam/factors.h"
 #include "beam/hinge.h"
 #include "beam/lumped.h"
 #include "effect_bench.h"

@@ -9,7 +9,7 @@
 #include "linalg/band.h"
 #include "linalg/eigen_polish.h"
 #include "linalg/matrix.h"
-#include "run/client.h"
+#include "model/model.h"
 
 enum { count = 9 };
 
@@ -18,12 +18,12 @@ static void rotor_matrices(struct pool *pool, int springs, double part_e, double
     struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 0);
     struct parameter chosen[2] = {paper_parameters[0], paper_parameters[1]};
     const double x[2] = {paper_start[0] * part_e, paper_start[1] * part_g};
-    struct client client;
+    struct rotor_model client;
     int failed;
     if (!springs)
         rotor->nspring = 0;
-    assert_status(client_open(pool, rotor, 2, chosen, 1, &client, &failed), ROTID_OK);
-    const rotid_model *model = &client.model;
+    assert_status(model_open(pool, NULL, rotor, 2, chosen, 1, &client, &failed), ROTID_OK);
+    const rotid_model *model = &client.equations;
     assert_status(matrix_new(pool, model->n, model->kd, model->nfar, model->far, k), ROTID_OK);
     assert_status(matrix_new(pool, model->n, model->kd, model->nfar, model->far, m), ROTID_OK);
     assert_int_equal(model->matrices(model->user, x, k, m), 0);

@@ -4,8 +4,8 @@
 
 #include "base/random.h"
 #include "modal/functional.h"
+#include "model/model.h"
 #include "paper_rotor.h"
-#include "run/client.h"
 #include "support.h"
 
 #define MODES   PAPER_MODES
@@ -16,7 +16,7 @@ static const double pi = 3.14159265358979323846;
 static struct pool pool;
 
 /* The paper's rotor, and as measured modes those of the model itself at x* = start, shapes included. */
-static struct client client;
+static struct rotor_model client;
 static rotid_measured measured;
 static double hz[MODES], shape[MODES * SENSORS];
 static int number[MODES];
@@ -27,15 +27,15 @@ static int open_pool(void **state)
     pool_open(&pool, NULL);
     struct prediction p;
     int failed;
-    if (client_open(&pool, paper_rotor(BUNDLE_TUBE, 1), 2, paper_parameters, 1, &client, &failed) ||
-        prediction_new(&pool, &client.model, ROTID_GUYAN, ROTID_NELSON, client.model.nrigid + MODES, 0, &p) ||
+    if (model_open(&pool, NULL, paper_rotor(BUNDLE_TUBE, 1), 2, paper_parameters, 1, &client, &failed) ||
+        prediction_new(&pool, &client.equations, ROTID_GUYAN, ROTID_NELSON, client.equations.nrigid + MODES, 0, &p) ||
         prediction_compute(&p, paper_start))
         return 1;
     for (int k = 0; k < MODES; k++) {
         number[k] = k + 1;
-        hz[k] = sqrt(p.lambda[client.model.nrigid + k]) / (2 * pi);
+        hz[k] = sqrt(p.lambda[client.equations.nrigid + k]) / (2 * pi);
         for (int s = 0; s < SENSORS; s++)
-            shape[s + k * SENSORS] = prediction_at_sensor(&p, client.model.nrigid + k, s);
+            shape[s + k * SENSORS] = prediction_at_sensor(&p, client.equations.nrigid + k, s);
     }
     measured =
         (rotid_measured){.size = sizeof(rotid_measured), .nmode = MODES, .number = number, .frequency_hz = hz, .shape = shape};
@@ -51,7 +51,7 @@ static int close_pool(void **state)
 
 static void open_functional(int kind, struct functional *f)
 {
-    assert_status(functional_new(&pool, kind, ROTID_GUYAN, ROTID_NELSON, &client.model, &measured, f), ROTID_OK);
+    assert_status(functional_new(&pool, kind, ROTID_GUYAN, ROTID_NELSON, &client.equations, &measured, f), ROTID_OK);
 }
 
 static void add_noise(double *to, double relative, uint64_t seed)
@@ -208,7 +208,7 @@ static void eq19b_frequencies_rise_by_at_most_half_of_epsilon(void **state)
     static const char *const name[] = {"left.E", "core.E", "core.G", "right.E", "ties.E"};
     struct rotor *rotor = paper_rotor(BUNDLE_TUBE, 1);
     struct parameter parameter[5];
-    struct client free_rotor;
+    struct rotor_model free_rotor;
     struct prediction p;
     const char *unit;
     double x[5], omega[MODES];
@@ -219,9 +219,9 @@ static void eq19b_frequencies_rise_by_at_most_half_of_epsilon(void **state)
         assert_int_equal(parameter_find(rotor, name[i], &parameter[i], &unit), 0);
         x[i] = *parameter_value(rotor, parameter[i]);
     }
-    assert_status(client_open(&pool, rotor, 5, parameter, 1, &free_rotor, &failed), ROTID_OK);
-    assert_int_equal(free_rotor.model.nrigid, 2);
-    assert_status(prediction_new(&pool, &free_rotor.model, ROTID_REDUCTION_NONE, ROTID_NELSON, 2 + MODES, 0, &p), ROTID_OK);
+    assert_status(model_open(&pool, NULL, rotor, 5, parameter, 1, &free_rotor, &failed), ROTID_OK);
+    assert_int_equal(free_rotor.equations.nrigid, 2);
+    assert_status(prediction_new(&pool, &free_rotor.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, 2 + MODES, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, x), ROTID_OK);
     assert_status(prediction_differentiate(&p, x, (int[]){0, 0, 1, 1, 1, 1, 1, 1}, 0), ROTID_OK);
     for (int k = 0; k < MODES; k++) {

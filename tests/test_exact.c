@@ -6,8 +6,8 @@
 #include "base/random.h"
 #include "exact.h"
 #include "modal/prediction.h"
+#include "model/model.h"
 #include "paper_rotor.h"
-#include "run/client.h"
 #include "run/spectrum.h"
 
 static const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1};
@@ -204,7 +204,7 @@ static void stated_mesh_error_is_the_true_one(void **state)
         exact_open(rotor, &exact);
         exact_hz(&exact, 3, EXACT_MODES, truth);
         pool_open(&pool, NULL);
-        assert_status(spectrum_compute(&pool, rotor, 0, NULL, NULL, ROTID_GUYAN, EXACT_MODES, &spectrum), ROTID_OK);
+        assert_status(spectrum_compute(&pool, NULL, rotor, 0, NULL, NULL, ROTID_GUYAN, EXACT_MODES, &spectrum), ROTID_OK);
         assert_int_equal(spectrum.nrigid, 2);
         for (int k = 0; k < EXACT_MODES; k++) {
             double error = 100 * (spectrum.full_hz[k] / truth[k] - 1);
@@ -240,7 +240,7 @@ static void paper_rotor_has_the_exact_shapes(void **state)
     for (int v = 0; v < 4; v++) {
         const struct rotor *rotor = variant(v, 0);
         struct pool pool;
-        struct client client;
+        struct rotor_model client;
         struct prediction p;
         struct exact exact;
         double hz[EXACT_MODES], z[PAPER_SENSORS];
@@ -248,10 +248,11 @@ static void paper_rotor_has_the_exact_shapes(void **state)
         exact_open(rotor, &exact);
         exact_hz(&exact, 3, EXACT_MODES, hz);
         pool_open(&pool, NULL);
-        assert_status(client_open(&pool, rotor, 0, NULL, 1, &client, &failed), ROTID_OK);
-        assert_status(prediction_new(&pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, 2 + EXACT_MODES, 0, &p), ROTID_OK);
+        assert_status(model_open(&pool, NULL, rotor, 0, NULL, 1, &client, &failed), ROTID_OK);
+        assert_status(prediction_new(&pool, &client.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, 2 + EXACT_MODES, 0, &p),
+                      ROTID_OK);
         assert_status(prediction_compute(&p, NULL), ROTID_OK);
-        assert_int_equal(client.model.nmaster, PAPER_SENSORS);
+        assert_int_equal(client.equations.nmaster, PAPER_SENSORS);
         for (int i = 0; i < PAPER_SENSORS; i++)
             z[i] = rotor->sensor[i].position;
         for (int k = 0; k < EXACT_MODES; k++)

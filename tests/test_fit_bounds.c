@@ -46,7 +46,7 @@ static void test_optimum_beyond_a_bound_is_pressed_against_it_and_constrained_ot
 static void check_minimum(struct paper_fit *fit, const char *text)
 {
     rotid_fit_result *result = NULL;
-    int status = rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, NULL, &result);
+    int status = rotid_fit(&fit->client.equations, fit->parameter, &fit->measured, &fit->options, NULL, NULL, &result);
     if (status || !result->converged || fabs(result->x[0] / scipy_optimum[0] - 1) > 1e-6)
         print_error("%s: from E %.3e G %.3e %s, objective %.6g instead of %.6g, %s\n", text, fit->parameter[0].start,
                     fit->parameter[1].start, rotid_status_name(status), status ? NAN : result->objective, scipy_objective,
@@ -143,7 +143,7 @@ static void refused(struct paper_fit *fit, const char *expected)
 {
     char failure[ROTID_FAILURE_LENGTH];
     rotid_fit_result *result = (void *)fit;
-    int status = rotid_fit(&fit->client.model, fit->parameter, &fit->measured, &fit->options, NULL, failure, &result);
+    int status = rotid_fit(&fit->client.equations, fit->parameter, &fit->measured, &fit->options, NULL, failure, &result);
     assert_string_equal(rotid_status_name(status), expected);
     assert_true(status != ROTID_ERROR_ARGUMENT || strstr(failure, "expected")); /* which one, and what of it */
     assert_null(result);
@@ -215,7 +215,7 @@ static void test_options_and_models_that_make_no_sense_are_refused(void **state)
     (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
-    const rotid_model model = fit.client.model;
+    const rotid_model model = fit.client.equations;
     const rotid_fit_options options = fit.options;
     static const struct {
         int functional, reduction, derivative;
@@ -247,10 +247,10 @@ static void test_options_and_models_that_make_no_sense_are_refused(void **state)
     wrong[6].nrigid = -1;
     wrong[7].nfar = -1;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-        fit.client.model = wrong[k];
+        fit.client.equations = wrong[k];
         refused(&fit, "ROTID_ERROR_ARGUMENT");
     }
-    fit.client.model = model;
+    fit.client.equations = model;
     rotid_fit_result *result = (void *)&fit;
     assert_status(rotid_fit(NULL, fit.parameter, &fit.measured, &fit.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
     assert_null(result);
@@ -267,13 +267,13 @@ static void test_missing_arrays_are_refused(void **state)
     (void)state;
     struct paper_fit fit;
     paper_fit_open(&fit, BUNDLE_TUBE);
-    const rotid_model model = fit.client.model;
-    fit.client.model.master = NULL;
+    const rotid_model model = fit.client.equations;
+    fit.client.equations.master = NULL;
     refused(&fit, "ROTID_ERROR_ARGUMENT");
-    fit.client.model = model;
-    fit.client.model.far = NULL;
+    fit.client.equations = model;
+    fit.client.equations.far = NULL;
     refused(&fit, "ROTID_ERROR_ARGUMENT");
-    fit.client.model = model;
+    fit.client.equations = model;
     fit.measured.number = NULL;
     refused(&fit, "ROTID_ERROR_ARGUMENT");
     fit.measured.number = fit.number;
@@ -302,8 +302,8 @@ static void test_failures_of_the_model_come_back_as_themselves(void **state)
     for (int kind = 0; kind < 3; kind++) {
         struct paper_fit fit;
         paper_fit_open(&fit, BUNDLE_TUBE);
-        fit.client.model.matrices = broken;
-        fit.client.model.user = &kind;
+        fit.client.equations.matrices = broken;
+        fit.client.equations.user = &kind;
         refused(&fit, expected[kind]);
         paper_fit_close(&fit);
     }

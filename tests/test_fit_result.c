@@ -23,7 +23,7 @@ static void open_noisy(struct paper_fit *fit, int nparameter, int functional)
     if (nparameter)
         return;
     int failed;
-    assert_status(client_open(&fit->pool, paper_rotor(BUNDLE_TUBE, 0), 0, fit->chosen, 1, &fit->client, &failed), ROTID_OK);
+    assert_status(model_open(&fit->pool, NULL, paper_rotor(BUNDLE_TUBE, 0), 0, fit->chosen, 1, &fit->client, &failed), ROTID_OK);
 }
 
 /* The fit without parameters of the model that stands at x; *functional of open_noisy. */
@@ -32,7 +32,7 @@ static rotid_fit_result *compare_at(struct paper_fit *fit, const double *x)
     rotid_fit_result *result = NULL;
     for (int p = 0; p < 2; p++)
         *parameter_value(&fit->client.beam.rotor, paper_parameters[p]) = x[p];
-    assert_status(rotid_fit(&fit->client.model, NULL, &fit->measured, &fit->options, NULL, NULL, &result), ROTID_OK);
+    assert_status(rotid_fit(&fit->client.equations, NULL, &fit->measured, &fit->options, NULL, NULL, &result), ROTID_OK);
     return result;
 }
 
@@ -75,14 +75,15 @@ static void test_without_parameters_the_model_is_compared(void **state)
 
     int asked = 0;
     rotid_environment environment = {.size = sizeof environment, .cancelled = cancel, .context = &asked};
-    assert_status(rotid_fit(&fit.client.model, NULL, &fit.measured, &fit.options, &environment, NULL, &result), ROTID_OK);
+    assert_status(rotid_fit(&fit.client.equations, NULL, &fit.measured, &fit.options, &environment, NULL, &result), ROTID_OK);
     assert_int_equal(result->status, ROTID_STOP_CANCELLED);
     assert_true(!result->converged && asked == 1);
     rotid_fit_free(result);
     rotid_fit_free(best);
-    assert_status(rotid_fit(&with.client.model, NULL, &with.measured, &with.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
-    fit.client.model.nparam = -1;
-    assert_status(rotid_fit(&fit.client.model, NULL, &fit.measured, &fit.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
+    assert_status(rotid_fit(&with.client.equations, NULL, &with.measured, &with.options, NULL, NULL, &result),
+                  ROTID_ERROR_ARGUMENT);
+    fit.client.equations.nparam = -1;
+    assert_status(rotid_fit(&fit.client.equations, NULL, &fit.measured, &fit.options, NULL, NULL, &result), ROTID_ERROR_ARGUMENT);
     paper_fit_close(&fit);
     paper_fit_close(&with);
 }

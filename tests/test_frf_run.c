@@ -64,7 +64,7 @@ static void open_bench(struct bench *b, struct pool *pool, double factor)
 static void measure_modes(struct bench *b, struct pool *pool)
 {
     struct spectrum spectrum;
-    assert_status(spectrum_compute(pool, &b->job.rotor, 0, NULL, NULL, ROTID_GUYAN, MODES, &spectrum), ROTID_OK);
+    assert_status(spectrum_compute(pool, NULL, &b->job.rotor, 0, NULL, NULL, ROTID_GUYAN, MODES, &spectrum), ROTID_OK);
     for (int k = 0; k < MODES; k++) {
         b->number[k] = k + 1;
         b->hz[k] = spectrum.full_hz[k];

@@ -7,7 +7,7 @@
 
 #include "linalg/matrix.h"
 #include "modal/functional.h"
-#include "run/client.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647692;
 
@@ -18,7 +18,7 @@ static const struct parameter parameters[nparam] = {{PARAMETER_E, 1, 0}, {PARAME
 static const double here[nparam] = {0.6e11, 0.3e11, 7380.66}, truth[nparam] = {0.75e11, 0.25e11, 7600};
 
 struct data {
-    struct client client;
+    struct rotor_model client;
     double hz[nmode], frequency_std[nmode], shape[nmaster * nmode], shape_std[nmaster * nmode];
     int holdout[nmode];
     rotid_measured measured;
@@ -34,8 +34,8 @@ static const rotid_model *measure(struct pool *pool, double shape_noise, uint64_
     rotor->nsensor = nmaster; /* half of them make the Jacobians several times as fast, and show the same */
     for (int s = 0; s < nmaster; s++)
         rotor->sensor[s] = rotor->sensor[2 * s];
-    assert_status(client_open(pool, rotor, nparam, parameters, 1, &data->client, &failed), ROTID_OK);
-    const rotid_model *model = &data->client.model;
+    assert_status(model_open(pool, NULL, rotor, nparam, parameters, 1, &data->client, &failed), ROTID_OK);
+    const rotid_model *model = &data->client.equations;
     assert_status(prediction_new(pool, model, ROTID_REDUCTION_NONE, ROTID_NELSON, model->nrigid + 6, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, truth), ROTID_OK);
     for (int k = 0; k < nmode; k++) {

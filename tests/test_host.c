@@ -152,14 +152,14 @@ static void a_host_with_traps_survives_a_fit(void **state)
     fit.options.baseline = 1;
     rotid_fit_result *result, *none;
     trap();
-    int status = rotid_fit(&fit.client.model, fit.parameter, &fit.measured, &fit.options, NULL, NULL, &result);
+    int status = rotid_fit(&fit.client.equations, fit.parameter, &fit.measured, &fit.options, NULL, NULL, &result);
     assert_trapping();
     assert_status(status, ROTID_OK);
     assert_true(result->converged);
     rotid_fit_free(result);
     fit.parameter[0].start = NAN;
     trap();
-    status = rotid_fit(&fit.client.model, fit.parameter, &fit.measured, &fit.options, NULL, NULL, &none);
+    status = rotid_fit(&fit.client.equations, fit.parameter, &fit.measured, &fit.options, NULL, NULL, &none);
     assert_trapping();
     assert_status(status, ROTID_ERROR_ARGUMENT);
     paper_fit_close(&fit);

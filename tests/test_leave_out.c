@@ -6,7 +6,7 @@
 #include "diagnose/leave_out.h"
 #include "effect_bench.h"
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 #include "run/identify.h"
 
 #define SENSORS 9
@@ -42,17 +42,17 @@ static struct job make_job(double noise)
 {
     static const double truth[2] = {1.1e11, 0.4e11};
     struct rotor rotor;
-    struct client client;
+    struct rotor_model client;
     struct prediction p;
     struct random_stream stream = {4};
     int failed;
     open_rotor(&rotor);
-    assert_status(client_open(&test_pool, &rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
-    int count = client.model.nrigid + MODES;
-    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
+    assert_status(model_open(&test_pool, NULL, &rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
+    int count = client.equations.nrigid + MODES;
+    assert_status(prediction_new(&test_pool, &client.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, truth), ROTID_OK);
     for (int k = 0; k < MODES; k++) {
-        int pair = client.model.nrigid + k;
+        int pair = client.equations.nrigid + k;
         double largest = 0;
         number[k] = k + 1;
         holdout[k] = 0;
@@ -123,12 +123,12 @@ static void leave_sensor_out(const struct job *job, int s, double *sums)
     x[0] = fit->n ? fit->x[0] : soft.e;
     x[1] = fit->n ? fit->x[1] : soft.g;
     rotid_fit_free(fit);
-    struct client client;
+    struct rotor_model client;
     struct prediction p;
     int failed;
-    assert_status(client_open(&test_pool, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
-    int count = client.model.nrigid + MODES;
-    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
+    assert_status(model_open(&test_pool, NULL, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
+    int count = client.equations.nrigid + MODES;
+    assert_status(prediction_new(&test_pool, &client.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, x), ROTID_OK);
     for (int k = 0; k < MODES; k++) {
         double ab = 0, aa = 0, largest = largest_of(shape + k * SENSORS);
@@ -137,11 +137,11 @@ static void leave_sensor_out(const struct job *job, int s, double *sums)
         for (int i = 0; i < SENSORS; i++) {
             if (i == s || !isfinite(shape[i + k * SENSORS]))
                 continue;
-            double phi = prediction_at_sensor(&p, client.model.nrigid + k, i), w = pow(shape_std[i + k * SENSORS], -2);
+            double phi = prediction_at_sensor(&p, client.equations.nrigid + k, i), w = pow(shape_std[i + k * SENSORS], -2);
             aa += w * phi * phi;
             ab += w * phi * shape[i + k * SENSORS] / largest;
         }
-        double off = ab / aa * prediction_at_sensor(&p, client.model.nrigid + k, s) - shape[s + k * SENSORS] / largest;
+        double off = ab / aa * prediction_at_sensor(&p, client.equations.nrigid + k, s) - shape[s + k * SENSORS] / largest;
         sums[0] += pow(off / shape_std[s + k * SENSORS], 2);
         sums[1]++;
         sums[2] += off * off;
@@ -194,17 +194,17 @@ static void sensors_out_need_shapes(void **state)
 /* sqrt of the mean square of what is left of the measured shape beside the best multiple of the predicted one. */
 static double shape_by_definition(const struct job *job, const double *x, int k)
 {
-    struct client client;
+    struct rotor_model client;
     struct prediction p;
     int failed, used = 0;
     double ab = 0, aa = 0, sum = 0, largest = largest_of(shape + k * SENSORS);
-    assert_status(client_open(&test_pool, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
-    int count = client.model.nrigid + MODES;
-    assert_status(prediction_new(&test_pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
+    assert_status(model_open(&test_pool, NULL, &job->rotor, 2, parameters, 1, &client, &failed), ROTID_OK);
+    int count = client.equations.nrigid + MODES;
+    assert_status(prediction_new(&test_pool, &client.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, count, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, x), ROTID_OK);
     for (int pass = 0; pass < 2; pass++)
         for (int s = 0; s < SENSORS; s++) {
-            double phi = prediction_at_sensor(&p, client.model.nrigid + k, s), m = shape[s + k * SENSORS] / largest;
+            double phi = prediction_at_sensor(&p, client.equations.nrigid + k, s), m = shape[s + k * SENSORS] / largest;
             if (isnan(m))
                 continue;
             if (!pass) {

@@ -51,7 +51,7 @@ static void files_that_are_no_result_are_refused_with_their_place(void **state)
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": 2}", "schema: is 2, expected 1"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": \"1\"}", "schema: is a text, expected a number"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"uff\", \"schema\": 1}",
-         "command: is 'uff', of which no page is made, expected identify, diagnose"},
+         "command: is 'uff', of which no page is made, expected check, modes, identify, diagnose, sensitivity, frf or study"},
         {"{\"rotid\": \"0.2.0\", \"command\": 7, \"schema\": 1}", "command: is a number, expected a text"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"modes\", \"schema\": 1}", "modes: is missing"},
     };
@@ -105,7 +105,7 @@ static int compose(const char *name, int *wrong)
     struct document document;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = result_read(&pool, page_path(name), &messages, &result);
+    int status = page_result_read(&pool, page_path(name), &messages, &result);
     *wrong = messages.errors;
     if (!status) {
         document_open(&document, &pool);
@@ -260,7 +260,7 @@ static void memory_that_runs_out_is_survived(void **state)
             failing_allocator_open(&failing, n);
             pool_open(&pool, &failing.allocator);
             message_open(&messages, &pool);
-            int status = result_read(&pool, page_path(names[i]), &messages, &result);
+            int status = page_result_read(&pool, page_path(names[i]), &messages, &result);
             if (!status) {
                 document_open(&document, &pool);
                 page_compose(&document, 1, &result);

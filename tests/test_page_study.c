@@ -395,7 +395,7 @@ static void memory_that_runs_out_is_survived(void **state)
         failing_allocator_open(&failing, n);
         pool_open(&pool, &failing.allocator);
         message_open(&messages, &pool);
-        int status = result_read(&pool, page_path("starts.jsonl"), &messages, &result);
+        int status = page_result_read(&pool, page_path("starts.jsonl"), &messages, &result);
         if (!status) {
             document_open(&document, &pool);
             page_compose(&document, 1, &result);

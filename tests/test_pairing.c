@@ -7,7 +7,7 @@
 
 #include "modal/pairing.h"
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 /* ---- correlation */
 
@@ -99,12 +99,12 @@ static void nco_is_the_squared_cosine_in_the_mass(void **state)
 /* Condensed vectors are orthogonal in the condensed mass, and only there: the MAC of two of them is not zero. */
 static void condensed_vectors_have_the_identity_for_nco(void **state)
 {
-    struct client client;
+    struct rotor_model client;
     struct prediction p;
     int failed;
     double work[PAPER_SENSORS], largest_mac = 0;
-    assert_status(client_open(*state, paper_rotor(BUNDLE_RODS, 1), 2, paper_parameters, 1, &client, &failed), ROTID_OK);
-    assert_status(prediction_new(*state, &client.model, ROTID_GUYAN, ROTID_NELSON, 8, 0, &p), ROTID_OK);
+    assert_status(model_open(*state, NULL, paper_rotor(BUNDLE_RODS, 1), 2, paper_parameters, 1, &client, &failed), ROTID_OK);
+    assert_status(prediction_new(*state, &client.equations, ROTID_GUYAN, ROTID_NELSON, 8, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, paper_start), ROTID_OK);
     for (int j = 0; j < 8; j++)
         for (int i = 0; i < 8; i++) {
@@ -136,11 +136,11 @@ static void modes_listed_in_any_order_are_found_by_their_shapes(void **state)
 {
     enum { nmode = 4, ncandidate = 6 };
     struct random_stream stream = {73};
-    struct client client;
+    struct rotor_model client;
     struct prediction p;
     int failed, tried = 0;
-    assert_status(client_open(*state, paper_rotor(BUNDLE_RODS, 1), 2, paper_parameters, 1, &client, &failed), ROTID_OK);
-    assert_status(prediction_new(*state, &client.model, ROTID_GUYAN, ROTID_NELSON, 8, 0, &p), ROTID_OK);
+    assert_status(model_open(*state, NULL, paper_rotor(BUNDLE_RODS, 1), 2, paper_parameters, 1, &client, &failed), ROTID_OK);
+    assert_status(prediction_new(*state, &client.equations, ROTID_GUYAN, ROTID_NELSON, 8, 0, &p), ROTID_OK);
     assert_status(prediction_compute(&p, paper_start), ROTID_OK);
     for (int order = 0; order < ncandidate * ncandidate * ncandidate * ncandidate; order++) {
         int place[nmode] = {order % 6, order / 6 % 6, order / 36 % 6, order / 216}, distinct = 1, number[nmode], used[ncandidate];

@@ -9,7 +9,7 @@
 #include "linalg/eigen.h"
 #include "linalg/matrix.h"
 #include "linalg/reduction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 static const int kinds[2] = {ROTID_GUYAN, ROTID_IRS};
 
@@ -21,18 +21,18 @@ static rotid_matrix like(struct pool *pool, const rotid_matrix *a)
 }
 
 /* K, M and their derivatives of the paper's rotor. */
-struct rotor_model {
-    struct client client;
+struct reduced_rotor {
+    struct rotor_model client;
     rotid_matrix k, m, dk, dm;
 };
 
 static void open_rotor(struct pool *pool, enum bundle_model bundle, int self_equilibrated, int nparameter,
-                       const struct parameter *parameter, const double *x, struct rotor_model *r)
+                       const struct parameter *parameter, const double *x, struct reduced_rotor *r)
 {
     int failed;
     const struct rotor *rotor = paper_rotor(bundle, self_equilibrated);
-    assert_status(client_open(pool, rotor, nparameter, parameter, 1, &r->client, &failed), ROTID_OK);
-    const rotid_model *model = &r->client.model;
+    assert_status(model_open(pool, NULL, rotor, nparameter, parameter, 1, &r->client, &failed), ROTID_OK);
+    const rotid_model *model = &r->client.equations;
     rotid_matrix *all[4] = {&r->k, &r->m, &r->dk, &r->dm};
     for (int i = 0; i < 4; i++)
         assert_status(matrix_new(pool, model->n, model->kd, model->nfar, model->far, all[i]), ROTID_OK);
@@ -78,10 +78,10 @@ static void condensed_matrices_are_those_of_the_dense_formulas(void **state)
 static void condensed_matrices_of_the_papers_rotor_are_those_of_the_dense_formulas(void **state)
 {
     for (int bundle = BUNDLE_RODS; bundle <= BUNDLE_TUBE; bundle++) {
-        struct rotor_model r;
+        struct reduced_rotor r;
         open_rotor(*state, (enum bundle_model)bundle, 1, 2, paper_parameters, paper_start, &r);
-        assert_int_equal(r.client.model.nmaster, PAPER_SENSORS);
-        check_against_dense(*state, &r.k, &r.m, PAPER_SENSORS, r.client.model.master, 1e-9);
+        assert_int_equal(r.client.equations.nmaster, PAPER_SENSORS);
+        check_against_dense(*state, &r.k, &r.m, PAPER_SENSORS, r.client.equations.master, 1e-9);
     }
 }
 
@@ -108,9 +108,9 @@ static void guyan_keeps_the_static_flexibility_of_the_masters(void **state)
 }
 
 /* Frequencies of modes 1-6 in Hz: condensed, or full with kind ROTID_REDUCTION_NONE. */
-static void bending_frequencies(struct pool *pool, const struct rotor_model *r, int kind, double *hz)
+static void bending_frequencies(struct pool *pool, const struct reduced_rotor *r, int kind, double *hz)
 {
-    int count = r->client.model.nrigid + PAPER_MODES, nc = r->client.model.nmaster;
+    int count = r->client.equations.nrigid + PAPER_MODES, nc = r->client.equations.nmaster;
     double *lambda = numbers(pool, count), *phi = numbers(pool, (ptrdiff_t)r->k.n * count);
     if (kind == ROTID_REDUCTION_NONE) {
         struct eigen_band e;
@@ -119,13 +119,13 @@ static void bending_frequencies(struct pool *pool, const struct rotor_model *r, 
     } else {
         struct reduction reduction;
         struct eigen_dense e;
-        assert_status(reduction_new(pool, kind, &r->k, nc, r->client.model.master, &reduction), ROTID_OK);
+        assert_status(reduction_new(pool, kind, &r->k, nc, r->client.equations.master, &reduction), ROTID_OK);
         assert_status(reduction_compute(&reduction, &r->k, &r->m), ROTID_OK);
         assert_status(eigen_dense_new(pool, nc, count, &e), ROTID_OK);
         assert_status(eigen_dense_solve(&e, reduction.kc, reduction.mc, lambda, phi), ROTID_OK);
     }
     for (int j = 0; j < PAPER_MODES; j++)
-        hz[j] = sqrt(lambda[r->client.model.nrigid + j]) / 6.28318530717958647692;
+        hz[j] = sqrt(lambda[r->client.equations.nrigid + j]) / 6.28318530717958647692;
 }
 
 /* Per cent by which Guyan with 68 masters raises the frequencies; from SciPy, dense. IRS on the same masters is nearer. */
@@ -133,7 +133,7 @@ static void condensation_errors_of_the_papers_rotor_are_those_of_scipy(void **st
 {
     const double expected[PAPER_MODES] = {0.043357, 0.076664, 0.214545, 0.709566, 3.296078, 1.287215};
     const double x[2] = {1.157e11, 0.316e11};
-    struct rotor_model r;
+    struct reduced_rotor r;
     double full[PAPER_MODES], guyan[PAPER_MODES], irs[PAPER_MODES];
     open_rotor(*state, BUNDLE_TUBE, 0, 2, paper_parameters, x, &r);
     bending_frequencies(*state, &r, ROTID_REDUCTION_NONE, full);
@@ -154,14 +154,14 @@ static const struct parameter six[6] = {{PARAMETER_E, 1, 0},   {PARAMETER_G, 1, 
 static const double values[6] = {0.6e11, 0.3e11, 0.28, 7380.66, 150e3, 2.1e11}, steps[6] = {2e-3, 2e-3, 1e-2, 2e-3, 0.5, 1e-2};
 
 /* T, K~ and M~ one after the other, at x with x_p changed by `by` relative. */
-static void condensed_at(struct rotor_model *r, struct reduction *reduction, int p, double by, double *all)
+static void condensed_at(struct reduced_rotor *r, struct reduction *reduction, int p, double by, double *all)
 {
     double x[6];
     memcpy(x, values, sizeof x);
     x[p] *= 1 + by;
     matrix_zero(&r->k);
     matrix_zero(&r->m);
-    assert_int_equal(r->client.model.matrices(r->client.model.user, x, &r->k, &r->m), 0);
+    assert_int_equal(r->client.equations.matrices(r->client.equations.user, x, &r->k, &r->m), 0);
     assert_status(reduction_compute(reduction, &r->k, &r->m), ROTID_OK);
     size_t square = (size_t)reduction->nc * (size_t)reduction->nc, tall = (size_t)reduction->n * (size_t)reduction->nc;
     memcpy(all, reduction->t, tall * sizeof *all);
@@ -170,7 +170,7 @@ static void condensed_at(struct rotor_model *r, struct reduction *reduction, int
 }
 
 /* Central difference of fourth order; leaves the reduction computed at `values`. */
-static double *difference(struct pool *pool, struct rotor_model *r, struct reduction *reduction, int p)
+static double *difference(struct pool *pool, struct reduced_rotor *r, struct reduction *reduction, int p)
 {
     const double weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12}, at[4] = {-2, -1, 1, 2};
     ptrdiff_t length = (ptrdiff_t)reduction->n * reduction->nc + 2 * (ptrdiff_t)reduction->nc * reduction->nc;
@@ -192,10 +192,10 @@ static double largest(size_t count, const double *x)
 static void derivatives_match_central_differences(void **state)
 {
     for (int kind = 0; kind < 2; kind++) {
-        struct rotor_model r;
+        struct reduced_rotor r;
         struct reduction reduction;
         open_rotor(*state, BUNDLE_RODS, 0, 6, six, values, &r);
-        const rotid_model *model = &r.client.model;
+        const rotid_model *model = &r.client.equations;
         int n = model->n, nc = model->nmaster;
         size_t square = (size_t)nc * (size_t)nc, tall = (size_t)n * (size_t)nc;
         assert_status(reduction_new(*state, kinds[kind], &r.k, nc, model->master, &reduction), ROTID_OK);

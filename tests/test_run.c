@@ -19,7 +19,7 @@ static void make_job(struct pool *pool, int nmode, struct job *job)
     struct rotor *rotor = paper_rotor(BUNDLE_RODS, 1);
     struct spectrum spectrum;
     *job = (struct job){.deck = "memory", .rotor = *rotor, .nmode = nmode, .nparameter = 2};
-    assert_int_equal(spectrum_compute(pool, rotor, 2, paper_parameters, truth, ROTID_GUYAN, nmode, &spectrum), ROTID_OK);
+    assert_int_equal(spectrum_compute(pool, NULL, rotor, 2, paper_parameters, truth, ROTID_GUYAN, nmode, &spectrum), ROTID_OK);
     ptrdiff_t components = (ptrdiff_t)rotor->nsensor * nmode;
     job->number = POOL_ARRAY(pool, int, nmode);
     job->frequency_hz = spectrum.full_hz;

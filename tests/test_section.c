@@ -1,7 +1,9 @@
 /* Cross sections against sums over holes and rods, limits of Cowper's coefficient and inversion. */
 #include <math.h>
 
-#include "beam/section.h"
+#include "beam/cylinder.h"
+#include "beam/shear_coefficient.h"
+#include "rotor/section.h"
 #include "support.h"
 
 static const double pi = 3.14159265358979323846;
@@ -240,11 +242,10 @@ static void shear_coefficient_chooses_by_shape_and_its_derivative_is_right(void 
     for (int i = 0; i < 3; i++)
         for (double nu = -0.5; nu < 0.46; nu += 0.19) {
             double derivative, unused, h = 1e-4;
-            double k = section_shear_coefficient(&s[i], nu, &derivative);
+            double k = shear_coefficient(&s[i], nu, &derivative);
             double expected = i == 2 ? rotid_shear_coefficient_rectangle(nu) : rotid_shear_coefficient_annulus(nu, s[i].ratio);
-            double near = section_shear_coefficient(&s[i], nu + h, &unused) - section_shear_coefficient(&s[i], nu - h, &unused);
-            double far =
-                section_shear_coefficient(&s[i], nu + 2 * h, &unused) - section_shear_coefficient(&s[i], nu - 2 * h, &unused);
+            double near = shear_coefficient(&s[i], nu + h, &unused) - shear_coefficient(&s[i], nu - h, &unused);
+            double far = shear_coefficient(&s[i], nu + 2 * h, &unused) - shear_coefficient(&s[i], nu - 2 * h, &unused);
             assert_close(k, expected, 1e-15, 0);
             assert_close(derivative, (8 * near - far) / (12 * h), 1e-9, 0);
             assert_true(derivative > 0);

@@ -90,7 +90,7 @@ static void the_library_holds_nothing_of_the_program(void **state)
 
 /* ---- what the rooms of the library call */
 
-#define BELOW_FILES "base linalg beam modal fit signal ema run diagnose"
+#define BELOW_FILES "base linalg rotor beam model modal fit signal ema run diagnose"
 #define LIBRARY     BELOW_FILES " file uff import deck api"
 
 /* Names that the objects of these rooms need and do not have, a line each. */

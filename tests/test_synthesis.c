@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "exact_receptance.h"
+#include "model/model.h"
 #include "paper_rotor.h"
-#include "run/client.h"
 #include "run/frf_agreement.h"
 #include "run/synthesis.h"
 #include "support.h"
@@ -36,7 +36,7 @@ static struct rotor *stepped_rotor(int elements)
 }
 
 struct setup {
-    struct client client;
+    struct rotor_model client;
     struct mass_properties mass;
     struct synthesis_pair pair[POINTS * POINTS]; /* response i, reference j at i + POINTS j */
     struct synthesis s;
@@ -46,13 +46,14 @@ struct setup {
 static void open_setup(struct setup *t, const struct rotor *rotor, double up_to_hz, double zeta)
 {
     int failed, dof[POINTS];
-    assert_status(client_open(&test_pool, rotor, 0, NULL, 1, &t->client, &failed), ROTID_OK);
+    assert_status(model_open(&test_pool, NULL, rotor, 0, NULL, 1, &t->client, &failed), ROTID_OK);
     for (int i = 0; i < POINTS; i++)
         dof[i] = t->client.master[i];
     for (int p = 0; p < POINTS * POINTS; p++)
         t->pair[p] = (struct synthesis_pair){.response = p % POINTS, .reference = p / POINTS};
-    assert_status(synthesis_open(&test_pool, &t->client.model, NULL, up_to_hz, 0, POINTS, dof, POINTS * POINTS, t->pair, &t->s),
-                  ROTID_OK);
+    assert_status(
+        synthesis_open(&test_pool, &t->client.equations, NULL, up_to_hz, 0, POINTS, dof, POINTS * POINTS, t->pair, &t->s),
+        ROTID_OK);
     for (int r = 0; r < t->s.nmode; r++)
         t->zeta[r] = zeta;
     beam_mass_properties(&t->client.beam, &t->mass);
@@ -229,11 +230,11 @@ static void half_power_bandwidths_are_the_damping_of_table_4(void **state)
     int failed, dof[2];
     rotor->group[1].material.e = 1.157e11;
     rotor->group[1].material.g = 0.316e11;
-    assert_status(client_open(&test_pool, rotor, 0, NULL, 1, &t.client, &failed), ROTID_OK);
+    assert_status(model_open(&test_pool, NULL, rotor, 0, NULL, 1, &t.client, &failed), ROTID_OK);
     dof[0] = t.client.master[0];
     dof[1] = t.client.master[18];
     t.pair[0] = pair;
-    assert_status(synthesis_open(&test_pool, &t.client.model, NULL, 4 * 3200, 0, 2, dof, 1, t.pair, &t.s), ROTID_OK);
+    assert_status(synthesis_open(&test_pool, &t.client.equations, NULL, 4 * 3200, 0, 2, dof, 1, t.pair, &t.s), ROTID_OK);
     assert_int_equal(t.s.nrigid, 2);
     for (int k = 0; k < PAPER_MODES; k++) {
         t.zeta[2 + k] = table4[k];
@@ -282,9 +283,9 @@ static void too_many_modes_are_refused(void **state)
     static struct setup t;
     int failed, dof[1];
     struct synthesis_pair pair = {0};
-    assert_status(client_open(&test_pool, stepped_rotor(200), 0, NULL, 1, &t.client, &failed), ROTID_OK);
+    assert_status(model_open(&test_pool, NULL, stepped_rotor(200), 0, NULL, 1, &t.client, &failed), ROTID_OK);
     dof[0] = t.client.master[0];
-    assert_status(synthesis_open(&test_pool, &t.client.model, NULL, 1e8, 0, 1, dof, 1, &pair, &t.s), ROTID_ERROR_ARGUMENT);
+    assert_status(synthesis_open(&test_pool, &t.client.equations, NULL, 1e8, 0, 1, dof, 1, &pair, &t.s), ROTID_ERROR_ARGUMENT);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)

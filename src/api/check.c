@@ -9,7 +9,7 @@ static int make_result(struct result_memory *memory, const struct job *job, cons
     rotid_check *r = memory ? RESULT_NEW(memory, rotid_check) : NULL;
     if (!r)
         return ROTID_ERROR_MEMORY;
-    beam_mass_properties(s->beam, &mass);
+    model_mass_properties(s->model, &mass);
     *r = (rotid_check){.length_m = rotor_length(&job->rotor),
                        .mass_kg = mass.mass,
                        .center_of_mass_m = mass.center,
@@ -22,7 +22,7 @@ static int make_result(struct result_memory *memory, const struct job *job, cons
                        .measured_modes = job->nmode,
                        .functional = functional_name(job->fit.functional),
                        .reduction = reduction_name(job->fit.reduction),
-                       .geometry = result_geometry(memory, &job->rotor, s->beam),
+                       .geometry = result_geometry(memory, &job->rotor, s->model),
                        .memory = memory};
     r->nsensors = RESULT_LIST(memory, r->sensors, job->rotor.nsensor);
     for (int i = 0; i < r->nsensors; i++)
@@ -43,7 +43,7 @@ int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environmen
         *check = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
-        status = job ? spectrum_compute(&call.entry.scratch, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &found)
+        status = job ? spectrum_compute(&call.entry.scratch, job->models, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &found)
                      : ROTID_ERROR_ARGUMENT;
     if (!status) {
         struct result_memory *memory = result_memory_new(&call.environment);

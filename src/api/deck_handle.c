@@ -5,8 +5,8 @@
 
 #include "api/result_memory.h"
 #include "base/host.h"
-#include "beam/effects.h"
 #include "deck/deck.h"
+#include "model/model.h"
 
 struct deck_handle {
     struct result_memory *own;
@@ -33,16 +33,14 @@ static int parse_overrides(struct result_memory *own, int count, const char *con
 static int weigh(const struct job *job, const rotid_environment *environment, rotid_deck *deck)
 {
     struct pool scratch;
-    struct beam beam;
     struct mass_properties properties;
-    int failed;
     pool_open(&scratch, environment ? environment->allocator : NULL);
-    int status = beam_build(&scratch, &job->rotor, job->nparameter, job->parameter, 1, &beam, &failed);
+    double *x = POOL_ARRAY(&scratch, double, job->nparameter);
+    for (int p = 0; p < job->nparameter && x; p++)
+        x[p] = job->bounds[p].start;
+    int status =
+        x ? model_weigh(&scratch, job->models, &job->rotor, job->nparameter, job->parameter, x, &properties) : ROTID_ERROR_MEMORY;
     if (!status) {
-        for (int p = 0; p < job->nparameter; p++)
-            *parameter_value(&beam.rotor, job->parameter[p]) = job->bounds[p].start;
-        effects_refresh(&beam);
-        beam_mass_properties(&beam, &properties);
         deck->length = rotor_length(&job->rotor);
         deck->mass = properties.mass;
         deck->centre = properties.center;
@@ -64,8 +62,7 @@ static void show(const struct job *job, struct result_memory *own, rotid_deck *d
         stated[p] = *parameter_value(&job->rotor, job->parameter[p]);
     deck->nreferences = RESULT_LIST(own, deck->references, job->nreference);
     for (int i = 0; i < deck->nreferences; i++)
-        deck->references[i] =
-            (rotid_reference){job->reference[i].quantity, job->reference[i].count, job->reference[i].value};
+        deck->references[i] = (rotid_reference){job->reference[i].quantity, job->reference[i].count, job->reference[i].value};
     deck->nsensor = nsensor;
     deck->sensor_id = id;
     deck->sensor_z = z;

@@ -11,7 +11,7 @@ static int make_result(struct result_memory *memory, const struct job *job, cons
     if (!made)
         return ROTID_ERROR_MEMORY;
     made->noise = result_noise(memory, job, made->fit);
-    made->geometry = result_geometry(memory, &job->rotor, found->spectrum.beam);
+    made->geometry = result_geometry(memory, &job->rotor, found->spectrum.model);
     made->nmessage = (int)notes->count;
     made->message = result_messages(memory, notes);
     made->memory = memory;

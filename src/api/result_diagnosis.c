@@ -46,7 +46,7 @@ static void fill_verdict(struct result_memory *memory, const struct diagnosis *d
 {
     *out = (rotid_verdict){.kind = d->sentence ? (int)d->kind : -1,
                            .adequate_after = d->adequate_after,
-                           .p_value = d->p_value,
+                           .p_value = if_known(d->sentence != NULL, d->p_value),
                            .next_measurement = result_text(memory, d->next_measurement),
                            .sentence = result_text(memory, d->sentence),
                            .undetermined_parameters = d->undetermined};
@@ -77,12 +77,11 @@ static void fill_findings(struct result_memory *memory, const struct diagnosis *
     out->nnumerical_findings = RESULT_LIST(memory, out->numerical_findings, d->nnumerical_finding);
     for (int i = 0; i < out->nnumerical_findings; i++) {
         const struct numerical_finding *f = &d->numerical_finding[i];
-        out->numerical_findings[i] =
-            (rotid_numerical_finding){.id = f->cause->id,
-                                      .nmodes = f->nmode,
-                                      .modes = RESULT_COPY(memory, f->mode, f->nmode),
-                                      .error_percent = RESULT_COPY(memory, f->error_percent, f->nmode),
-                                      .text = result_text(memory, f->text)};
+        out->numerical_findings[i] = (rotid_numerical_finding){.id = f->cause->id,
+                                                               .nmodes = f->nmode,
+                                                               .modes = RESULT_COPY(memory, f->mode, f->nmode),
+                                                               .error_percent = RESULT_COPY(memory, f->error_percent, f->nmode),
+                                                               .text = result_text(memory, f->text)};
     }
 }
 
@@ -142,14 +141,13 @@ static rotid_changed_parameter changed_parameter(struct result_memory *memory, c
                                                  int after)
 {
     int was = base && before >= 0, is = extended && after >= 0;
-    return (rotid_changed_parameter){.name = result_text(memory, name->name),
-                                     .unit = result_text(memory, name->unit),
-                                     .before = was ? base->x[before] : (double)NAN,
-                                     .after = is ? extended->x[after] : (double)NAN,
-                                     .before_ci95 = {was ? base->ci_lower[before] : (double)NAN,
-                                                     was ? base->ci_upper[before] : (double)NAN},
-                                     .after_ci95 = {is ? extended->ci_lower[after] : (double)NAN,
-                                                    is ? extended->ci_upper[after] : (double)NAN}};
+    return (rotid_changed_parameter){
+        .name = result_text(memory, name->name),
+        .unit = result_text(memory, name->unit),
+        .before = was ? base->x[before] : (double)NAN,
+        .after = is ? extended->x[after] : (double)NAN,
+        .before_ci95 = {was ? base->ci_lower[before] : (double)NAN, was ? base->ci_upper[before] : (double)NAN},
+        .after_ci95 = {is ? extended->ci_lower[after] : (double)NAN, is ? extended->ci_upper[after] : (double)NAN}};
 }
 
 /* Parameters of the base model, then those that the extended one has besides. */
@@ -159,13 +157,11 @@ static void fill_changes(struct result_memory *memory, const struct diagnosis *d
     int nbase = base ? base->n : 0, nextended = extended ? extended->n : 0,
         room = RESULT_LIST(memory, out->parameters, nbase + nextended);
     for (int p = 0; p < nbase && room; p++)
-        out->parameters[out->nparameters++] =
-            changed_parameter(memory, &d->job.bounds[p], base, p, extended,
-                              fitted_parameter(&d->extended_job, extended, d->job.bounds[p].name));
+        out->parameters[out->nparameters++] = changed_parameter(
+            memory, &d->job.bounds[p], base, p, extended, fitted_parameter(&d->extended_job, extended, d->job.bounds[p].name));
     for (int p = 0; p < nextended && room; p++)
         if (fitted_parameter(&d->job, base, d->extended_job.bounds[p].name) < 0)
-            out->parameters[out->nparameters++] =
-                changed_parameter(memory, &d->extended_job.bounds[p], base, -1, extended, p);
+            out->parameters[out->nparameters++] = changed_parameter(memory, &d->extended_job.bounds[p], base, -1, extended, p);
 }
 
 static void fill_gain(struct result_memory *memory, const struct diagnosis *d, rotid_gain *out)
@@ -230,11 +226,11 @@ rotid_diagnosis *result_diagnosis(struct result_memory *memory, const struct job
     fill_gain(memory, d, &out->gain);
     fill_misfit(memory, d, out);
     fill_detectable(memory, d, out);
-    out->noise = (rotid_noise){.frequency = d->frequency_noise,
-                               .shape = d->shape_noise,
+    out->noise = (rotid_noise){.frequency = if_known(d->frequency_noise > 0, d->frequency_noise),
+                               .shape = if_known(d->shape_noise > 0, d->shape_noise),
                                .frequency_assumed = d->frequency_noise_assumed,
                                .shape_assumed = d->shape_noise_assumed};
-    out->geometry = result_geometry(memory, d->job.deck ? &d->job.rotor : &deck->rotor, d->base.spectrum.beam);
+    out->geometry = result_geometry(memory, d->job.deck ? &d->job.rotor : &deck->rotor, d->base.spectrum.model);
     out->nsteps = RESULT_LIST(memory, out->steps, d->nstep);
     for (int i = 0; i < out->nsteps; i++)
         out->steps[i] = (rotid_step){result_text(memory, d->step[i].name), d->step[i].seconds};

@@ -120,13 +120,13 @@ static void fill_cause(struct result_memory *memory, const struct rotor *rotor, 
             (rotid_cause_parameter){effect->kind->parameter[p].name, effect->kind->parameter[p].unit, effect->value[p]};
 }
 
-rotid_geometry *result_geometry(struct result_memory *memory, const struct rotor *rotor, const struct beam *beam)
+rotid_geometry *result_geometry(struct result_memory *memory, const struct rotor *rotor, const struct rotor_model *model)
 {
     rotid_geometry *out = RESULT_NEW(memory, rotid_geometry);
     if (!out)
         return NULL;
-    if (beam)
-        rotor = &beam->rotor;
+    if (model)
+        rotor = model->rotor;
     out->length_m = rotor_length(rotor);
     out->ngroups = RESULT_LIST(memory, out->groups, rotor->ngroup);
     for (int g = 0; g < out->ngroups; g++)
@@ -136,7 +136,7 @@ rotid_geometry *result_geometry(struct result_memory *memory, const struct rotor
     out->ncauses = RESULT_LIST(memory, out->causes, rotor->neffect);
     for (int i = 0; i < out->ncauses; i++)
         fill_cause(memory, rotor, &rotor->effect[i], &out->causes[i]);
-    out->nodes_z_m = beam ? RESULT_COPY(memory, beam->mesh.z, beam->mesh.naxis) : NULL;
-    out->nnodes_z_m = out->nodes_z_m ? beam->mesh.naxis : 0;
+    out->nodes_z_m = model ? RESULT_COPY(memory, model->z, model->naxis) : NULL;
+    out->nnodes_z_m = out->nodes_z_m ? model->naxis : 0;
     return out;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/order.h"
+#include "fit/baseline.h"
 #include "run/mode_shapes.h"
 
 static void fill_parameters(struct result_memory *memory, const struct job *job, const rotid_fit_result *fit,
@@ -153,7 +154,7 @@ static void fill_shapes(struct result_memory *memory, const struct job *job, con
                         rotid_identification *out)
 {
     struct mode_shapes shapes;
-    const struct rotor *rotor = &found->spectrum.beam->rotor;
+    const struct rotor *rotor = found->spectrum.model->rotor;
     if (mode_shapes_make(&memory->pool, job, &found->spectrum, &found->compared, &shapes) ||
         !(out->shapes = RESULT_NEW(memory, rotid_shapes))) {
         memory->missing = 1;
@@ -219,12 +220,13 @@ rotid_identification *result_identification(struct result_memory *memory, const 
                                       .stop_reason = rotid_status_text(fit->status),
                                       .mass_kg = found->mass.mass,
                                       .center_of_mass_m = found->mass.center,
+                                      .nlopt = baseline_exists(),
                                       .seconds = fit->seconds,
                                       .fit = fit};
         fill_parameters(memory, job, fit, out);
         fill_modes(memory, job, found, out);
         fill_history(memory, found, out);
-        if (found->spectrum.beam)
+        if (found->spectrum.model)
             fill_shapes(memory, job, found, out);
     }
     found->fit = NULL;

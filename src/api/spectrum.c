@@ -20,7 +20,7 @@ static int compute(const struct job *job, const double *x, int nmode, struct ent
         if (!isfinite(at[p]))
             return refuse(entry->failure, "x[%d], the value of %s, is %g, expected a number", p, job->bounds[p].name, at[p]);
     }
-    return spectrum_compute(scratch, &job->rotor, job->nparameter, job->parameter, at, reduction, nmode, spectrum);
+    return spectrum_compute(scratch, job->models, &job->rotor, job->nparameter, job->parameter, at, reduction, nmode, spectrum);
 }
 
 /* compared NULL: the measured modes could not be paired */
@@ -55,7 +55,7 @@ static int make_result(struct result_memory *memory, struct call *call, const st
                           .rigid_hz = RESULT_COPY(memory, s->rigid_hz, s->nrigid),
                           .nsensor_z_m = s->nmaster,
                           .sensor_z_m = RESULT_COPY(memory, s->master_z, masters),
-                          .geometry = result_geometry(memory, &job->rotor, s->beam),
+                          .geometry = result_geometry(memory, &job->rotor, s->model),
                           .master_mass = RESULT_COPY(memory, s->mass, masters * masters),
                           .nmessage = (int)call->notes.count,
                           .message = result_messages(memory, &call->notes),

@@ -2,11 +2,12 @@
 #include <string.h>
 
 #include "beam/beam.h"
-#include "beam/effects.h"
+#include "beam/factors.h"
 #include "beam/hinge.h"
 #include "beam/lumped.h"
 #include "beam/quantities.h"
 #include "linalg/matrix.h"
+#include "rotor/effects.h"
 
 static void add_between(rotid_matrix *a, int first, int second, const double *e)
 {
@@ -71,15 +72,19 @@ static void add_lumped(const struct beam *beam, rotid_matrix *m)
     }
 }
 
+void beam_set(struct beam *beam, const double *x)
+{
+    parameters_set(&beam->rotor, beam->nparameter, beam->parameter, x);
+    factors_refresh(beam);
+}
+
 void beam_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_matrix *m)
 {
     const struct mesh *mesh = &beam->mesh;
     struct element element;
     struct stretch stretch;
     double ek[16], em[16], inertia;
-    for (int p = 0; p < beam->nparameter; p++)
-        *parameter_value(&beam->rotor, beam->parameter[p]) = x[p];
-    effects_refresh(beam);
+    beam_set(beam, x);
     for (int e = 0; e < mesh->nelement; e++)
         add_axis_element(beam, e, k, m);
     add_lumped(beam, m);

@@ -1,45 +1,16 @@
-#include <string.h>
-
 #include "beam/beam.h"
-#include "beam/effects.h"
+#include "beam/cylinder.h"
+#include "beam/factors.h"
 #include "beam/hinge.h"
 #include "linalg/eigen.h"
 #include "linalg/matrix.h"
-
-static const double gravity = 9.81; /* m/s2: the value the paper's table of the rotor rests on */
-
-static void *copy_array(struct pool *pool, const void *source, int count, size_t size, int room)
-{
-    void *copy = pool_get(pool, (size_t)count + (size_t)room, size);
-    if (copy && count)
-        memcpy(copy, source, (size_t)count * size);
-    return copy;
-}
-
-static int copy_rotor(struct pool *pool, const struct rotor *rotor, struct rotor *copy)
-{
-    *copy = *rotor;
-    copy->group = copy_array(pool, rotor->group, rotor->ngroup, sizeof *rotor->group, 0);
-    copy->tierod = copy_array(pool, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod, 0);
-    copy->disk = copy_array(pool, rotor->disk, rotor->ndisk, sizeof *rotor->disk, 0);
-    copy->spring = copy_array(pool, rotor->spring, rotor->nspring, sizeof *rotor->spring, 2); /* two more for a sling */
-    copy->effect = copy_array(pool, rotor->effect, rotor->neffect, sizeof *rotor->effect, 0);
-    return copy->group && copy->tierod && copy->disk && copy->spring && copy->effect ? ROTID_OK : ROTID_ERROR_MEMORY;
-}
 
 static int build_sections(struct beam *beam, int *failed)
 {
     const struct rotor *rotor = &beam->rotor;
     for (int s = 0; s < rotor->nsegment; s++) {
-        const struct segment *segment = &rotor->segment[s];
-        const struct group *group = &rotor->group[segment->group];
-        if (segment->rectangular)
-            section_rectangular(segment->height, segment->width, &beam->section[s]);
-        else
-            section_round(segment->outer, segment->inner, segment->stiff_outer, &beam->section[s]);
-        *failed = segment->group;
-        if (group->holes &&
-            section_perforate(group->holes, group->hole_diameter, group->hole_pitch, segment->stiff_outer, &beam->section[s]))
+        *failed = rotor->segment[s].group;
+        if (section_of_segment(rotor, s, &beam->section[s]))
             return ROTID_ERROR_SECTION;
     }
     for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
@@ -57,15 +28,16 @@ static int build_sections(struct beam *beam, int *failed)
     return ROTID_OK;
 }
 
-/* (44): the rotor hangs by its left end on a sling of length L_e; both springs from the model's own mass and centre of mass */
-static void set_sling(struct beam *beam)
+/* The rest of what a beam needs once its rotor, sections, mesh and hinges are there: what depends on the values of the rotor. */
+static int finish(struct pool *pool, struct beam *beam)
 {
-    struct mass_properties properties;
-    beam_mass_properties(beam, &properties);
-    struct spring *spring = beam->rotor.spring + beam->rotor.nspring - 2;
-    double weight = properties.mass * gravity, length = rotor_length(&beam->rotor);
-    spring[0].lateral = weight / beam->rotor.sling;
-    spring[1].lateral = weight * properties.center / (length * length + properties.center * beam->rotor.sling);
+    struct mass_properties own;
+    int status = factors_open(pool, beam);
+    if (!status && beam->rotor.sling > 0) {
+        beam_mass_properties(beam, &own);
+        rotor_set_sling(&beam->rotor, own.mass, own.center);
+    }
+    return status;
 }
 
 int beam_build(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter, int refine,
@@ -73,7 +45,7 @@ int beam_build(struct pool *pool, const struct rotor *rotor, int nparameter, con
 {
     *failed = -1;
     *beam = (struct beam){.nparameter = nparameter, .parameter = parameter};
-    int status = copy_rotor(pool, rotor, &beam->rotor);
+    int status = rotor_copy(pool, rotor, &beam->rotor);
     if (status)
         return status;
     beam->section = POOL_ARRAY(pool, struct section, rotor->nsegment);
@@ -81,20 +53,21 @@ int beam_build(struct pool *pool, const struct rotor *rotor, int nparameter, con
     if (!beam->section || !beam->tube)
         return ROTID_ERROR_MEMORY;
     status = build_sections(beam, failed);
-    if (status)
-        return status;
-    if (rotor->sling > 0) {
-        beam->rotor.spring[beam->rotor.nspring++] = (struct spring){.name = "sling", .position = 0};
-        beam->rotor.spring[beam->rotor.nspring++] = (struct spring){.name = "sling end", .position = rotor_length(rotor)};
-    }
-    status = mesh_build(pool, &beam->rotor, refine, &beam->mesh);
     if (!status)
-        status = effects_open(pool, beam);
+        status = mesh_build(pool, &beam->rotor, refine, &beam->mesh);
     if (!status)
         status = hinge_place(pool, beam);
-    if (!status && rotor->sling > 0)
-        set_sling(beam);
-    return status;
+    return status ? status : finish(pool, beam);
+}
+
+int beam_of_shape(struct pool *pool, const struct beam *built, const struct rotor *rotor, int nparameter,
+                  const struct parameter *parameter, struct beam *beam)
+{
+    *beam = *built;
+    beam->nparameter = nparameter;
+    beam->parameter = parameter;
+    int status = rotor_copy(pool, rotor, &beam->rotor);
+    return status ? status : finish(pool, beam);
 }
 
 int beam_count_rigid(struct pool *pool, struct beam *beam, const double *x, int *nrigid)

@@ -4,7 +4,7 @@
 #define ROTID_BEAM_MESH_H
 
 #include "base/pool.h"
-#include "beam/rotor.h"
+#include "rotor/rotor.h"
 
 struct chain {               /* a run of elements whose inner nodes are numbered in a row */
     int first_end, last_end; /* nodes it joins; last_end -1: free, its last node is an inner one */

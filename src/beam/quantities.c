@@ -1,19 +1,8 @@
 #include "beam/quantities.h"
 
-#include "beam/effects.h"
-
-/* of all rods of a bundle, with the factors of effects */
-static double tension_of(const struct rotor *rotor, int tierod)
-{
-    const struct tierod *rod = &rotor->tierod[tierod];
-    return rod->number * rod->tension * (rotor->neffect ? effects_on_tierod(rotor, tierod).tension : 1);
-}
-
-/* whether the rods press on what lies at z */
-static int clamps(const struct tierod *rod, double z)
-{
-    return rod->self_equilibrated && rod->from < z && z < rod->to;
-}
+#include "beam/factors.h"
+#include "beam/shear_coefficient.h"
+#include "rotor/effects.h"
 
 static double middle_of(const struct mesh *mesh, int e)
 {
@@ -30,28 +19,25 @@ void axis_quantities(const struct beam *beam, int e, struct element *element)
     const struct material *material = &group->material;
     double unused, middle = middle_of(mesh, e);
     *element = (struct element){.ei = material->e * section->stiff_inertia,
-                                .kgs = section_shear_coefficient(section, material->nu, &unused) *
-                                       material_shear_modulus(material) * section->stiff_area,
+                                .kgs = shear_coefficient(section, material->nu, &unused) * material_shear_modulus(material) *
+                                       section->stiff_area,
                                 .rhos = material->rho * section->mass_area,
                                 .rhoi = material->rho * section->mass_inertia,
-                                .force = beam->elastic_only ? 0 : group->preload,
+                                .force = beam->elastic_only ? 0 : rotor_axial_force(rotor, rotor->segment[s].group, middle),
                                 .length = mesh->z[e + 1] - mesh->z[e]};
-    for (int t = 0; t < rotor->ntierod && !beam->elastic_only; t++)
-        if (clamps(&rotor->tierod[t], middle))
-            element->force -= tension_of(rotor, t);
     if (beam->factor) {
-        const struct effect_factors *factor = &beam->factor[e];
-        element->ei *= factor->ei;
-        element->kgs *= factor->kgs;
-        element->rhos *= factor->rhos;
-        element->rhoi *= factor->rhoi;
+        const struct effect_field *factor = &beam->factor[e];
+        element->ei *= factor->e;
+        element->kgs *= factor->g;
+        element->rhos *= factor->rho;
+        element->rhoi *= factor->rho;
     }
 }
 
 static int material_direction(const struct material *material, const struct section *section, enum parameter_kind kind,
                               struct element *d)
 {
-    double dk, k = section_shear_coefficient(section, material->nu, &dk), g = material_shear_modulus(material);
+    double dk, k = shear_coefficient(section, material->nu, &dk), g = material_shear_modulus(material);
     switch (kind) {
     case PARAMETER_E:
     case PARAMETER_TIEROD_E:
@@ -75,50 +61,37 @@ static int material_direction(const struct material *material, const struct sect
 
 static int effect_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
 {
-    const struct rotor *rotor = &beam->rotor;
-    struct effect_factors rate = {0, 0, 0, 0};
-    int moves = effects_axis_rate(beam, parameter, e, &rate);
+    struct effect_span span = factors_span(beam, e);
+    struct effect_field rate = {0, 0, 0};
+    int moves = effects_axis_rate(&beam->rotor, parameter, &span, 1, &rate);
     if (moves) {
         struct element now;
         axis_quantities(beam, e, &now);
         *d = (struct element){
-            .ei = now.ei * rate.ei, .kgs = now.kgs * rate.kgs, .rhos = now.rhos * rate.rhos, .rhoi = now.rhoi * rate.rhoi};
+            .ei = now.ei * rate.e, .kgs = now.kgs * rate.g, .rhos = now.rhos * rate.rho, .rhoi = now.rhoi * rate.rho};
     }
-    for (int t = 0; t < rotor->ntierod && rotor->effect[parameter.index].kind->tierod; t++) {
-        const struct tierod *rod = &rotor->tierod[t];
-        struct effect_bundle bundle = {0, 0, 0};
-        if (clamps(rod, middle_of(&beam->mesh, e)) && effects_tierod_derivative(rotor, parameter, t, &bundle)) {
-            d->force -= rod->number * rod->tension * bundle.tension;
-            moves |= d->force != 0;
-        }
-    }
-    return moves;
+    d->force = rotor_axial_force_derivative(&beam->rotor, parameter, middle_of(&beam->mesh, e));
+    return moves || d->force != 0;
 }
 
 int axis_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
 {
     const struct rotor *rotor = &beam->rotor;
-    const struct mesh *mesh = &beam->mesh;
-    int s = mesh->segment[e], group = rotor->segment[s].group;
+    int s = beam->mesh.segment[e], group = rotor->segment[s].group;
     *d = (struct element){0};
     if (parameter.kind == PARAMETER_EFFECT)
         return effect_direction(beam, parameter, e, d);
     if (parameter.kind == PARAMETER_TENSION) {
-        const struct tierod *rod = &rotor->tierod[parameter.index];
-        if (!clamps(rod, middle_of(mesh, e)))
-            return 0;
-        d->force = -rod->number * (rotor->neffect ? effects_on_tierod(rotor, parameter.index).tension : 1);
-        return 1;
+        d->force = rotor_axial_force_derivative(rotor, parameter, middle_of(&beam->mesh, e));
+        return d->force != 0;
     }
     if (parameter.kind > PARAMETER_RHO || parameter.index != group)
         return 0;
     int moves = material_direction(&rotor->group[group].material, &beam->section[s], parameter.kind, d);
     if (beam->factor) {
-        const struct effect_factors *factor = &beam->factor[e];
-        *d = (struct element){.ei = d->ei * factor->ei,
-                              .kgs = d->kgs * factor->kgs,
-                              .rhos = d->rhos * factor->rhos,
-                              .rhoi = d->rhoi * factor->rhoi};
+        const struct effect_field *factor = &beam->factor[e];
+        *d = (struct element){
+            .ei = d->ei * factor->e, .kgs = d->kgs * factor->g, .rhos = d->rhos * factor->rho, .rhoi = d->rhoi * factor->rho};
     }
     return moves;
 }
@@ -137,7 +110,7 @@ static struct element bundle_element(const struct material *material, const stru
 {
     double unused;
     return (struct element){.ei = material->e * section->stiff_inertia,
-                            .kgs = section_shear_coefficient(section, material->nu, &unused) * material_shear_modulus(material) *
+                            .kgs = shear_coefficient(section, material->nu, &unused) * material_shear_modulus(material) *
                                    section->stiff_area,
                             .rhos = material->rho * section->mass_area,
                             .rhoi = material->rho * section->mass_inertia,

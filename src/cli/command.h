@@ -9,32 +9,39 @@
 #include "report/terminal.h"
 #include "run/job.h"
 
+#define THREADS_MOST 1024
+
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };
 
 /* Of `ema`: what to read, and how to look for modes in it. */
 struct ema_arguments {
     struct measurement_options measurement;
     struct ema_options options;
-    const char *given; /* the first option of it that was given, or NULL */
 };
 
 /* Of `study`: which runs, or what else to do with their results. */
 struct study_arguments {
     int shard, shards; /* 0: all runs */
     int retry_failed, merge, summary;
-    double timeout;    /* s, 0: none */
-    const char *given; /* the first option of it that was given, or NULL */
+    double timeout; /* s, 0: none */
 };
+
+struct given_option {
+    const char *name, *value; /* value: "" where it has none */
+};
+
+struct result;
 
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
     const char *name, *deck, *json, *at, *extended, *output, *format;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
-    int quiet, verbose, threads, baseline, points, replicates, seed_given, start, condensed;
+    int quiet, verbose, threads, no_baseline, points, replicates, start, condensed;
     unsigned long seed;
     double step, range;
-    int noverride;
+    int ngiven, noverride;
+    struct given_option *given; /* [ngiven] in their order */
     struct override *override;
     struct ema_arguments ema;
     struct study_arguments study;
@@ -42,7 +49,8 @@ struct command {
     struct pool pool;
     struct message_list messages;
     size_t printed; /* of the messages */
-    struct job job;
+    rotid_deck *read;      /* what was read; NULL of commands that read none */
+    const struct job *job; /* of it */
     struct provenance provenance;
 };
 
@@ -52,14 +60,24 @@ int command_read_deck(struct command *command);
 /* Prints the messages that are new on standard error: errors always, the rest unless quiet. */
 void command_print_messages(struct command *command);
 
+/* The messages of a call of the library go to those of the command. */
+void command_take_messages(struct command *command, int count, const rotid_message *message);
+
+/* The result of the command so far: its head, and the warnings among the messages. ROTID_ERROR_MEMORY. */
+int command_open_result(struct command *command, struct result *result);
+
 /* The exit code of a status below zero, after saying what happened. */
 int command_fail(struct command *command, int status);
+/* The same of a call of the library that left its reason in `failure`. */
+int command_fail_with(struct command *command, int status, const char *failure);
 
 /* Tables go to standard output unless that carries JSON or the user wants none. */
 int command_wants_table(const struct command *command);
 
 /* Writes text (may be NULL: out of memory) where --json says and frees it; `code` unless that fails. */
 int command_write_json(struct command *command, char *text, int code);
+/* The same of a result. */
+int command_write_result(struct command *command, const struct result *result, int code);
 
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);

@@ -87,7 +87,7 @@ int study_prepare(struct command *command, struct study *study)
                        : plan_of_decks(&command->pool, command->nfile, command->file, plan);
     if (!status)
         status = study_open(&command->pool, plan, command->noverride, command->override,
-                            command->seed_given ? command->seed : plan->seed, &command->messages, study);
+                            arguments_given(command, "seed") ? command->seed : plan->seed, &command->messages, study);
     if (status)
         return command_fail(command, status);
     int refused = arguments_refuse_read(command, plan->text.nfile, plan->text.file);

@@ -79,7 +79,7 @@ static void take_mode(struct weighing *w, int m, struct nelson_band *nelson, dou
 {
     const struct prediction *p = &w->columns.functional.prediction;
     const struct columns_mode *mode = &w->columns.mode[m];
-    const int *master = w->columns.client.model.master;
+    const int *master = w->columns.model.equations.master;
     int n = p->size;
     const double *phi = p->phi + (ptrdiff_t)mode->pair * n;
     double lambda = p->lambda[mode->pair], *m_phi = vector, *work = m_phi + (ptrdiff_t)CLUSTER_MOST * n, *answer = work + n,

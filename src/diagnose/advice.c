@@ -6,7 +6,7 @@
 #include "diagnose/engine.h"
 #include "diagnose/leave_out.h"
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 #define MORE_MODES 3 /* above the highest measured one */
 #define MOST_SET   6
@@ -19,16 +19,17 @@ struct future { /* of one model */
 /* Frequencies of the model of a refit up to some modes beyond those measured. */
 static int foresee(struct pool *pool, const struct job *job, const double *x, int count, struct future *future)
 {
-    struct client client;
+    struct rotor_model model;
     struct prediction p;
-    int failed, status = client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, &client, &failed);
+    int failed, status = model_open(pool, job->models, &job->rotor, job->nparameter, job->parameter, 1, &model, &failed);
     future->count = count;
     if (!status)
-        status = prediction_new(pool, &client.model, ROTID_REDUCTION_NONE, ROTID_NELSON, client.model.nrigid + count, 0, &p);
+        status =
+            prediction_new(pool, &model.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model.equations.nrigid + count, 0, &p);
     if (!status)
         status = prediction_compute(&p, x);
     for (int k = 0; k < count && !status; k++)
-        future->hz[k] = prediction_hz(&p, client.model.nrigid + k);
+        future->hz[k] = prediction_hz(&p, model.equations.nrigid + k);
     return status;
 }
 

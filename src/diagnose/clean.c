@@ -7,6 +7,7 @@
 #include "diagnose/engine.h"
 #include "diagnose/noise_check.h"
 #include "diagnose/sensor_check.h"
+#include "model/deflection.h"
 
 #define MOST_FAULTS 8
 #define FALSE_ALARM 0.005
@@ -49,12 +50,12 @@ static int shape_data(struct engine *engine, struct columns *columns, struct sha
 {
     struct pool *pool = engine->pool;
     const struct job *job = &engine->job;
-    const struct mesh *mesh = &columns->client.beam.mesh;
+    const struct rotor_model *model = &columns->model;
     const struct prediction *p = &columns->functional.prediction;
     int nsensor = job->rotor.nsensor, nmode = columns->nmode;
     double *z = POOL_ARRAY(pool, double, nsensor), *shape = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
            *std = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
-           *axis = POOL_ARRAY(pool, double, (size_t)mesh->naxis *(size_t)nmode);
+           *axis = POOL_ARRAY(pool, double, (size_t)model->naxis *(size_t)nmode);
     if (!z || !shape || !std || !axis)
         return ROTID_ERROR_MEMORY;
     for (int s = 0; s < nsensor; s++)
@@ -64,10 +65,11 @@ static int shape_data(struct engine *engine, struct columns *columns, struct sha
         ptrdiff_t from = (ptrdiff_t)mode->k * nsensor, to = (ptrdiff_t)m * nsensor;
         memcpy(shape + to, columns->functional.shape + from, (size_t)nsensor * sizeof *shape);
         memcpy(std + to, job->shape_std + from, (size_t)nsensor * sizeof *std);
-        for (int i = 0; i < mesh->naxis; i++)
-            axis[i + (ptrdiff_t)m * mesh->naxis] = mode->scale * p->phi[2 * (ptrdiff_t)i + (ptrdiff_t)mode->pair * p->size];
+        for (int i = 0; i < model->naxis; i++)
+            axis[i + (ptrdiff_t)m * model->naxis] =
+                mode->scale * model_deflection(model, i, p->phi + (ptrdiff_t)mode->pair * p->size);
     }
-    *data = (struct shape_data){nsensor, nmode, z, shape, std, mesh->naxis, mesh->z, axis};
+    *data = (struct shape_data){nsensor, nmode, z, shape, std, model->naxis, model->z, axis};
     return ROTID_OK;
 }
 

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "beam/hinge.h"
 #include "linalg/matrix.h"
 #include "linalg/product.h"
 
@@ -23,7 +22,7 @@ static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const d
     matrix_multiply(&p->m, mode->members, phi, m_phi);
     memset(unit, 0, (size_t)n * (size_t)mode->sensors * sizeof *unit);
     for (int i = 0; i < mode->sensors; i++)
-        unit[c->client.model.master[mode->sensor[i]] + (ptrdiff_t)i * n] = 1;
+        unit[c->model.equations.master[mode->sensor[i]] + (ptrdiff_t)i * n] = 1;
     nelson_band_solve(nelson, mode->sensors, mode->members, phi, m_phi, unit, zero, mode->adjoint);
     return ROTID_OK;
 }
@@ -32,7 +31,7 @@ static int open_mode(struct pool *pool, struct columns *c, int k, struct columns
 {
     const struct functional *f = &c->functional;
     const rotid_measured *measured = &c->measured;
-    int nmaster = c->client.model.nmaster;
+    int nmaster = c->model.equations.nmaster;
     *mode = (struct columns_mode){.k = k, .pair = f->pair[k]};
     mode->members = eigenvalue_cluster(f->prediction.count, f->prediction.lambda, mode->pair, &mode->first);
     int *sensor = POOL_ARRAY(pool, int, nmaster);
@@ -74,7 +73,7 @@ static int open_model(struct pool *pool, const struct job *job, const struct eff
     for (int i = 0; i < added; i++)
         parameter[nparameter + i] = (struct parameter){.kind = PARAMETER_EFFECT, .index = effects, .component = i};
     rotor.effect = effect;
-    return client_open(pool, &rotor, nparameter + added, parameter, 1, &c->client, &failed);
+    return model_open(pool, job->models, &rotor, nparameter + added, parameter, 1, &c->model, &failed);
 }
 
 int columns_open(struct pool *pool, const struct job *job, const int *number, const int *holdout, const struct effect *extra,
@@ -84,7 +83,7 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
     int status = open_model(pool, job, extra, c);
     if (status)
         return status;
-    int nparam = c->client.model.nparam, shapes = job_fits_shapes(job);
+    int nparam = c->model.equations.nparam, shapes = job_fits_shapes(job);
     c->measured = (rotid_measured){.nmode = job->nmode,
                                    .number = number,
                                    .frequency_hz = job->frequency_hz,
@@ -92,7 +91,7 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
                                    .shape = shapes ? job->shape : NULL,
                                    .shape_std = shapes ? job->shape_std : NULL,
                                    .holdout = holdout};
-    status = functional_new(pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &c->client.model, &c->measured,
+    status = functional_new(pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &c->model.equations, &c->measured,
                             &c->functional);
     if (status)
         return status;
@@ -103,7 +102,7 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
     if (!c->mode || !c->x || !c->r)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < nparam; p++)
-        c->x[p] = x && p < job->nparameter ? x[p] : *parameter_value(&c->client.beam.rotor, c->client.beam.parameter[p]);
+        c->x[p] = x && p < job->nparameter ? x[p] : *parameter_value(c->model.rotor, c->model.parameter[p]);
     status = functional_residual(&c->functional, c->x, c->r);
     for (int m = 0; m < job->nmode && !status; m++) {
         if (holdout && holdout[m])
@@ -117,7 +116,7 @@ int columns_prepare(struct columns *c)
 {
     struct pool *pool = c->pool;
     const rotid_matrix *k = &c->functional.prediction.k;
-    int n = c->client.model.n, most = c->client.model.nmaster > 1 ? c->client.model.nmaster : 1;
+    int n = c->model.equations.n, most = c->model.equations.nmaster > 1 ? c->model.equations.nmaster : 1;
     double *vectors = POOL_ARRAY(pool, double, 3 * (size_t)n), *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
            *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n), *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
@@ -151,7 +150,7 @@ static void project_scale(const struct columns_mode *mode, double *part)
  * dr = a (I - P) du - u (du' r)/(u'u), where P projects on u. */
 static void shape_part(const struct columns *c, const struct columns_mode *mode, double *dphi, const double *r, double *part)
 {
-    const double *std = c->measured.shape_std + (ptrdiff_t)mode->k * c->client.model.nmaster;
+    const double *std = c->measured.shape_std + (ptrdiff_t)mode->k * c->model.equations.nmaster;
     double along = 0;
     for (int i = 0; i < mode->sensors; i++) {
         dphi[i] /= std[mode->sensor[i]];
@@ -168,9 +167,9 @@ static void shape_part(const struct columns *c, const struct columns_mode *mode,
  * elements. */
 static double mode_derivative(struct columns *c, const struct columns_mode *mode, double *dphi)
 {
-    const rotid_model *model = &c->client.model;
+    const rotid_model *equations = &c->model.equations;
     const struct prediction *prediction = &c->functional.prediction;
-    int n = model->n, first = 0, last = n;
+    int n = equations->n, first = 0, last = n;
     const double *phi = prediction->phi + (ptrdiff_t)mode->pair * n;
     double lambda = prediction->lambda[mode->pair];
     matrix_multiply(&c->dk, 1, phi, c->dk_phi);
@@ -187,18 +186,18 @@ static double mode_derivative(struct columns *c, const struct columns_mode *mode
         const double *member = prediction->phi + (ptrdiff_t)j * n;
         double along = -0.5 * product_dot(n, member, c->dm_phi);
         for (int i = 0; i < mode->sensors; i++)
-            dphi[i] += along * member[model->master[mode->sensor[i]]];
+            dphi[i] += along * member[equations->master[mode->sensor[i]]];
     }
     return product_dot(n, phi, c->right);
 }
 
 int columns_parameter(struct columns *c, int p, double *column)
 {
-    const rotid_model *model = &c->client.model;
+    const rotid_model *equations = &c->model.equations;
     int row = c->nmode;
     matrix_zero(&c->dk);
     matrix_zero(&c->dm);
-    if (model->derivatives(model->user, c->x, p, &c->dk, &c->dm))
+    if (equations->derivatives(equations->user, c->x, p, &c->dk, &c->dm))
         return ROTID_ERROR_CALLBACK;
     for (int m = 0; m < c->nmode; m++) {
         const struct columns_mode *mode = &c->mode[m];
@@ -212,13 +211,9 @@ int columns_parameter(struct columns *c, int p, double *column)
 
 int columns_probe(struct columns *c, const struct effect *effect)
 {
-    struct rotor *rotor = &c->client.beam.rotor;
-    struct effect *slot = &rotor->effect[rotor->neffect - 1];
-    int joints = slot->kind->joint || effect->kind->joint;
-    *slot = *effect;
     for (int i = 0; i < EFFECT_MOST_PARAMETERS; i++)
         c->x[c->job->nparameter + i] = effect->value[i];
-    return joints ? hinge_place(c->pool, &c->client.beam) : ROTID_OK; /* which element has the hinge is settled with the mesh */
+    return model_exchange_effect(c->pool, &c->model, effect);
 }
 
 int columns_residual(struct columns *c, const double *x, double *r)
@@ -234,7 +229,7 @@ void columns_sensor(const struct columns *c, int s, const double *d, double *col
         const struct columns_mode *mode = &c->mode[m];
         for (int i = 0; i < mode->sensors; i++)
             if (mode->sensor[i] == s)
-                column[row + i] = d[m] / c->measured.shape_std[s + (ptrdiff_t)mode->k * c->client.model.nmaster];
+                column[row + i] = d[m] / c->measured.shape_std[s + (ptrdiff_t)mode->k * c->model.equations.nmaster];
         project_scale(mode, column + row);
         row += mode->sensors;
     }

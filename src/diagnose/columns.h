@@ -6,7 +6,7 @@
 #define ROTID_DIAGNOSE_COLUMNS_H
 
 #include "modal/functional.h"
-#include "run/client.h"
+#include "model/model.h"
 #include "run/job.h"
 
 struct columns_mode {
@@ -22,7 +22,7 @@ struct columns_mode {
 struct columns {
     struct pool *pool;
     const struct job *job;
-    struct client client;
+    struct rotor_model model;
     struct functional functional;
     rotid_measured measured;
     int nrow, nmode;                 /* residuals, fitted modes */

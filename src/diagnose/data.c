@@ -147,7 +147,8 @@ static int look_like_radians(struct engine *engine)
     for (int p = 0; p < job->nparameter; p++)
         x[p] = job->bounds[p].start;
     pool_open(&scratch, engine->pool->allocator);
-    int status = spectrum_compute(&scratch, &job->rotor, job->nparameter, job->parameter, x, ROTID_GUYAN, highest, &spectrum);
+    int status =
+        spectrum_compute(&scratch, job->models, &job->rotor, job->nparameter, job->parameter, x, ROTID_GUYAN, highest, &spectrum);
     for (int k = 0; k < job->nmode && !status && count < 64; k++)
         if (job->number[k] <= spectrum.count)
             ratio[count++] = job->frequency_hz[k] / spectrum.full_hz[job->number[k] - 1];

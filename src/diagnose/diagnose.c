@@ -84,7 +84,11 @@ int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose
     out->numerical_finding = POOL_ARRAY(pool, struct numerical_finding, 2);
     if (!out->step || !out->numerical_finding)
         return ROTID_ERROR_MEMORY;
-    int status = run(&engine, job, &last);
+    struct job judged = *job;
+    judged.models = models_for_run(pool, job->models);
+    int status = judged.models ? run(&engine, &judged, &last) : ROTID_ERROR_MEMORY;
+    if (judged.models)
+        models_end_run(pool, judged.models, job->models);
     round_free(&last);
     if (engine.fit != out->base.fit)
         rotid_fit_free(engine.fit);

@@ -35,15 +35,15 @@ static int is_secant(const struct cause_kind *cause)
     return cause->secant || cause->effect->nparameter == 0;
 }
 
-static void list_items(const struct rotor *rotor, const struct mesh *mesh, struct scan *scan)
+static void list_items(const struct rotor *rotor, const struct rotor_model *model, struct scan *scan)
 {
-    int stride = place_stride(mesh->naxis);
+    int stride = place_stride(model->naxis);
     for (int i = 0; i < scan->ncandidate; i++) {
         struct scan_candidate *c = &scan->candidate[i];
         const struct cause_kind *cause = c->cause;
         int widths = searches(c, cause->width) ? WIDTHS : 1;
         c->first = scan->nitem;
-        c->count = item_count(c, mesh->naxis);
+        c->count = item_count(c, model->naxis);
         double lower = 1, upper = 1;
         if (cause->width >= 0)
             cause->bounds(rotor, &c->effect, cause->width, &lower, &upper);
@@ -52,7 +52,7 @@ static void list_items(const struct rotor *rotor, const struct mesh *mesh, struc
             int node = j / widths * stride;
             *item = (struct scan_item){.candidate = i, .effect = c->effect, .unit = 1};
             if (searches(c, cause->place))
-                item->effect.value[cause->place] = mesh->z[node];
+                item->effect.value[cause->place] = model->z[node];
             if (searches(c, cause->width))
                 item->effect.value[cause->width] = lower * pow(upper / lower, width_fraction[j % widths]);
             item->side = cause->parameter[cause->size].one_sided;
@@ -168,10 +168,10 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
         status = columns_prepare(&columns);
     if (status)
         return status;
-    const struct mesh *mesh = &columns.client.beam.mesh;
+    const struct rotor_model *model = &columns.model;
     int items = 0, n = scan->nrow = columns.nrow;
     for (int i = 0; i < scan->ncandidate; i++)
-        items += item_count(&scan->candidate[i], mesh->naxis);
+        items += item_count(&scan->candidate[i], model->naxis);
     scan->item = POOL_ARRAY(pool, struct scan_item, items);
     scan->column = POOL_ARRAY(pool, double, (size_t)items *(size_t)n);
     scan->basis = POOL_ARRAY(pool, double, (size_t)(job->nparameter + columns.nmode + 1) * (size_t)n);
@@ -179,7 +179,7 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
     double *raw = POOL_ARRAY(pool, double, items);
     if (!scan->item || !scan->column || !scan->basis || !scan->r || !raw)
         return ROTID_ERROR_MEMORY;
-    list_items(&job->rotor, mesh, scan);
+    list_items(&job->rotor, model, scan);
     scan->nfrequency = columns.nmode;
     scan->nfree = job->nparameter;
     memcpy(scan->r, columns.r, (size_t)n * sizeof *scan->r);

@@ -8,7 +8,7 @@
 
 static int condense(struct pool *pool, struct export_model *model)
 {
-    const rotid_model *beam = &model->client->model;
+    const rotid_model *beam = &model->discrete->equations;
     struct export_condensed *c = &model->condensed;
     struct reduction reduction;
     c->count = beam->nmaster;
@@ -40,32 +40,32 @@ int export_model_open(struct pool *pool, const struct job *job, const struct ide
     *model = (struct export_model){.job = job, .version = version, .identified = identified};
     int failed, highest = comparison_highest(job), nparameter = identified ? job->nparameter : 0;
     const double *x = identified ? identified->fit->x : NULL;
-    model->client = POOL_NEW(pool, struct client);
-    if (!model->client)
+    model->discrete = POOL_NEW(pool, struct rotor_model);
+    if (!model->discrete)
         return ROTID_ERROR_MEMORY;
-    struct client *client = model->client;
-    int status = client_open(pool, &job->rotor, nparameter, job->parameter, 1, client, &failed);
-    const struct mesh *mesh = &client->beam.mesh;
+    struct rotor_model *discrete = model->discrete;
+    int status = model_open(pool, job->models, &job->rotor, nparameter, job->parameter, 1, discrete, &failed);
+    const struct mesh *mesh = &discrete->beam.mesh;
     if (!status)
         status = matrix_new(pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &model->k);
     if (!status)
         status = matrix_new(pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &model->m);
     if (!status)
-        status = spectrum_compute(pool, &job->rotor, nparameter, job->parameter, x,
+        status = spectrum_compute(pool, job->models, &job->rotor, nparameter, job->parameter, x,
                                   job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN,
                                   highest > EXPORT_MODES ? highest : EXPORT_MODES, &model->spectrum);
     if (!status)
         status = export_nodes(pool, model);
     if (status)
         return status;
-    beam_assemble(&client->beam, x, &model->k, &model->m);
-    beam_mass_properties(&client->beam, &model->mass);
+    beam_assemble(&discrete->beam, x, &model->k, &model->m);
+    beam_mass_properties(&discrete->beam, &model->mass);
     return with_condensed ? condense(pool, model) : ROTID_OK;
 }
 
 double export_parameter(const struct export_model *model, int p)
 {
-    return *parameter_value(&model->client->beam.rotor, model->job->parameter[p]);
+    return *parameter_value(&model->discrete->beam.rotor, model->job->parameter[p]);
 }
 
 double export_parameter_std(const struct export_model *model, int p)
@@ -76,10 +76,10 @@ double export_parameter_std(const struct export_model *model, int p)
 int export_master_id(const struct export_model *model, int i)
 {
     const struct rotor *rotor = &model->job->rotor;
-    return rotor->nsensor ? rotor->sensor[i].id : model->client->master[i] / 2 + 1;
+    return rotor->nsensor ? rotor->sensor[i].id : model->discrete->master[i] / 2 + 1;
 }
 
 double export_master_z(const struct export_model *model, int i)
 {
-    return model->client->beam.mesh.z[model->client->master[i] / 2];
+    return model->discrete->z[model->discrete->master[i] / 2];
 }

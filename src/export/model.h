@@ -3,7 +3,7 @@
 #ifndef ROTID_EXPORT_MODEL_H
 #define ROTID_EXPORT_MODEL_H
 
-#include "run/client.h"
+#include "model/model.h"
 #include "run/identify.h"
 #include "run/job.h"
 
@@ -12,7 +12,7 @@
 
 struct export_condensed {
     const char *impossible; /* why there is none, else NULL */
-    int kind, count;        /* ROTID_GUYAN or ROTID_IRS; masters, those of the client */
+    int kind, count;        /* ROTID_GUYAN or ROTID_IRS; masters, those of the discrete */
     double *k, *m;          /* [count * count] */
 };
 
@@ -26,7 +26,7 @@ struct export_model {
     const struct job *job;
     const char *version;
     const struct identification *identified; /* NULL: as the deck states it */
-    struct client *client;                   /* its beam stands at the exported values */
+    struct rotor_model *discrete;            /* its beam stands at the exported values */
     rotid_matrix k, m;
     struct export_node *node; /* [mesh.nnode]: of the axis, then the inner ones of rods and bars */
     struct export_condensed condensed;
@@ -35,7 +35,7 @@ struct export_model {
 };
 
 /* identified: a fit of the job, or NULL for the model as the deck states it. condense: nonzero, with the condensed matrices.
- * Statuses of client_open and spectrum_compute. */
+ * Statuses of model_open and spectrum_compute. */
 int export_model_open(struct pool *pool, const struct job *job, const struct identification *identified, const char *version,
                       int condense, struct export_model *model);
 

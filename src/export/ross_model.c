@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "beam/effects.h"
+#include "rotor/effects.h"
 
 #define SAME_SHAPE    0.9 /* MAC of modes that are one */
 #define NEAR_SCRIPT   0.2 /* of a frequency, beyond which they are not */
@@ -13,7 +13,7 @@
 /* The rotor without inner nodes of rods and bars; 1 where that changes it, 0 where not, or a negative status. */
 static int simplify(struct pool *pool, const struct export_model *model, struct rotor *rotor, struct message_list *notes)
 {
-    const struct beam *beam = &model->client->beam;
+    const struct beam *beam = &model->discrete->beam;
     int changed = 0;
     *rotor = model->job->rotor;
     struct tierod *tierod = POOL_ARRAY(pool, struct tierod, rotor->ntierod);
@@ -59,11 +59,11 @@ static int simplify(struct pool *pool, const struct export_model *model, struct 
 static int find_partners(struct pool *pool, const double *x, int nparameter, struct ross_model *ross)
 {
     const struct job *job = ross->model->job;
-    const struct mesh *mesh = &ross->model->client->beam.mesh;
+    const struct mesh *mesh = &ross->model->discrete->beam.mesh;
     const struct spectrum *script = ross->spectrum;
     struct spectrum deck;
     int inner = 2 * (mesh->nnode - mesh->naxis), count = script->count + (inner < MOST_OWN ? inner : MOST_OWN);
-    int status = spectrum_compute(pool, &job->rotor, nparameter, job->parameter, x, ROTID_GUYAN, count, &deck);
+    int status = spectrum_compute(pool, job->models, &job->rotor, nparameter, job->parameter, x, ROTID_GUYAN, count, &deck);
     double *hz = POOL_ARRAY(pool, double, script->count);
     if (status || !hz)
         return status ? status : ROTID_ERROR_MEMORY;
@@ -98,7 +98,7 @@ static void say_shifts(const struct ross_model *ross, struct message_list *notes
 static void say_limits(const struct export_model *model, struct message_list *notes)
 {
     const struct rotor *rotor = &model->job->rotor;
-    int elements = model->client->beam.mesh.nelement;
+    int elements = model->discrete->beam.mesh.nelement;
     for (int s = 0; s < rotor->nsegment; s++)
         if (rotor->segment[s].rectangular && (!s || rotor->segment[s - 1].group != rotor->segment[s].group))
             message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
@@ -121,24 +121,23 @@ int ross_open(struct pool *pool, const struct export_model *model, struct messag
     int failed, nparameter = model->identified ? job->nparameter : 0;
     const double *x = model->identified ? model->identified->fit->x : NULL;
     struct rotor rotor;
-    *ross = (struct ross_model){.model = model, .client = model->client, .spectrum = &model->spectrum};
+    *ross = (struct ross_model){.model = model, .discrete = model->discrete, .spectrum = &model->spectrum};
     say_limits(model, notes);
     int changed = simplify(pool, model, &rotor, notes);
     if (changed <= 0)
         return changed;
     struct spectrum *spectrum = POOL_NEW(pool, struct spectrum);
-    ross->client = POOL_NEW(pool, struct client);
-    if (!spectrum || !ross->client)
+    ross->discrete = POOL_NEW(pool, struct rotor_model);
+    if (!spectrum || !ross->discrete)
         return ROTID_ERROR_MEMORY;
     ross->spectrum = spectrum;
-    int status = client_open(pool, &rotor, nparameter, job->parameter, 1, ross->client, &failed);
+    int status = model_open(pool, job->models, &rotor, nparameter, job->parameter, 1, ross->discrete, &failed);
     if (!status)
-        status = spectrum_compute(pool, &rotor, nparameter, job->parameter, x, ROTID_GUYAN, model->spectrum.count, spectrum);
+        status = spectrum_compute(pool, job->models, &rotor, nparameter, job->parameter, x, ROTID_GUYAN, model->spectrum.count,
+                                  spectrum);
     if (status)
         return status;
-    for (int p = 0; p < nparameter; p++)
-        *parameter_value(&ross->client->beam.rotor, job->parameter[p]) = x[p];
-    effects_refresh(&ross->client->beam);
+    model_set(ross->discrete, x);
     status = find_partners(pool, x, nparameter, ross);
     if (!status)
         say_shifts(ross, notes);

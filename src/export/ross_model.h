@@ -28,12 +28,12 @@ struct ross_matrices {
 
 struct ross_model {
     const struct export_model *model;
-    struct client *client;           /* the beam of the script: that of the model where nothing had to be replaced */
+    struct rotor_model *discrete;    /* the beam of the script: that of the model where nothing had to be replaced */
     const struct spectrum *spectrum; /* its frequencies */
     double *deck_hz; /* [spectrum->count] of the deck's own model for each of them, NaN without a partner; NULL: the same */
 };
 
-/* Says in `notes` what is replaced and what that costs, and what holds at rest only. Statuses of client_open and
+/* Says in `notes` what is replaced and what that costs, and what holds at rest only. Statuses of model_open and
  * spectrum_compute. */
 int ross_open(struct pool *pool, const struct export_model *model, struct message_list *notes, struct ross_model *ross);
 

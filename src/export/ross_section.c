@@ -1,7 +1,8 @@
 #include <math.h>
 
-#include "beam/effects.h"
+#include "beam/factors.h"
 #include "export/ross_model.h"
+#include "rotor/effects.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -49,7 +50,7 @@ static const char *reasons_of(struct pool *pool, const struct beam *beam, int e)
 {
     const struct rotor *rotor = &beam->rotor;
     const struct segment *segment = &rotor->segment[beam->mesh.segment[e]];
-    const struct effect_span span = {segment->group, beam->mesh.segment[e], beam->mesh.z[e], beam->mesh.z[e + 1]};
+    const struct effect_span span = factors_span(beam, e);
     const char *reasons = "";
     if (segment->rectangular)
         reasons = add_reason(pool, reasons, "rectangular, bending in the measured plane only");
@@ -59,9 +60,8 @@ static const char *reasons_of(struct pool *pool, const struct beam *beam, int e)
         reasons = add_reason(pool, reasons, "stiffness diameter");
     for (int i = 0; i < rotor->neffect; i++) {
         const struct effect *effect = &rotor->effect[i];
-        struct effect_factors f = {1, 1, 1, 1};
-        if (effect->kind->axis && effect->kind->axis(effect, rotor, &span, -1, &f) &&
-            (f.ei != 1 || f.kgs != 1 || f.rhos != 1 || f.rhoi != 1))
+        struct effect_field f = {1, 1, 1};
+        if (effect_on_axis(effect, rotor, &span, 1, -1, &f) && (f.e != 1 || f.g != 1 || f.rho != 1))
             reasons = add_reason(pool, reasons, effect->name);
     }
     return reasons;

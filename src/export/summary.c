@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "result/json_tree.h"
 #include "report/layout.h"
 #include "report/table.h"
+#include "result/json_tree.h"
 
 const double *export_exported_hz(const struct export_files *files, const struct export_model *model,
                                  const struct ross_model *ross, int *count)
@@ -27,7 +27,7 @@ void table_export(FILE *out, const struct export_files *files, const struct expo
     const struct spectrum *s = &model->spectrum;
     int count;
     const double *hz = export_exported_hz(files, model, ross, &count);
-    table_heading(out, job);
+    table_job_heading(out, job);
     (void)fprintf(out,
                   model->identified ? "model           identified from %d measured modes\n"
                                     : "model           as the deck states it\n",
@@ -91,7 +91,7 @@ char *json_export(const struct provenance *provenance, const struct export_files
     add_parameters(&tree, model);
     json_number(&tree, tree.root, "mass_kg", model->mass.mass);
     json_number(&tree, tree.root, "center_of_mass_m", model->mass.center);
-    json_number(&tree, tree.root, "nodes", model->client->beam.mesh.nnode);
+    json_number(&tree, tree.root, "nodes", model->discrete->beam.mesh.nnode);
     json_number(&tree, tree.root, "degrees_of_freedom", model->k.n);
     json_text(&tree, tree.root, "reduction", model->condensed.k ? reduction_name(model->condensed.kind) : NULL);
     json_number(&tree, tree.root, "masters", model->condensed.k ? (double)model->condensed.count : NAN);

@@ -8,15 +8,15 @@
 
 #define MOST_SERIES 10 /* parameters or modes of a picture: as many styles as there are */
 
-static const struct reference_values *reference_of(struct pool *pool, const struct result *result, const char *parameter)
+static const rotid_reference *reference_of(struct pool *pool, const struct result *result, const char *parameter)
 {
     const char *quantity = pool_format(pool, "sensitivity %s", parameter);
-    return quantity ? result_reference(result, quantity) : NULL;
+    return quantity ? head_reference(&result->head, quantity) : NULL;
 }
 
-static double reference_value(const struct reference_values *reference, int k)
+static double reference_value(const rotid_reference *reference, int k)
 {
-    return reference && k < reference->count ? fabs(reference->value[k]) : (double)NAN;
+    return reference && k < reference->nvalues ? fabs(reference->values[k]) : (double)NAN;
 }
 
 static struct number_table *sensitivity_table(struct pool *pool, const struct result *result)
@@ -27,7 +27,7 @@ static struct number_table *sensitivity_table(struct pool *pool, const struct re
     table_head(table, 1, "frequency [Hz]");
     for (int p = 0; p < s->nparameter; p++) {
         const struct sensitivity_parameter *parameter = &s->parameter[p];
-        const struct reference_values *reference = reference_of(pool, result, parameter->name);
+        const rotid_reference *reference = reference_of(pool, result, parameter->name);
         table_head(table, 2 + 3 * p,
                    pool_format(pool, "%s, %s\xc2\xa0%% step [1]", parameter->name, human_digits(pool, 100 * s->step, 2)));
         table_head(table, 3 + 3 * p, pool_format(pool, "%s, limit [1]", parameter->name));
@@ -60,7 +60,7 @@ static int sensitivity_script(struct document *document, struct figure *figure, 
     for (int k = 0; k < m; k++)
         value[k] = k + 1;
     for (int p = 0; p < count; p++) {
-        const struct reference_values *reference = reference_of(pool, result, s->parameter[p].name);
+        const rotid_reference *reference = reference_of(pool, result, s->parameter[p].name);
         for (int k = 0; k < m; k++) {
             value[k + (ptrdiff_t)(1 + p) * m] = fabs(s->parameter[p].difference[k]);
             value[k + (ptrdiff_t)(1 + count + p) * m] = reference_value(reference, k);

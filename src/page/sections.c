@@ -6,15 +6,15 @@
 #include "page/human.h"
 #include "page/tables.h"
 
-void section_rotor(struct document *document, const struct result *result, const struct fitted *fit)
+void section_rotor(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     document_section(document, "model", "The rotor");
-    figure_rotor(document, result, result->geometry, fit);
+    figure_rotor(document, result, geometry_of_result(result), fit);
 }
 
 void section_identify(struct document *document, const struct result *result)
 {
-    const struct fitted *fit = result->identify;
+    const rotid_identification *fit = result->identify;
     document_section(document, "agreement", "Model and measurement");
     figure_frequencies(document, result, fit);
     figure_shapes(document, result, fit);

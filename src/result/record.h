@@ -37,7 +37,7 @@ enum field_shape {
 enum {
     MAY_BE_NULL = 1,    /* not known: null. Of a list: NULL; of its elements: ELEMENTS_MAY_BE_NULL */
     ELEMENTS_MAY_BE_NULL = 2,
-    IF_KNOWN = 4,       /* not known: the key is left out; of FIELD_INLINE all of them, which the first one tells */
+    IF_KNOWN = 4,       /* not known: the key is left out; of FIELD_INLINE all of them */
     SINCE_LATER = 8,    /* older results do not have the key */
     ROUNDED = 16,       /* nine significant digits: for what is drawn */
     BEHIND_POINTER = 32,

@@ -3,12 +3,8 @@
 static const char *const bundles[] = {"RODS", "TUBE", NULL};
 
 static const struct field material_fields[] = {
-    TEXT(rotid_material, name, MAY_BE_NULL),
-    NUMBER(rotid_material, e_pa, FROM_0),
-    NUMBER(rotid_material, g_pa, FROM_0),
-    NUMBER(rotid_material, nu, 0),
-    NUMBER(rotid_material, rho_kg_m3, FROM_0),
-    {0},
+    TEXT(rotid_material, name, MAY_BE_NULL), NUMBER(rotid_material, e_pa, FROM_0),      NUMBER(rotid_material, g_pa, FROM_0),
+    NUMBER(rotid_material, nu, 0),           NUMBER(rotid_material, rho_kg_m3, FROM_0), {0},
 };
 static const struct record material_record = RECORD(rotid_material, material_fields);
 
@@ -20,7 +16,7 @@ static const struct field segment_fields[] = {
     NUMBER(rotid_segment, width_m, IF_KNOWN | ABOVE_0 | ROUNDED),
     NUMBER(rotid_segment, outer_m, IF_KNOWN | ABOVE_0 | ROUNDED),
     NUMBER(rotid_segment, inner_m, IF_KNOWN | FROM_0 | ROUNDED),
-    NUMBER(rotid_segment, stiff_outer_m, MAY_BE_NULL | ABOVE_0 | ROUNDED),
+    NUMBER(rotid_segment, stiff_outer_m, MAY_BE_NULL | SINCE_LATER | ABOVE_0 | ROUNDED),
     {0},
 };
 static const struct record segment_record = RECORD(rotid_segment, segment_fields);
@@ -77,12 +73,8 @@ static const struct field bars_fields[] = {
 static const struct record bars_record = RECORD(rotid_bars, bars_fields);
 
 static const struct field disk_fields[] = {
-    TEXT(rotid_disk, name, MAY_BE_NULL),
-    NUMBER(rotid_disk, z_m, FROM_0 | ROUNDED),
-    NUMBER(rotid_disk, mass_kg, FROM_0),
-    NUMBER(rotid_disk, diametral_kg_m2, FROM_0),
-    NUMBER(rotid_disk, polar_kg_m2, FROM_0),
-    {0},
+    TEXT(rotid_disk, name, MAY_BE_NULL),         NUMBER(rotid_disk, z_m, FROM_0 | ROUNDED), NUMBER(rotid_disk, mass_kg, FROM_0),
+    NUMBER(rotid_disk, diametral_kg_m2, FROM_0), NUMBER(rotid_disk, polar_kg_m2, FROM_0),   {0},
 };
 static const struct record disk_record = RECORD(rotid_disk, disk_fields);
 

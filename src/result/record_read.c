@@ -224,9 +224,10 @@ static void read_maps(const struct json_place *above, const struct field *field,
 static void read_matrix(const struct json_place *above, const struct field *field, void *record)
 {
     int *rows = member(record, field->count), *columns = member(record, field->columns), size[2] = {*rows, *columns}, found[2];
+    int is_square = rows == columns, known = is_square || size[0] || size[1]; /* of a square one the size stands before it */
     struct json_place list;
     if (find(above, field, PLACE_LIST, &list) &&
-        place_matrix(above, field->key, 0, size[0] || size[1] ? size : NULL, &found[0], &found[1], member(record, field->offset))) {
+        place_matrix(above, field->key, 0, known ? size : NULL, &found[0], &found[1], member(record, field->offset))) {
         *rows = found[0];
         *columns = found[1];
     }
@@ -247,12 +248,21 @@ static void read_one(const struct json_place *above, const struct field *field, 
     read_value(&at, field, to);
 }
 
+/* Whether the keys of a struct stand here: the first one that results of all versions have tells. */
+static int stands_here(const struct json_place *at, const struct record *record)
+{
+    const struct field *field = record->field;
+    while (field->bits & SINCE_LATER)
+        field++;
+    return place_has(at, field->key);
+}
+
 void record_read(const struct json_place *at, const struct record *record, void *to)
 {
     for (const struct field *field = record->field; field->key; field++) {
         void *inside = member(to, field->offset);
         if (field->kind == FIELD_INLINE) {
-            if (field->bits & IF_KNOWN && !place_has(at, field->record->field->key))
+            if (field->bits & IF_KNOWN && !stands_here(at, field->record))
                 continue;
             if (field->bits & BEHIND_POINTER) { /* the keys of one struct may stand in two places */
                 void **pointer = inside;

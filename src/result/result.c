@@ -33,6 +33,9 @@ static const struct field diagnose_fields[] = {
     {0},
 };
 
+static const struct field head_alone_fields[] = {HEAD, WARNINGS, {0}};
+const struct record head_alone_record = RECORD(struct result, head_alone_fields);
+
 static const struct {
     const char *command;
     struct record record;
@@ -63,4 +66,23 @@ char *result_json(const struct result *result)
     json_open(&tree);
     record_write(&tree, tree.root, result_record(result->head.command), result);
     return json_close(&tree);
+}
+
+const rotid_geometry *geometry_of_result(const struct result *result)
+{
+    return result->identify   ? result->identify->geometry
+           : result->diagnose ? result->diagnose->geometry
+           : result->modes    ? result->modes->geometry
+           : result->check    ? result->check->geometry
+                              : NULL;
+}
+
+const rotid_identification *fit_of_result(const struct result *result)
+{
+    return result->diagnose ? result->diagnose->base : result->identify;
+}
+
+const rotid_noise *noise_of_result(const struct result *result)
+{
+    return result->diagnose ? &result->diagnose->noise : result->identify ? result->identify->noise : NULL;
 }

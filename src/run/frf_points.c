@@ -218,8 +218,8 @@ static int find(const struct placed *point, int count, int id)
 }
 
 int frf_place_points(struct pool *pool, const struct job *job, int parameters, const struct frf_measured *measured,
-                     struct message_list *notes, const struct frf_result *out, struct client *client, struct synthesis_pair *pair,
-                     int *dof, int *npoint)
+                     struct message_list *notes, const struct frf_result *out, struct rotor_model *model,
+                     struct synthesis_pair *pair, int *dof, int *npoint)
 {
     struct rotor rotor = job->rotor;
     struct placed *point;
@@ -227,9 +227,9 @@ int frf_place_points(struct pool *pool, const struct job *job, int parameters, c
     if (!status)
         status = add_nodes(pool, *npoint, point, &rotor);
     if (!status)
-        status = client_open(pool, &rotor, parameters ? job->nparameter : 0, job->parameter, 1, client, &failed);
+        status = model_open(pool, job->models, &rotor, parameters ? job->nparameter : 0, job->parameter, 1, model, &failed);
     for (int i = 0; i < *npoint && !status; i++)
-        dof[i] = 2 * mesh_node_at(&client->beam.mesh, point[i].z);
+        dof[i] = 2 * mesh_node_at(&model->beam.mesh, point[i].z);
     for (int i = 0; i < out->nrow && !status; i++) {
         struct frf_row *row = &out->row[i];
         pair[i].response = find(point, *npoint, row->response);

@@ -124,17 +124,17 @@ static int compare_rows(struct pool *pool, const struct frf_measured *measured, 
 static int open_synthesis(struct pool *pool, const struct job *job, const struct identification *identified,
                           const struct frf_measured *measured, struct message_list *notes, struct frf_result *out)
 {
-    struct client *client = POOL_NEW(pool, struct client);
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct synthesis_pair *pair = POOL_ARRAY(pool, struct synthesis_pair, out->nrow);
     int *dof = POOL_ARRAY(pool, int, 2 * (size_t)out->nrow), npoint;
-    if (!client || !pair || !dof)
+    if (!model || !pair || !dof)
         return ROTID_ERROR_MEMORY;
-    int status = frf_place_points(pool, job, identified != NULL, measured, notes, out, client, pair, dof, &npoint);
+    int status = frf_place_points(pool, job, identified != NULL, measured, notes, out, model, pair, dof, &npoint);
     if (status)
         return status;
     out->up_to_hz = ABOVE * out->frequency_hz[out->nline - 1];
-    status = synthesis_open(pool, &client->model, identified ? identified->fit->x : NULL, out->up_to_hz,
-                            client->model.nrigid + comparison_highest(job), npoint, dof, out->nrow, pair, &out->synthesis);
+    status = synthesis_open(pool, &model->equations, identified ? identified->fit->x : NULL, out->up_to_hz,
+                            model->equations.nrigid + comparison_highest(job), npoint, dof, out->nrow, pair, &out->synthesis);
     if (status == ROTID_ERROR_ARGUMENT)
         message_add(notes, SEVERITY_ERROR, job->deck, 1, 1,
                     "the model has more than %d modes below %.6g Hz, %d times the highest line, expected a lower HIGH on *FRF",

@@ -82,7 +82,7 @@ struct frf_result {
 /* identified: of the job, whose parameters and pairing are used; NULL where nothing was measured: the model as the deck states
  * it. measured: NULL where there are no functions to compare with. ROTID_OK, also where environment->cancelled ended it (ndone <
  * nrow); ROTID_ERROR_ARGUMENT with an error in the list: an id that does not exist, no lines, no damping, nothing measured that
- * was asked for, too many modes; ROTID_ERROR_MEMORY; statuses of client_open and prediction_compute. */
+ * was asked for, too many modes; ROTID_ERROR_MEMORY; statuses of model_open and prediction_compute. */
 int frf_run(struct pool *pool, const struct job *job, const struct identification *identified,
             const struct frf_measured *measured, const rotid_environment *environment, struct message_list *notes,
             struct frf_result *out);

@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "modal/functional.h"
-#include "run/client.h"
+#include "model/model.h"
 
 #define POINTS   17 /* four a decade */
 #define LOWEST   1e-6
@@ -117,16 +117,16 @@ int growth_run(struct pool *pool, const struct job *job, int n, const struct par
                unsigned long seed, struct growth *out)
 {
     int failed;
-    struct client *client = POOL_NEW(pool, struct client);
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct search search = {.x0 = x0};
     *out = (struct growth){.points = POINTS};
     double **arrays[] = {&out->epsilon2, &out->f[GROWTH_E], &out->f[GROWTH_F], &out->shapes_alone};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, POINTS)))
             return ROTID_ERROR_MEMORY;
-    int status = client ? client_open(pool, &job->rotor, n, parameter, 1, client, &failed) : ROTID_ERROR_MEMORY;
+    int status = model ? model_open(pool, job->models, &job->rotor, n, parameter, 1, model, &failed) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = prepare(pool, job, &client->model, modes, seed, &search);
+        status = prepare(pool, job, &model->equations, modes, seed, &search);
     for (int i = 0; i < POINTS && !status; i++) {
         double f[GROWTH_KINDS], eps;
         out->epsilon2[i] = LOWEST * pow(HIGHEST / LOWEST, (double)i / (POINTS - 1));

@@ -3,9 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "beam/effects.h"
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 #define ROUNDS 3 /* of fitting and pairing, should the pairs change with the model */
 
@@ -21,16 +20,17 @@ static int compute_spectrum(struct pool *pool, const struct job *job, const doub
 {
     int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
     int parts = !bare ? SPECTRUM_MESH | SPECTRUM_REDUCED : job->shape ? SPECTRUM_REDUCED : 0;
-    return spectrum_compute_parts(pool, &job->rotor, job->nparameter, job->parameter, x, reduction, count, parts, spectrum);
+    return spectrum_compute_parts(pool, job->models, &job->rotor, job->nparameter, job->parameter, x, reduction, count, parts,
+                                  spectrum);
 }
 
 int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit)
 {
-    struct client *client = POOL_NEW(pool, struct client);
-    int failed, status = client ? client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, client, &failed)
-                                : ROTID_ERROR_MEMORY;
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
+    int failed, status = model ? model_open(pool, job->models, &job->rotor, job->nparameter, job->parameter, 1, model, &failed)
+                               : ROTID_ERROR_MEMORY;
     if (status)
         return status;
     int shapes = uses_shapes(job);
@@ -42,12 +42,10 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
                                .shape = shapes ? job->shape : NULL,
                                .shape_std = shapes && job_knows_shape_noise(job) ? job->shape_std : NULL,
                                .holdout = holdout};
-    status = rotid_fit(&client->model, job->bounds, &measured, options, environment, NULL, fit);
-    if (!status && mass) { /* the beam stands at the last point that was evaluated; the mass wants the best one */
-        for (int p = 0; p < job->nparameter; p++)
-            *parameter_value(&client->beam.rotor, job->parameter[p]) = (*fit)->x[p];
-        effects_refresh(&client->beam);
-        beam_mass_properties(&client->beam, mass);
+    status = rotid_fit(&model->equations, job->bounds, &measured, options, environment, NULL, fit);
+    if (!status && mass) { /* the model stands at the last point that was evaluated; the mass wants the best one */
+        model_set(model, (*fit)->x);
+        model_mass_properties(model, mass);
     }
     return status;
 }
@@ -64,28 +62,29 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
 {
     const rotid_fit_result *fit = out->fit;
     int failed, highest = 1, nmode = job->nmode;
-    struct client *client = POOL_NEW(pool, struct client);
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
     for (int k = 0; k < nmode; k++)
         highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
     out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
-    int status = client && out->baseline_hz ? client_open(pool, &job->rotor, job->nparameter, job->parameter, 1, client, &failed)
-                                            : ROTID_ERROR_MEMORY;
+    int status = model && out->baseline_hz
+                     ? model_open(pool, job->models, &job->rotor, job->nparameter, job->parameter, 1, model, &failed)
+                     : ROTID_ERROR_MEMORY;
     if (!status)
-        status = prediction_new(pool, &client->model, job->fit.reduction, ROTID_NELSON, client->model.nrigid + highest, 0, &p);
+        status =
+            prediction_new(pool, &model->equations, job->fit.reduction, ROTID_NELSON, model->equations.nrigid + highest, 0, &p);
     for (int i = 0; i < fit->nbaseline && status != ROTID_ERROR_MEMORY; i++) {
         int lost = status ? status : prediction_compute(&p, fit->baseline[i].x);
         for (int k = 0; k < nmode; k++)
             out->baseline_hz[k + (ptrdiff_t)i * nmode] =
-                lost ? NAN : prediction_hz(&p, client->model.nrigid + out->compared.number[k] - 1);
+                lost ? NAN : prediction_hz(&p, model->equations.nrigid + out->compared.number[k] - 1);
     }
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
 }
 
-static int identify(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
-                    struct message_list *notes, struct identification *out)
+static int with_models(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
+                       struct message_list *notes, struct identification *out)
 {
-    *out = (struct identification){0};
     int status, candidates = comparison_candidates(job);
     double *start = POOL_ARRAY(pool, double, job->nparameter);
     if (!job->nmode)
@@ -138,6 +137,19 @@ static int identify(struct pool *pool, const struct job *job, int baseline, int 
     out->shapes_fitted =
         uses_shapes(job) && !(job->fit.functional != ROTID_LIKELIHOOD && job->fit.reduction == ROTID_REDUCTION_NONE);
     return ROTID_OK;
+}
+
+static int identify(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out)
+{
+    struct job run = *job;
+    *out = (struct identification){0};
+    run.models = models_for_run(pool, job->models);
+    if (!run.models)
+        return ROTID_ERROR_MEMORY;
+    int status = with_models(pool, &run, baseline, bare, environment, notes, out);
+    models_end_run(pool, run.models, job->models);
+    return status;
 }
 
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,

@@ -15,7 +15,7 @@ struct identification {
 };
 
 /* One fit of a job with the pairing `number` [nmode] and the modes `holdout` [nmode] left out; no notes, no spectrum. mass may be
- * NULL. Statuses of rotid_fit and client_open. */
+ * NULL. Statuses of rotid_fit and model_open. */
 int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit);

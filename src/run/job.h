@@ -5,10 +5,9 @@
 
 #include "base/message.h"
 #include "base/pool.h"
-#include "beam/beam.h"
-#include "beam/effect.h"
-#include "beam/rotor.h"
+#include "model/models.h"
 #include "rotid.h"
+#include "rotor/parameter.h"
 #include "signal/frf.h"
 
 /* A list of values that the heading gives to compare with: "paper error_percent = -3.83, 8.38, ..." */
@@ -69,6 +68,7 @@ struct job {
     struct reference *reference;
 
     struct rotor rotor;
+    struct models *models; /* of it, as far as they are built, or NULL */
 
     int nmode;             /* measured */
     int *number;           /* [nmode] elastic mode of the model, from 1; the shapes may decide otherwise */

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "beam/deflection.h"
+#include "model/deflection.h"
 
 #define AXIS_INTERVALS   400 /* at most: 40 a half wave of a tenth mode, and no picture has many more dots across */
 #define MEMBER_INTERVALS 20  /* at least */
@@ -57,38 +57,35 @@ static void scale(ptrdiff_t count, double factor, double *x)
         x[i] *= factor;
 }
 
-static double largest_of(int naxis, const double *u)
+static double largest_of(const struct rotor_model *model, const double *u)
 {
     double largest = 0;
-    for (int i = 0; i < naxis; i++)
-        if (fabs(u[2 * (ptrdiff_t)i]) > fabs(largest))
-            largest = u[2 * (ptrdiff_t)i];
+    for (int i = 0; i < model->naxis; i++)
+        if (fabs(model_deflection(model, i, u)) > fabs(largest))
+            largest = model_deflection(model, i, u);
     return largest;
 }
 
 /* Mode k as its partner has it. */
 static void keep_predicted(const struct job *job, const struct spectrum *s, int number, int k, struct mode_shapes *m)
 {
-    const struct mesh *mesh = &s->beam->mesh;
+    const struct rotor_model *model = s->model;
     int there = number >= 1 && number <= s->count;
-    const double *u = s->phi + (ptrdiff_t)(there ? number - 1 : 0) * mesh->ndof;
+    const double *u = s->phi + (ptrdiff_t)(there ? number - 1 : 0) * model->equations.n;
     double *p = m->predicted + (ptrdiff_t)k * m->nsensor, *axis = m->axis + (ptrdiff_t)k * m->naxis;
     for (int i = 0; i < m->nsensor; i++)
-        p[i] = u[2 * (ptrdiff_t)mesh->sensor_node[i]];
+        p[i] = model_sensor_deflection(model, i, u);
     for (int i = 0; i < m->naxis; i++)
-        axis[i] = u[2 * (ptrdiff_t)((long long)i * (mesh->naxis - 1) / (m->naxis - 1))];
+        axis[i] = model_deflection(model, (int)((long long)i * (model->naxis - 1) / (m->naxis - 1)), u);
     double factor = there ? best_scale(job, m, k, p) : NAN;
     if (there && !isfinite(factor))
-        factor = 1 / largest_of(mesh->naxis, u);
+        factor = 1 / largest_of(model, u);
     scale(m->nsensor, factor, p);
     scale(m->naxis, factor, axis);
     for (int i = 0; i < m->nmember; i++) {
         struct member_shape *member = &m->member[i];
         double *shape = member->shape + (ptrdiff_t)k * member->npoint;
-        if (member->is_bars)
-            bars_deflection(s->beam, i - s->beam->rotor.ntierod, u, member->npoint, member->z, shape);
-        else
-            tierod_deflection(s->beam, i, u, member->npoint, member->z, shape);
+        model_member_deflection(model, i, u, member->npoint, member->z, shape);
         scale(member->npoint, factor, shape);
     }
 }
@@ -118,7 +115,7 @@ static int correlate(struct pool *pool, const struct job *job, const struct spec
     return ROTID_OK;
 }
 
-static int make_room(struct pool *pool, const struct beam *beam, struct mode_shapes *m)
+static int make_room(struct pool *pool, const struct rotor_model *model, struct mode_shapes *m)
 {
     size_t nmode = (size_t)m->nmode;
     m->has_shape = POOL_ARRAY(pool, int, m->nmode);
@@ -130,12 +127,10 @@ static int make_room(struct pool *pool, const struct beam *beam, struct mode_sha
     if (!m->has_shape || !m->measured || !m->predicted || !m->axis_z || !m->axis || !m->member)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < m->nmember; i++) {
-        int bars = i - beam->rotor.ntierod;
+        struct model_member of = model_member(model, i);
         struct member_shape *member = &m->member[i];
-        *member = (struct member_shape){.name = bars < 0 ? beam->rotor.tierod[i].name : beam->rotor.bars[bars].name,
-                                        .is_bars = bars >= 0};
-        int elements =
-            bars < 0 ? chain_elements(&beam->mesh.tierod[i]) : 2 * chain_elements(&beam->mesh.bars[2 * (ptrdiff_t)bars]);
+        int elements = of.elements;
+        *member = (struct member_shape){.name = of.name, .is_bars = of.is_bars};
         elements = elements < MEMBER_INTERVALS ? MEMBER_INTERVALS : elements < AXIS_INTERVALS ? elements : AXIS_INTERVALS;
         member->npoint = elements + 1;
         member->z = POOL_ARRAY(pool, double, member->npoint);
@@ -149,17 +144,17 @@ static int make_room(struct pool *pool, const struct beam *beam, struct mode_sha
 int mode_shapes_make(struct pool *pool, const struct job *job, const struct spectrum *s, const struct comparison *compared,
                      struct mode_shapes *m)
 {
-    const struct mesh *mesh = &s->beam->mesh;
+    const struct rotor_model *model = s->model;
     *m = (struct mode_shapes){.nmode = compared->nmode,
-                              .nsensor = s->beam->rotor.nsensor,
-                              .naxis = mesh->naxis <= AXIS_INTERVALS ? mesh->naxis : AXIS_INTERVALS + 1,
-                              .nmember = s->beam->rotor.ntierod + s->beam->rotor.nbars};
-    int status = make_room(pool, s->beam, m);
+                              .nsensor = model->rotor->nsensor,
+                              .naxis = model->naxis <= AXIS_INTERVALS ? model->naxis : AXIS_INTERVALS + 1,
+                              .nmember = model_members(model)};
+    int status = make_room(pool, model, m);
     if (status)
         return status;
     keep_measured(job, m);
     for (int i = 0; i < m->naxis; i++)
-        m->axis_z[i] = mesh->z[(long long)i * (mesh->naxis - 1) / (m->naxis - 1)];
+        m->axis_z[i] = model->z[(long long)i * (model->naxis - 1) / (m->naxis - 1)];
     for (int k = 0; k < m->nmode; k++)
         keep_predicted(job, s, compared->number[k], k, m);
     return correlate(pool, job, s, m);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 /* E_k = 1 - lambda_k(x)/lambda_k(x0) of mode k; R*_k is lambda~_k for every shape (docs/errata.md) */
 static double residual(const struct prediction *p, int nrigid, const double *reference, int k)
@@ -30,15 +30,15 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
                     const struct sensitivity_options *options, struct sensitivity *out)
 {
     int m = options->modes, failed;
-    struct client *client = POOL_NEW(pool, struct client);
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
-    int status = client ? allocate(pool, n, m, options->points, out) : ROTID_ERROR_MEMORY;
+    int status = model ? allocate(pool, n, m, options->points, out) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = client_open(pool, &job->rotor, n, parameter, 1, client, &failed);
+        status = model_open(pool, job->models, &job->rotor, n, parameter, 1, model, &failed);
     if (status)
         return status;
-    int nrigid = client->model.nrigid;
-    status = prediction_new(pool, &client->model, job->fit.reduction, ROTID_NELSON, nrigid + m, 0, &p);
+    int nrigid = model->equations.nrigid;
+    status = prediction_new(pool, &model->equations, job->fit.reduction, ROTID_NELSON, nrigid + m, 0, &p);
     double *x = POOL_ARRAY(pool, double, n), *lambda = POOL_ARRAY(pool, double, m);
     int *wanted = POOL_ARRAY(pool, int, nrigid + m);
     if (!status && (!x || !lambda || !wanted))

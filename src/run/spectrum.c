@@ -4,27 +4,28 @@
 #include <string.h>
 
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 
 #define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
 /* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. */
-static int full_model(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
-                      const double *x, int refine, int *count, struct client *client, struct prediction *prediction)
+static int full_model(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                      const struct parameter *parameter, const double *x, int refine, int *count, struct rotor_model *model,
+                      struct prediction *prediction)
 {
-    int failed, status = client_open(pool, rotor, nparameter, parameter, refine, client, &failed);
-    int most = status ? 0 : client->model.n - client->model.nrigid;
+    int failed, status = model_open(pool, models, rotor, nparameter, parameter, refine, model, &failed);
+    int most = status ? 0 : model->equations.n - model->equations.nrigid;
     *count = *count < most ? *count : most;
     if (!status)
-        status = prediction_new(pool, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + *count, 0,
+        status = prediction_new(pool, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model->equations.nrigid + *count, 0,
                                 prediction);
     return status ? status : prediction_compute(prediction, x);
 }
 
-static void keep_shapes(const struct client *client, const struct prediction *p, struct spectrum *s)
+static void keep_shapes(const struct rotor_model *model, const struct prediction *p, struct spectrum *s)
 {
     for (int i = 0; i < s->nmaster; i++)
-        s->master_z[i] = client->beam.mesh.z[client->master[i] / 2];
+        s->master_z[i] = model->z[model->master[i] / 2];
     for (int j = 0; j < s->count; j++) {
         double *shape = s->shape + (ptrdiff_t)j * s->nmaster, largest = 0;
         for (int i = 0; i < s->nmaster; i++) {
@@ -38,14 +39,14 @@ static void keep_shapes(const struct client *client, const struct prediction *p,
 }
 
 /* Frequencies of the condensed model as far as it has any, and Guyan's mass for the NCO. */
-static int condensed_model(struct pool *pool, struct client *client, const double *x, int reduction, struct spectrum *s)
+static int condensed_model(struct pool *pool, struct rotor_model *model, const double *x, int reduction, struct spectrum *s)
 {
     int wanted = s->nrigid + s->count, count = wanted < s->nmaster ? wanted : s->nmaster;
     struct prediction p;
     for (int kind = ROTID_GUYAN; kind <= ROTID_IRS && s->nmaster <= MOST_MASTERS; kind++) {
         if (kind == ROTID_IRS && reduction != ROTID_IRS)
             break;
-        int status = prediction_new(pool, &client->model, kind, ROTID_NELSON, count, 0, &p);
+        int status = prediction_new(pool, &model->equations, kind, ROTID_NELSON, count, 0, &p);
         if (status)
             return status;
         status = prediction_compute(&p, x);
@@ -61,31 +62,32 @@ static int condensed_model(struct pool *pool, struct client *client, const doubl
     return ROTID_OK;
 }
 
-int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
-                     const double *x, int reduction, int count, struct spectrum *spectrum)
+int spectrum_compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                     const struct parameter *parameter, const double *x, int reduction, int count, struct spectrum *spectrum)
 {
-    return spectrum_compute_parts(pool, rotor, nparameter, parameter, x, reduction, count, SPECTRUM_MESH | SPECTRUM_REDUCED,
-                                  spectrum);
+    return spectrum_compute_parts(pool, models, rotor, nparameter, parameter, x, reduction, count,
+                                  SPECTRUM_MESH | SPECTRUM_REDUCED, spectrum);
 }
 
-int spectrum_compute_parts(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
-                           const double *x, int reduction, int count, int parts, struct spectrum *s)
+int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
+                           struct spectrum *s)
 {
-    struct client *client = POOL_NEW(pool, struct client), *fine = POOL_NEW(pool, struct client);
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model), *fine = POOL_NEW(pool, struct rotor_model);
     struct prediction p, q;
-    if (!client || !fine)
+    if (!model || !fine)
         return ROTID_ERROR_MEMORY;
-    int status = full_model(pool, rotor, nparameter, parameter, x, 1, &count, client, &p);
+    int status = full_model(pool, models, rotor, nparameter, parameter, x, 1, &count, model, &p);
     if (!status && parts & SPECTRUM_MESH)
-        status = full_model(pool, rotor, nparameter, parameter, x, 2, &count, fine, &q);
+        status = full_model(pool, models, rotor, nparameter, parameter, x, 2, &count, fine, &q);
     if (status)
         return status;
-    *s = (struct spectrum){.nrigid = client->model.nrigid,
+    *s = (struct spectrum){.nrigid = model->equations.nrigid,
                            .count = count,
-                           .nmaster = client->model.nmaster,
-                           .nnode = client->beam.mesh.naxis,
-                           .beam = &client->beam,
-                           .phi = p.phi + (ptrdiff_t)client->model.nrigid * p.size};
+                           .nmaster = model->equations.nmaster,
+                           .nnode = model->naxis,
+                           .model = model,
+                           .phi = p.phi + (ptrdiff_t)model->equations.nrigid * p.size};
     double **arrays[] = {&s->full_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
@@ -96,13 +98,13 @@ int spectrum_compute_parts(struct pool *pool, const struct rotor *rotor, int npa
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < s->nrigid; j++)
         s->rigid_hz[j] = prediction_hz(&p, j);
-    keep_shapes(client, &p, s);
+    keep_shapes(model, &p, s);
     for (int j = 0; j < count; j++)
         s->reduced_hz[j] = NAN;
-    status = parts & SPECTRUM_REDUCED ? condensed_model(pool, client, x, reduction, s) : ROTID_OK;
+    status = parts & SPECTRUM_REDUCED ? condensed_model(pool, model, x, reduction, s) : ROTID_OK;
     for (int j = 0; j < count && !status; j++) {
         double coarse = prediction_hz(&p, s->nrigid + j),
-               finer = parts & SPECTRUM_MESH ? prediction_hz(&q, fine->model.nrigid + j) : NAN,
+               finer = parts & SPECTRUM_MESH ? prediction_hz(&q, fine->equations.nrigid + j) : NAN,
                limit = finer + (finer - coarse) / 3;
         s->full_hz[j] = coarse;
         s->mesh_error_percent[j] = 100 * (coarse / limit - 1);

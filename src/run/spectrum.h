@@ -3,7 +3,7 @@
 #define ROTID_RUN_SPECTRUM_H
 
 #include "base/pool.h"
-#include "beam/beam.h"
+#include "model/model.h"
 #include "rotid.h"
 
 struct spectrum {
@@ -17,22 +17,23 @@ struct spectrum {
     double *shape;                   /* [nmaster * count] full model at the masters, largest component 1 */
     double *mass;     /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */
     double *master_z; /* [nmaster] m */
-    const struct beam *beam; /* the full model: its rotor at x with the end springs of a sling, its mesh */
-    const double *phi;       /* [beam->mesh.ndof * count] its mass-normalised vectors */
+    const struct rotor_model *model; /* the full one: its rotor at x with the end springs of a sling */
+    const double *phi;               /* [model->equations.n * count] its mass-normalised vectors */
 };
 
 /* At the values x [nparameter] of the parameters; fewer than `count` modes where the model has fewer. reduction: ROTID_GUYAN or
- * ROTID_IRS. Statuses of the prediction and of client_open. */
-int spectrum_compute(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
-                     const double *x, int reduction, int count, struct spectrum *spectrum);
+ * ROTID_IRS. Statuses of the prediction and of model_open. */
+int spectrum_compute(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                     const struct parameter *parameter, const double *x, int reduction, int count, struct spectrum *spectrum);
 
 /* The same with the parts that are wanted alone; the others are NaN or NULL. */
 enum spectrum_part {
     SPECTRUM_MESH = 1,   /* mesh_error_percent: a second mesh, half of the time */
     SPECTRUM_REDUCED = 2 /* reduced_hz, reduction_error_percent, mass */
 };
-int spectrum_compute_parts(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
-                           const double *x, int reduction, int count, int parts, struct spectrum *spectrum);
+int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
+                           struct spectrum *spectrum);
 
 /* NCO of a measured shape [nmaster] with mode j of the full model by the condensed mass; MAC where there is no such matrix.
  * work [nmaster]. */

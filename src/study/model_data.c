@@ -4,7 +4,7 @@
 
 #include "diagnose/causes/sensor.h"
 #include "modal/prediction.h"
-#include "run/client.h"
+#include "model/model.h"
 #include "study/draw.h"
 #include "study/experiment.h"
 
@@ -87,20 +87,20 @@ static int solve(const struct rotor *rotor, int refine, struct modes *modes)
     struct prediction p;
     int failed, status = ROTID_ERROR_MEMORY;
     pool_open(&scratch, NULL);
-    struct client *client = POOL_NEW(&scratch, struct client);
-    if (client)
-        status = client_open(&scratch, rotor, 0, NULL, refine, client, &failed);
-    if (!status && client->model.nrigid + modes->count > client->model.n)
+    struct rotor_model *model = POOL_NEW(&scratch, struct rotor_model);
+    if (model)
+        status = model_open(&scratch, NULL, rotor, 0, NULL, refine, model, &failed);
+    if (!status && model->equations.nrigid + modes->count > model->equations.n)
         status = ROTID_ERROR_ARGUMENT;
     if (!status)
-        status = prediction_new(&scratch, &client->model, ROTID_REDUCTION_NONE, ROTID_NELSON, client->model.nrigid + modes->count,
-                                0, &p);
+        status = prediction_new(&scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON,
+                                model->equations.nrigid + modes->count, 0, &p);
     if (!status)
         status = prediction_compute(&p, &none);
     for (int k = 0; k < modes->count && !status; k++) {
-        modes->hz[k] = prediction_hz(&p, client->model.nrigid + k);
+        modes->hz[k] = prediction_hz(&p, model->equations.nrigid + k);
         for (int s = 0; s < modes->nsensor; s++)
-            modes->shape[s + (ptrdiff_t)k * modes->nsensor] = prediction_at_sensor(&p, client->model.nrigid + k, s);
+            modes->shape[s + (ptrdiff_t)k * modes->nsensor] = prediction_at_sensor(&p, model->equations.nrigid + k, s);
     }
     pool_close(&scratch);
     return status;

@@ -15,7 +15,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 {
     (void)effect;
     *lower = 0;
-    *upper = p == 0 ? 0.03 * mass_of_rotor(rotor) : rotor_length(rotor);
+    *upper = p == 0 ? 0.03 * rotor_mass(rotor) : rotor_length(rotor);
 }
 
 static const struct effect_kind kind = {

@@ -1,10 +1,9 @@
 /* One cause of the catalogue: what the diagnosis needs to look for it, to judge it and to speak of it. Physical causes act on the
- * beam through the hooks of `effect`; causes of the measurement chain and of the numbers act on the data or on nothing. */
+ * rotor through the hooks of `effect`; causes of the measurement chain and of the numbers act on the data or on nothing. */
 #ifndef ROTID_DIAGNOSE_CAUSES_CAUSE_H
 #define ROTID_DIAGNOSE_CAUSES_CAUSE_H
 
-#include "beam/effect.h"
-#include "beam/rotor.h"
+#include "rotor/effect.h"
 #include "run/job.h"
 
 enum cause_class { CAUSE_NUMERICAL, CAUSE_DATA, CAUSE_PHYSICAL };

@@ -2,18 +2,18 @@
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
 
-static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
-                   struct effect_factors *factors)
+static int field(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                 struct effect_field *out)
 {
     (void)rotor;
     if (span->group != effect->target)
         return 0;
     double value = p < 0 ? effect->value[0] : 1;
-    *factors = (struct effect_factors){p < 0, p < 0, value, value};
+    *out = (struct effect_field){p < 0, p < 0, value};
     return 1;
 }
 
-static const struct effect_kind kind = {.id = "density", .nparameter = 1, .parameter = {{"factor", "1"}}, .axis = on_axis};
+static const struct effect_kind kind = {.id = "density", .nparameter = 1, .parameter = {{"factor", "1"}}, .field = field};
 
 const struct cause_kind cause_density = {
     .id = "density",

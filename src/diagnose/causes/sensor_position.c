@@ -2,25 +2,20 @@
 #include <math.h>
 #include <string.h>
 
-#include "beam/mesh.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/causes/sensor.h"
+#include "model/model.h"
 
 /* Whether sensor s at z has a node of its own. ROTID_OK or ROTID_ERROR_MEMORY. */
 static int stands_alone(struct pool *scratch, const struct rotor *stated, int s, double z, int *alone)
 {
     struct rotor rotor = *stated;
-    struct mesh mesh;
     rotor.sensor = POOL_ARRAY(scratch, struct sensor, rotor.nsensor);
     if (!rotor.sensor)
         return ROTID_ERROR_MEMORY;
     memcpy(rotor.sensor, stated->sensor, (size_t)rotor.nsensor * sizeof *rotor.sensor);
     rotor.sensor[s].position = z; /* the mesh does not mind their order */
-    int status = mesh_build(scratch, &rotor, 1, &mesh);
-    *alone = 1;
-    for (int i = 0; i < rotor.nsensor && !status; i++)
-        *alone &= i == s || mesh.sensor_node[i] != mesh.sensor_node[s];
-    return status;
+    return model_sensor_alone(scratch, &rotor, s, alone);
 }
 
 static double element_length_at(const struct rotor *rotor, double z)

@@ -2,8 +2,7 @@
 #ifndef ROTID_DIAGNOSE_CAUSES_SHARED_H
 #define ROTID_DIAGNOSE_CAUSES_SHARED_H
 
-#include "beam/effect.h"
-#include "beam/rotor.h"
+#include "rotor/effect.h"
 
 /* Gauss-Legendre rule on [-1, 1], exact to degree 7. */
 #define GAUSS_POINTS 4
@@ -13,21 +12,18 @@ extern const double gauss_place[GAUSS_POINTS], gauss_weight[GAUSS_POINTS];
  * and its derivative -d(mean)/mean^2 where p >= 0. */
 double factor_of_compliance(double mean, double dmean, int p);
 
-/* Stiffness of group `effect->target` times 1 + value f(xi), xi from -1 to 1 along the group: an `axis` hook but for the shape f.
+/* Stiffness of group `effect->target` times 1 + value f(xi), xi from -1 to 1 along the group: a `field` hook but for the shape f.
  */
 int scale_along_group(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
-                      double (*shape)(double xi), struct effect_factors *factors);
+                      double (*shape)(double xi), struct effect_field *field);
 
-/* EI and kGS times the factor (p < 0), or their derivative. Returns 1. */
-int scale_stiffness(double factor, int p, struct effect_factors *factors);
+/* E and G times the factor (p < 0), or their derivative. Returns 1. */
+int scale_stiffness(double factor, int p, struct effect_field *field);
 
 /* Lower and upper bound of a factor on what is known roughly, whatever the target: 0.5 ... 1.5. */
 void bounds_of_factor(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper);
 
 /* Whether neither E nor G of a group is free. */
 int applies_to_known_group(const struct rotor *rotor, int target, const int *identified);
-
-/* kg, from the dimensions alone: segments, holes, rods, bars and disks. */
-double mass_of_rotor(const struct rotor *rotor);
 
 #endif

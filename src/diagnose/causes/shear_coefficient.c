@@ -2,18 +2,18 @@
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
 
-static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
-                   struct effect_factors *factors)
+static int section(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_section *out)
 {
     (void)rotor;
     if (span->group != effect->target)
         return 0;
-    *factors = (struct effect_factors){p < 0, p < 0 ? effect->value[0] : 1, p < 0, p < 0};
+    *out = (struct effect_section){p < 0, p < 0 ? effect->value[0] : 1};
     return 1;
 }
 
 static const struct effect_kind kind = {
-    .id = "shear_coefficient", .nparameter = 1, .parameter = {{"factor", "1"}}, .axis = on_axis};
+    .id = "shear_coefficient", .nparameter = 1, .parameter = {{"factor", "1"}}, .section = section};
 
 const struct cause_kind cause_shear_coefficient = {
     .id = "shear_coefficient",

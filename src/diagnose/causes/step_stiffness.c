@@ -161,8 +161,8 @@ static void add_point(const struct group *group, const struct segment *segment, 
     sum->dshear += weight * of_shear;
 }
 
-static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
-                   struct effect_factors *factors)
+static int section(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                   struct effect_section *out)
 {
     const struct segment *segment = &rotor->segment[span->segment];
     double angle = effect->value[0] * pi / 180, tangent = tan(angle), cut[CUTS + 2], length = span->to - span->from;
@@ -181,10 +181,8 @@ static int on_axis(const struct effect *effect, const struct rotor *rotor, const
             add_point(&rotor->group[span->group], segment, diameter, slope, gauss_weight[g] * half / length, &mean);
         }
     double by_angle = (1 + tangent * tangent) * pi / 180;
-    *factors = (struct effect_factors){.ei = factor_of_compliance(mean.bending, mean.dbending * by_angle, p),
-                                       .kgs = factor_of_compliance(mean.shear, mean.dshear * by_angle, p),
-                                       .rhos = p < 0,
-                                       .rhoi = p < 0};
+    *out = (struct effect_section){.ei = factor_of_compliance(mean.bending, mean.dbending * by_angle, p),
+                                   .kgs = factor_of_compliance(mean.shear, mean.dshear * by_angle, p)};
     return 1;
 }
 
@@ -207,7 +205,7 @@ static int applies(const struct rotor *rotor, int target, const int *identified)
 }
 
 static const struct effect_kind kind = {
-    .id = "step_stiffness", .nparameter = 1, .parameter = {{"angle", "deg"}}, .axis = on_axis};
+    .id = "step_stiffness", .nparameter = 1, .parameter = {{"angle", "deg"}}, .section = section};
 
 const struct cause_kind cause_step_stiffness = {
     .id = "step_stiffness",

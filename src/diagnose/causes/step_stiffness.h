@@ -2,7 +2,7 @@
 #ifndef ROTID_DIAGNOSE_CAUSES_STEP_STIFFNESS_H
 #define ROTID_DIAGNOSE_CAUSES_STEP_STIFFNESS_H
 
-#include "beam/rotor.h"
+#include "rotor/rotor.h"
 
 #define STEPS_AT_ONCE 64 /* that reach into one element: those farther to the right are left out, which no real rotor has */
 

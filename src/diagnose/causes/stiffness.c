@@ -2,16 +2,16 @@
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
 
-static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
-                   struct effect_factors *factors)
+static int field(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                 struct effect_field *out)
 {
     (void)rotor;
     if (span->group != effect->target)
         return 0;
-    return scale_stiffness(p < 0 ? effect->value[0] : 1, p, factors);
+    return scale_stiffness(p < 0 ? effect->value[0] : 1, p, out);
 }
 
-static const struct effect_kind kind = {.id = "stiffness", .nparameter = 1, .parameter = {{"factor", "1"}}, .axis = on_axis};
+static const struct effect_kind kind = {.id = "stiffness", .nparameter = 1, .parameter = {{"factor", "1"}}, .field = field};
 
 const struct cause_kind cause_stiffness = {
     .id = "stiffness",

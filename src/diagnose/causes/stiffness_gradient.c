@@ -7,10 +7,10 @@ static double shape(double xi)
     return xi;
 }
 
-static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
-                   struct effect_factors *factors)
+static int field(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                 struct effect_field *out)
 {
-    return scale_along_group(effect, rotor, span, p, shape, factors);
+    return scale_along_group(effect, rotor, span, p, shape, out);
 }
 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
@@ -21,7 +21,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 }
 
 static const struct effect_kind kind = {
-    .id = "stiffness_gradient", .nparameter = 1, .parameter = {{"slope", "1"}}, .axis = on_axis};
+    .id = "stiffness_gradient", .nparameter = 1, .parameter = {{"slope", "1"}}, .field = field};
 
 const struct cause_kind cause_stiffness_gradient = {
     .id = "stiffness_gradient",

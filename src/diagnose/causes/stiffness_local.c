@@ -63,16 +63,15 @@ static double factor_of(const struct effect *effect, const struct effect_span *s
     return factor_of_compliance(mean.value, p < 0 ? 0 : mean.by[of_depth ? DEPTH : p], p);
 }
 
-static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
-                   struct effect_factors *factors)
+static int field(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                 struct effect_field *out)
 {
     (void)rotor;
     double far = effect->value[WIDTH] * (is_box(effect) ? 0.5 : reach);
     if (effect->value[PLACE] + far <= span->from || effect->value[PLACE] - far >= span->to)
         return 0;
     double bending = factor_of(effect, span, DEPTH, p);
-    *factors =
-        (struct effect_factors){bending, has_shear(effect) ? factor_of(effect, span, DEPTH_SHEAR, p) : bending, p < 0, p < 0};
+    *out = (struct effect_field){bending, has_shear(effect) ? factor_of(effect, span, DEPTH_SHEAR, p) : bending, p < 0};
     return 1;
 }
 
@@ -97,7 +96,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 static const struct effect_kind kind = {.id = "stiffness_local",
                                         .nparameter = PARAMETERS,
                                         .parameter = {{"depth", "1"}, {"z", "m"}, {"width", "m"}, {"depth_shear", "1"}},
-                                        .axis = on_axis,
+                                        .field = field,
                                         .count = count};
 
 const struct cause_kind cause_stiffness_local = {

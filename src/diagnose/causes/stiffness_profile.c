@@ -8,10 +8,10 @@ static double shape(double xi)
     return xi * xi - 1.0 / 3;
 }
 
-static int on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
-                   struct effect_factors *factors)
+static int field(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
+                 struct effect_field *out)
 {
-    return scale_along_group(effect, rotor, span, p, shape, factors);
+    return scale_along_group(effect, rotor, span, p, shape, out);
 }
 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
@@ -22,7 +22,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 }
 
 static const struct effect_kind kind = {
-    .id = "stiffness_profile", .nparameter = 1, .parameter = {{"profile", "1"}}, .axis = on_axis};
+    .id = "stiffness_profile", .nparameter = 1, .parameter = {{"profile", "1"}}, .field = field};
 
 const struct cause_kind cause_stiffness_profile = {
     .id = "stiffness_profile",

@@ -1,0 +1,124 @@
+#include "model/models.h"
+
+#include <pthread.h>
+
+struct entry {
+    struct entry *next;
+    const struct models *owner;
+    struct rotor rotor; /* as it was given */
+    int refine, nrigid;
+    struct beam beam; /* only what does not depend on values is used */
+};
+
+struct models {
+    struct pool pool;
+    pthread_mutex_t lock; /* of the pool and the list */
+    int takes_up;
+    const struct models *older;
+    struct entry *first;
+};
+
+/* The entry with this shape, if possible with these values. */
+static struct entry *find(const struct models *models, const struct rotor *rotor, int refine, int *same_values)
+{
+    struct entry *found = NULL;
+    *same_values = 0;
+    for (; models; models = models->older)
+        for (struct entry *e = models->first; e; e = e->next)
+            if (e->refine == refine && rotor_same_shape(&e->rotor, rotor)) {
+                *same_values = rotor_same_values(&e->rotor, rotor);
+                found = e;
+                if (*same_values)
+                    return e;
+            }
+    return found;
+}
+
+static int add(struct models *models, const struct rotor *rotor, int refine, const struct entry *built, struct entry **added,
+               int *failed)
+{
+    struct entry *e = POOL_NEW(&models->pool, struct entry);
+    int status = e ? rotor_copy(&models->pool, rotor, &e->rotor) : ROTID_ERROR_MEMORY;
+    if (!status && built)
+        e->beam = built->beam;
+    else if (!status)
+        status = beam_build(&models->pool, rotor, 0, NULL, refine, &e->beam, failed);
+    if (status)
+        return status;
+    e->rotor.nspring = rotor->nspring; /* without those of the sling */
+    e->owner = models;
+    e->refine = refine;
+    e->nrigid = -1;
+    e->next = models->first;
+    models->first = *added = e;
+    return ROTID_OK;
+}
+
+static struct models *models_new(struct pool *pool, const struct models *older)
+{
+    struct models *models = POOL_NEW(pool, struct models);
+    if (!models || pthread_mutex_init(&models->lock, NULL))
+        return NULL;
+    models->older = older;
+    models->takes_up = 1;
+    pool_open(&models->pool, pool->allocator);
+    return models;
+}
+
+int models_begin(struct pool *pool, const struct rotor *rotor, struct models **models, struct model_size *size, int *failed)
+{
+    struct entry *e;
+    *failed = -1;
+    *models = models_new(pool, NULL);
+    int status = *models ? add(*models, rotor, 1, NULL, &e, failed) : ROTID_ERROR_MEMORY;
+    if (*models)
+        models_end_run(pool, *models, NULL);
+    if (!status)
+        *size = (struct model_size){e->beam.mesh.ndof, e->beam.mesh.sensor_node};
+    return status;
+}
+
+struct models *models_for_run(struct pool *pool, struct models *given)
+{
+    return given && given->takes_up ? given : models_new(pool, given);
+}
+
+void models_end_run(struct pool *pool, struct models *models, const struct models *given)
+{
+    if (models == given)
+        return;
+    models->takes_up = 0;
+    (void)pthread_mutex_destroy(&models->lock);
+    pool_absorb(pool, &models->pool);
+}
+
+int models_beam(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                const struct parameter *parameter, int refine, struct beam *beam, int *nrigid, int *failed)
+{
+    int same_values, status = ROTID_OK, takes_up = models && models->takes_up;
+    *failed = -1;
+    if (takes_up)
+        (void)pthread_mutex_lock(&models->lock);
+    struct entry *e = find(models, rotor, refine, &same_values);
+    if (takes_up && (!same_values || e->owner != models))
+        status = add(models, rotor, refine, e, &e, failed);
+    *nrigid = !status && same_values ? e->nrigid : -1;
+    if (takes_up)
+        (void)pthread_mutex_unlock(&models->lock);
+    if (status)
+        return status;
+    return e ? beam_of_shape(pool, &e->beam, rotor, nparameter, parameter, beam)
+             : beam_build(pool, rotor, nparameter, parameter, refine, beam, failed);
+}
+
+void models_keep_rigid(struct models *models, const struct rotor *rotor, int refine, int nrigid)
+{
+    int same_values;
+    if (!models || !models->takes_up)
+        return;
+    (void)pthread_mutex_lock(&models->lock);
+    struct entry *e = find(models, rotor, refine, &same_values);
+    if (e && same_values)
+        e->nrigid = nrigid;
+    (void)pthread_mutex_unlock(&models->lock);
+}

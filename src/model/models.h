@@ -1,0 +1,35 @@
+/* The models of one run that are built already: a rotor's mesh and sections are made once, however often the rotor is opened with
+ * other values or other parameters. Threads may share them. */
+#ifndef ROTID_MODEL_MODELS_H
+#define ROTID_MODEL_MODELS_H
+
+#include "base/pool.h"
+#include "beam/beam.h"
+
+struct models;
+
+/* What a reader of decks wants to know of a discretised rotor. */
+struct model_size {
+    int ndof;
+    const int *sensor_node; /* [nsensor] */
+};
+
+/* The model of a rotor without parameters, in *models, which takes up no others. Statuses of beam_build; *failed likewise. */
+int models_begin(struct pool *pool, const struct rotor *rotor, struct models **models, struct model_size *size, int *failed);
+
+/* Models for a run, which begin with those of `given` (or NULL): `given` itself where it takes up others. NULL where memory is
+ * out. */
+struct models *models_for_run(struct pool *pool, struct models *given);
+
+/* Ends what models_for_run began: the memory goes to the pool, and nothing is taken up any more. */
+void models_end_run(struct pool *pool, struct models *models, const struct models *given);
+
+/* The beam of a rotor, by a mesh that is there already where there is one. *nrigid: rigid-body and suspension modes at the values
+ * of the rotor, -1 where nobody has counted them. Statuses of beam_build; *failed likewise. */
+int models_beam(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                const struct parameter *parameter, int refine, struct beam *beam, int *nrigid, int *failed);
+
+/* Keeps what somebody has counted. */
+void models_keep_rigid(struct models *models, const struct rotor *rotor, int refine, int nrigid);
+
+#endif

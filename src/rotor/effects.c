@@ -1,0 +1,125 @@
+#include "rotor/effects.h"
+
+int effect_parameters(const struct effect *effect)
+{
+    return effect->kind->count ? effect->kind->count(effect) : effect->kind->nparameter;
+}
+
+int effect_on_axis(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int sections, int p,
+                   struct effect_field *factors)
+{
+    const struct effect_kind *kind = effect->kind;
+    struct effect_section section;
+    if (kind->field)
+        return kind->field(effect, rotor, span, p, factors);
+    if (!sections || !kind->section || !kind->section(effect, rotor, span, p, &section))
+        return 0;
+    *factors = (struct effect_field){section.ei, section.kgs, p < 0};
+    return 1;
+}
+
+struct effect_field effects_on_axis(const struct rotor *rotor, const struct effect_span *span, int sections)
+{
+    struct effect_field product = {1, 1, 1}, one;
+    for (int i = 0; i < rotor->neffect; i++)
+        if (effect_on_axis(&rotor->effect[i], rotor, span, sections, -1, &one))
+            product = (struct effect_field){product.e * one.e, product.g * one.g, product.rho * one.rho};
+    return product;
+}
+
+int effects_axis_rate(const struct rotor *rotor, struct parameter parameter, const struct effect_span *span, int sections,
+                      struct effect_field *rate)
+{
+    const struct effect *effect = &rotor->effect[parameter.index];
+    struct effect_field own = {1, 1, 1};
+    if (!effect_on_axis(effect, rotor, span, sections, parameter.component, rate))
+        return 0;
+    effect_on_axis(effect, rotor, span, sections, -1, &own);
+    *rate = (struct effect_field){rate->e / own.e, rate->g / own.g, rate->rho / own.rho};
+    return 1;
+}
+
+static struct effect_bundle on_tierod(const struct rotor *rotor, int tierod, int except)
+{
+    struct effect_bundle product = {1, 1, 0}, one;
+    for (int i = 0; i < rotor->neffect; i++) {
+        const struct effect *effect = &rotor->effect[i];
+        if (i != except && effect->kind->tierod && effect->kind->tierod(effect, rotor, tierod, -1, &one))
+            product =
+                (struct effect_bundle){product.young * one.young, product.tension * one.tension, product.as_rods || one.as_rods};
+    }
+    return product;
+}
+
+struct effect_bundle effects_on_tierod(const struct rotor *rotor, int tierod)
+{
+    return on_tierod(rotor, tierod, -1);
+}
+
+int effects_tierod_derivative(const struct rotor *rotor, struct parameter parameter, int tierod, struct effect_bundle *d)
+{
+    const struct effect *effect = &rotor->effect[parameter.index];
+    if (!effect->kind->tierod || !effect->kind->tierod(effect, rotor, tierod, parameter.component, d))
+        return 0;
+    struct effect_bundle others = on_tierod(rotor, tierod, parameter.index);
+    *d = (struct effect_bundle){d->young * others.young, d->tension * others.tension, 0};
+    return 1;
+}
+
+static double on_spring(const struct rotor *rotor, int spring, int except)
+{
+    double product = 1, one;
+    for (int i = 0; i < rotor->neffect; i++) {
+        const struct effect *effect = &rotor->effect[i];
+        if (i != except && effect->kind->spring && effect->kind->spring(effect, rotor, spring, -1, &one))
+            product *= one;
+    }
+    return product;
+}
+
+double effects_on_spring(const struct rotor *rotor, int spring)
+{
+    return on_spring(rotor, spring, -1);
+}
+
+int effects_spring_derivative(const struct rotor *rotor, struct parameter parameter, int spring, double *d)
+{
+    const struct effect *effect = &rotor->effect[parameter.index];
+    if (!effect->kind->spring || !effect->kind->spring(effect, rotor, spring, parameter.component, d))
+        return 0;
+    *d *= on_spring(rotor, spring, parameter.index);
+    return 1;
+}
+
+/* whether the rods press on what lies at z */
+static int clamps(const struct tierod *rod, double z)
+{
+    return rod->self_equilibrated && rod->from < z && z < rod->to;
+}
+
+double rotor_axial_force(const struct rotor *rotor, int group, double z)
+{
+    double force = rotor->group[group].preload;
+    for (int t = 0; t < rotor->ntierod; t++) {
+        const struct tierod *rod = &rotor->tierod[t];
+        if (clamps(rod, z))
+            force -= rod->number * rod->tension * (rotor->neffect ? effects_on_tierod(rotor, t).tension : 1);
+    }
+    return force;
+}
+
+double rotor_axial_force_derivative(const struct rotor *rotor, struct parameter parameter, double z)
+{
+    double d = 0;
+    if (parameter.kind == PARAMETER_TENSION) {
+        const struct tierod *rod = &rotor->tierod[parameter.index];
+        return clamps(rod, z) ? -rod->number * (rotor->neffect ? effects_on_tierod(rotor, parameter.index).tension : 1) : 0;
+    }
+    for (int t = 0; t < rotor->ntierod && parameter.kind == PARAMETER_EFFECT; t++) {
+        const struct tierod *rod = &rotor->tierod[t];
+        struct effect_bundle bundle = {0, 0, 0};
+        if (clamps(rod, z) && effects_tierod_derivative(rotor, parameter, t, &bundle))
+            d -= rod->number * rod->tension * bundle.tension;
+    }
+    return d;
+}

@@ -1,0 +1,125 @@
+#include "rotor/parameter.h"
+
+#include <string.h>
+
+#include "base/text.h"
+
+enum owner { OF_GROUP, OF_TIEROD, OF_SPRING, OF_DISK };
+
+static const struct {
+    enum parameter_kind kind;
+    enum owner owner;
+    const char *suffix, *unit;
+} table[] = {
+    {PARAMETER_E, OF_GROUP, "E", "Pa"},           {PARAMETER_G, OF_GROUP, "G", "Pa"},
+    {PARAMETER_NU, OF_GROUP, "nu", "1"},          {PARAMETER_RHO, OF_GROUP, "rho", "kg/m3"},
+    {PARAMETER_TIEROD_E, OF_TIEROD, "E", "Pa"},   {PARAMETER_TENSION, OF_TIEROD, "tension", "N"},
+    {PARAMETER_SPRING_K, OF_SPRING, "k", "N/m"},  {PARAMETER_SPRING_K_ROT, OF_SPRING, "k_rot", "N.m/rad"},
+    {PARAMETER_DISK_MASS, OF_DISK, "mass", "kg"}, {PARAMETER_DISK_INERTIA, OF_DISK, "inertia", "kg.m2"},
+};
+
+static int count_of(const struct rotor *rotor, enum owner owner)
+{
+    return owner == OF_GROUP    ? rotor->ngroup
+           : owner == OF_TIEROD ? rotor->ntierod
+           : owner == OF_SPRING ? rotor->nspring
+                                : rotor->ndisk;
+}
+
+static const char *name_of(const struct rotor *rotor, enum owner owner, int index)
+{
+    return owner == OF_GROUP    ? rotor->group[index].name
+           : owner == OF_TIEROD ? rotor->tierod[index].name
+           : owner == OF_SPRING ? rotor->spring[index].name
+                                : rotor->disk[index].name;
+}
+
+/* the names of objects and suffixes are compared without case, as everything in a deck */
+static int same(const char *a, const char *b, size_t length)
+{
+    for (size_t i = 0; i < length; i++) {
+        char x = a[i], y = b[i];
+        x = x >= 'A' && x <= 'Z' ? (char)(x - 'A' + 'a') : x;
+        y = y >= 'A' && y <= 'Z' ? (char)(y - 'A' + 'a') : y;
+        if (x != y)
+            return 0;
+    }
+    return 1;
+}
+
+static int find_in_effects(const struct rotor *rotor, const char *name, size_t length, const char *suffix,
+                           struct parameter *parameter, const char **unit, int result)
+{
+    for (int i = 0; i < rotor->neffect; i++) {
+        const struct effect *effect = &rotor->effect[i];
+        if (!effect->name || strlen(effect->name) != length || !same(effect->name, name, length))
+            continue;
+        result = 2;
+        for (int p = 0; p < effect_parameters(effect); p++) {
+            const struct effect_parameter_name *own = &effect->kind->parameter[p];
+            if (same_text(own->name, suffix)) {
+                *parameter = (struct parameter){PARAMETER_EFFECT, i, p};
+                *unit = own->unit;
+                return 0;
+            }
+        }
+    }
+    return result;
+}
+
+int parameter_find(const struct rotor *rotor, const char *name, struct parameter *parameter, const char **unit)
+{
+    const char *dot = strrchr(name, '.');
+    if (!dot)
+        return 1;
+    size_t length = (size_t)(dot - name);
+    int result = 1;
+    for (size_t t = 0; t < sizeof table / sizeof *table; t++)
+        for (int i = 0; i < count_of(rotor, table[t].owner); i++) {
+            const char *owner = name_of(rotor, table[t].owner, i);
+            if (!owner || strlen(owner) != length || !same(owner, name, length))
+                continue;
+            result = 2;
+            if (same_text(table[t].suffix, dot + 1)) {
+                *parameter = (struct parameter){table[t].kind, i, 0};
+                *unit = table[t].unit;
+                return 0;
+            }
+        }
+    return find_in_effects(rotor, name, length, dot + 1, parameter, unit, result);
+}
+
+double *parameter_value(const struct rotor *rotor, struct parameter parameter)
+{
+    int i = parameter.index;
+    switch (parameter.kind) {
+    case PARAMETER_E:
+        return &rotor->group[i].material.e;
+    case PARAMETER_G:
+        return &rotor->group[i].material.g;
+    case PARAMETER_NU:
+        return &rotor->group[i].material.nu;
+    case PARAMETER_RHO:
+        return &rotor->group[i].material.rho;
+    case PARAMETER_TIEROD_E:
+        return &rotor->tierod[i].material.e;
+    case PARAMETER_TENSION:
+        return &rotor->tierod[i].tension;
+    case PARAMETER_SPRING_K:
+        return &rotor->spring[i].lateral;
+    case PARAMETER_SPRING_K_ROT:
+        return &rotor->spring[i].rotational;
+    case PARAMETER_DISK_MASS:
+        return &rotor->disk[i].mass;
+    case PARAMETER_EFFECT:
+        return &rotor->effect[i].value[parameter.component];
+    default:
+        return &rotor->disk[i].diametral;
+    }
+}
+
+void parameters_set(const struct rotor *rotor, int n, const struct parameter *parameter, const double *x)
+{
+    for (int p = 0; p < n; p++)
+        *parameter_value(rotor, parameter[p]) = x[p];
+}

@@ -1,0 +1,39 @@
+/* What of a rotor can vary, by name: the modulus of a group, the stiffness of a spring, the depth of a cause. */
+#ifndef ROTID_ROTOR_PARAMETER_H
+#define ROTID_ROTOR_PARAMETER_H
+
+#include "rotor/effect.h"
+#include "rotor/rotor.h"
+
+enum parameter_kind {
+    PARAMETER_E,
+    PARAMETER_G,
+    PARAMETER_NU,
+    PARAMETER_RHO,
+    PARAMETER_TIEROD_E,
+    PARAMETER_TENSION,
+    PARAMETER_SPRING_K,
+    PARAMETER_SPRING_K_ROT,
+    PARAMETER_DISK_MASS,
+    PARAMETER_DISK_INERTIA,
+    PARAMETER_EFFECT
+};
+
+struct parameter {
+    enum parameter_kind kind;
+    int index;     /* of the group, tie rod, spring, disk or effect */
+    int component; /* of the effect, else 0 */
+};
+
+/* Finds "group.E", "group.G", ".nu", ".rho", "tierod.E", ".tension", "spring.k", ".k_rot", "disk.mass", ".inertia", and the
+ * parameters of effects that have a name, "cause.depth". Returns 0 and *parameter, 1 when no object has that name, 2 when the
+ * object has no such parameter; *unit is set with 0. */
+int parameter_find(const struct rotor *rotor, const char *name, struct parameter *parameter, const char **unit);
+
+/* Its value in the rotor, to read or to set. G of an isotropic material is not stored: give the group a G of its own first. */
+double *parameter_value(const struct rotor *rotor, struct parameter parameter);
+
+/* Sets n parameters to x [n]. */
+void parameters_set(const struct rotor *rotor, int n, const struct parameter *parameter, const double *x);
+
+#endif

@@ -1,0 +1,63 @@
+#include "rotor/rotor.h"
+
+#include "rotor/section.h"
+
+double rotor_length(const struct rotor *rotor)
+{
+    double sum = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        sum += rotor->segment[s].length;
+    return sum;
+}
+
+void rotor_group_span(const struct rotor *rotor, int group, double *from, double *to)
+{
+    double z = 0;
+    int found = 0;
+    *from = *to = 0;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        if (rotor->segment[s].group == group && !found++)
+            *from = z;
+        z += rotor->segment[s].length;
+        if (rotor->segment[s].group == group)
+            *to = z;
+    }
+}
+
+double material_shear_modulus(const struct material *material)
+{
+    return material->isotropic ? material->e / (2 * (1 + material->nu)) : material->g;
+}
+
+static double mass_of_rods(const struct material *material, int number, double diameter, double length)
+{
+    double area, own, pitch;
+    section_rods(number, diameter, 0, &area, &own, &pitch);
+    return material->rho * area * length;
+}
+
+double rotor_mass(const struct rotor *rotor)
+{
+    double sum = 0;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        const struct segment *segment = &rotor->segment[s];
+        const struct group *group = &rotor->group[segment->group];
+        struct section section;
+        if (segment->rectangular)
+            section_rectangular(segment->height, segment->width, &section);
+        else
+            section_round(segment->outer, segment->inner, segment->stiff_outer, &section);
+        sum += group->material.rho * section.mass_area * segment->length;
+        if (group->holes)
+            sum -= mass_of_rods(&group->material, group->holes, group->hole_diameter, segment->length);
+    }
+    for (int i = 0; i < rotor->ntierod; i++) {
+        const struct tierod *rod = &rotor->tierod[i];
+        sum += mass_of_rods(&rod->material, rod->number, rod->diameter, rod->to - rod->from);
+    }
+    for (int i = 0; i < rotor->nbars; i++)
+        sum += mass_of_rods(&rotor->bars[i].material, rotor->bars[i].number, rotor->bars[i].diameter, rotor->bars[i].length);
+    for (int i = 0; i < rotor->ndisk; i++)
+        sum += rotor->disk[i].mass;
+    return sum;
+}

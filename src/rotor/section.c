@@ -1,0 +1,64 @@
+#include "rotor/section.h"
+
+#include "rotid.h"
+
+static const double pi = 3.14159265358979323846;
+
+static double disc_area(double d)
+{
+    return pi * d * d / 4;
+}
+
+static double disc_inertia(double d)
+{
+    return pi * d * d * d * d / 64;
+}
+
+void section_round(double outer, double inner, double stiff_outer, struct section *section)
+{
+    *section = (struct section){.stiff_area = disc_area(stiff_outer) - disc_area(inner),
+                                .stiff_inertia = disc_inertia(stiff_outer) - disc_inertia(inner),
+                                .mass_area = disc_area(outer) - disc_area(inner),
+                                .mass_inertia = disc_inertia(outer) - disc_inertia(inner),
+                                .ratio = inner / stiff_outer};
+}
+
+void section_rectangular(double height, double width, struct section *section)
+{
+    double area = height * width, inertia = width * height * height * height / 12;
+    *section = (struct section){area, inertia, area, inertia, 1, 0};
+}
+
+int section_perforate(int number, double d, double e, double stiff_outer, struct section *section)
+{
+    double area, own, pitch;
+    section_rods(number, d, e, &area, &own, &pitch);
+    section->mass_area -= area;
+    section->mass_inertia -= own + pitch;
+    if (e < stiff_outer / 2) {
+        section->stiff_area -= area;
+        section->stiff_inertia -= own + pitch;
+    }
+    return section->stiff_area > 0 && section->stiff_inertia > 0 && section->mass_area > 0 && section->mass_inertia > 0
+               ? ROTID_OK
+               : ROTID_ERROR_SECTION;
+}
+
+void section_rods(int number, double d, double e, double *area, double *own, double *pitch)
+{
+    *area = number * disc_area(d);
+    *own = number * disc_inertia(d);
+    *pitch = *area * e * e / 2;
+}
+
+int section_of_segment(const struct rotor *rotor, int index, struct section *section)
+{
+    const struct segment *segment = &rotor->segment[index];
+    const struct group *group = &rotor->group[segment->group];
+    if (segment->rectangular)
+        section_rectangular(segment->height, segment->width, section);
+    else
+        section_round(segment->outer, segment->inner, segment->stiff_outer, section);
+    return group->holes ? section_perforate(group->holes, group->hole_diameter, group->hole_pitch, segment->stiff_outer, section)
+                        : ROTID_OK;
+}
