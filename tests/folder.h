@@ -6,8 +6,8 @@
 
 extern char folder[];
 
-/* Setup and teardown of a group. What folder_path and folder_write have named is removed; with anything else in it the teardown fails:
- * a file that somebody left behind. */
+/* Setup and teardown of a group. What folder_path and folder_write have named is removed; with anything else in it the teardown
+ * fails: a file that somebody left behind. */
 int folder_make(void **state);
 int folder_remove(void **state);
 

@@ -11,8 +11,8 @@
 #include "deck/deck_write.h"
 #include "diagnose/diagnose.h"
 #include "exact.h"
-#include "oracle/oracle.h"
 #include "folder.h"
+#include "oracle/oracle.h"
 #include "support.h"
 
 #define POINTS 21

@@ -1,8 +1,8 @@
 /* Pool, messages, statuses. */
 #include "support.h"
 
-#include <math.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

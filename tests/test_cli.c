@@ -11,8 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "json_value.h"
 #include "folder.h"
+#include "json_value.h"
 #include "support.h"
 
 #define PAPER       ROTID_SOURCE_DIR "/input/paper_rotor.inp"
@@ -189,7 +189,8 @@ static void every_command_writes_json(void **state)
 static void json_is_utf_8_whatever_the_deck_holds(void **state)
 {
     (void)state;
-    const char *deck = folder_write("deck.inp", "*HEADING\nL\xe4ufer, W\xc3\xa4rme \xe2\x82\n" MODEL); /* Latin-1, UTF-8, cut off */
+    const char *deck =
+        folder_write("deck.inp", "*HEADING\nL\xe4ufer, W\xc3\xa4rme \xe2\x82\n" MODEL); /* Latin-1, UTF-8, cut off */
     struct outcome outcome = run("check", deck, "--json", "-");
     assert_non_null(strstr(outcome.out, ", W\xc3\xa4rme "));
     assert_null(strchr(outcome.out, '\xe4'));
@@ -212,7 +213,7 @@ static void a_parameter_without_effect_is_flagged_and_exits_1(void **state)
 {
     (void)state;
     const char *deck = folder_write("deck.inp", MODEL MODES "*DISK, NAME=ghost\n0.5, 0, 1e-9\n*IDENTIFY\n"
-                                                          "core.E, 1e10, 4e11, 2e11\nghost.inertia, 1e-12, 1e-6, 1e-9\n");
+                                                            "core.E, 1e10, 4e11, 2e11\nghost.inertia, 1e-12, 1e-6, 1e-9\n");
     cJSON *json = json_of("identify", deck, NULL, NULL, 1);
     assert_true(cJSON_IsFalse(get(cJSON_GetArrayItem(get(json, "parameters"), 1), "identifiable")));
     cJSON_Delete(json);
@@ -223,9 +224,9 @@ static void an_undetermined_parameter_exits_1(void **state)
 {
     (void)state;
     const char *deck = folder_write("deck.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
-                                              "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.02, 0, 20\n"
-                                              "*MODES\n1, 91.8\n2, 253.1\n3, 495.2\n"
-                                              "*IDENTIFY\nbar.E, 1e10, 1e12, 1.5e11\nbar.G, 1e9, 1e13, 8e10\n");
+                                                "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.02, 0, 20\n"
+                                                "*MODES\n1, 91.8\n2, 253.1\n3, 495.2\n"
+                                                "*IDENTIFY\nbar.E, 1e10, 1e12, 1.5e11\nbar.G, 1e9, 1e13, 8e10\n");
     cJSON *json = json_of("identify", deck, NULL, NULL, 1);
     const cJSON *parameters = get(json, "parameters");
     assert_string_equal(get(json, "status")->valuestring, "converged");
@@ -268,7 +269,8 @@ static void the_same_run_gives_the_same_json_but_for_the_time(void **state)
 static void warnings_stand_on_standard_error_and_in_the_json(void **state)
 {
     (void)state;
-    const char *deck = folder_write("deck.inp", MODEL "*TIEROD, NAME=t, MATERIAL=steel, FROM=start, TO=end\n6, 0.01, 0.04, 1e3, 4");
+    const char *deck =
+        folder_write("deck.inp", MODEL "*TIEROD, NAME=t, MATERIAL=steel, FROM=start, TO=end\n6, 0.01, 0.04, 1e3, 4");
     struct outcome outcome = run("check", deck, "--json", "-");
     cJSON *json = cJSON_Parse(outcome.out);
     assert_int_equal(cJSON_GetArraySize(get(json, "warnings")), 1);

@@ -11,8 +11,8 @@
 
 #include "base/clock.h"
 #include "export_readers.h"
-#include "json_value.h"
 #include "folder.h"
+#include "json_value.h"
 #include "support.h"
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
@@ -228,8 +228,9 @@ static void test_rectangles_are_said_to_be_no_rotor(void **state)
 static void test_names_cannot_break_out(void **state)
 {
     (void)state;
-    (void)folder_write("odd.inp", "*HEADING\n\"\"\" k\xc3\xa4se \\\n*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, "
-                          "NAME=a\");import os#, MATERIAL=s\n1, 0.1, 0, 4\n*DISK, NAME=d\"\\\n0.5, 1, 0.1\n");
+    (void)folder_write("odd.inp",
+                       "*HEADING\n\"\"\" k\xc3\xa4se \\\n*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, "
+                       "NAME=a\");import os#, MATERIAL=s\n1, 0.1, 0, 4\n*DISK, NAME=d\"\\\n0.5, 1, 0.1\n");
     assert_int_equal(run("export odd.inp --format ross -o odd.py"), 0);
     assert_true(holds("odd.py", "material(\"a___import_os_\"") && holds("odd.py", "tag=\"d__\"") && !holds("odd.py", "\xc3"));
     assert_true(holds("odd.py", "# \"\"\" k??se \\\n"));
@@ -327,10 +328,10 @@ static void test_an_interrupted_fit_writes_nothing(void **state)
 {
     (void)state;
     char command[512];
-    (void)folder_write("slow.inp",
-               "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.3, 0.05, 0, 3000\n"
-               "*SHAFT, NAME=b, MATERIAL=s\n0.4, 0.1, 0.02, 3000\n*SHAFT, NAME=c, MATERIAL=s\n0.3, 0.05, 0, 3000\n" MODES
-               "*IDENTIFY\na.E, 1e9, 1e12, 2e10\nb.E, 1e9, 1e12, 2e10\nc.E, 1e9, 1e13, 2e12\n");
+    (void)folder_write(
+        "slow.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.3, 0.05, 0, 3000\n"
+                    "*SHAFT, NAME=b, MATERIAL=s\n0.4, 0.1, 0.02, 3000\n*SHAFT, NAME=c, MATERIAL=s\n0.3, 0.05, 0, 3000\n" MODES
+                    "*IDENTIFY\na.E, 1e9, 1e12, 2e10\nb.E, 1e9, 1e12, 2e10\nc.E, 1e9, 1e13, 2e12\n");
     (void)snprintf(command, sizeof command,
                    "cd %s && timeout --preserve-status -s TERM 0.2 %s export slow.inp --format dmig -o slow.bdf > out 2> err",
                    folder, ROTID_PROGRAM);
@@ -352,8 +353,9 @@ static long size_of(const char *name)
 static void test_two_thousand_elements(void **state)
 {
     (void)state;
-    (void)folder_write("long.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
-                           "2000\n" SENSORS);
+    (void)folder_write("long.inp",
+                       "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
+                       "2000\n" SENSORS);
     double start = clock_seconds();
     assert_int_equal(run("export long.inp --format matrix-market -o long"), 0);
     assert_int_equal(run("export long.inp --format dmig -o long.bdf"), 0);
@@ -374,8 +376,9 @@ static void test_two_thousand_elements(void **state)
     assert_close(sum, 7850 * 20 * acos(-1) / 4 * (0.16 - 0.01), 1e-10, 0);
     (void)fclose(stream);
     free(mass.a);
-    (void)folder_write("bare.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
-                           "2000\n");
+    (void)folder_write("bare.inp",
+                       "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
+                       "2000\n");
     assert_int_equal(run("export bare.inp --format matrix-market -o bare"), 0); /* 2,001 masters */
     assert_non_null(strstr(output, "2001 nodes (the deck has no sensors) are too many to condense onto"));
     assert_false(is_there("bare.condensed_mass.mtx"));

@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "exact_receptance.h"
+#include "folder.h"
 #include "import/measurement.h"
 #include "json_value.h"
-#include "folder.h"
 #include "support.h"
 #include "uff/uff_write.h"
 
@@ -33,7 +33,8 @@ static void read_into(const char *path, char *text, size_t size)
 static int frf(const char *arguments)
 {
     char command[2048];
-    (void)snprintf(command, sizeof command, "%s frf %s > %s 2> %s", ROTID_PROGRAM, arguments, folder_path("out"), folder_path("err"));
+    (void)snprintf(command, sizeof command, "%s frf %s > %s 2> %s", ROTID_PROGRAM, arguments, folder_path("out"),
+                   folder_path("err"));
     int status = system(command); /* NOLINT: a fixed command of the test */
     read_into(folder_path("out"), output, sizeof output);
     read_into(folder_path("err"), errors, sizeof errors);

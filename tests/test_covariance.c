@@ -347,8 +347,8 @@ static void test_direction_worse_than_half_the_value_is_undetermined(void **stat
     }
 }
 
-/* A part of 0.2 in a direction with a spread of 1000 % leaves 200 %, in one of 400 % it leaves 80 %, 1.96 times which is more than
- * all, in one of 200 % it leaves 40 %. */
+/* A part of 0.2 in a direction with a spread of 1000 % leaves 200 %, in one of 400 % it leaves 80 %, 1.96 times which is more
+ * than all, in one of 200 % it leaves 40 %. */
 static void test_no_parameter_whose_interval_holds_zero_is_called_identifiable(void **state)
 {
     static const double spread[3] = {10, 4, 2}, v[N] = {1, 2, -1, 3};

@@ -327,7 +327,8 @@ static void an_included_file_is_looked_for_beside_the_one_that_names_it(void **s
     struct reading r;
     assert_int_equal(mkdir(folder_path("sub"), 0700), 0);
     assert_int_equal(mkdir(folder_path("sub/deep"), 0700), 0);
-    (void)folder_write("sub/steel.inc", "*MATERIAL, NAME=steel\n*INCLUDE, FILE=deep/elastic.inc\n*DENSITY\n*include, file=deep/rho.inc");
+    (void)folder_write("sub/steel.inc",
+                       "*MATERIAL, NAME=steel\n*INCLUDE, FILE=deep/elastic.inc\n*DENSITY\n*include, file=deep/rho.inc");
     (void)folder_write("sub/deep/elastic.inc", "*ELASTIC\n2.1e11, 0.3\n");
     (void)folder_write("sub/deep/rho.inc", "7850\n"); /* goes on with the card of the deck that names it */
     read_text(&r, "*INCLUDE, FILE=sub/steel.inc\n" SHAFT);

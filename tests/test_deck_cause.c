@@ -10,10 +10,10 @@
 #include "deck/deck.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/causes/sensor.h"
+#include "folder.h"
 #include "modal/functional.h"
 #include "model/model.h"
 #include "run/identify.h"
-#include "folder.h"
 #include "support.h"
 
 #define EVERY_CAUSE ROTID_SOURCE_DIR "/tests/data/decks/every_cause.inp"

@@ -8,8 +8,8 @@
 #include "deck/deck.h"
 #include "deck/deck_write.h"
 #include "diagnose/causes/catalogue.h"
-#include "run/identify.h"
 #include "folder.h"
+#include "run/identify.h"
 #include "support.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"

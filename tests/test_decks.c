@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include "deck/deck.h"
+#include "folder.h"
 #include "run/compare.h"
 #include "run/identify.h"
-#include "folder.h"
 #include "support.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"

@@ -11,8 +11,8 @@
 #include "deck/deck.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/diagnose.h"
-#include "modal/prediction.h"
 #include "folder.h"
+#include "modal/prediction.h"
 #include "model/model.h"
 #include "support.h"
 

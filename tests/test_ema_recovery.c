@@ -127,7 +127,8 @@ static void a_moving_mass(int with_variance)
         assert_close(ema.mode[r].frequency_hz, median, 1e-12, 0);
         for (size_t j = 0; j < count; j++)
             known[j] = fabs(known[j] - median);
-        /* of normal numbers the median distance is 0.6745 standard deviations, and their median scatters by sqrt(pi/2) of the mean */
+        /* of normal numbers the median distance is 0.6745 standard deviations, and their median scatters by sqrt(pi/2) of the
+         * mean */
         assert_close(ema.mode[r].frequency_std, sqrt(1.570796 / (double)count) * median_of(count, known) / 0.67449, 1e-3, 0);
         for (int j = 0; j < 13; j++) {
             double shifted = truth.frequency_hz[r] * (1 - truth.moving_mass * truth.phi[r][j] * truth.phi[r][j] / 2);

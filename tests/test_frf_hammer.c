@@ -9,8 +9,8 @@
 #include <string.h>
 #include <sys/wait.h>
 
-#include "hammer/hammer.h"
 #include "folder.h"
+#include "hammer/hammer.h"
 #include "support.h"
 
 #define TWO_PI 6.28318530717958647692
@@ -33,7 +33,8 @@ static void write_deck(const char *name, const char *card)
 static cJSON *result_of(const char *deck)
 {
     char command[1024];
-    (void)snprintf(command, sizeof command, "%s frf %s --quiet --json %s", ROTID_PROGRAM, folder_path(deck), folder_path("out.json"));
+    (void)snprintf(command, sizeof command, "%s frf %s --quiet --json %s", ROTID_PROGRAM, folder_path(deck),
+                   folder_path("out.json"));
     int status = system(command); /* NOLINT: a fixed command of the test */
     assert_int_equal(WEXITSTATUS(status), 0);
     FILE *stream = fopen(folder_path("out.json"), "rb");

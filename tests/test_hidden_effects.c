@@ -1,5 +1,5 @@
-/* The diagnosis on hidden effects (hidden.h: exact dynamic stiffness, 0.1 % on frequencies, 1.5 % on shapes): fixed cases of every
- * kind; faults of the data alone are in test_hidden_faults. tools/power does the same with fresh ones by the thousand. */
+/* The diagnosis on hidden effects (hidden.h: exact dynamic stiffness, 0.1 % on frequencies, 1.5 % on shapes): fixed cases of
+ * every kind; faults of the data alone are in test_hidden_faults. tools/power does the same with fresh ones by the thousand. */
 #include "support.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* Faults of the data hidden in those of the paper's rotor (hidden.h): found by number, said in a sentence, not taken for physics. */
+/* Faults of the data hidden in those of the paper's rotor (hidden.h): found by number, said in a sentence, not taken for physics.
+ */
 #include "support.h"
 
 #include <stdio.h>

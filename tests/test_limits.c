@@ -133,8 +133,8 @@ static void a_pipe_with_another_end_is_one_file_more(void **state)
                 folder);
     (void)shell(&test_pool, "cd %s && { (sleep 1; cat " UFF " > pipe) & } && " LIMITED "uff pipe --quiet", folder);
     (void)shell(&test_pool,
-                "cd %s && mkfifo late && { (sleep 6; cat " DECK ") > late & } && { " LIMITED "check late --quiet & } && { sleep 6; cat " DECK
-                "; } | " LIMITED "check /dev/stdin --quiet && wait $!",
+                "cd %s && mkfifo late && { (sleep 6; cat " DECK ") > late & } && { " LIMITED
+                "check late --quiet & } && { sleep 6; cat " DECK "; } | " LIMITED "check /dev/stdin --quiet && wait $!",
                 folder);
     assert_string_equal(
         shell(&test_pool,

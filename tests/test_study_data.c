@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "diagnose/causes/catalogue.h"
 #include "diagnose/causes/sensor.h"
 #include "hide/hide.h"
 #include "json_value.h"
-#include "diagnose/causes/catalogue.h"
 #include "study/experiment.h"
 #include "study/score.h"
 #include "study_bench.h"
