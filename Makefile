@@ -16,6 +16,7 @@
 #   make fuzz       the readers of decks, universal files, plans and results on random input, FUZZ_SECONDS (600) each
 #   make sweep      report, with gnuplot, on 2,000 hostile texts (SWEEP_PAYLOADS) in results of every kind
 #   make coverage   share of the lines of src that the tests run
+#   make mutate     makes the mistakes of tests/mutations one by one in a copy: does the named test fail? ROWS="covariance 118": of these
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
 #   make fortran    the types of results in include/rotid.f90 anew, from include/rotid.h
@@ -94,6 +95,9 @@ PROGRAM_OBJECTS := $(call OBJECTS_OF,$(PROGRAM_SOURCES))
 TESTS := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))) $(call OBJECTS_OF,$(wildcard tools/oracle/*.c)) \
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
+# archives, so that a test program links what it calls and no more
+SUPPORT := $(BUILD)/tests/support.a
+ROOMS := $(BUILD)/program-objects.a
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
 .PHONY: all abi schema check-schema demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
@@ -120,8 +124,12 @@ $(BUILD)/commit: FORCE
 FORCE:
 
 $(OBJECTS): $(LIBRARY_OBJECTS)
+$(SUPPORT): $(SUPPORT_OBJECTS)
+$(ROOMS): $(PROGRAM_OBJECTS)
+# q: members of one name stay beside each other
+$(OBJECTS) $(SUPPORT) $(ROOMS):
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(AR) qcs $@ $^
 
 # Static: every object for itself, so that a host links those alone that it calls. Their hidden names begin with rotid_private_
 # there, so that a host may have a pool_open too.
@@ -175,7 +183,7 @@ $(BUILD)/hammer: $(call OBJECTS_OF,$(wildcard tools/hammer/*.c tools/oracle/*.c)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
 # Fresh hidden effects by the thousand; POWER holds options, such as "--cases 200 --no-shapes".
-$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS) $(OBJECTS)
+$(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 power: $(BUILD)/power
 	@OPENBLAS_NUM_THREADS=1 $(BUILD)/power $(POWER)
@@ -183,8 +191,8 @@ power: $(BUILD)/power
 # Some link hosts of their own, in the way the library was built.
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT) $(ROOMS) $(OBJECTS)
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
@@ -214,19 +222,23 @@ demo: all
 figures: all
 	@sh tools/figures $(BUILD)/rotid $(BUILD)/figures
 
-# WITHOUT: names of programs that are left out
-TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT)),$(TEST_PROGRAMS))
+# WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
+LONGEST := $(addprefix $(BUILD)/tests/test_,hidden_effects chain limits diagnose_bounds diagnose ema_statistics diagnose_cases \
+           sensor_check accelerometer page_input study_run)
+TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: all $(TESTED)
 	@sh tools/run-tests $(TESTED)
 
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
-# without the programs that diagnose dozens of rotors: what they call is in the others
-DIAGNOSE_MANY := hidden_effects paper_variants diagnose_cases diagnose_bounds stiff_supports
+# without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases: what they call is in the others
+DIAGNOSE_MANY := hidden_effects hidden_faults diagnose_cases diagnose_bounds stiff_supports
+COUNT_MANY := ema_statistics accelerometer hide
 check-asan:
-	@ROTID_CHAIN_RUNS=2 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
-	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' WITHOUT='$(DIAGNOSE_MANY)' test
+	@ROTID_CHAIN_RUNS=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
+	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \
+	    WITHOUT='$(DIAGNOSE_MANY) $(COUNT_MANY)' test
 
 # Calls from several threads under the thread sanitizer; where possible without address space randomisation, with which it does
 # not start on kernels that randomise more bits than it knows of.
@@ -238,7 +250,7 @@ check-tsan:
 # without those and other long ones
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) chain ema_statistics api_cancel host threads study_run),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) $(COUNT_MANY) chain api_cancel host threads study_run),$(TEST_PROGRAMS))
 
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
@@ -258,7 +270,7 @@ check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
 FUZZERS := uff deck plan results
-$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(PROGRAM_OBJECTS) $(OBJECTS)
+$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 fuzzers: $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
 fuzz:
@@ -268,6 +280,11 @@ fuzz:
 	    OPENBLAS_NUM_THREADS=1 $(BUILD)/fuzz/tests/fuzz/fuzz_$$name -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1024 \
 	    -max_len=65536 -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus/$$name \
 	    tests/fuzz/corpus/$$name || exit 1; done
+
+# Would the tests fail? ROWS: parts of file names, tests or line numbers of the list.
+.PHONY: mutate
+mutate:
+	@$(PYTHON) tools/mutate '$(BUILD)' $(ROWS)
 
 coverage:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 -g --coverage' LDFLAGS=--coverage test

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "json_value.h"
@@ -128,22 +129,42 @@ void bench_says(const char *arguments, int code, const char *text)
     assert_true(good);
 }
 
+/* The parent of a process that has not ended, 0 where there is none: a zombie waits for nothing but its parent, and that of an
+ * orphan may take its time. */
+static int parent_of(int process)
+{
+    char path[300], line[512];
+    int parent = 0;
+    (void)snprintf(path, sizeof path, "/proc/%d/stat", process);
+    FILE *stat = fopen(path, "rb");
+    const char *behind = stat && fgets(line, sizeof line, stat) ? strrchr(line, ')') : NULL;
+    if (behind && (sscanf(behind, ") %*c %d", &parent) != 1 || behind[2] == 'Z'))
+        parent = 0;
+    if (stat)
+        (void)fclose(stat);
+    return parent;
+}
+
+int bench_ends(pid_t process, double seconds)
+{
+    const struct timespec pause = {0, 2000000};
+    int there = parent_of(process) != 0;
+    for (int tries = (int)(seconds / 0.002); there && tries > 0; tries--) {
+        (void)nanosleep(&pause, NULL);
+        there = parent_of(process) != 0;
+    }
+    return !there;
+}
+
 int bench_children(pid_t process, int most, pid_t *child)
 {
     DIR *stream = opendir("/proc");
     int count = 0;
     assert_non_null(stream);
     for (struct dirent *entry; (entry = readdir(stream)) && count < most;) {
-        char path[300], line[512];
-        int number = atoi(entry->d_name), parent = 0;
-        (void)snprintf(path, sizeof path, "/proc/%d/stat", number);
-        FILE *stat = number > 0 ? fopen(path, "rb") : NULL;
-        if (!stat)
-            continue;
-        const char *behind = fgets(line, sizeof line, stat) ? strrchr(line, ')') : NULL;
-        if (behind && sscanf(behind, ") %*c %d", &parent) == 1 && parent == process && behind[2] != 'Z')
+        int number = atoi(entry->d_name);
+        if (number > 0 && parent_of(number) == process)
             child[count++] = number;
-        (void)fclose(stat);
     }
     (void)closedir(stream);
     return count;

@@ -46,6 +46,8 @@ void bench_says(const char *arguments, int code, const char *text);
 
 /* Processes that this one has started, up to `most`. */
 int bench_children(pid_t process, int most, pid_t *child);
+/* Whether a process ends within that time, whoever has to take note of that. */
+int bench_ends(pid_t process, double seconds);
 
 /* Lines of a file of results. */
 int bench_lines(const char *name);

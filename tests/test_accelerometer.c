@@ -11,6 +11,7 @@
 #include "deck/deck_write.h"
 #include "diagnose/diagnose.h"
 #include "exact.h"
+#include "folder.h"
 #include "oracle/oracle.h"
 #include "support.h"
 
@@ -25,15 +26,7 @@
 #define SHEAR    0.79e11
 #define FINE     241
 
-static char directory[] = "/tmp/test_accelerometer_XXXXXX";
 static char text[40000];
-
-static const char *deck_path(void)
-{
-    static char path[80];
-    (void)snprintf(path, sizeof path, "%s/deck.inp", directory);
-    return path;
-}
 
 static void append(const char *format, ...) __attribute__((format(printf, 1, 2)));
 static void append(const char *format, ...)
@@ -49,11 +42,9 @@ static void append(const char *format, ...)
 static void read_deck(const char *deck, struct job *job)
 {
     struct message_list messages;
-    FILE *stream = fopen(deck_path(), "wb");
-    assert_non_null(stream);
-    assert_true(fputs(deck, stream) >= 0 && fclose(stream) == 0);
+    const char *path = folder_write("deck.inp", deck);
     message_open(&messages, &test_pool);
-    int status = deck_read(&test_pool, deck_path(), 0, NULL, &messages, job);
+    int status = deck_read(&test_pool, path, 0, NULL, &messages, job);
     for (size_t i = 0; i < messages.count; i++)
         print_message("deck %d:%d: %s\n", messages.item[i].line, messages.item[i].column, messages.item[i].text);
     assert_status(status, ROTID_OK);
@@ -376,14 +367,14 @@ static void on_a_ton_it_is_below_the_noise_and_listed(void **state)
     }
 }
 
-static int make_directory(void **state)
+static int open_all(void **state)
 {
-    return mkdtemp(directory) == NULL || open_test_pool(state);
+    return folder_make(state) || open_test_pool(state);
 }
 
-static int remove_directory(void **state)
+static int close_all(void **state)
 {
-    return unlink(deck_path()) || rmdir(directory) || close_test_pool(state);
+    return folder_remove(state) || close_test_pool(state);
 }
 
 int main(void)
@@ -396,5 +387,5 @@ int main(void)
         cmocka_unit_test(a_suspect_and_a_fault_of_a_channel_stand_beside_it),
         cmocka_unit_test(on_a_ton_it_is_below_the_noise_and_listed),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, open_all, close_all);
 }

@@ -2,11 +2,13 @@
 #include "support.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "base/order.h"
 
 /* ---- an allocator that hands out dirty memory and sees writes behind a block */
 
@@ -341,6 +343,13 @@ static void other_values_are_unknown_statuses(void **state)
     }
 }
 
+static void the_median_is_the_middle_one_or_the_mean_of_the_middle_two(void **state)
+{
+    double odd[] = {7, -1, 3}, even[] = {10, 1, 2, 4};
+    (void)state;
+    assert_true(median_of(3, odd) == 3 && median_of(4, even) == 3 && isnan(median_of(0, odd)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -356,6 +365,7 @@ int main(void)
         cmocka_unit_test(messages_survive_a_failed_allocation),
         cmocka_unit_test(every_status_has_its_own_name_and_text),
         cmocka_unit_test(other_values_are_unknown_statuses),
+        cmocka_unit_test(the_median_is_the_middle_one_or_the_mean_of_the_middle_two),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

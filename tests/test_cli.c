@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "folder.h"
 #include "json_value.h"
 #include "support.h"
 
@@ -23,39 +24,6 @@
 #define MODES "*MODES\n1, 500\n2, 1300\n3, 2400\n"
 
 extern char **environ;
-
-static char directory[] = "/tmp/test_cli_XXXXXX";
-
-static const char *path_of(const char *name)
-{
-    static char path[16][512]; /* several are in use at a time */
-    static int next;
-    next = (next + 1) % 16;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
-
-/* The text of a file, or NULL where there is none; to be freed. */
-static char *read_file(const char *path)
-{
-    FILE *stream = fopen(path, "rb");
-    if (!stream)
-        return NULL;
-    char *text = calloc(1 << 20, 1);
-    assert_non_null(text);
-    size_t length = fread(text, 1, (1 << 20) - 1, stream);
-    assert_true(length < (1 << 20) - 1);
-    (void)fclose(stream);
-    return text;
-}
-
-static const char *write_deck(const char *name, const char *text)
-{
-    FILE *stream = fopen(path_of(name), "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-    return path_of(name);
-}
 
 struct outcome {
     int code; /* 128 + signal where a signal ended it */
@@ -83,17 +51,17 @@ static struct outcome run_into(const char *out, ...)
     va_end(list);
     assert_int_equal(posix_spawn_file_actions_init(&actions), 0);
     assert_int_equal(posix_spawn_file_actions_addopen(&actions, 1, out, O_WRONLY | O_CREAT | O_TRUNC, 0600), 0);
-    assert_int_equal(posix_spawn_file_actions_addopen(&actions, 2, path_of("stderr"), O_WRONLY | O_CREAT | O_TRUNC, 0600), 0);
+    assert_int_equal(posix_spawn_file_actions_addopen(&actions, 2, folder_path("stderr"), O_WRONLY | O_CREAT | O_TRUNC, 0600), 0);
     assert_int_equal(posix_spawn(&child, ROTID_PROGRAM, &actions, NULL, arguments, environ), 0);
     (void)posix_spawn_file_actions_destroy(&actions);
     assert_true(waitpid(child, &status, 0) == child);
     outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    outcome.out = strncmp(out, "/dev/", 5) ? read_file(out) : NULL;
-    outcome.err = read_file(path_of("stderr"));
+    outcome.out = strncmp(out, "/dev/", 5) ? file_bytes(out, NULL) : NULL;
+    outcome.err = file_bytes(folder_path("stderr"), NULL);
     return outcome;
 }
 
-#define run(...) run_into(path_of("stdout"), __VA_ARGS__, (char *)NULL)
+#define run(...) run_into(folder_path("stdout"), __VA_ARGS__, (char *)NULL)
 
 /* Exit code, and what the streams hold: NULL nothing, else a part of it ("" anything). */
 static int is(struct outcome outcome, int code, const char *out, const char *err)
@@ -130,7 +98,7 @@ static void has_keys(const cJSON *json, const char *keys)
 static int left_over(const char *prefix)
 {
     int found = 0;
-    DIR *stream = opendir(directory);
+    DIR *stream = opendir(folder);
     assert_non_null(stream);
     for (struct dirent *entry; (entry = readdir(stream));)
         found += !strncmp(entry->d_name, prefix, strlen(prefix));
@@ -157,7 +125,7 @@ static void wrong_usage_exits_2_and_says_what_was_expected(void **state)
     assert_true(is(run("check", PAPER, "--set", "REDUCTION"), 2, NULL, "--set REDUCTION: expected CARD.OPTION=VALUE"));
     assert_true(is(run("check", PAPER, "--set", "FIT.A=1"), 2, NULL, "--set FIT.A=1:1:1: option A of *FIT is not known"));
     assert_true(is(run("check", PAPER, "--set", "FITS.A=1"), 2, NULL, "--set FITS.A=1:1:1: the deck has no card *FITS"));
-    assert_true(is(run("check", path_of("missing.inp")), 2, NULL, "missing.inp:1:1: cannot read"));
+    assert_true(is(run("check", folder_path("missing.inp")), 2, NULL, "missing.inp:1:1: cannot read"));
 }
 
 static void help_and_version_exit_0(void **state)
@@ -221,7 +189,8 @@ static void every_command_writes_json(void **state)
 static void json_is_utf_8_whatever_the_deck_holds(void **state)
 {
     (void)state;
-    const char *deck = write_deck("deck.inp", "*HEADING\nL\xe4ufer, W\xc3\xa4rme \xe2\x82\n" MODEL); /* Latin-1, UTF-8, cut off */
+    const char *deck =
+        folder_write("deck.inp", "*HEADING\nL\xe4ufer, W\xc3\xa4rme \xe2\x82\n" MODEL); /* Latin-1, UTF-8, cut off */
     struct outcome outcome = run("check", deck, "--json", "-");
     assert_non_null(strstr(outcome.out, ", W\xc3\xa4rme "));
     assert_null(strchr(outcome.out, '\xe4'));
@@ -232,7 +201,7 @@ static void json_is_utf_8_whatever_the_deck_holds(void **state)
 static void a_result_at_a_bound_is_written_and_exits_1(void **state)
 {
     (void)state;
-    const char *deck = write_deck("deck.inp", MODEL MODES "*IDENTIFY\ncore.E, 1e10, 1.5e11, 1e11\n");
+    const char *deck = folder_write("deck.inp", MODEL MODES "*IDENTIFY\ncore.E, 1e10, 1.5e11, 1e11\n");
     cJSON *json = json_of("identify", deck, NULL, NULL, 1);
     const cJSON *parameter = cJSON_GetArrayItem(get(json, "parameters"), 0);
     assert_true(!strcmp(get(json, "status")->valuestring, "at_bound") && cJSON_IsTrue(get(parameter, "at_bound")));
@@ -243,19 +212,36 @@ static void a_result_at_a_bound_is_written_and_exits_1(void **state)
 static void a_parameter_without_effect_is_flagged_and_exits_1(void **state)
 {
     (void)state;
-    const char *deck = write_deck("deck.inp", MODEL MODES "*DISK, NAME=ghost\n0.5, 0, 1e-9\n*IDENTIFY\n"
-                                                          "core.E, 1e10, 4e11, 2e11\nghost.inertia, 1e-12, 1e-6, 1e-9\n");
+    const char *deck = folder_write("deck.inp", MODEL MODES "*DISK, NAME=ghost\n0.5, 0, 1e-9\n*IDENTIFY\n"
+                                                            "core.E, 1e10, 4e11, 2e11\nghost.inertia, 1e-12, 1e-6, 1e-9\n");
     cJSON *json = json_of("identify", deck, NULL, NULL, 1);
     assert_true(cJSON_IsFalse(get(cJSON_GetArrayItem(get(json, "parameters"), 1), "identifiable")));
+    cJSON_Delete(json);
+}
+
+/* Converged and at no bound: three frequencies of a slender bar say next to nothing of its shear modulus. */
+static void an_undetermined_parameter_exits_1(void **state)
+{
+    (void)state;
+    const char *deck = folder_write("deck.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                                                "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.02, 0, 20\n"
+                                                "*MODES\n1, 91.8\n2, 253.1\n3, 495.2\n"
+                                                "*IDENTIFY\nbar.E, 1e10, 1e12, 1.5e11\nbar.G, 1e9, 1e13, 8e10\n");
+    cJSON *json = json_of("identify", deck, NULL, NULL, 1);
+    const cJSON *parameters = get(json, "parameters");
+    assert_string_equal(get(json, "status")->valuestring, "converged");
+    for (int p = 0; p < 2; p++)
+        assert_true(cJSON_IsFalse(get(cJSON_GetArrayItem(parameters, p), "at_bound")));
+    assert_true(cJSON_IsFalse(get(cJSON_GetArrayItem(parameters, 1), "identifiable")));
     cJSON_Delete(json);
 }
 
 static void nothing_to_identify_or_nothing_measured_exits_2(void **state)
 {
     (void)state;
-    const char *deck = write_deck("deck.inp", MODEL "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n");
-    assert_true(is(run("identify", STEEL, "--json", path_of("out.json")), 2, NULL, "expected a card *IDENTIFY"));
-    assert_true(is(run("identify", deck, "--json", path_of("out.json")), 2, NULL, "expected *MODES or *MEASURED"));
+    const char *deck = folder_write("deck.inp", MODEL "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\n");
+    assert_true(is(run("identify", STEEL, "--json", folder_path("out.json")), 2, NULL, "expected a card *IDENTIFY"));
+    assert_true(is(run("identify", deck, "--json", folder_path("out.json")), 2, NULL, "expected *MODES or *MEASURED"));
     assert_int_equal(left_over("out.json"), 0);
 }
 
@@ -283,7 +269,8 @@ static void the_same_run_gives_the_same_json_but_for_the_time(void **state)
 static void warnings_stand_on_standard_error_and_in_the_json(void **state)
 {
     (void)state;
-    const char *deck = write_deck("deck.inp", MODEL "*TIEROD, NAME=t, MATERIAL=steel, FROM=start, TO=end\n6, 0.01, 0.04, 1e3, 4");
+    const char *deck =
+        folder_write("deck.inp", MODEL "*TIEROD, NAME=t, MATERIAL=steel, FROM=start, TO=end\n6, 0.01, 0.04, 1e3, 4");
     struct outcome outcome = run("check", deck, "--json", "-");
     cJSON *json = cJSON_Parse(outcome.out);
     assert_int_equal(cJSON_GetArraySize(get(json, "warnings")), 1);
@@ -300,8 +287,8 @@ static void warnings_stand_on_standard_error_and_in_the_json(void **state)
 static void what_cannot_be_written_exits_3_and_leaves_nothing(void **state)
 {
     (void)state;
-    assert_true(is(run("check", BRAKE, "--quiet", "--json", path_of("none/out.json")), 3, NULL, "cannot write"));
-    assert_true(is(run("check", BRAKE, "--quiet", "--json", directory), 3, NULL, "cannot write"));
+    assert_true(is(run("check", BRAKE, "--quiet", "--json", folder_path("none/out.json")), 3, NULL, "cannot write"));
+    assert_true(is(run("check", BRAKE, "--quiet", "--json", folder), 3, NULL, "cannot write"));
     assert_int_equal(left_over("none"), 0);
     assert_true(is(run_into("/dev/full", "check", BRAKE, NULL), 3, NULL, "cannot write to standard output"));
     assert_true(is(run_into("/dev/full", "check", BRAKE, "--json", "-", NULL), 3, NULL, "No space left on device"));
@@ -313,14 +300,14 @@ static void what_cannot_be_written_exits_3_and_leaves_nothing(void **state)
 static void a_result_is_replaced_as_a_whole_or_not_at_all(void **state)
 {
     (void)state;
-    const char *wrong = write_deck("deck.inp", MODEL "*SHAFT\n"), *result = write_deck("out.json", "old\n");
+    const char *wrong = folder_write("deck.inp", MODEL "*SHAFT\n"), *result = folder_write("out.json", "old\n");
     assert_true(is(run("check", wrong, "--json", result), 2, NULL, "expected"));
     assert_true(is(run("check", wrong, "--json", wrong), 2, NULL, "is the file that is read, expected another one"));
-    char *text = read_file(result);
+    char *text = file_bytes(result, NULL);
     assert_string_equal(text, "old\n");
     free(text);
     assert_true(is(run("check", BRAKE, "--json", result), 0, "", NULL));
-    text = read_file(result);
+    text = file_bytes(result, NULL);
     cJSON *json = cJSON_ParseWithOpts(text, NULL, 1);
     assert_true(cJSON_IsObject(json));
     cJSON_Delete(json);
@@ -349,27 +336,12 @@ static void a_file_named_by_set_is_looked_for_where_the_user_stands(void **state
 {
     (void)state;
     char here[4096], deck[512];
-    (void)snprintf(deck, sizeof deck, "%s", write_deck("deck.inp", MODEL));
+    (void)snprintf(deck, sizeof deck, "%s", folder_write("deck.inp", MODEL));
     assert_non_null(getcwd(here, sizeof here));
     assert_int_equal(chdir(ROTID_SOURCE_DIR), 0);
     struct outcome outcome = run("check", deck, "--set", "MEASURED.FILE=tests/data/decks/wrong/two_modes.uff");
     assert_int_equal(chdir(here), 0);
     assert_true(is(outcome, 0, "measured modes             2", NULL));
-}
-
-static int make_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    static const char *const left[] = {"stdout", "stderr", "deck.inp", "out.json"};
-    for (size_t i = 0; i < sizeof left / sizeof *left; i++)
-        (void)unlink(path_of(left[i]));
-    return rmdir(directory);
 }
 
 int main(void)
@@ -383,6 +355,7 @@ int main(void)
         cmocka_unit_test(json_is_utf_8_whatever_the_deck_holds),
         cmocka_unit_test(a_result_at_a_bound_is_written_and_exits_1),
         cmocka_unit_test(a_parameter_without_effect_is_flagged_and_exits_1),
+        cmocka_unit_test(an_undetermined_parameter_exits_1),
         cmocka_unit_test(nothing_to_identify_or_nothing_measured_exits_2),
         cmocka_unit_test(the_same_run_gives_the_same_json_but_for_the_time),
         cmocka_unit_test(warnings_stand_on_standard_error_and_in_the_json),
@@ -391,5 +364,5 @@ int main(void)
         cmocka_unit_test(set_changes_the_result),
         cmocka_unit_test(a_file_named_by_set_is_looked_for_where_the_user_stands),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

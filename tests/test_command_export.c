@@ -11,6 +11,7 @@
 
 #include "base/clock.h"
 #include "export_readers.h"
+#include "folder.h"
 #include "json_value.h"
 #include "support.h"
 
@@ -23,38 +24,21 @@
 #define IDENTIFY "*IDENTIFY\ncore.E, 1e9, 1e12, 2e11\n"
 #define SENSORS  "*SENSORS\n1, 0\n2, 0.2\n3, 0.4\n4, 0.6\n5, 0.8\n6, 1\n"
 
-static char directory[] = "/tmp/test_command_export_XXXXXX";
 static char output[1 << 16], errors[1 << 16];
-
-static const char *path_of(const char *name)
-{
-    static char path[16][256]; /* several are in use at a time */
-    static int next;
-    next = (next + 1) % 16;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
 
 static void read_into(const char *name, char *text, size_t size)
 {
-    FILE *stream = fopen(path_of(name), "rb");
+    FILE *stream = fopen(folder_path(name), "rb");
     assert_non_null(stream);
     text[fread(text, 1, size - 1, stream)] = 0;
     (void)fclose(stream);
-}
-
-static void write_file(const char *name, const char *text)
-{
-    FILE *stream = fopen(path_of(name), "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
 }
 
 /* Exit code of rotid with the arguments, in the folder of the test; keeps what it prints. */
 static int run(const char *arguments)
 {
     char command[2048];
-    (void)snprintf(command, sizeof command, "cd %s && %s %s > out 2> err", directory, ROTID_PROGRAM, arguments);
+    (void)snprintf(command, sizeof command, "cd %s && %s %s > out 2> err", folder, ROTID_PROGRAM, arguments);
     int status = system(command); /* NOLINT: a fixed command of the test */
     read_into("out", output, sizeof output);
     read_into("err", errors, sizeof errors);
@@ -71,18 +55,18 @@ static void refuses(const char *arguments, int code, const char *text)
 
 static int is_there(const char *name)
 {
-    return access(path_of(name), F_OK) == 0;
+    return access(folder_path(name), F_OK) == 0;
 }
 
 /* Files whose name begins so. */
 static int count_files(const char *beginning)
 {
-    DIR *folder = opendir(directory);
+    DIR *stream = opendir(folder);
     int count = 0;
-    assert_non_null(folder);
-    for (const struct dirent *entry; (entry = readdir(folder));)
+    assert_non_null(stream);
+    for (const struct dirent *entry; (entry = readdir(stream));)
         count += !strncmp(entry->d_name, beginning, strlen(beginning));
-    (void)closedir(folder);
+    (void)closedir(stream);
     return count;
 }
 
@@ -114,7 +98,7 @@ static double number_at(const cJSON *json, const char *list, int i, const char *
 static void empty_folder(void)
 {
     char command[256];
-    (void)snprintf(command, sizeof command, "rm -rf %s/* ", directory);
+    (void)snprintf(command, sizeof command, "rm -rf %s/* ", folder);
     assert_int_equal(system(command), 0); /* NOLINT: a fixed command of the test */
 }
 
@@ -149,7 +133,7 @@ static void test_the_model_is_fitted_first(void **state)
 static void test_a_doubtful_fit_is_written_with_exit_code_1(void **state)
 {
     (void)state;
-    write_file("bound.inp", MODEL MODES "*IDENTIFY\ncore.E, 2.5e11, 1e12, 3e11\n");
+    (void)folder_write("bound.inp", MODEL MODES "*IDENTIFY\ncore.E, 2.5e11, 1e12, 3e11\n");
     static const char *const formats[] = {"matrix-market", "dmig", "ross"};
     for (int f = 0; f < 3; f++) {
         char arguments[128];
@@ -164,14 +148,14 @@ static void test_a_doubtful_fit_is_written_with_exit_code_1(void **state)
 static void test_a_deck_with_nothing_to_fit(void **state)
 {
     (void)state;
-    write_file("plain.inp", MODEL);
+    (void)folder_write("plain.inp", MODEL);
     assert_int_equal(run("export plain.inp --format matrix-market -o plain"), 0);
     assert_non_null(strstr(output, "as the deck states it"));
     assert_true(holds("plain.condensed_mass.mtx", "row 21: node 21 at 1 m")); /* without sensors all nodes are masters */
-    write_file("open.inp", MODEL IDENTIFY);
+    (void)folder_write("open.inp", MODEL IDENTIFY);
     assert_int_equal(run("export open.inp --format ross -o open.py"), 0);
     assert_non_null(strstr(output, "no mode was measured"));
-    write_file("measured.inp", MODEL MODES);
+    (void)folder_write("measured.inp", MODEL MODES);
     assert_int_equal(run("export measured.inp --format dmig -o measured.bdf --quiet"), 0);
     assert_string_equal(output, "");
 }
@@ -195,7 +179,7 @@ static void test_set_changes_the_model(void **state)
 static void test_too_few_sensors_to_condense_onto(void **state)
 {
     (void)state;
-    write_file("one.inp", MODEL "*SENSORS\n1, 0.3\n");
+    (void)folder_write("one.inp", MODEL "*SENSORS\n1, 0.3\n");
     cJSON *out = json_of("export one.inp --format matrix-market -o one --json -", 0);
     assert_int_equal(cJSON_GetArraySize(get(out, "files")), 3);
     assert_true(cJSON_IsNull(get(out, "reduction")) && cJSON_IsNull(get(out, "masters")));
@@ -205,7 +189,7 @@ static void test_too_few_sensors_to_condense_onto(void **state)
     cJSON_Delete(out);
     refuses("export one.inp --format dmig --condensed -o one.bdf", 2, "no condensed matrices");
     assert_false(is_there("one.bdf"));
-    write_file("two.inp", MODEL "*SENSORS\n1, 0.3\n2, 0.9\n");
+    (void)folder_write("two.inp", MODEL "*SENSORS\n1, 0.3\n2, 0.9\n");
     assert_int_equal(run("export two.inp --format dmig --condensed -o two.bdf"), 0);
     assert_non_null(strstr(output, "2 masters are too few"));
 }
@@ -214,9 +198,9 @@ static void test_sensors_are_the_grids_of_the_condensed_model(void **state)
 {
     (void)state;
     struct dmig_file file;
-    write_file("ids.inp", MODEL "*SENSORS\n40, 0\n7, 0.2\n99999999, 0.4\n1, 0.7\n3, 1\n");
+    (void)folder_write("ids.inp", MODEL "*SENSORS\n40, 0\n7, 0.2\n99999999, 0.4\n1, 0.7\n3, 1\n");
     assert_int_equal(run("export ids.inp --format dmig --condensed -o ids.bdf"), 0);
-    FILE *stream = fopen(path_of("ids.bdf"), "rb");
+    FILE *stream = fopen(folder_path("ids.bdf"), "rb");
     assert_non_null(stream);
     read_bulk(stream, &file);
     (void)fclose(stream);
@@ -226,7 +210,7 @@ static void test_sensors_are_the_grids_of_the_condensed_model(void **state)
         assert_true(file.grid[g] == id[g] && is_held(&file, id[g], "23456"));
     assert_true(file.longest <= 80);
     free(file.text);
-    write_file("ids.inp", MODEL "*SENSORS\n40, 0\n100000000, 0.4\n1, 0.7\n");
+    (void)folder_write("ids.inp", MODEL "*SENSORS\n40, 0\n100000000, 0.4\n1, 0.7\n");
     refuses("export ids.inp --format dmig --condensed -o no.bdf", 2, "sensor 100000000 cannot be the id of a GRID");
     assert_int_equal(run("export ids.inp --format dmig -o full.bdf"), 0);
     assert_false(is_there("no.bdf"));
@@ -244,8 +228,9 @@ static void test_rectangles_are_said_to_be_no_rotor(void **state)
 static void test_names_cannot_break_out(void **state)
 {
     (void)state;
-    write_file("odd.inp", "*HEADING\n\"\"\" k\xc3\xa4se \\\n*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, "
-                          "NAME=a\");import os#, MATERIAL=s\n1, 0.1, 0, 4\n*DISK, NAME=d\"\\\n0.5, 1, 0.1\n");
+    (void)folder_write("odd.inp",
+                       "*HEADING\n\"\"\" k\xc3\xa4se \\\n*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, "
+                       "NAME=a\");import os#, MATERIAL=s\n1, 0.1, 0, 4\n*DISK, NAME=d\"\\\n0.5, 1, 0.1\n");
     assert_int_equal(run("export odd.inp --format ross -o odd.py"), 0);
     assert_true(holds("odd.py", "material(\"a___import_os_\"") && holds("odd.py", "tag=\"d__\"") && !holds("odd.py", "\xc3"));
     assert_true(holds("odd.py", "# \"\"\" k??se \\\n"));
@@ -258,7 +243,7 @@ static void test_names_cannot_break_out(void **state)
 static void test_wrong_arguments(void **state)
 {
     (void)state;
-    write_file("plain.inp", MODEL);
+    (void)folder_write("plain.inp", MODEL);
     refuses("export plain.inp -o x", 2, "expected --format matrix-market, dmig or ross");
     refuses("export plain.inp --format ansys -o x", 2, "--format ansys: expected matrix-market, dmig or ross");
     refuses("export plain.inp --format ascii -o x", 2, "--format ascii: expected matrix-market");
@@ -273,12 +258,12 @@ static void test_wrong_arguments(void **state)
     refuses("export plain.inp --format dmig -o x --json x", 2, "is the file of --json as well");
     refuses("export plain.inp --format matrix-market -o x --json x.mass.mtx", 2, "would write x.mass.mtx, the file of --json");
     refuses("export none.inp --format dmig -o x", 2, "none.inp");
-    assert_int_equal(rename(path_of("plain.inp"), path_of("x.nodes.csv")), 0);
+    assert_int_equal(rename(folder_path("plain.inp"), folder_path("x.nodes.csv")), 0);
     refuses("export x.nodes.csv --format matrix-market -o x", 2, "would write x.nodes.csv, which is read");
     assert_int_equal(count_files("x"), 1);
-    write_file("wrong.inp", MODEL "*SHAFT\n");
+    (void)folder_write("wrong.inp", MODEL "*SHAFT\n");
     refuses("export wrong.inp --format dmig -o x", 2, "wrong.inp:");
-    write_file("clash.inp", MODEL MODES IDENTIFY "*FIT, FUNCTIONAL=LIKELIHOOD\n");
+    (void)folder_write("clash.inp", MODEL MODES IDENTIFY "*FIT, FUNCTIONAL=LIKELIHOOD\n");
     refuses("export clash.inp --format dmig -o x", 2, "LIKELIHOOD");
     assert_int_equal(count_files("x"), 1);
 }
@@ -289,34 +274,34 @@ static const char *const suffix[] = {"stiffness.mtx", "mass.mtx", "nodes.csv", "
 static void test_all_files_or_none(void **state)
 {
     (void)state;
-    write_file("s.inp", MODEL SENSORS);
+    (void)folder_write("s.inp", MODEL SENSORS);
     for (int bad = 0; bad < 5; bad++) {
         char name[64];
         for (int i = 0; i < 5; i++) {
             (void)snprintf(name, sizeof name, "a.%s", suffix[i]);
             if (i == bad)
-                assert_int_equal(mkdir(path_of(name), 0700), 0); /* in its place */
+                assert_int_equal(mkdir(folder_path(name), 0700), 0); /* in its place */
             else if (i % 2)
-                write_file(name, "old");
+                (void)folder_write(name, "old");
         }
         refuses("export s.inp --format matrix-market -o a", 3, "no file was written");
         assert_non_null(strstr(errors, suffix[bad]));
         for (int i = 0; i < 5; i++) {
             (void)snprintf(name, sizeof name, "a.%s", suffix[i]);
             if (i == bad)
-                assert_int_equal(rmdir(path_of(name)), 0);
+                assert_int_equal(rmdir(folder_path(name)), 0);
             else if (i % 2)
                 assert_true(holds(name, "old"));
             else
                 assert_false(is_there(name));
-            (void)unlink(path_of(name));
+            (void)unlink(folder_path(name));
         }
         assert_int_equal(count_files("a"), 0); /* nor anything beside them */
     }
     for (int i = 0; i < 5; i++) {
         char name[64];
         (void)snprintf(name, sizeof name, "a.%s", suffix[i]);
-        write_file(name, "old");
+        (void)folder_write(name, "old");
     }
     assert_int_equal(run("export s.inp --format matrix-market -o a"), 0);
     assert_int_equal(count_files("a."), 5);
@@ -326,13 +311,13 @@ static void test_all_files_or_none(void **state)
 static void test_places_that_cannot_be_written(void **state)
 {
     (void)state;
-    write_file("s.inp", MODEL SENSORS);
+    (void)folder_write("s.inp", MODEL SENSORS);
     refuses("export s.inp --format dmig -o no/where.bdf", 3, "cannot write no/where.bdf");
     refuses("export s.inp --format matrix-market -o no/where", 3, "cannot write no/where.stiffness.mtx");
     refuses("export s.inp --format dmig -o /dev/full", 3, "No space left on device");
     refuses("export s.inp --format ross -o /dev/full", 3, "No space left on device");
-    write_file("old.bdf", "old");
-    assert_int_equal(symlink("/dev/full", path_of("f.mass.mtx")), 0); /* one of five, found at the end */
+    (void)folder_write("old.bdf", "old");
+    assert_int_equal(symlink("/dev/full", folder_path("f.mass.mtx")), 0); /* one of five, found at the end */
     refuses("export s.inp --format matrix-market -o f", 3, "f.mass.mtx");
     assert_int_equal(count_files("f."), 1);
     assert_int_equal(run("export s.inp --format dmig -o /dev/null"), 0);
@@ -343,13 +328,13 @@ static void test_an_interrupted_fit_writes_nothing(void **state)
 {
     (void)state;
     char command[512];
-    write_file("slow.inp",
-               "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.3, 0.05, 0, 3000\n"
-               "*SHAFT, NAME=b, MATERIAL=s\n0.4, 0.1, 0.02, 3000\n*SHAFT, NAME=c, MATERIAL=s\n0.3, 0.05, 0, 3000\n" MODES
-               "*IDENTIFY\na.E, 1e9, 1e12, 2e10\nb.E, 1e9, 1e12, 2e10\nc.E, 1e9, 1e13, 2e12\n");
+    (void)folder_write(
+        "slow.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.3, 0.05, 0, 3000\n"
+                    "*SHAFT, NAME=b, MATERIAL=s\n0.4, 0.1, 0.02, 3000\n*SHAFT, NAME=c, MATERIAL=s\n0.3, 0.05, 0, 3000\n" MODES
+                    "*IDENTIFY\na.E, 1e9, 1e12, 2e10\nb.E, 1e9, 1e12, 2e10\nc.E, 1e9, 1e13, 2e12\n");
     (void)snprintf(command, sizeof command,
                    "cd %s && timeout --preserve-status -s TERM 0.2 %s export slow.inp --format dmig -o slow.bdf > out 2> err",
-                   directory, ROTID_PROGRAM);
+                   folder, ROTID_PROGRAM);
     int status = system(command); /* NOLINT: a fixed command of the test */
     assert_int_equal(WEXITSTATUS(status), 1);
     assert_true(holds("err", "interrupted, nothing was written") && !holds("out", "mode"));
@@ -361,15 +346,16 @@ static void test_an_interrupted_fit_writes_nothing(void **state)
 static long size_of(const char *name)
 {
     struct stat state;
-    assert_int_equal(stat(path_of(name), &state), 0);
+    assert_int_equal(stat(folder_path(name), &state), 0);
     return (long)state.st_size;
 }
 
 static void test_two_thousand_elements(void **state)
 {
     (void)state;
-    write_file("long.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
-                           "2000\n" SENSORS);
+    (void)folder_write("long.inp",
+                       "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
+                       "2000\n" SENSORS);
     double start = clock_seconds();
     assert_int_equal(run("export long.inp --format matrix-market -o long"), 0);
     assert_int_equal(run("export long.inp --format dmig -o long.bdf"), 0);
@@ -380,7 +366,7 @@ static void test_two_thousand_elements(void **state)
                   size_of("long.py"));
     assert_true(seconds < 60); /* 1 s here; ten times that under valgrind */
     assert_true(size_of("long.stiffness.mtx") < 1000000 && size_of("long.bdf") < 6000000 && size_of("long.py") < 300000);
-    FILE *stream = fopen(path_of("long.mass.mtx"), "rb");
+    FILE *stream = fopen(folder_path("long.mass.mtx"), "rb");
     assert_non_null(stream);
     struct dense_file mass = read_market(stream);
     double sum = 0;
@@ -390,24 +376,12 @@ static void test_two_thousand_elements(void **state)
     assert_close(sum, 7850 * 20 * acos(-1) / 4 * (0.16 - 0.01), 1e-10, 0);
     (void)fclose(stream);
     free(mass.a);
-    write_file("bare.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
-                           "2000\n");
+    (void)folder_write("bare.inp",
+                       "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
+                       "2000\n");
     assert_int_equal(run("export bare.inp --format matrix-market -o bare"), 0); /* 2,001 masters */
     assert_non_null(strstr(output, "2001 nodes (the deck has no sensors) are too many to condense onto"));
     assert_false(is_there("bare.condensed_mass.mtx"));
-}
-
-static int make_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    empty_folder();
-    return rmdir(directory);
 }
 
 static int clear(void **state)
@@ -434,5 +408,5 @@ int main(void)
         cmocka_unit_test_teardown(test_an_interrupted_fit_writes_nothing, clear),
         cmocka_unit_test_teardown(test_two_thousand_elements, clear),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "exact_receptance.h"
+#include "folder.h"
 #include "import/measurement.h"
 #include "json_value.h"
 #include "support.h"
@@ -16,17 +17,6 @@
 
 #define TWO_PI 6.28318530717958647692
 #define PAPER  ROTID_SOURCE_DIR "/input/paper_rotor.inp"
-
-static char directory[] = "/tmp/test_command_frf_XXXXXX";
-
-static const char *path_of(const char *name)
-{
-    static char path[16][256]; /* several are in use at a time */
-    static int next;
-    next = (next + 1) % 16;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
 
 static char output[1 << 20], errors[1 << 16];
 
@@ -43,10 +33,11 @@ static void read_into(const char *path, char *text, size_t size)
 static int frf(const char *arguments)
 {
     char command[2048];
-    (void)snprintf(command, sizeof command, "%s frf %s > %s 2> %s", ROTID_PROGRAM, arguments, path_of("out"), path_of("err"));
+    (void)snprintf(command, sizeof command, "%s frf %s > %s 2> %s", ROTID_PROGRAM, arguments, folder_path("out"),
+                   folder_path("err"));
     int status = system(command); /* NOLINT: a fixed command of the test */
-    read_into(path_of("out"), output, sizeof output);
-    read_into(path_of("err"), errors, sizeof errors);
+    read_into(folder_path("out"), output, sizeof output);
+    read_into(folder_path("err"), errors, sizeof errors);
     return WEXITSTATUS(status);
 }
 
@@ -59,7 +50,7 @@ static int frf_of(const char *deck, const char *options)
 
 static void write_deck(const char *name, const char *text, const char *more)
 {
-    FILE *stream = fopen(path_of(name), "wb");
+    FILE *stream = fopen(folder_path(name), "wb");
     assert_non_null(stream);
     assert_true(fprintf(stream, "%s%s", text, more) > 0 && fclose(stream) == 0);
 }
@@ -144,9 +135,9 @@ static void figure_15_has_the_identified_frequencies_and_the_damping_of_table_4(
     assert_int_equal(frf_of(PAPER, ""), 0);
     assert_non_null(strstr(output, "19 over 1: acceleration [m/(s2 N)]"));
     assert_non_null(strstr(output, "1601 lines from 200 to 3200 Hz"));
-    (void)snprintf(options, sizeof options, "--quiet --set FRF.LINES=15001 --json %s", path_of("paper.json"));
+    (void)snprintf(options, sizeof options, "--quiet --set FRF.LINES=15001 --json %s", folder_path("paper.json"));
     assert_int_equal(frf_of(PAPER, options), 0);
-    cJSON *json = json_of(path_of("paper.json"));
+    cJSON *json = json_of(folder_path("paper.json"));
     const cJSON *function = cJSON_GetArrayItem(get(json, "functions"), 0), *modes = get(json, "modes");
     assert_close(number_of(function, "response"), 19, 0, 0);
     assert_close(number_of(function, "reference"), 1, 0, 0);
@@ -209,7 +200,7 @@ static void write_measured(const char *name, int reversed)
     static double complex h[3][LINES];
     double hz[LINES], re[LINES], im[LINES];
     exact_functions(h, hz);
-    FILE *stream = fopen(path_of(name), "wb");
+    FILE *stream = fopen(folder_path(name), "wb");
     assert_non_null(stream);
     assert_status(uff_write_units(stream, &si), ROTID_OK);
     assert_status(uff_write_nodes(stream, 2411, 3, nodes), ROTID_OK);
@@ -245,10 +236,10 @@ static void measured_functions_of_the_exact_beam_agree(void **state)
     char options[512];
     write_measured("exact.uff", 1);
     write_deck("deck.inp", SHAFT SENSORS, "*FRF, FILE=exact.uff, DAMPING=1e-5\n");
-    (void)snprintf(options, sizeof options, "--json %s", path_of("exact.json"));
-    assert_int_equal(frf_of(path_of("deck.inp"), options), 0);
+    (void)snprintf(options, sizeof options, "--json %s", folder_path("exact.json"));
+    assert_int_equal(frf_of(folder_path("deck.inp"), options), 0);
     assert_non_null(strstr(output, "FRAC at meas. Hz"));
-    cJSON *json = json_of(path_of("exact.json"));
+    cJSON *json = json_of(folder_path("exact.json"));
     const cJSON *functions = get(json, "functions"), *function;
     assert_int_equal(cJSON_GetArraySize(functions), 3);
     cJSON_ArrayForEach(function, functions)
@@ -272,24 +263,24 @@ static void the_output_is_read_back_as_the_same_functions(void **state)
     const struct measurement_options all = {.threads = 1};
     write_measured("exact.uff", -1);
     write_deck("deck.inp", SHAFT SENSORS, "*FRF, FILE=exact.uff, DAMPING=1e-5\n");
-    (void)snprintf(options, sizeof options, "--quiet -o %s", path_of("synthesised.uff"));
-    assert_int_equal(frf_of(path_of("deck.inp"), options), 0);
+    (void)snprintf(options, sizeof options, "--quiet -o %s", folder_path("synthesised.uff"));
+    assert_int_equal(frf_of(folder_path("deck.inp"), options), 0);
     assert_string_equal(output, "");
     message_open(&messages, &test_pool);
-    assert_status(measurement_read(&test_pool, path_of("synthesised.uff"), &all, &messages, &first), ROTID_OK);
+    assert_status(measurement_read(&test_pool, folder_path("synthesised.uff"), &all, &messages, &first), ROTID_OK);
     assert_int_equal(messages.errors, 0);
     assert_true(first.set.nfrf == 3 && first.set.nline == LINES && first.node_count == 3 && first.has_units);
     assert_int_equal(first.set.quantity, FRF_ACCELERATION);
     assert_close(first.node[2].x[2], 0.8, 1e-9, 0);
     /* its own output as the measured one: the same to the digits of the file */
     write_deck("deck.inp", SHAFT SENSORS, "*FRF, FILE=synthesised.uff, DAMPING=1e-5\n");
-    (void)snprintf(options, sizeof options, "--quiet -o %s --json %s", path_of("again.uff"), path_of("again.json"));
-    assert_int_equal(frf_of(path_of("deck.inp"), options), 0);
-    assert_status(measurement_read(&test_pool, path_of("again.uff"), &all, &messages, &again), ROTID_OK);
+    (void)snprintf(options, sizeof options, "--quiet -o %s --json %s", folder_path("again.uff"), folder_path("again.json"));
+    assert_int_equal(frf_of(folder_path("deck.inp"), options), 0);
+    assert_status(measurement_read(&test_pool, folder_path("again.uff"), &all, &messages, &again), ROTID_OK);
     for (int c = 0; c < 3; c++)
         for (int l = 0; l < LINES; l++)
             assert_true(cabs(first.set.frf[c].h[l] - again.set.frf[c].h[l]) <= 1e-6 * cabs(first.set.frf[c].h[l]) + 1e-12);
-    cJSON *json = json_of(path_of("again.json"));
+    cJSON *json = json_of(folder_path("again.json"));
     assert_close(number_of(get(json, "agreement"), "frac"), 1, 1e-9, 0);
     cJSON_Delete(json);
 }
@@ -314,13 +305,13 @@ static void what_cannot_be_synthesised_is_refused(void **state)
     write_measured("exact.uff", -1);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char options[512];
-        (void)snprintf(options, sizeof options, "--json %s -o %s", path_of("no.json"), path_of("no.uff"));
+        (void)snprintf(options, sizeof options, "--json %s -o %s", folder_path("no.json"), folder_path("no.uff"));
         write_deck("deck.inp", SHAFT SENSORS, wrong[i].more);
-        int code = frf_of(path_of("deck.inp"), options);
+        int code = frf_of(folder_path("deck.inp"), options);
         if (code != 2 || *output || !strstr(errors, wrong[i].says))
             print_error("%s: exit code %d, output '%s', errors '%s'\n", wrong[i].more, code, output, errors);
         assert_true(code == 2 && !*output && strstr(errors, wrong[i].says));
-        assert_true(access(path_of("no.json"), F_OK) && access(path_of("no.uff"), F_OK));
+        assert_true(access(folder_path("no.json"), F_OK) && access(folder_path("no.uff"), F_OK));
     }
     assert_int_equal(frf(""), 2);
     assert_int_equal(frf_of(PAPER, "--extended x"), 2);
@@ -335,7 +326,7 @@ static void an_identification_at_a_bound_is_said(void **state)
 {
     (void)state;
     write_deck("deck.inp", SHAFT SENSORS, "*MODES\n1, 900, 0.01\n*FRF, LINES=50\n*IDENTIFY\ncore.E, 1e10, 2e11, 1.5e11\n");
-    assert_int_equal(frf_of(path_of("deck.inp"), ""), 1);
+    assert_int_equal(frf_of(folder_path("deck.inp"), ""), 1);
     assert_non_null(strstr(output, "the identification did not end well"));
 }
 
@@ -345,26 +336,12 @@ static void many_functions_are_summed_up_unless_asked_for(void **state)
     char options[256];
     assert_int_equal(frf_of(ROTID_SOURCE_DIR "/input/solid_rotor.inp", "--set FRF.DAMPING=0.01"), 0);
     assert_non_null(strstr(output, " transfer function"));
-    (void)snprintf(options, sizeof options, "--set FRF.DAMPING=0.01 --set FRF.LINES=100000 --json %s", path_of("many.json"));
+    (void)snprintf(options, sizeof options, "--set FRF.DAMPING=0.01 --set FRF.LINES=100000 --json %s", folder_path("many.json"));
     assert_int_equal(frf_of(ROTID_SOURCE_DIR "/input/solid_rotor.inp", options), 0);
     assert_non_null(strstr(output, "the JSON has no curves"));
-    cJSON *json = json_of(path_of("many.json"));
+    cJSON *json = json_of(folder_path("many.json"));
     assert_true(cJSON_IsFalse(get(json, "with_curves")));
     cJSON_Delete(json);
-}
-
-static int make_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) ? 0 : -1;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    char command[128];
-    (void)snprintf(command, sizeof command, "rm -r %s", directory);
-    return system(command); /* NOLINT: a fixed command of the test */
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
@@ -379,5 +356,5 @@ int main(void)
         TEST(an_identification_at_a_bound_is_said),
         TEST(many_functions_are_summed_up_unless_asked_for),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

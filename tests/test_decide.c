@@ -293,6 +293,16 @@ static void the_margin_grows_with_what_is_left(void **state)
     assert_close(decided.required_margin, LEAST_MARGIN * 60 / MODES, 1e-12, 0);
 }
 
+static void neighbours_that_share_their_noise_double_the_margin(void **state)
+{
+    (void)state;
+    open_round();
+    engine.coloured = 1;
+    add("stiffness", "left", 1, 60);
+    conclude_as(VERDICT_NAMED, 1);
+    assert_close(decided.required_margin, 2 * LEAST_MARGIN, 1e-12, 0);
+}
+
 /* Frequencies noisier than stated are a rival of what shows in the frequencies alone. */
 static void noise_of_the_frequencies_is_a_rival(void **state)
 {
@@ -376,6 +386,7 @@ int main(void)
         TEST(modes_held_out_speak),
         TEST(modes_left_out_in_turn_speak),
         TEST(the_margin_grows_with_what_is_left),
+        TEST(neighbours_that_share_their_noise_double_the_margin),
         TEST(noise_of_the_frequencies_is_a_rival),
         TEST(too_little_data_name_nothing),
         TEST(a_cause_that_fits_as_well_at_another_place_is_not_named),

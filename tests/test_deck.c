@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "deck/deck.h"
+#include "folder.h"
 #include "support.h"
 
 #define EVERY_CARD ROTID_SOURCE_DIR "/tests/data/decks/every_card.inp"
@@ -25,22 +26,7 @@ struct reading {
     struct job job;
 };
 
-static char directory[] = "/tmp/test_deck_XXXXXX";
 static struct reading every; /* of the deck with every card */
-
-static const char *path_of(const char *name)
-{
-    static char path[256];
-    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
-    return path;
-}
-
-static void write_text(const char *name, const char *text)
-{
-    FILE *stream = fopen(path_of(name), "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-}
 
 /* The deck is right: no error. */
 static void read_path(struct reading *r, const char *path)
@@ -56,8 +42,7 @@ static void read_path(struct reading *r, const char *path)
 
 static void read_text(struct reading *r, const char *text)
 {
-    write_text("deck.inp", text);
-    read_path(r, path_of("deck.inp"));
+    read_path(r, folder_write("deck.inp", text));
 }
 
 static int warns(const struct reading *r, const char *part)
@@ -340,17 +325,18 @@ static void an_included_file_is_looked_for_beside_the_one_that_names_it(void **s
 {
     (void)state;
     struct reading r;
-    assert_int_equal(mkdir(path_of("sub"), 0700), 0);
-    assert_int_equal(mkdir(path_of("sub/deep"), 0700), 0);
-    write_text("sub/steel.inc", "*MATERIAL, NAME=steel\n*INCLUDE, FILE=deep/elastic.inc\n*DENSITY\n*include, file=deep/rho.inc");
-    write_text("sub/deep/elastic.inc", "*ELASTIC\n2.1e11, 0.3\n");
-    write_text("sub/deep/rho.inc", "7850\n"); /* goes on with the card of the deck that names it */
+    assert_int_equal(mkdir(folder_path("sub"), 0700), 0);
+    assert_int_equal(mkdir(folder_path("sub/deep"), 0700), 0);
+    (void)folder_write("sub/steel.inc",
+                       "*MATERIAL, NAME=steel\n*INCLUDE, FILE=deep/elastic.inc\n*DENSITY\n*include, file=deep/rho.inc");
+    (void)folder_write("sub/deep/elastic.inc", "*ELASTIC\n2.1e11, 0.3\n");
+    (void)folder_write("sub/deep/rho.inc", "7850\n"); /* goes on with the card of the deck that names it */
     read_text(&r, "*INCLUDE, FILE=sub/steel.inc\n" SHAFT);
     assert_number(r.job.rotor.group[0].material.rho, 7850);
     pool_close(&r.pool);
     static const char *const left[] = {"sub/deep/rho.inc", "sub/deep/elastic.inc", "sub/deep", "sub/steel.inc", "sub"};
     for (int i = 0; i < 5; i++)
-        assert_int_equal(remove(path_of(left[i])), 0);
+        assert_int_equal(remove(folder_path(left[i])), 0);
 }
 
 static void positions_are_metres_ends_or_ends_of_groups(void **state)
@@ -368,17 +354,14 @@ static void positions_are_metres_ends_or_ends_of_groups(void **state)
 
 static int open_all(void **state)
 {
-    (void)state;
     read_path(&every, EVERY_CARD);
-    return mkdtemp(directory) == NULL;
+    return folder_make(state);
 }
 
 static int close_all(void **state)
 {
-    (void)state;
     pool_close(&every.pool);
-    (void)unlink(path_of("deck.inp"));
-    return rmdir(directory);
+    return folder_remove(state);
 }
 
 int main(void)

@@ -10,6 +10,7 @@
 #include "deck/deck.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/causes/sensor.h"
+#include "folder.h"
 #include "modal/functional.h"
 #include "model/model.h"
 #include "run/identify.h"
@@ -30,15 +31,7 @@ struct reading {
     struct job job;
 };
 
-static char directory[] = "/tmp/test_deck_cause_XXXXXX";
 static struct reading every;
-
-static const char *path_of(const char *name)
-{
-    static char path[256];
-    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
-    return path;
-}
 
 /* The deck is right: no error. `set`: one --set, or NULL. */
 static void read_path(struct reading *r, const char *path, const char *set)
@@ -56,10 +49,7 @@ static void read_path(struct reading *r, const char *path, const char *set)
 
 static void read_text(struct reading *r, const char *text, const char *set)
 {
-    FILE *stream = fopen(path_of("deck.inp"), "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-    read_path(r, path_of("deck.inp"), set);
+    read_path(r, folder_write("deck.inp", text), set);
 }
 
 static int warns(const struct reading *r, const char *part)
@@ -532,7 +522,7 @@ static void a_deck_of_causes_with_one_wrong_byte_gets_an_answer(void **state)
     int good = 0;
     for (int i = 0; i < 2000; i++) {
         size_t at = (size_t)((double)length * random_uniform(&stream));
-        char kept = text[at], *path = (char *)path_of("deck.inp");
+        char kept = text[at], *path = (char *)folder_path("deck.inp");
         struct pool pool;
         struct message_list messages;
         struct job job;
@@ -554,17 +544,14 @@ static void a_deck_of_causes_with_one_wrong_byte_gets_an_answer(void **state)
 
 static int open_all(void **state)
 {
-    (void)state;
     read_path(&every, EVERY_CAUSE, NULL);
-    return mkdtemp(directory) == NULL;
+    return folder_make(state);
 }
 
 static int close_all(void **state)
 {
-    (void)state;
     pool_close(&every.pool);
-    (void)unlink(path_of("deck.inp"));
-    return rmdir(directory);
+    return folder_remove(state);
 }
 
 int main(void)

@@ -8,6 +8,7 @@
 #include "deck/deck.h"
 #include "deck/deck_write.h"
 #include "diagnose/causes/catalogue.h"
+#include "folder.h"
 #include "run/identify.h"
 #include "support.h"
 
@@ -25,24 +26,6 @@ struct reading {
     struct job job;
 };
 
-static char directory[] = "/tmp/test_deck_write_XXXXXX";
-
-static const char *path_of(const char *name)
-{
-    static char path[2][256];
-    static int next;
-    next = !next;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
-
-static void write_file(const char *name, const char *text)
-{
-    FILE *stream = fopen(path_of(name), "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-}
-
 static void read_path(struct reading *r, const char *path, const char *set)
 {
     struct override override;
@@ -58,8 +41,7 @@ static void read_path(struct reading *r, const char *path, const char *set)
 
 static void read_text(struct reading *r, const char *text)
 {
-    write_file("deck.inp", text);
-    read_path(r, path_of("deck.inp"), NULL);
+    read_path(r, folder_write("deck.inp", text), NULL);
 }
 
 /* ------------------------------------------------------------------------------------------------ equality of jobs */
@@ -241,8 +223,8 @@ static void assert_comes_back(const char *path, const char *set)
     struct reading first, second;
     read_path(&first, path, set);
     const char *text = written(&first, NULL);
-    write_file("again.inp", text);
-    read_path(&second, path_of("again.inp"), NULL);
+    (void)folder_write("again.inp", text);
+    read_path(&second, folder_path("again.inp"), NULL);
     assert_job(&first.job, &second.job);
     assert_string_equal(written(&second, NULL), text);
     pool_close(&first.pool);
@@ -251,8 +233,8 @@ static void assert_comes_back(const char *path, const char *set)
 
 static void assert_text_comes_back(const char *text)
 {
-    write_file("deck.inp", text);
-    assert_comes_back(path_of("deck.inp"), NULL);
+    (void)folder_write("deck.inp", text);
+    assert_comes_back(folder_path("deck.inp"), NULL);
 }
 
 /* ------------------------------------------------------------------------------------------------ round trips */
@@ -336,8 +318,8 @@ static void two_modes_of_one_frequency_stay_two(void **state)
     struct reading first, second;
     read_text(&first, MODEL "*MODES\n1, 500\n2, 1300\n3, 1400\n");
     first.job.frequency_hz[2] = 1300; /* as a universal file may have it */
-    write_file("again.inp", written(&first, NULL));
-    read_path(&second, path_of("again.inp"), NULL);
+    (void)folder_write("again.inp", written(&first, NULL));
+    read_path(&second, folder_path("again.inp"), NULL);
     assert_true(second.job.frequency_hz[1] == 1300 && second.job.frequency_hz[2] == nextafter(1300, INFINITY));
     pool_close(&first.pool);
     pool_close(&second.pool);
@@ -358,8 +340,8 @@ static void extra_lines_go_into_the_heading_and_harm_nothing(void **state)
     memset(longest, 'x', 1023);
     (void)strcpy(longest + 1023, "\xc3\xa4 and more"); /* the character does not fit */
     read_text(&first, "*HEADING\nthe deck\npaper error_percent = 1, 2\n" MODEL);
-    write_file("again.inp", written(&first, &options));
-    read_path(&second, path_of("again.inp"), NULL);
+    (void)folder_write("again.inp", written(&first, &options));
+    read_path(&second, folder_path("again.inp"), NULL);
     assert_int_equal(second.job.nheading, 6);
     for (int i = 0; i < 5; i++)
         assert_string_equal(second.job.heading[i], expected[i]);
@@ -378,8 +360,8 @@ static void written_at_x_the_model_and_the_starts_are_those_of_x(void **state)
     read_text(&first, TWO "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core\nflexibility, 0\n"
                           "*CAUSE, NAME=t, TYPE=stiffness_gradient, GROUP=core\nslope, 0\n*MODES\n1, 500\n2, 1300\n3, 2400\n"
                           "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\nj.flexibility, 0, 1e-7, 1e-8\nt.slope, -0.5, 0.5, 0.1\n");
-    write_file("again.inp", written(&first, &options));
-    read_path(&second, path_of("again.inp"), NULL);
+    (void)folder_write("again.inp", written(&first, &options));
+    read_path(&second, folder_path("again.inp"), NULL);
     assert_true(second.job.rotor.group[1].material.e == 1.9e11 && second.job.rotor.group[0].material.e == 2.1e11);
     assert_true(second.job.rotor.effect[0].value[0] == 3e-8 && second.job.rotor.effect[1].value[0] == -0.07);
     for (int p = 0; p < 3; p++)
@@ -404,17 +386,17 @@ static void what_lies_on_a_bound_is_still_a_deck(void **state)
     first.job.bounds[1].upper = upper;
     first.job.rotor.effect[0].value[0] = x[1] = upper;
     first.job.rotor.group[0].material.e = 4e11;
-    write_file("again.inp", written(&first, &options));
-    read_path(&second, path_of("again.inp"), NULL);
+    (void)folder_write("again.inp", written(&first, &options));
+    read_path(&second, folder_path("again.inp"), NULL);
     assert_true(second.job.bounds[1].upper < 0.6 * upper);
     assert_close(second.job.rotor.effect[0].value[0], second.job.bounds[1].upper, 1e-15, 0);
     for (int p = 0; p < 3; p++)
         assert_true(second.job.bounds[p].start > second.job.bounds[p].lower &&
                     second.job.bounds[p].start < second.job.bounds[p].upper);
     x[2] = 0; /* is no scale */
-    write_file("again.inp", written(&first, &options));
+    (void)folder_write("again.inp", written(&first, &options));
     pool_close(&second.pool);
-    read_path(&second, path_of("again.inp"), NULL);
+    read_path(&second, folder_path("again.inp"), NULL);
     assert_true(second.job.bounds[2].start == 0.1);
     pool_close(&first.pool);
     pool_close(&second.pool);
@@ -429,8 +411,8 @@ static void a_fit_runs_from_the_written_deck_to_where_it_stood(void **state)
     first.job.nparameter = 1; /* E alone: this deck is no rotor that was ever measured */
     assert_status(identify_run(&first.pool, &first.job, 0, NULL, &first.messages, &before), ROTID_OK);
     const struct deck_write_options options = {.x = before.fit->x};
-    write_file("again.inp", written(&first, &options));
-    read_path(&second, path_of("again.inp"), NULL);
+    (void)folder_write("again.inp", written(&first, &options));
+    read_path(&second, folder_path("again.inp"), NULL);
     assert_status(identify_run(&second.pool, &second.job, 0, NULL, &second.messages, &after), ROTID_OK);
     assert_close(after.fit->x[0], before.fit->x[0], 1e-7, 0);
     assert_close(after.fit->objective, before.fit->objective, 1e-9, 0);
@@ -496,20 +478,6 @@ static void without_memory_nothing_is_written(void **state)
     pool_close(&r.pool);
 }
 
-static int make_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    (void)unlink(path_of("deck.inp"));
-    (void)unlink(path_of("again.inp"));
-    return rmdir(directory);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -526,5 +494,5 @@ int main(void)
         cmocka_unit_test(what_no_deck_can_say_is_refused),
         cmocka_unit_test(without_memory_nothing_is_written),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "deck/deck.h"
+#include "folder.h"
 #include "run/compare.h"
 #include "run/identify.h"
 #include "support.h"
@@ -15,29 +16,11 @@
 
 #define MODEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 20\n"
 
-static char directory[] = "/tmp/test_decks_XXXXXX";
-
 struct reading {
     struct pool pool;
     struct message_list messages;
     struct job job;
 };
-
-static const char *path_of(const char *name)
-{
-    static char path[2][256]; /* the deck and what it names */
-    static int next;
-    next = !next;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
-
-static void write_text(const char *name, const char *text)
-{
-    FILE *stream = fopen(path_of(name), "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-}
 
 /* The deck is right: no error. `set`: one --set, or NULL. */
 static void read_path(struct reading *r, const char *path, const char *set)
@@ -57,10 +40,10 @@ static void read_path(struct reading *r, const char *path, const char *set)
 static void read_measured(struct reading *r, const char *options, const char *uff)
 {
     char text[1024];
-    write_text("m.uff", uff);
+    (void)folder_write("m.uff", uff);
     (void)snprintf(text, sizeof text, "%s*MEASURED, FILE=m.uff%s\n", MODEL, options);
-    write_text("deck.inp", text);
-    read_path(r, path_of("deck.inp"), NULL);
+    (void)folder_write("deck.inp", text);
+    read_path(r, folder_path("deck.inp"), NULL);
 }
 
 static int warns(const struct reading *r, const char *part)
@@ -99,11 +82,11 @@ static void an_override_replaces_or_adds_an_option_on_every_such_card(void **sta
     read_path(&r, DECKS "every_card.inp", "SHAFT.MATERIAL=lamination"); /* group 2 is a *BEAM */
     assert_true(r.job.rotor.group[0].material.rho == 7650 && r.job.rotor.group[2].material.rho == 7850);
     pool_close(&r.pool);
-    write_text("deck.inp", MODEL "*MODES\n1, 500\n2, 1300\n3, 2400\n");
-    read_path(&r, path_of("deck.inp"), "FIT.HOLDOUT=2-3"); /* a card of which there can only be one is added */
+    (void)folder_write("deck.inp", MODEL "*MODES\n1, 500\n2, 1300\n3, 2400\n");
+    read_path(&r, folder_path("deck.inp"), "FIT.HOLDOUT=2-3"); /* a card of which there can only be one is added */
     assert_true(r.job.holdout[1] && r.job.holdout[2] && !r.job.holdout[0]);
     pool_close(&r.pool);
-    read_path(&r, path_of("deck.inp"), "NOISE.FREQUENCY=0.002");
+    read_path(&r, folder_path("deck.inp"), "NOISE.FREQUENCY=0.002");
     assert_true(r.job.fit.functional == ROTID_LIKELIHOOD && r.job.frequency_std[2] == 0.002);
     pool_close(&r.pool);
 }
@@ -365,20 +348,6 @@ static void a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam(void 
     assert_true(model_errors(INPUT "solid_steel_stiff.inp", cone) < rms / 2);
 }
 
-static int make_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    (void)unlink(path_of("deck.inp"));
-    (void)unlink(path_of("m.uff"));
-    return rmdir(directory);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -398,5 +367,5 @@ int main(void)
         cmocka_unit_test(solid_rotor_widens_its_intervals_and_pairs_by_shape),
         cmocka_unit_test(a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

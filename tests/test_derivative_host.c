@@ -14,6 +14,7 @@ enum { host_n = 14 };
 struct host {
     double k0[host_n * host_n], k1[host_n * host_n], k2[host_n * host_n], m0[host_n * host_n], m1[host_n * host_n];
     int fail_matrices, fail_derivatives;        /* the callback reports a failure */
+    double least, most;                         /* of x[0]: beyond them there are no matrices */
     double poison_matrices, poison_derivatives; /* added to one element */
     rotid_model model;
 };
@@ -35,7 +36,7 @@ static int host_matrices(void *user, const double *x, rotid_matrix *stiffness, r
     host_put(mass, 1, host->m0);
     host_put(mass, x[1] * x[1], host->m1);
     mass->band[3] += host->poison_matrices;
-    return host->fail_matrices;
+    return host->fail_matrices || x[0] < host->least || x[0] > host->most;
 }
 
 static int host_derivatives(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass)
@@ -62,6 +63,8 @@ static const rotid_model *open_host(struct pool *pool, struct host *host)
     }
     host->fail_matrices = host->fail_derivatives = 0;
     host->poison_matrices = host->poison_derivatives = 0;
+    host->least = -INFINITY;
+    host->most = INFINITY;
     host->model = (rotid_model){.size = sizeof(rotid_model),
                                 .n = host_n,
                                 .kd = host_n - 1,
@@ -87,6 +90,28 @@ static void derivatives_of_a_hosts_dense_model_match_differences(void **state)
 }
 
 /* ---- refusals */
+
+/* By differences, of points on both sides or on the one where there is a model. */
+static void without_derivatives_they_come_from_differences_on_either_side(void **state)
+{
+    struct host host;
+    const rotid_model *model = open_host(*state, &host);
+    struct prediction exact, differences;
+    for (int side = -1; side <= 1; side++) {
+        host.model.derivatives = host_derivatives;
+        assert_int_equal(prediction_new(*state, model, ROTID_GUYAN, ROTID_NELSON, 4, 0, &exact), 0);
+        assert_int_equal(prediction_compute(&exact, host_values), 0);
+        assert_int_equal(prediction_matrix_derivatives(&exact, host_values, 0), 0);
+        host.model.derivatives = NULL;
+        host.least = side > 0 ? host_values[0] : -INFINITY;
+        host.most = side < 0 ? host_values[0] : INFINITY;
+        assert_int_equal(prediction_new(*state, model, ROTID_GUYAN, ROTID_NELSON, 4, 0, &differences), 0);
+        assert_int_equal(prediction_compute(&differences, host_values), 0);
+        assert_int_equal(prediction_matrix_derivatives(&differences, host_values, 0), 0);
+        size_t count = (size_t)host_n * host_n; /* the band holds them all, and zeros */
+        assert_true(relative_difference(count, differences.dk.band, exact.dk.band) < 1e-10);
+    }
+}
 
 static void a_callback_that_fails_or_gives_nan_is_named(void **state)
 {
@@ -224,6 +249,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         WITH_POOL(derivatives_of_a_hosts_dense_model_match_differences),
+        WITH_POOL(without_derivatives_they_come_from_differences_on_either_side),
         WITH_POOL(a_callback_that_fails_or_gives_nan_is_named),
         WITH_POOL(requests_out_of_range_are_refused),
         WITH_POOL(vectors_with_zeros_are_differentiated),

@@ -11,6 +11,7 @@
 #include "deck/deck.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/diagnose.h"
+#include "folder.h"
 #include "modal/prediction.h"
 #include "model/model.h"
 #include "support.h"
@@ -29,22 +30,7 @@ static const char model[] = "*HEADING\nhidden\n"
 static const char identify[] = "*IDENTIFY\ncore.E, 2e10, 2.2e11, 0.9e11\ncore.G, 1e10, 0.9e11, 0.35e11\n";
 static const char noise_card[] = "*NOISE, FREQUENCY=0.001, SHAPE=0.015\n";
 
-static char directory[] = "/tmp/test_diagnose_XXXXXX";
 static char text[60000];
-
-static const char *deck_path(void)
-{
-    static char path[80];
-    (void)snprintf(path, sizeof path, "%s/deck.inp", directory);
-    return path;
-}
-
-static void write_deck(void)
-{
-    FILE *stream = fopen(deck_path(), "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-}
 
 static void append(const char *format, ...) __attribute__((format(printf, 1, 2)));
 static void append(const char *format, ...)
@@ -66,7 +52,7 @@ struct data {
 static int read_deck(struct pool *pool, struct message_list *messages, struct job *job)
 {
     message_open(messages, pool);
-    int status = deck_read(pool, deck_path(), 0, NULL, messages, job);
+    int status = deck_read(pool, folder_path("deck.inp"), 0, NULL, messages, job);
     for (size_t i = 0; i < messages->count && status; i++)
         print_message("deck %d:%d: %s\n", messages->item[i].line, messages->item[i].column, messages->item[i].text);
     return status;
@@ -94,7 +80,7 @@ static void simulate(const char *cause, uint64_t seed, struct data *d)
     for (int s = 0; s < SENSORS; s++)
         d->z[s] = LENGTH * (s + 0.2) / (SENSORS - 0.6);
     append_sensors(d, 0, 1, SENSORS);
-    write_deck();
+    (void)folder_write("deck.inp", text);
     pool_open(&pool, NULL);
     assert_status(read_deck(&pool, &messages, &job), ROTID_OK);
     assert_status(model_open(&pool, NULL, &job.rotor, 0, NULL, 4, &client, &failed),
@@ -138,7 +124,7 @@ static void usual_deck(const struct data *d)
     text[0] = 0;
     append("%s%s%s", model, identify, noise_card);
     append_data(d, MODES, 0, 1, SENSORS, 1);
-    write_deck();
+    (void)folder_write("deck.inp", text);
 }
 
 static const char gradient[] = "*CAUSE, NAME=hidden, TYPE=stiffness_gradient, GROUP=core\nslope, 0.3\n";
@@ -527,7 +513,7 @@ static void fewer_data_than_parameters(void **state)
         text[0] = 0;
         append("%s%s%s", model, identify, noise_card);
         append_data(&d, nmode, 0, 0, 0, 1);
-        write_deck();
+        (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         assert_status(r.status, ROTID_ERROR_ARGUMENT);
         assert_true(says(&r, "leave nothing to judge the model by"));
@@ -535,7 +521,7 @@ static void fewer_data_than_parameters(void **state)
     }
     text[0] = 0;
     append("%s%s%s", model, identify, noise_card);
-    write_deck();
+    (void)folder_write("deck.inp", text);
     run_with(&r, 1, 1);
     assert_status(r.status, ROTID_ERROR_ARGUMENT);
     assert_true(says(&r, "no measured modes"));
@@ -552,7 +538,7 @@ static void few_modes_carry_no_name(void **state)
         text[0] = 0;
         append("%s%s%s", model, identify, noise_card);
         append_data(&d, nmode, 0, 1, SENSORS, 1);
-        write_deck();
+        (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         assert_honest(&r, NULL);
         assert_true(says(&r, "cannot carry a name"));
@@ -572,7 +558,7 @@ static void frequencies_alone(void **state)
         text[0] = 0;
         append("%s%s%s", model, identify, noise_card);
         append_data(&d, MODES, 0, 0, 0, 1);
-        write_deck();
+        (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         assert_honest(&r, truth[h]);
         close_run(&r);
@@ -588,7 +574,7 @@ static void sensors_at_one_end(void **state)
     text[0] = 0;
     append("%s%s%s", model, identify, noise_card);
     append_data(&d, MODES, 0, 1, 5, 1);
-    write_deck();
+    (void)folder_write("deck.inp", text);
     run_with(&r, 1, 1);
     assert_honest(&r, NULL);
     assert_true(says(&r, "the sensors cover"));
@@ -607,7 +593,7 @@ static void two_sensors(void **state)
         text[0] = 0;
         append("%s%s%s", model, identify, noise_card);
         append_data(&d, MODES, 0, SENSORS - 1, SENSORS, 1);
-        write_deck();
+        (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         assert_honest(&r, truth[h]);
         close_run(&r);
@@ -623,7 +609,7 @@ static void noise_not_stated_or_zero(void **state)
     text[0] = 0;
     append("%s%s", model, identify);
     append_data(&d, MODES, 0, 1, SENSORS, 1);
-    write_deck();
+    (void)folder_write("deck.inp", text);
     run_with(&r, 1, 1);
     assert_honest(&r, NULL); /* relative statements only: nothing is named */
     assert_true(r.d.frequency_noise_assumed);
@@ -632,13 +618,13 @@ static void noise_not_stated_or_zero(void **state)
     text[0] = 0;
     append("%s%s*NOISE, FREQUENCY=0, SHAPE=0\n", model, identify);
     append_data(&d, MODES, 0, 1, SENSORS, 1);
-    write_deck();
+    (void)folder_write("deck.inp", text);
     struct pool pool;
     struct message_list messages;
     struct job job;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    assert_status(deck_read(&pool, deck_path(), 0, NULL, &messages, &job), ROTID_ERROR_SYNTAX);
+    assert_status(deck_read(&pool, folder_path("deck.inp"), 0, NULL, &messages, &job), ROTID_ERROR_SYNTAX);
     assert_true(messages.count > 0);
     pool_close(&pool);
 }
@@ -653,7 +639,7 @@ static void frequencies_in_radians(void **state)
         text[0] = 0;
         append("%s%s%s", model, identify, noise_card);
         append_data(&d, MODES, 0, shapes, SENSORS, 6.283185307);
-        write_deck();
+        (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         assert_status(r.status, ROTID_ERROR_ARGUMENT);
         assert_true(says(&r, "rad/s"));
@@ -672,10 +658,10 @@ static void frequencies_in_the_wrong_order(void **state)
     simulate(NULL, 1, &d);
     text[0] = 0;
     append("%s%s%s*MODES\n1, %.9g\n2, %.9g\n3, %.9g\n", model, identify, noise_card, d.hz[0], d.hz[2], d.hz[1]);
-    write_deck();
+    (void)folder_write("deck.inp", text);
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    assert_status(deck_read(&pool, deck_path(), 0, NULL, &messages, &job), ROTID_ERROR_SYNTAX);
+    assert_status(deck_read(&pool, folder_path("deck.inp"), 0, NULL, &messages, &job), ROTID_ERROR_SYNTAX);
     assert_int_equal(messages.count, 1);
     assert_non_null(strstr(messages.item[0].text, "rise"));
     pool_close(&pool);
@@ -699,7 +685,7 @@ static void a_mode_missing_from_the_count(void **state)
             append("%d, %.9g\n", k + 1, d.hz[order[k]]);
         for (int k = 0; k < MODES && shapes; k++)
             append_shape(&d, k + 1, order[k], 0, 1, SENSORS);
-        write_deck();
+        (void)folder_write("deck.inp", text);
         run_with(&r, 1, 1);
         if (r.status == ROTID_ERROR_ARGUMENT) { /* a clear refusal will do where only frequencies are there */
             assert_true(!shapes && r.notes.count > 0);
@@ -736,7 +722,7 @@ static void a_mode_measured_twice(void **state)
             d.shape[s + 2 * SENSORS] += 0.01 * random_normal(&stream);
         append_shape(&d, k + 1, order[k], 0, 1, SENSORS);
     }
-    write_deck();
+    (void)folder_write("deck.inp", text);
     run_with(&r, 1, 1);
     assert_honest(&r, NULL);
     assert_non_null(found(&r, "mode_pairing"));
@@ -756,25 +742,12 @@ static void nothing_to_identify(void **state)
     text[0] = 0;
     append("%s%s", model, noise_card);
     append_data(&d, MODES, 0, 1, SENSORS, 1);
-    write_deck();
+    (void)folder_write("deck.inp", text);
     run_with(&r, 1, 1);
     assert_honest(&r, "stiffness_gradient");
     assert_int_equal(r.d.base.fit->n, 0);
     assert_false(r.d.has_today);
     close_run(&r);
-}
-
-static int open_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    (void)unlink(deck_path());
-    return rmdir(directory);
 }
 
 int main(void)
@@ -797,5 +770,5 @@ int main(void)
         cmocka_unit_test(a_mode_measured_twice),
         cmocka_unit_test(nothing_to_identify),
     };
-    return cmocka_run_group_tests(tests, open_directory, remove_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -9,29 +9,12 @@
 #include "deck/deck.h"
 #include "deck/deck_write.h"
 #include "diagnose/diagnose.h"
+#include "folder.h"
 #include "support.h"
 
 #define INPUT ROTID_SOURCE_DIR "/input/"
 
-static char directory[] = "/tmp/test_diagnose_cases_XXXXXX";
-
-static const char *path_of(const char *name)
-{
-    static char path[2][256];
-    static int next;
-    next = !next;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
-
-static void write_file(const char *path, const char *text)
-{
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    assert_true(fputs(text, stream) >= 0 && fclose(stream) == 0);
-}
-
-/* A deck of input/ with `old` replaced by `new` and `more` behind it, in the directory of the test. */
+/* A deck of input/ with `old` replaced by `new` and `more` behind it, in the folder of the test. */
 static const char *changed_deck(const char *name, const char *old, const char *new, const char *more)
 {
     static char text[20000];
@@ -50,8 +33,7 @@ static const char *changed_deck(const char *name, const char *old, const char *n
         memcpy(last, new, strlen(new));
     }
     (void)strcat(text, more);
-    write_file(path_of("deck.inp"), text);
-    return path_of("deck.inp");
+    return folder_write("deck.inp", text);
 }
 
 struct run {
@@ -125,8 +107,7 @@ static void check_extended(struct run *r)
         if (way) {
             const struct deck_write_options options = {.x = found->x};
             assert_status(deck_write(&pool, &d->extended_job, &options, &text), ROTID_OK);
-            write_file(path_of("extended.inp"), text);
-            read_deck(&pool, &messages, path_of("extended.inp"), &job);
+            read_deck(&pool, &messages, folder_write("extended.inp", text), &job);
         } else
             job = d->extended_job;
         assert_status(identify_run(&pool, &job, 0, NULL, &quiet, &again), ROTID_OK);
@@ -308,19 +289,9 @@ static void six_frequencies_of_the_paper_carry_no_name(void **state)
     close_run(&r);
 }
 
-static int open_directory(void **state)
+static int open_all(void **state)
 {
-    (void)state;
-    return mkdtemp(directory) == NULL || symlink(INPUT "data", path_of("data"));
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    (void)unlink(path_of("deck.inp"));
-    (void)unlink(path_of("extended.inp"));
-    (void)unlink(path_of("data"));
-    return rmdir(directory);
+    return folder_make(state) || symlink(INPUT "data", folder_path("data"));
 }
 
 int main(void)
@@ -337,5 +308,5 @@ int main(void)
         cmocka_unit_test(few_modes_of_a_slender_beam_leave_G_open),
         cmocka_unit_test(six_frequencies_of_the_paper_carry_no_name),
     };
-    return cmocka_run_group_tests(tests, open_directory, remove_directory);
+    return cmocka_run_group_tests(tests, open_all, folder_remove);
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/order.h"
 #include "ema_truth.h"
 #include "support.h"
 
@@ -117,6 +118,18 @@ static void a_moving_mass(int with_variance)
     for (int r = 0; r < 3; r++) {
         assert_true(ema.mode[r].doubts & EMA_DOUBLE_PEAK);
         assert_non_null(ema.mode[r].local_pole);
+        double known[13], median;
+        size_t count = 0;
+        for (int j = 0; j < 13; j++)
+            if (isfinite(ema.mode[r].point_frequency_hz[j]))
+                known[count++] = ema.mode[r].point_frequency_hz[j];
+        median = median_of(count, known);
+        assert_close(ema.mode[r].frequency_hz, median, 1e-12, 0);
+        for (size_t j = 0; j < count; j++)
+            known[j] = fabs(known[j] - median);
+        /* of normal numbers the median distance is 0.6745 standard deviations, and their median scatters by sqrt(pi/2) of the
+         * mean */
+        assert_close(ema.mode[r].frequency_std, sqrt(1.570796 / (double)count) * median_of(count, known) / 0.67449, 1e-3, 0);
         for (int j = 0; j < 13; j++) {
             double shifted = truth.frequency_hz[r] * (1 - truth.moving_mass * truth.phi[r][j] * truth.phi[r][j] / 2);
             if (fabs(truth.phi[r][j]) > 0.15)

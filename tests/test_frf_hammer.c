@@ -9,28 +9,19 @@
 #include <string.h>
 #include <sys/wait.h>
 
+#include "folder.h"
 #include "hammer/hammer.h"
 #include "support.h"
 
 #define TWO_PI 6.28318530717958647692
 #define HIGH   3000.0
 
-static char directory[] = "/tmp/test_frf_hammer_XXXXXX";
 static struct hammer_test truth;
-
-static const char *path_of(const char *name)
-{
-    static char path[4][256];
-    static int next;
-    next = (next + 1) % 4;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
 
 /* The deck of the rotor, what a perfect modal analysis would find, and a card FRF. */
 static void write_deck(const char *name, const char *card)
 {
-    FILE *stream = fopen(path_of(name), "wb");
+    FILE *stream = fopen(folder_path(name), "wb");
     assert_non_null(stream);
     (void)fprintf(stream, "%s\n*MODES\n", truth.deck);
     for (int m = truth.rigid; m < truth.modes && truth.bare_hz[m] < HIGH; m++)
@@ -42,10 +33,11 @@ static void write_deck(const char *name, const char *card)
 static cJSON *result_of(const char *deck)
 {
     char command[1024];
-    (void)snprintf(command, sizeof command, "%s frf %s --quiet --json %s", ROTID_PROGRAM, path_of(deck), path_of("out.json"));
+    (void)snprintf(command, sizeof command, "%s frf %s --quiet --json %s", ROTID_PROGRAM, folder_path(deck),
+                   folder_path("out.json"));
     int status = system(command); /* NOLINT: a fixed command of the test */
     assert_int_equal(WEXITSTATUS(status), 0);
-    FILE *stream = fopen(path_of("out.json"), "rb");
+    FILE *stream = fopen(folder_path("out.json"), "rb");
     assert_non_null(stream);
     size_t room = 1 << 25;
     char *text = calloc(room, 1);
@@ -111,7 +103,7 @@ static void the_functions_out_of_the_records_agree(void **state)
 {
     (void)state;
     char message[256];
-    assert_int_equal(hammer_write(&truth, 7, 0, path_of("records.unv"), message, sizeof message), HAMMER_OK);
+    assert_int_equal(hammer_write(&truth, 7, 0, folder_path("records.unv"), message, sizeof message), HAMMER_OK);
     write_deck("beside.inp", "*FRF, FILE=records.unv, LOW=60, HIGH=1300\n");
     cJSON *json = result_of("beside.inp");
     const cJSON *functions = cJSON_GetObjectItemCaseSensitive(json, "functions"), *function, *mode;
@@ -133,13 +125,12 @@ static void the_functions_out_of_the_records_agree(void **state)
 
 static int open_truth(void **state)
 {
-    (void)state;
     struct hammer_options options = hammer_options_default();
     const char *const *values = NULL;
     char message[256];
     int count = 0;
     char *deck = hammer_rotor_deck("beam", &options, &count, &values);
-    int bad = !deck || !mkdtemp(directory) ||
+    int bad = !deck || folder_make(state) ||
               hammer_open(deck, "beam", count, values, 1, &options, &truth, message, sizeof message) != HAMMER_OK;
     free(deck);
     return bad ? -1 : 0;
@@ -147,11 +138,8 @@ static int open_truth(void **state)
 
 static int close_truth(void **state)
 {
-    (void)state;
-    char command[128];
     hammer_close(&truth);
-    (void)snprintf(command, sizeof command, "rm -r %s", directory);
-    return system(command); /* NOLINT: a fixed command of the test */
+    return folder_remove(state);
 }
 
 int main(void)

@@ -1,5 +1,5 @@
-/* The diagnosis on hidden effects (hidden.h): fixed cases of every kind, seeds 1, 2, 3, ... in the order of the table.
- * tools/power does the same with fresh ones by the thousand. */
+/* The diagnosis on hidden effects (hidden.h: exact dynamic stiffness, 0.1 % on frequencies, 1.5 % on shapes): fixed cases of
+ * every kind; faults of the data alone are in test_hidden_faults. tools/power does the same with fresh ones by the thousand. */
 #include "support.h"
 
 #include <math.h>
@@ -14,10 +14,10 @@
 #define JOBS 2
 
 enum expected {
+    NAMED,     /* the one cause, nothing left beside it, place and size inside their intervals; a fault beside it is found */
     CLEAR,     /* named, or in an ambiguous set, which is one of two from a margin of 15 on; sound data are not accused */
     SMALL,     /* whatever is said, no wrong name */
     NOTHING,   /* adequate */
-    FAULT,     /* of the data: found, nothing else accused, no cause named */
     MISSTATED, /* noise: no cause named */
     TWO,       /* one of them at least, no wrong name */
     OUTSIDE    /* no name where the best cause leaves much */
@@ -25,62 +25,84 @@ enum expected {
 
 static const struct {
     enum expected expected;
+    unsigned seed;
     const char *effect[2]; /* at most */
     double correlation;
 } table[] = {
-    {CLEAR, {"step_stiffness:angle=40"}, 0},
-    {CLEAR, {"stiffness_gradient:group=core,slope=0.2"}, 0},
-    {CLEAR, {"stiffness_gradient:group=left,slope=-0.25"}, 0},
-    {CLEAR, {"stiffness_profile:group=core,profile=0.5"}, 0},
-    {CLEAR, {"stiffness_local:depth=0.6,z=1.2,width=0.04,shape=gaussian"}, 0},
-    {CLEAR, {"stiffness_local:depth=0.6,z=0.45,width=0.08,shape=box"}, 0},
-    {CLEAR, {"joint:at=core.end,flexibility=1e-9"}, 0},
-    {CLEAR, {"joint:at=left.end,flexibility=1e-9"}, 0},
-    {CLEAR, {"added_mass:mass=25,z=0.9"}, 0},
-    {CLEAR, {"added_mass:mass=0.4,z=0"}, 0},
-    {CLEAR, {"density:group=core,factor=1.15"}, 0},
-    {CLEAR, {"density:group=right,factor=0.9"}, 0},
-    {CLEAR, {"stiffness:group=left,factor=1.08"}, 0},
-    {CLEAR, {"stiffness:group=right,factor=0.88"}, 0},
-    {CLEAR, {"tie_stiffness:at=ties,factor=0.3"}, 0},
-    {CLEAR, {"tie_shear:at=ties"}, 0},
-    {CLEAR, {"shear_coefficient:group=left,factor=0.7"}, 0},
-    {CLEAR, {"accelerometer_mass:mass=0.5,mount=fixed,sensor=68"}, 0},
-    {SMALL, {"stiffness_gradient:group=core,slope=0.05"}, 0},
-    {SMALL, {"stiffness_profile:group=core,profile=0.1"}, 0},
-    {SMALL, {"stiffness_local:depth=0.15,z=1.0,width=0.04,shape=gaussian"}, 0},
-    {SMALL, {"joint:at=left.end,flexibility=1.5e-10"}, 0},
-    {SMALL, {"added_mass:mass=4,z=0.9"}, 0},
-    {SMALL, {"density:group=right,factor=1.015"}, 0},
-    {SMALL, {"stiffness:group=left,factor=0.99"}, 0},
-    {SMALL, {"tie_stiffness:at=ties,factor=0.75"}, 0},
-    {SMALL, {"shear_coefficient:group=right,factor=1.06"}, 0},
-    {SMALL, {"accelerometer_mass:mass=0.3,mount=moving"}, 0},
-    {SMALL, {"support:at=sling,factor=3"}, 0},
-    {SMALL, {"tie_tension:at=ties,factor=0.5"}, 0},
-    {NOTHING, {NULL}, 0},
-    {NOTHING, {NULL}, 0},
-    {NOTHING, {NULL}, 0},
-    {NOTHING, {NULL}, 0.7},
-    {FAULT, {"sensor_gain:sensor=20,gain=1.6"}, 0},
-    {FAULT, {"sensor_sign:sensor=33"}, 0},
-    {FAULT, {"sensor_swap:sensors=12+14"}, 0},
-    {FAULT, {"sensor_position:sensor=50,shift=0.08"}, 0},
-    {FAULT, {"duplicate_channel:sensor=40,of=43"}, 0},
-    {MISSTATED, {"noise_level:block=SHAPE,factor=2"}, 0},
-    {MISSTATED, {"noise_level:block=SHAPE,factor=0.5"}, 0},
-    {MISSTATED, {"noise_level:block=FREQUENCY,factor=2"}, 0},
-    {TWO, {"stiffness:group=left,factor=1.08", "added_mass:mass=20,z=1.2"}, 0},
-    {TWO, {"tie_shear:at=ties", "joint:at=core.end,flexibility=1e-9"}, 0},
-    {OUTSIDE, {"outside:kind=ground_rotation,z=1.45,stiffness=8e7"}, 0},
-    {OUTSIDE, {"outside:kind=sine,group=core,amplitude=0.4,waves=2"}, 0},
-    {TWO, {"outside:kind=two_zones,depth=0.8,z=0.4,width=0.03,depth2=0.8,z2=1.5,width2=0.03"}, 0},
+    {NAMED, 1, {"stiffness_gradient:group=core,slope=0.15"}, 0},
+    {NAMED, 1, {"stiffness_profile:group=core,profile=0.25"}, 0},
+    {NAMED, 1, {"stiffness_local:depth=0.5,z=0.857,width=0.03,shape=gaussian"}, 0}, /* a quarter of the core */
+    {NAMED, 1, {"joint:at=core.end,flexibility=4e-10"}, 0},
+    {NAMED, 1, {"added_mass:mass=10,z=1.6"}, 0},
+    {NAMED, 1, {"density:group=core,factor=0.94"}, 0},
+    {NAMED, 1, {"stiffness:group=left,factor=0.96"}, 0},
+    {NAMED, 1, {"tie_stiffness:at=ties,factor=0.3"}, 0},
+    {NAMED, 1, {"tie_shear:at=ties"}, 0},
+    {NAMED, 1, {"added_mass:mass=10,z=1.6", "sensor_gain:sensor=23,gain=1.4"}, 0},
+    {NAMED, 1, {"stiffness:group=left,factor=0.96", "sensor_sign:sensor=40"}, 0},
+    {NAMED, 1, {"density:group=core,factor=0.94", "noise_level:block=SHAPE,factor=2"}, 0},
+    {CLEAR, 1, {"step_stiffness:angle=40"}, 0},
+    {CLEAR, 3, {"stiffness_gradient:group=left,slope=-0.25"}, 0},
+    {CLEAR, 6, {"stiffness_local:depth=0.6,z=0.45,width=0.08,shape=box"}, 0},
+    {CLEAR, 8, {"joint:at=left.end,flexibility=1e-9"}, 0},
+    {CLEAR, 10, {"added_mass:mass=0.4,z=0"}, 0},
+    {CLEAR, 12, {"density:group=right,factor=0.9"}, 0},
+    {CLEAR, 14, {"stiffness:group=right,factor=0.88"}, 0},
+    {CLEAR, 17, {"shear_coefficient:group=left,factor=0.7"}, 0},
+    {CLEAR, 18, {"accelerometer_mass:mass=0.5,mount=fixed,sensor=68"}, 0},
+    {SMALL, 19, {"stiffness_gradient:group=core,slope=0.05"}, 0},
+    {SMALL, 20, {"stiffness_profile:group=core,profile=0.1"}, 0},
+    {SMALL, 21, {"stiffness_local:depth=0.15,z=1.0,width=0.04,shape=gaussian"}, 0},
+    {SMALL, 22, {"joint:at=left.end,flexibility=1.5e-10"}, 0},
+    {SMALL, 23, {"added_mass:mass=4,z=0.9"}, 0},
+    {SMALL, 24, {"density:group=right,factor=1.015"}, 0},
+    {SMALL, 25, {"stiffness:group=left,factor=0.99"}, 0},
+    {SMALL, 26, {"tie_stiffness:at=ties,factor=0.75"}, 0},
+    {SMALL, 27, {"shear_coefficient:group=right,factor=1.06"}, 0},
+    {SMALL, 28, {"accelerometer_mass:mass=0.3,mount=moving"}, 0},
+    {SMALL, 29, {"support:at=sling,factor=3"}, 0},
+    {SMALL, 30, {"tie_tension:at=ties,factor=0.5"}, 0},
+    {NOTHING, 31, {NULL}, 0},
+    {NOTHING, 32, {NULL}, 0},
+    {NOTHING, 33, {NULL}, 0},
+    {NOTHING, 34, {NULL}, 0.7},
+    {MISSTATED, 42, {"noise_level:block=FREQUENCY,factor=2"}, 0},
+    {TWO, 43, {"stiffness:group=left,factor=1.08", "added_mass:mass=20,z=1.2"}, 0},
+    {TWO, 44, {"tie_shear:at=ties", "joint:at=core.end,flexibility=1e-9"}, 0},
+    {OUTSIDE, 45, {"outside:kind=ground_rotation,z=1.45,stiffness=8e7"}, 0},
+    {OUTSIDE, 46, {"outside:kind=sine,group=core,amplitude=0.4,waves=2"}, 0},
+    {TWO, 47, {"outside:kind=two_zones,depth=0.8,z=0.4,width=0.03,depth2=0.8,z2=1.5,width2=0.03"}, 0},
 };
 
 #define COUNT ((int)(sizeof table / sizeof *table))
 
+struct seen { /* of one diagnosis, while it is there */
+    enum verdict_kind kind;
+    int adequate_after, ncause, nfinding, tension_beyond;
+    char cause[64], finding[64];
+};
+
 static struct hidden_score score[COUNT];
+static struct seen seen[COUNT];
 static char directory[] = "/tmp/hidden.XXXXXX";
+
+static void look(void *context, const struct hidden_case *c, const struct diagnosis *d, const cJSON *truth,
+                 const struct hidden_score *unused)
+{
+    struct seen *s = (struct seen *)context + c->number;
+    (void)truth, (void)unused;
+    s->kind = d->kind;
+    s->adequate_after = d->adequate_after;
+    s->ncause = d->ncause;
+    s->nfinding = d->ndata_finding;
+    if (d->ncause)
+        snprintf(s->cause, sizeof s->cause, "%s", d->cause[0].cause->id);
+    if (d->ndata_finding)
+        snprintf(s->finding, sizeof s->finding, "%s", d->data_finding[0].cause->id);
+    for (int i = 0; i < d->ndetectable; i++)
+        if (!strcmp(d->detectable[i].cause->id, "tie_tension"))
+            s->tension_beyond = d->detectable[i].beyond;
+}
 
 static int run_one(void *deck, int i, int worker)
 {
@@ -88,11 +110,11 @@ static int run_one(void *deck, int i, int worker)
     (void)worker;
     c.request.deck = deck;
     c.request.name = "input/paper_rotor.inp";
-    c.request.seed = (uint64_t)i + 1;
+    c.request.seed = table[i].seed;
     c.request.correlation = table[i].correlation;
     c.request.effect = table[i].effect;
     c.request.effects = (table[i].effect[0] != NULL) + (table[i].effect[1] != NULL);
-    return hidden_run(&c, NULL, NULL, NULL, &score[i]);
+    return hidden_run(&c, NULL, look, seen, &score[i]);
 }
 
 static int run_all(void **state)
@@ -107,19 +129,38 @@ static int run_all(void **state)
     return status;
 }
 
-static int is_as_expected(enum expected expected, const struct hidden_score *s)
+static int is_of(const char *id, const char *effect)
 {
+    size_t length = strcspn(effect, ":");
+    return strlen(id) == length && !strncmp(id, effect, length);
+}
+
+/* The moduli of the core aside: one interval in twenty may miss, tools/power counts them. */
+static int values_are_covered(const struct hidden_score *s)
+{
+    for (int v = 0; v < s->nvalue; v++)
+        if (strncmp(s->value[v].name, "core.", 5) != 0 && !hidden_covers(&s->value[v]))
+            return 0;
+    return 1;
+}
+
+static int is_as_expected(int i)
+{
+    const struct hidden_score *s = &score[i];
+    const struct seen *d = &seen[i];
+    const char *const *effect = table[i].effect;
     int found = s->outcome == HIDDEN_RIGHT || (s->outcome == HIDDEN_IN_SET && (s->nset <= 2 || !(s->margin >= 15))),
         wrong = s->outcome == HIDDEN_WRONG;
-    switch (expected) {
+    switch (table[i].expected) {
+    case NAMED:
+        return d->kind == VERDICT_NAMED && d->ncause == 1 && is_of(d->cause, effect[0]) && d->adequate_after &&
+               values_are_covered(s) && (!effect[1] || (d->nfinding == 1 && is_of(d->finding, effect[1])));
     case CLEAR:
         return found && !s->accused;
     case SMALL:
         return !wrong;
     case NOTHING:
         return s->outcome == HIDDEN_SILENT && !s->accused;
-    case FAULT:
-        return s->outcome == HIDDEN_RIGHT && !s->accused && !s->names;
     case MISSTATED:
         return !s->names;
     case TWO:
@@ -136,55 +177,37 @@ static void check(enum expected expected)
         const struct hidden_score *s = &score[i];
         if (table[i].expected != expected)
             continue;
-        int as_expected = is_as_expected(expected, s) && s->outcome != HIDDEN_FAILED;
+        int as_expected = is_as_expected(i) && s->outcome != HIDDEN_FAILED;
         bad += !as_expected;
-        print_message("%s seed %-2d %-50s %s%s%s%s, drop %.1f, margin %.1f, %.1f s\n", as_expected ? "     " : "  BAD", i + 1,
-                      table[i].effect[0] ? table[i].effect[0] : "nothing", hidden_outcome_name(s->outcome),
+        print_message("%s seed %-2u %-50s %s%s%s%s, drop %.1f, margin %.1f, %.1f s\n", as_expected ? "     " : "  BAD",
+                      table[i].seed, table[i].effect[0] ? table[i].effect[0] : "nothing", hidden_outcome_name(s->outcome),
                       s->wrong[0] ? ": " : "", s->wrong, s->failure, s->drop, s->margin, s->seconds);
     }
     assert_int_equal(bad, 0);
 }
 
-static void clear_effects_are_found(void **state)
-{
-    (void)state;
-    check(CLEAR);
-}
+#define TEST(name, expected)                                                                                                     \
+    static void name(void **state)                                                                                               \
+    {                                                                                                                            \
+        (void)state;                                                                                                             \
+        check(expected);                                                                                                         \
+    }
+TEST(every_cause_is_named_with_its_place_and_size_also_beside_a_fault, NAMED)
+TEST(clear_effects_are_found, CLEAR)
+TEST(small_effects_get_no_wrong_name, SMALL)
+TEST(nothing_is_nothing, NOTHING)
+TEST(wrong_noise_is_no_physics, MISSTATED)
+TEST(two_effects_at_once, TWO)
+TEST(what_is_not_in_the_catalogue_gets_no_name, OUTSIDE)
 
-static void small_effects_get_no_wrong_name(void **state)
+static void the_tension_of_the_rods_is_a_blind_spot_and_said_to_be_one(void **state)
 {
     (void)state;
-    check(SMALL);
-}
-
-static void nothing_is_nothing(void **state)
-{
-    (void)state;
-    check(NOTHING);
-}
-
-static void faults_of_the_data_are_found(void **state)
-{
-    (void)state;
-    check(FAULT);
-}
-
-static void wrong_noise_is_no_physics(void **state)
-{
-    (void)state;
-    check(MISSTATED);
-}
-
-static void two_effects_at_once(void **state)
-{
-    (void)state;
-    check(TWO);
-}
-
-static void what_is_not_in_the_catalogue_gets_no_name(void **state)
-{
-    (void)state;
-    check(OUTSIDE);
+    for (int i = 0; i < COUNT; i++)
+        if (table[i].effect[0] && is_of("tie_tension", table[i].effect[0])) {
+            assert_int_equal(seen[i].kind, VERDICT_ADEQUATE);
+            assert_true(seen[i].tension_beyond);
+        }
 }
 
 /* What the data are worth is known without a diagnosis: a drop of 30 has to be reported, whatever it is then called. */
@@ -196,7 +219,7 @@ static void a_drop_of_30_is_reported(void **state)
         if (score[i].class == HIDDEN_PHYSICAL && score[i].drop >= 30) {
             clear++;
             if (!score[i].reported)
-                fail_msg("seed %d, %s: drop %.1f and nothing reported", i + 1, table[i].effect[0], score[i].drop);
+                fail_msg("%s: drop %.1f and nothing reported", table[i].effect[0], score[i].drop);
         }
     assert_true(clear >= 15);
 }
@@ -207,9 +230,8 @@ static void intervals_hold_the_truth(void **state)
     (void)state;
     for (int i = 0; i < COUNT; i++)
         for (int v = 0; v < score[i].nvalue; v++) {
-            const struct hidden_value *value = &score[i].value[v];
             count++;
-            inside += hidden_covers(value);
+            inside += hidden_covers(&score[i].value[v]);
         }
     print_message("      %d of %d intervals hold the truth\n", inside, count);
     assert_true(count >= 40);
@@ -219,13 +241,14 @@ static void intervals_hold_the_truth(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_cause_is_named_with_its_place_and_size_also_beside_a_fault),
         cmocka_unit_test(clear_effects_are_found),
         cmocka_unit_test(small_effects_get_no_wrong_name),
         cmocka_unit_test(nothing_is_nothing),
-        cmocka_unit_test(faults_of_the_data_are_found),
         cmocka_unit_test(wrong_noise_is_no_physics),
         cmocka_unit_test(two_effects_at_once),
         cmocka_unit_test(what_is_not_in_the_catalogue_gets_no_name),
+        cmocka_unit_test(the_tension_of_the_rods_is_a_blind_spot_and_said_to_be_one),
         cmocka_unit_test(a_drop_of_30_is_reported),
         cmocka_unit_test(intervals_hold_the_truth),
     };

@@ -76,11 +76,11 @@ static void what_fits_is_computed(void **state)
     const char *output;
     if (without_limits() || sysconf(_SC_NPROCESSORS_ONLN) > 64)
         return;
-    const char *all = shell(&test_pool, LIMITED "diagnose " DECK " --json - | grep -v -e seconds -e threads");
-    for (int kib = 300000; kib <= 1200000; kib += 150000) {
+    const char *all = shell(&test_pool, LIMITED "diagnose " DECK " --replicates 100 --json - | grep -v -e seconds -e threads");
+    for (int kib = 300000; kib <= 1200000; kib += 450000) {
         assert_string_equal(shell(&test_pool,
                                   "unset OPENBLAS_NUM_THREADS; ulimit -v %d; " LIMITED "diagnose " DECK
-                                  " --json - | grep -v -e seconds -e threads",
+                                  " --replicates 100 --json - | grep -v -e seconds -e threads",
                                   kib),
                             all);
         (void)shell(&test_pool, "ulimit -v %d; export OPENBLAS_NUM_THREADS=16; " LIMITED "check " DECK, kib);
@@ -125,15 +125,17 @@ static void a_pipe_with_another_end_is_one_file_more(void **state)
 {
     (void)state;
     const char *json = shell(&test_pool, LIMITED "identify " DECK " --no-baseline --json - | grep -v seconds");
-    /* that begins at once, later, and after the wait, of which it tells at once by having it open */
+    /* that begins at once, later, and after the wait for one, of which it tells at once by having it open */
     (void)shell(&test_pool, "cat " DECK " | " LIMITED "check /dev/stdin --quiet");
     (void)shell(&test_pool, LIMITED "check /dev/stdin --quiet < " DECK);
-    (void)shell(&test_pool, "{ sleep 6; cat " DECK "; } | " LIMITED "check /dev/stdin --quiet");
     (void)shell(&test_pool, "cat " UFF " | " LIMITED "uff /dev/stdin --quiet");
     (void)shell(&test_pool, "cd %s && mkfifo pipe && { (sleep 1; cat " DECK " > pipe) & } && " LIMITED "check pipe --quiet",
                 folder);
     (void)shell(&test_pool, "cd %s && { (sleep 1; cat " UFF " > pipe) & } && " LIMITED "uff pipe --quiet", folder);
-    (void)shell(&test_pool, "cd %s && { (sleep 6; cat " DECK ") > pipe & } && " LIMITED "check pipe --quiet", folder);
+    (void)shell(&test_pool,
+                "cd %s && mkfifo late && { (sleep 6; cat " DECK ") > late & } && { " LIMITED
+                "check late --quiet & } && { sleep 6; cat " DECK "; } | " LIMITED "check /dev/stdin --quiet && wait $!",
+                folder);
     assert_string_equal(
         shell(&test_pool,
               "cd %s && { (sleep 1; cat pipe > got) & } && " LIMITED "identify " DECK
@@ -192,14 +194,17 @@ static void a_second_signal_ends_the_program(void **state)
 {
     (void)state;
     static const int signals[4][2] = {{SIGINT, SIGINT}, {SIGINT, SIGTERM}, {SIGTERM, SIGINT}, {SIGTERM, SIGTERM}};
+    pid_t child[4];
+    int status;
     for (int i = 0; i < 4; i++) {
-        int status;
-        pid_t child = start_deaf();
-        assert_int_equal(kill(child, signals[i][0]), 0);
-        rest();
-        assert_int_equal(waitpid(child, &status, WNOHANG), 0);
-        assert_int_equal(kill(child, signals[i][1]), 0);
-        assert_int_equal(waitpid(child, &status, 0), child);
+        child[i] = start_deaf();
+        assert_int_equal(kill(child[i], signals[i][0]), 0);
+    }
+    rest();
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(waitpid(child[i], &status, WNOHANG), 0);
+        assert_int_equal(kill(child[i], signals[i][1]), 0);
+        assert_int_equal(waitpid(child[i], &status, 0), child[i]);
         assert_true(WIFSIGNALED(status));
         assert_int_equal(WTERMSIG(status), signals[i][1]);
     }

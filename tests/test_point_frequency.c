@@ -62,6 +62,29 @@ static void the_mean_is_over_all_sensors_and_not_over_those_that_read(void **sta
     assert_true(isfinite(mean.hz) && mean.regressed);
 }
 
+static void two_columns_that_resemble_each_other_are_told_apart(void **state)
+{
+    (void)state;
+    double y[2 * POINTS], std[2 * POINTS], a[2 * POINTS], b[2 * POINTS], mean[8];
+    char use[2 * POINTS];
+    for (int i = 0; i < 2 * POINTS; i++) {
+        double x = i % POINTS / (POINTS - 1.0);
+        a[i] = x;
+        b[i] = x * x; /* of a correlation of 0.97 with the other */
+        y[i] = (i < POINTS ? 3 : 7) + 2 * a[i] - 1.5 * b[i];
+        std[i] = 0.01 * (1 + i % 3);
+        use[i] = 1;
+    }
+    const struct point_readings readings = {
+        .nmode = 2, .npoint = POINTS, .ncolumn = 2, .y = y, .std = std, .column = {a, b}, .use = use, .mean = mean};
+    struct point_fit fit;
+    assert_int_equal(point_fit(&readings, &fit), 0);
+    assert_close(fit.slope[0], 2, 1e-10, 0);
+    assert_close(fit.slope[1], -1.5, 1e-10, 0);
+    assert_true(fit.cross < 0 && fit.cross * fit.cross < fit.variance[0] * fit.variance[1]);
+    assert_int_equal(fit.dof, 2 * POINTS - 4);
+}
+
 static void few_points_give_their_plain_mean(void **state)
 {
     (void)state;
@@ -360,6 +383,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_is_over_all_sensors_and_not_over_those_that_read),
+        cmocka_unit_test(two_columns_that_resemble_each_other_are_told_apart),
         cmocka_unit_test(few_points_give_their_plain_mean),
         cmocka_unit_test(the_deviation_of_the_mean_is_what_it_scatters_by),
         cmocka_unit_test(one_wrong_reading_does_not_move_the_mean),

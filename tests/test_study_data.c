@@ -5,10 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "diagnose/causes/catalogue.h"
 #include "diagnose/causes/sensor.h"
 #include "hide/hide.h"
 #include "json_value.h"
 #include "study/experiment.h"
+#include "study/score.h"
 #include "study_bench.h"
 #include "support.h"
 
@@ -253,6 +255,36 @@ static void sensors_are_drawn_from_all(void **state)
     jobs_close(&jobs);
 }
 
+/* Both that were exchanged, in either order; of a channel that repeats another one, it alone. */
+static void a_fault_is_found_where_its_sensors_are(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *card, *id;
+        int sensor[2];
+        enum score score;
+    } table[] = {
+        {"sensor_swap, SENSOR=4,9", "sensor_swap", {4, 9}, SCORE_RIGHT},
+        {"sensor_swap, SENSOR=4,9", "sensor_swap", {9, 4}, SCORE_RIGHT},
+        {"sensor_swap, SENSOR=4,9", "sensor_swap", {4, 5}, SCORE_WRONG},
+        {"sensor_swap, SENSOR=4,9", "sensor_swap", {5, 9}, SCORE_WRONG},
+        {"sensor_swap, SENSOR=4,9", "duplicate_channel", {4, 9}, SCORE_WRONG},
+        {"duplicate_channel, SENSOR=7,6", "duplicate_channel", {7, 5}, SCORE_RIGHT},
+        {"duplicate_channel, SENSOR=7,6", "duplicate_channel", {6, 5}, SCORE_WRONG},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        char plan[500];
+        struct data_finding finding = {
+            .cause = catalogue_find(table[i].id), .nsensor = 2, .sensor = {table[i].sensor[0], table[i].sensor[1]}};
+        const struct diagnosis d = {.kind = VERDICT_ADEQUATE, .ndata_finding = 1, .data_finding = &finding};
+        (void)snprintf(plan, sizeof plan, MODEL "*NOISE\n0.001, 0.01\n*HIDE, TYPE=%s\n", table[i].card);
+        open_study(plan);
+        struct experiment e = make(0);
+        assert_string_equal(score_name(score_make(&e, &d)), score_name(table[i].score));
+        jobs_close(&jobs);
+    }
+}
+
 static void starts_lie_around_that_of_the_deck(void **state)
 {
     (void)state;
@@ -306,6 +338,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(noise_is_what_it_is_said_to_be, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(noise_adds_to_that_of_measured_data, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(sensors_are_drawn_from_all, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_fault_is_found_where_its_sensors_are, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(starts_lie_around_that_of_the_deck, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(truths_are_drawn_from_their_ranges, open_test_pool, close_test_pool),
     };

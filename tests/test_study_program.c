@@ -95,11 +95,8 @@ static void nothing_is_lost_by_kill_9(void **state)
             left = outcome.code != 0;
             assert_true(left == 0 || outcome.code == 128 + SIGKILL);
             kills += left;
-            for (int i = 0, tries = 0; i < children; i++) /* nobody is left behind */
-                for (; kill(child[i], 0) == 0 && tries < 500; tries++)
-                    rest(0.01);
-            for (int i = 0; i < children; i++)
-                assert_int_equal(kill(child[i], 0), -1);
+            for (int i = 0; i < children; i++) /* nobody is left behind */
+                assert_true(bench_ends(child[i], 5));
             int lines = bench_lines("killed.jsonl");
             assert_true(lines >= before && lines <= 1 + RUNS);
             before = lines;
@@ -242,14 +239,10 @@ static void workers_end_with_their_study(void **state)
     assert_int_equal(kill(process, SIGKILL), 0);
     assert_int_equal(bench_wait(process).code, 128 + SIGKILL);
     for (int i = 0; i < 2; i++) {
-        int tries = 0, there = 1;
-        for (; there && tries < 500; tries++) {
-            rest(0.01);
-            there = kill(child[i], 0) == 0;
-        }
-        if (there)
+        int ended = bench_ends(child[i], 5);
+        if (!ended)
             (void)kill(child[i], SIGKILL);
-        assert_false(there);
+        assert_true(ended);
     }
 }
 

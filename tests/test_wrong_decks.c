@@ -15,6 +15,7 @@
 
 #include "base/random.h"
 #include "deck/deck.h"
+#include "folder.h"
 #include "support.h"
 
 #define CORPUS      ROTID_SOURCE_DIR "/tests/data/decks/wrong"
@@ -23,32 +24,6 @@
 #define EVERY_CARD  ROTID_SOURCE_DIR "/tests/data/decks/every_card.inp"
 
 extern char **environ;
-
-static char directory[] = "/tmp/test_wrong_decks_XXXXXX";
-
-static const char *path_of(const char *name)
-{
-    static char path[16][512]; /* several are in use at a time */
-    static int next;
-    next = (next + 1) % 16;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", directory, name);
-    return path[next];
-}
-
-/* The whole file with a zero byte behind it; to be freed. */
-static char *read_file(const char *path, size_t *length)
-{
-    FILE *stream = fopen(path, "rb");
-    assert_non_null(stream);
-    assert_int_equal(fseek(stream, 0, SEEK_END), 0);
-    *length = (size_t)ftell(stream);
-    rewind(stream);
-    char *text = calloc(*length + 1, 1);
-    assert_non_null(text);
-    assert_int_equal(fread(text, 1, *length, stream), *length);
-    (void)fclose(stream);
-    return text;
-}
 
 static void write_file(const char *path, const char *bytes, size_t length)
 {
@@ -69,28 +44,28 @@ struct outcome {
 static struct outcome identify(const char *deck)
 {
     struct outcome outcome;
-    char *arguments[] = {ROTID_PROGRAM, "identify", (char *)deck, "--json", (char *)path_of("out.json"), NULL};
+    char *arguments[] = {ROTID_PROGRAM, "identify", (char *)deck, "--json", (char *)folder_path("out.json"), NULL};
     posix_spawn_file_actions_t actions;
     pid_t child;
     int status;
     assert_int_equal(posix_spawn_file_actions_init(&actions), 0);
-    assert_int_equal(posix_spawn_file_actions_addopen(&actions, 1, path_of("stdout"), O_WRONLY | O_CREAT | O_TRUNC, 0600), 0);
-    assert_int_equal(posix_spawn_file_actions_addopen(&actions, 2, path_of("stderr"), O_WRONLY | O_CREAT | O_TRUNC, 0600), 0);
+    assert_int_equal(posix_spawn_file_actions_addopen(&actions, 1, folder_path("stdout"), O_WRONLY | O_CREAT | O_TRUNC, 0600), 0);
+    assert_int_equal(posix_spawn_file_actions_addopen(&actions, 2, folder_path("stderr"), O_WRONLY | O_CREAT | O_TRUNC, 0600), 0);
     assert_int_equal(posix_spawn(&child, ROTID_PROGRAM, &actions, NULL, arguments, environ), 0);
     (void)posix_spawn_file_actions_destroy(&actions);
     assert_true(waitpid(child, &status, 0) == child);
     outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    free(read_file(path_of("stdout"), &outcome.written));
+    free(file_bytes(folder_path("stdout"), &outcome.written));
     size_t length;
-    outcome.err = read_file(path_of("stderr"), &length);
+    outcome.err = file_bytes(folder_path("stderr"), &length);
     return outcome;
 }
 
-/* No result, no temporary file beside it: what is in the directory is ours. */
+/* No result, no temporary file beside it: what is in the folder is ours. */
 static int wrote_a_file(void)
 {
     int found = 0;
-    DIR *stream = opendir(directory);
+    DIR *stream = opendir(folder);
     assert_non_null(stream);
     for (struct dirent *entry; (entry = readdir(stream));)
         found |= !strncmp(entry->d_name, "out.json", 8);
@@ -140,7 +115,7 @@ static int refuses(const char *deck, const char *expectations, int count)
         print_error("%s: exit code %d, %zu bytes to standard output, %d of %d expectations met, %d errors:\n%s", deck,
                     outcome.code, outcome.written, met, count, errors, outcome.err);
     free(outcome.err);
-    (void)unlink(path_of("out.json"));
+    (void)unlink(folder_path("out.json"));
     return good;
 }
 
@@ -151,7 +126,7 @@ static int is_refused_as_it_says(const char *name)
     size_t length, used = 0;
     int count = 0;
     (void)snprintf(deck, sizeof deck, "%s/%s", CORPUS, name);
-    char *text = read_file(deck, &length), *rest = NULL;
+    char *text = file_bytes(deck, &length), *rest = NULL;
     for (char *line = strtok_r(text, "\r\n", &rest); line && !strncmp(line, "** ", 3); line = strtok_r(NULL, "\r\n", &rest)) {
         if (strncmp(line, "** expect ", 10))
             continue;
@@ -209,15 +184,15 @@ static void what_is_no_file_of_text_is_refused(void **state)
     noise[0] = 0;
     for (size_t i = 1; i < sizeof noise; i++)
         noise[i] = (char)(int)(256 * random_uniform(&stream) - 128);
-    write_file(path_of("noise.inp"), noise, sizeof noise);
-    write_file(path_of("empty.inp"), noise, 0);
-    write_file(path_of("huge.inp"), noise, 0);
-    assert_int_equal(truncate(path_of("huge.inp"), 100 * 1000 * 1000), 0);
-    assert_true(is_refused(path_of("noise.inp"), "1:1", "byte 0x00 is not text"));
-    assert_true(is_refused(path_of("empty.inp"), "1:1", "the deck is empty"));
-    assert_true(is_refused(path_of("huge.inp"), "1:1", "the deck is larger than"));
-    assert_true(is_refused(path_of("missing.inp"), "1:1", "No such file or directory"));
-    assert_true(is_refused(directory, "1:1", "Is a directory"));
+    write_file(folder_path("noise.inp"), noise, sizeof noise);
+    write_file(folder_path("empty.inp"), noise, 0);
+    write_file(folder_path("huge.inp"), noise, 0);
+    assert_int_equal(truncate(folder_path("huge.inp"), 100 * 1000 * 1000), 0);
+    assert_true(is_refused(folder_path("noise.inp"), "1:1", "byte 0x00 is not text"));
+    assert_true(is_refused(folder_path("empty.inp"), "1:1", "the deck is empty"));
+    assert_true(is_refused(folder_path("huge.inp"), "1:1", "the deck is larger than"));
+    assert_true(is_refused(folder_path("missing.inp"), "1:1", "No such file or directory"));
+    assert_true(is_refused(folder, "1:1", "Is a directory"));
     assert_true(is_refused("/dev/zero", "1:1025", "the line is longer than 1024 characters"));
 }
 
@@ -226,9 +201,9 @@ static void a_file_that_may_not_be_read_is_refused(void **state)
     (void)state;
     if (geteuid() == 0)
         skip(); /* root may read everything */
-    write_file(path_of("locked.inp"), "*HEADING\n", 9);
-    assert_int_equal(chmod(path_of("locked.inp"), 0), 0);
-    assert_true(is_refused(path_of("locked.inp"), "1:1", "Permission denied"));
+    write_file(folder_path("locked.inp"), "*HEADING\n", 9);
+    assert_int_equal(chmod(folder_path("locked.inp"), 0), 0);
+    assert_true(is_refused(folder_path("locked.inp"), "1:1", "Permission denied"));
 }
 
 #define START "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
@@ -236,7 +211,7 @@ static void a_file_that_may_not_be_read_is_refused(void **state)
 /* `count` times `line` in the deck; `every` lines a new card. */
 static void write_many(const char *card, int every, const char *line, int count)
 {
-    FILE *stream = fopen(path_of("many.inp"), "wb");
+    FILE *stream = fopen(folder_path("many.inp"), "wb");
     assert_non_null(stream);
     (void)fputs(START "*SHAFT, NAME=core, MATERIAL=steel\n1, 0.1, 0, 20\n", stream);
     for (int i = 0; i < count; i++) {
@@ -252,7 +227,7 @@ static void more_elements_than_an_integer_counts_are_refused(void **state)
 {
     (void)state;
     write_many("*SHAFT, NAME=s%d, MATERIAL=steel\n", 10000, "1, 0.1, 0, 10000\n", 429497);
-    assert_true(is_refused(path_of("many.inp"), "420050:1", "elements, expected at most"));
+    assert_true(is_refused(folder_path("many.inp"), "420050:1", "elements, expected at most"));
 }
 
 /* Names and ids are compared with each other: tens of thousands once took minutes. */
@@ -260,9 +235,9 @@ static void more_cards_or_sensors_than_a_rotor_has_are_refused_at_once(void **st
 {
     (void)state;
     write_many("*DISK, NAME=d%d\n", 1, "0.5, 1\n", 50000);
-    assert_true(is_refused(path_of("many.inp"), "10000:1", "the deck has more than 5000 cards"));
+    assert_true(is_refused(folder_path("many.inp"), "10000:1", "the deck has more than 5000 cards"));
     write_many("*SENSORS\n", 200000, "%d, 0.5\n", 200000);
-    assert_true(is_refused(path_of("many.inp"), "10009:1", "*SENSORS has"));
+    assert_true(is_refused(folder_path("many.inp"), "10009:1", "*SENSORS has"));
 }
 
 /* ------------------------------------------------------------------------------------------------ deck_read by itself */
@@ -286,8 +261,8 @@ static int read_path(const char *path, const rotid_allocator *allocator)
 /* An answer, whichever it is. */
 static int reads(const char *text, size_t length)
 {
-    write_file(path_of("deck.inp"), text, length);
-    int status = read_path(path_of("deck.inp"), NULL);
+    write_file(folder_path("deck.inp"), text, length);
+    int status = read_path(folder_path("deck.inp"), NULL);
     assert_true(status == ROTID_OK || status == ROTID_ERROR_SYNTAX || status == ROTID_ERROR_SECTION);
     return status == ROTID_OK;
 }
@@ -298,7 +273,7 @@ static void a_deck_cut_off_anywhere_gets_an_answer(void **state)
     struct random_stream stream = {11};
     size_t length;
     int good = 0;
-    char *text = read_file(PAPER_ROTOR, &length);
+    char *text = file_bytes(PAPER_ROTOR, &length);
     for (size_t i = 0; i < length; i++)
         if (text[i] == '\n')
             good += reads(text, i) + reads(text, i + 1);
@@ -316,7 +291,7 @@ static void a_deck_with_one_wrong_byte_gets_an_answer(void **state)
     for (int d = 0; d < 2; d++) {
         size_t length;
         int good = 0;
-        char *text = read_file(path[d], &length);
+        char *text = file_bytes(path[d], &length);
         for (int i = 0; i < 1000; i++) {
             size_t at = (size_t)((double)length * random_uniform(&stream));
             char kept = text[at];
@@ -348,22 +323,6 @@ static void without_memory_a_deck_is_no_deck_and_nothing_leaks(void **state)
     }
 }
 
-static int make_directory(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) == NULL;
-}
-
-static int remove_directory(void **state)
-{
-    (void)state;
-    static const char *const left[] = {"stdout",    "stderr",    "deck.inp", "many.inp",
-                                       "noise.inp", "empty.inp", "huge.inp", "locked.inp"};
-    for (size_t i = 0; i < sizeof left / sizeof *left; i++)
-        (void)unlink(path_of(left[i]));
-    return rmdir(directory);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -376,5 +335,5 @@ int main(void)
         cmocka_unit_test(a_deck_with_one_wrong_byte_gets_an_answer),
         cmocka_unit_test(without_memory_a_deck_is_no_deck_and_nothing_leaks),
     };
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

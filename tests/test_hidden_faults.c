@@ -1,0 +1,113 @@
+/* Faults of the data hidden in those of the paper's rotor (hidden.h): found by number, said in a sentence, not taken for physics.
+ */
+#include "support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/parallel.h"
+#include "hidden.h"
+
+static const struct {
+    const char *effect, *id;
+    int sensor[2];
+    double value, tolerance; /* 0: not looked at */
+    const char *text;
+} table[] = {
+    {"sensor_gain:sensor=23,gain=1.4", "sensor_gain", {23}, 1.4, 0.14, "sensor 23 reads 1."},
+    {"sensor_sign:sensor=5", "sensor_sign", {5}, 0, 0, "sensor 5 has the wrong sign"},
+    {"sensor_swap:sensors=12+13", "sensor_swap", {12, 13}, 0, 0, "sensors 12 and 13 are exchanged"},
+    {"sensor_position:sensor=30,shift=0.06", "sensor_position", {30}, 0.06, 0.015, "mm further right than stated"},
+    {"sensor_position:sensor=30,shift=-0.06", "sensor_position", {30}, -0.06, 0.015, "mm further left than stated"},
+    {"duplicate_channel:sensor=7,of=6", "duplicate_channel", {7, 6}, 0, 0, "records what sensor"},
+    {"noise_level:block=SHAPE,factor=2", "noise_level", {0}, 2, 0.3, "noise"},
+    {"noise_level:block=SHAPE,factor=0.5", "noise_level", {0}, 0.5, 0.075, "noise"},
+};
+
+#define COUNT ((int)(sizeof table / sizeof *table))
+
+struct seen { /* of one diagnosis, while it is there */
+    enum verdict_kind kind;
+    int ncause, nfinding, sensor[2];
+    char id[64], text[300];
+    double value;
+};
+
+static struct seen seen[COUNT];
+static char directory[] = "/tmp/faults.XXXXXX";
+
+static void look(void *context, const struct hidden_case *c, const struct diagnosis *d, const cJSON *truth,
+                 const struct hidden_score *score)
+{
+    struct seen *s = (struct seen *)context + c->number;
+    (void)truth, (void)score;
+    *s = (struct seen){.kind = d->kind, .ncause = d->ncause, .nfinding = d->ndata_finding};
+    if (d->ndata_finding) {
+        const struct data_finding *f = &d->data_finding[0];
+        snprintf(s->id, sizeof s->id, "%s", f->cause->id);
+        snprintf(s->text, sizeof s->text, "%s", f->text);
+        memcpy(s->sensor, f->sensor, sizeof s->sensor);
+        s->value = f->value;
+    }
+}
+
+static int run_one(void *deck, int i, int worker)
+{
+    struct hidden_case c = {.request = hide_request_default(), .directory = directory, .number = i};
+    struct hidden_score score;
+    (void)worker;
+    c.request.deck = deck;
+    c.request.name = "input/paper_rotor.inp";
+    c.request.seed = 1;
+    c.request.effect = &table[i].effect;
+    c.request.effects = 1;
+    return hidden_run(&c, NULL, look, seen, &score);
+}
+
+static int run_all(void **state)
+{
+    char *deck = hidden_read(ROTID_SOURCE_DIR "/input/paper_rotor.inp");
+    (void)state;
+    assert_non_null(deck);
+    assert_non_null(mkdtemp(directory));
+    int status = parallel_for(2, COUNT, run_one, deck);
+    rmdir(directory);
+    free(deck);
+    return status;
+}
+
+static void faults_are_found_by_number_and_not_taken_for_physics(void **state)
+{
+    (void)state;
+    for (int i = 0; i < COUNT; i++) {
+        const int *expected = table[i].sensor, *sensor = seen[i].sensor;
+        print_message("%s: %s\n", table[i].effect, seen[i].text);
+        assert_int_equal(seen[i].kind, VERDICT_ADEQUATE);
+        assert_int_equal(seen[i].ncause, 0);
+        assert_int_equal(seen[i].nfinding, 1);
+        assert_string_equal(seen[i].id, table[i].id);
+        assert_true(!expected[0] || sensor[0] == expected[0] || sensor[0] == expected[1]);
+        assert_true(!expected[1] || sensor[1] == expected[0] || sensor[1] == expected[1]);
+        if (table[i].tolerance > 0)
+            assert_close(seen[i].value, table[i].value, 0, table[i].tolerance);
+    }
+}
+
+static void the_sentence_says_what_was_found(void **state)
+{
+    (void)state;
+    for (int i = 0; i < COUNT; i++)
+        if (!strstr(seen[i].text, table[i].text))
+            fail_msg("%s: '%s' lacks '%s'", table[i].effect, seen[i].text, table[i].text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(faults_are_found_by_number_and_not_taken_for_physics),
+        cmocka_unit_test(the_sentence_says_what_was_found),
+    };
+    return cmocka_run_group_tests(tests, run_all, NULL);
+}
