@@ -18,6 +18,7 @@
 #   make coverage   share of the lines of src that the tests run
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
+#   make fortran    the types of results in include/rotid.f90 anew, from include/rotid.h
 #   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
 #                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
@@ -194,6 +195,10 @@ sweep: all $(BUILD)/tests/test_report_sweep
 
 abi: $(BUILD)/tests/test_abi
 	@$< --write $(if $(filter 1,$(UNRELEASED)),--unreleased)
+
+.PHONY: fortran
+fortran: $(BUILD)/tests/test_fortran
+	@$< --write
 
 demo: all
 	@sh tools/demo $(BUILD)/rotid $(BUILD)/demo

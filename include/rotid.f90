@@ -57,6 +57,9 @@ module rotid
   integer(c_int), parameter :: ROTID_ERROR_IO = -14
   integer(c_int), parameter :: ROTID_ERROR_LIBRARY = -15
 
+  ! an integer that is not known
+  integer(c_int), parameter :: ROTID_NONE = -2147483647
+
   ! severity of a message
   integer(c_int), parameter :: ROTID_NOTE = 0
   integer(c_int), parameter :: ROTID_WARNING = 1
@@ -112,6 +115,12 @@ module rotid
     type(c_ptr) :: text = c_null_ptr
   end type rotid_message
 
+  type, bind(C) :: rotid_reference
+    type(c_ptr) :: quantity = c_null_ptr
+    integer(c_int) :: nvalues = 0
+    type(c_ptr) :: values = c_null_ptr ! real [nvalues]
+  end type rotid_reference
+
   type, bind(C) :: rotid_deck
     type(c_ptr) :: path = c_null_ptr
     integer(c_int) :: nmessage = 0, nerror = 0
@@ -129,109 +138,514 @@ module rotid
     type(c_ptr) :: holdout = c_null_ptr       ! integer [nmode]
     integer(c_int) :: nparameter = 0
     type(c_ptr) :: parameter = c_null_ptr     ! rotid_parameter [nparameter]
+    type(c_ptr) :: stated = c_null_ptr        ! real [nparameter]
+    integer(c_int) :: nheading = 0, nreferences = 0
+    type(c_ptr) :: heading = c_null_ptr       ! type(c_ptr) [nheading]
+    type(c_ptr) :: references = c_null_ptr    ! rotid_reference [nreferences]
     type(c_ptr) :: memory = c_null_ptr
   end type rotid_deck
 
-  type, bind(C) :: rotid_spectrum
-    integer(c_int) :: nrigid = 0
-    integer(c_int) :: nmode = 0
-    integer(c_int) :: nmaster = 0
-    real(c_double) :: rigid_hz(2) = 0
-    type(c_ptr) :: hz = c_null_ptr                       ! real [nmode]
-    type(c_ptr) :: reduced_hz = c_null_ptr               ! real [nmode]
-    type(c_ptr) :: reduction_error_percent = c_null_ptr  ! real [nmode]
-    type(c_ptr) :: mesh_error_percent = c_null_ptr       ! real [nmode]
-    type(c_ptr) :: shape = c_null_ptr                    ! real [nmaster, nmode]
-    type(c_ptr) :: master_z = c_null_ptr                 ! real [nmaster]
-    type(c_ptr) :: master_mass = c_null_ptr              ! real [nmaster, nmaster]
-    type(c_ptr) :: memory = c_null_ptr
-  end type rotid_spectrum
+  ! ------------------------------------------------------------------------------------------------ types: results
+
+  type, bind(C) :: rotid_material
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: e_pa = 0
+    real(c_double) :: g_pa = 0
+    real(c_double) :: nu = 0
+    real(c_double) :: rho_kg_m3 = 0
+  end type rotid_material
+
+  type, bind(C) :: rotid_segment
+    real(c_double) :: from_m = 0
+    real(c_double) :: to_m = 0
+    integer(c_int) :: elements = 0
+    real(c_double) :: outer_m = 0
+    real(c_double) :: inner_m = 0
+    real(c_double) :: stiff_outer_m = 0
+    real(c_double) :: height_m = 0
+    real(c_double) :: width_m = 0
+  end type rotid_segment
+
+  type, bind(C) :: rotid_perforation
+    integer(c_int) :: number = 0
+    real(c_double) :: hole_diameter_m = 0
+    real(c_double) :: pitch_radius_m = 0
+  end type rotid_perforation
+
+  type, bind(C) :: rotid_group
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: from_m = 0
+    real(c_double) :: to_m = 0
+    type(rotid_material) :: material = rotid_material()
+    integer(c_int) :: nsegments = 0
+    type(c_ptr) :: segments = c_null_ptr ! rotid_segment
+    type(c_ptr) :: perforation = c_null_ptr ! rotid_perforation
+    real(c_double) :: preload_n = 0
+  end type rotid_group
+
+  type, bind(C) :: rotid_tierods
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: from_m = 0
+    real(c_double) :: to_m = 0
+    type(rotid_material) :: material = rotid_material()
+    integer(c_int) :: number = 0
+    real(c_double) :: diameter_m = 0
+    real(c_double) :: pitch_radius_m = 0
+    type(c_ptr) :: model = c_null_ptr ! text
+    integer(c_int) :: elements = 0
+    real(c_double) :: tension_n = 0
+    integer(c_int) :: self_equilibrated = 0
+  end type rotid_tierods
+
+  type, bind(C) :: rotid_bars
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: from_m = 0
+    real(c_double) :: to_m = 0
+    real(c_double) :: center_m = 0
+    type(rotid_material) :: material = rotid_material()
+    integer(c_int) :: number = 0
+    real(c_double) :: diameter_m = 0
+    real(c_double) :: pitch_radius_m = 0
+    type(c_ptr) :: model = c_null_ptr ! text
+    integer(c_int) :: elements = 0
+  end type rotid_bars
+
+  type, bind(C) :: rotid_disk
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: z_m = 0
+    real(c_double) :: mass_kg = 0
+    real(c_double) :: diametral_kg_m2 = 0
+    real(c_double) :: polar_kg_m2 = 0
+  end type rotid_disk
+
+  type, bind(C) :: rotid_spring
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: z_m = 0
+    real(c_double) :: lateral_n_m = 0
+    real(c_double) :: rotational_nm_rad = 0
+  end type rotid_spring
+
+  type, bind(C) :: rotid_sensor
+    integer(c_int) :: id = 0
+    real(c_double) :: z_m = 0
+  end type rotid_sensor
+
+  type, bind(C) :: rotid_cause_parameter
+    type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: unit = c_null_ptr ! text
+    real(c_double) :: value = 0
+  end type rotid_cause_parameter
+
+  type, bind(C) :: rotid_model_cause
+    type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: id = c_null_ptr ! text
+    type(c_ptr) :: target = c_null_ptr ! text
+    integer(c_int) :: sensor = 0
+    type(c_ptr) :: variant = c_null_ptr ! text
+    integer(c_int) :: nparameters = 0
+    type(c_ptr) :: parameters = c_null_ptr ! rotid_cause_parameter
+  end type rotid_model_cause
+
+  type, bind(C) :: rotid_geometry
+    real(c_double) :: length_m = 0
+    integer(c_int) :: ngroups = 0
+    type(c_ptr) :: groups = c_null_ptr ! rotid_group
+    integer(c_int) :: ntierods = 0
+    type(c_ptr) :: tierods = c_null_ptr ! rotid_tierods
+    integer(c_int) :: nbars = 0
+    type(c_ptr) :: bars = c_null_ptr ! rotid_bars
+    integer(c_int) :: ndisks = 0
+    type(c_ptr) :: disks = c_null_ptr ! rotid_disk
+    integer(c_int) :: nsprings = 0
+    type(c_ptr) :: springs = c_null_ptr ! rotid_spring
+    real(c_double) :: sling_m = 0
+    integer(c_int) :: nsensors = 0
+    type(c_ptr) :: sensors = c_null_ptr ! rotid_sensor
+    integer(c_int) :: ncauses = 0
+    type(c_ptr) :: causes = c_null_ptr ! rotid_model_cause
+    integer(c_int) :: nnodes_z_m = 0
+    type(c_ptr) :: nodes_z_m = c_null_ptr ! real
+  end type rotid_geometry
+
+  type, bind(C) :: rotid_fitted_parameter
+    type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: unit = c_null_ptr ! text
+    real(c_double) :: value = 0
+    real(c_double) :: start = 0
+    real(c_double) :: lower = 0
+    real(c_double) :: upper = 0
+    real(c_double) :: std = 0
+    real(c_double) :: ci95(2) = 0
+    integer(c_int) :: at_bound = 0
+    integer(c_int) :: identifiable = 0
+  end type rotid_fitted_parameter
+
+  type, bind(C) :: rotid_compared_mode
+    integer(c_int) :: mode = 0
+    integer(c_int) :: measured_mode = 0
+    real(c_double) :: measured_hz = 0
+    real(c_double) :: frequency_std = 0
+    real(c_double) :: predicted_hz = 0
+    real(c_double) :: error_percent = 0
+    real(c_double) :: mac = 0
+    real(c_double) :: nco = 0
+    type(c_ptr) :: paired_by = c_null_ptr ! text
+    integer(c_int) :: holdout = 0
+    real(c_double) :: residual = 0
+  end type rotid_compared_mode
+
+  type, bind(C) :: rotid_member_shape
+    type(c_ptr) :: name = c_null_ptr ! text
+    integer(c_int) :: nz_m = 0
+    type(c_ptr) :: z_m = c_null_ptr ! real
+    type(c_ptr) :: shape = c_null_ptr ! real
+  end type rotid_member_shape
+
+  type, bind(C) :: rotid_mode_shapes
+    integer(c_int) :: mode = 0
+    integer(c_int) :: measured_mode = 0
+    integer(c_int) :: nmeasured = 0
+    integer(c_int) :: nmeasured_std = 0
+    integer(c_int) :: npredicted = 0
+    integer(c_int) :: npredicted_axis = 0
+    type(c_ptr) :: measured = c_null_ptr ! real
+    type(c_ptr) :: measured_std = c_null_ptr ! real
+    type(c_ptr) :: predicted = c_null_ptr ! real
+    type(c_ptr) :: predicted_axis = c_null_ptr ! real
+    integer(c_int) :: ntierods = 0
+    type(c_ptr) :: tierods = c_null_ptr ! rotid_member_shape
+    integer(c_int) :: nbars = 0
+    type(c_ptr) :: bars = c_null_ptr ! rotid_member_shape
+  end type rotid_mode_shapes
+
+  type, bind(C) :: rotid_shapes
+    integer(c_int) :: nsensor_id = 0
+    type(c_ptr) :: sensor_id = c_null_ptr ! integer
+    type(c_ptr) :: z_m = c_null_ptr ! real
+    integer(c_int) :: naxis_z_m = 0
+    type(c_ptr) :: axis_z_m = c_null_ptr ! real
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! rotid_mode_shapes
+  end type rotid_shapes
+
+  type, bind(C) :: rotid_history_entry
+    integer(c_int) :: iteration = 0
+    real(c_double) :: objective = 0
+    real(c_double) :: gradient = 0
+    real(c_double) :: mu = 0
+    real(c_double) :: gain_ratio = 0
+    real(c_double) :: step = 0
+    real(c_double) :: seconds = 0
+    integer(c_int) :: nx = 0
+    type(c_ptr) :: x = c_null_ptr ! real
+  end type rotid_history_entry
+
+  type, bind(C) :: rotid_minimiser
+    type(c_ptr) :: algorithm = c_null_ptr ! text
+    type(c_ptr) :: result = c_null_ptr ! text
+    integer(c_int) :: usable = 0
+    real(c_double) :: objective = 0
+    real(c_double) :: gradient = 0
+    integer(c_int) :: evaluations = 0
+    real(c_double) :: seconds = 0
+    integer(c_int) :: nx = 0
+    integer(c_int) :: npredicted_hz = 0
+    type(c_ptr) :: x = c_null_ptr ! real
+    type(c_ptr) :: predicted_hz = c_null_ptr ! real
+  end type rotid_minimiser
+
+  type, bind(C) :: rotid_noise
+    real(c_double) :: frequency = 0
+    real(c_double) :: shape = 0
+    integer(c_int) :: frequency_assumed = 0
+    integer(c_int) :: shape_assumed = 0
+    type(c_ptr) :: intervals_from = c_null_ptr ! text
+  end type rotid_noise
+
+  type, bind(C) :: rotid_component
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: value = 0
+  end type rotid_component
 
   type, bind(C) :: rotid_identification
-    type(c_ptr) :: fit = c_null_ptr                      ! a rotid_fit_result
-    integer(c_int) :: nparameter = 0
-    type(c_ptr) :: parameter = c_null_ptr                ! rotid_parameter [nparameter]
-    integer(c_int) :: nmode = 0
-    type(c_ptr) :: number = c_null_ptr                   ! integer [nmode]
-    type(c_ptr) :: measured_hz = c_null_ptr              ! real [nmode]
-    type(c_ptr) :: nco = c_null_ptr                      ! real [nmode]
-    type(c_ptr) :: reduction_error_percent = c_null_ptr  ! real [nmode]
-    type(c_ptr) :: mesh_error_percent = c_null_ptr       ! real [nmode]
-    real(c_double) :: mass = 0, centre = 0
+    type(c_ptr) :: status = c_null_ptr ! text
+    type(c_ptr) :: functional = c_null_ptr ! text
+    type(c_ptr) :: reduction = c_null_ptr ! text
+    type(c_ptr) :: derivative = c_null_ptr ! text
+    integer(c_int) :: shapes_fitted = 0
+    real(c_double) :: bijection_chi = 0
+    real(c_double) :: objective = 0
+    real(c_double) :: gradient = 0
+    real(c_double) :: chi2 = 0
+    real(c_double) :: chi2_per_dof = 0
+    integer(c_int) :: dof = 0
+    integer(c_int) :: iterations = 0
+    integer(c_int) :: evaluations = 0
+    integer(c_int) :: jacobians = 0
+    type(c_ptr) :: stop_reason = c_null_ptr ! text
+    integer(c_int) :: nparameters = 0
+    type(c_ptr) :: parameters = c_null_ptr ! rotid_fitted_parameter
+    type(c_ptr) :: correlation = c_null_ptr ! real
+    real(c_double) :: condition_number = 0
+    integer(c_int) :: nundetermined_directions = 0
+    type(c_ptr) :: undetermined_directions = c_null_ptr ! rotid_component
+    real(c_double) :: intervals_widened_by = 0
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! rotid_compared_mode
+    type(c_ptr) :: reduction_error_percent = c_null_ptr ! real
+    type(c_ptr) :: mesh_error_percent = c_null_ptr ! real
+    real(c_double) :: mass_kg = 0
+    real(c_double) :: center_of_mass_m = 0
+    type(c_ptr) :: shapes = c_null_ptr ! rotid_shapes
+    integer(c_int) :: nmatrix_rows = 0
+    integer(c_int) :: nmatrix_columns = 0
+    type(c_ptr) :: nco_matrix = c_null_ptr ! real
+    type(c_ptr) :: mac_matrix = c_null_ptr ! real
+    type(c_ptr) :: matrix_rows = c_null_ptr ! integer
+    type(c_ptr) :: matrix_columns = c_null_ptr ! integer
+    integer(c_int) :: nhistory = 0
+    type(c_ptr) :: history = c_null_ptr ! rotid_history_entry
+    integer(c_int) :: nlopt = 0
+    integer(c_int) :: nbaseline = 0
+    type(c_ptr) :: baseline = c_null_ptr ! rotid_minimiser
+    real(c_double) :: seconds = 0
+    type(c_ptr) :: noise = c_null_ptr ! rotid_noise
+    type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
     integer(c_int) :: nmessage = 0
-    type(c_ptr) :: message = c_null_ptr                  ! rotid_message [nmessage]
+    type(c_ptr) :: message = c_null_ptr ! rotid_message
+    type(c_ptr) :: fit = c_null_ptr ! rotid_fit_result
     type(c_ptr) :: memory = c_null_ptr
   end type rotid_identification
 
-  ! ------------------------------------------------------------------------------------------------ types: diagnosis
+  type, bind(C) :: rotid_model_mode
+    integer(c_int) :: mode = 0
+    real(c_double) :: full_hz = 0
+    real(c_double) :: reduced_hz = 0
+    real(c_double) :: reduction_error_percent = 0
+    real(c_double) :: mesh_error_percent = 0
+    integer(c_int) :: nshape = 0
+    type(c_ptr) :: shape = c_null_ptr ! real
+    type(c_ptr) :: measured = c_null_ptr ! rotid_compared_mode
+  end type rotid_model_mode
+
+  type, bind(C) :: rotid_spectrum
+    type(c_ptr) :: reduction = c_null_ptr ! text
+    integer(c_int) :: nrigid_hz = 0
+    type(c_ptr) :: rigid_hz = c_null_ptr ! real
+    integer(c_int) :: nsensor_z_m = 0
+    type(c_ptr) :: sensor_z_m = c_null_ptr ! real
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! rotid_model_mode
+    type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
+    type(c_ptr) :: master_mass = c_null_ptr ! real
+    integer(c_int) :: nmessage = 0
+    type(c_ptr) :: message = c_null_ptr ! rotid_message
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_spectrum
+
+  type, bind(C) :: rotid_check
+    real(c_double) :: length_m = 0
+    real(c_double) :: mass_kg = 0
+    real(c_double) :: center_of_mass_m = 0
+    real(c_double) :: inertia_kg_m2 = 0
+    integer(c_int) :: nodes = 0
+    integer(c_int) :: elements = 0
+    integer(c_int) :: rigid_modes = 0
+    integer(c_int) :: nrigid_hz = 0
+    type(c_ptr) :: rigid_hz = c_null_ptr ! real
+    integer(c_int) :: measured_modes = 0
+    type(c_ptr) :: functional = c_null_ptr ! text
+    type(c_ptr) :: reduction = c_null_ptr ! text
+    integer(c_int) :: nsensors = 0
+    type(c_ptr) :: sensors = c_null_ptr ! rotid_sensor
+    integer(c_int) :: nparameters = 0
+    type(c_ptr) :: parameters = c_null_ptr ! texts
+    type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_check
 
   type, bind(C) :: rotid_cause_value
-    type(c_ptr) :: name = c_null_ptr, unit = c_null_ptr
-    real(c_double) :: value = 0, std = 0, ci_lower = 0, ci_upper = 0
+    type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: unit = c_null_ptr ! text
+    real(c_double) :: value = 0
+    real(c_double) :: std = 0
+    real(c_double) :: ci95(2) = 0
     integer(c_int) :: fixed = 0
   end type rotid_cause_value
 
   type, bind(C) :: rotid_cause
-    type(c_ptr) :: id = c_null_ptr, target = c_null_ptr, name = c_null_ptr
-    type(c_ptr) :: variant = c_null_ptr
-    integer(c_int) :: nvalue = 0
-    type(c_ptr) :: value = c_null_ptr ! rotid_cause_value [nvalue]
-    integer(c_int) :: round = 0
-    integer(c_int) :: refitted = 0
-    real(c_double) :: chi2 = 0, chi2_drop = 0, bic = 0, holdout_rms = 0, mode_out_rms = 0, sensor_out_rms = 0
-    real(c_double) :: predicted_drop = 0, p_value = 0
-    integer(c_int) :: at_bound = 0
-    type(c_ptr) :: collinear_with = c_null_ptr
-    real(c_double) :: cosine = 0
-    type(c_ptr) :: rejected_because = c_null_ptr
+    type(c_ptr) :: id = c_null_ptr ! text
+    type(c_ptr) :: target = c_null_ptr ! text
+    type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: variant = c_null_ptr ! text
+    integer(c_int) :: nparameters = 0
+    type(c_ptr) :: parameters = c_null_ptr ! rotid_cause_value
   end type rotid_cause
 
-  type, bind(C) :: rotid_finding
-    type(c_ptr) :: id = c_null_ptr
-    integer(c_int) :: nsensor = 0, nmode = 0
-    type(c_ptr) :: sensor = c_null_ptr, mode = c_null_ptr ! integer [nsensor], [nmode]
-    type(c_ptr) :: error_percent = c_null_ptr             ! real [nmode]
-    type(c_ptr) :: block = c_null_ptr
-    real(c_double) :: value = 0, std = 0, chi2_drop = 0
-    type(c_ptr) :: text = c_null_ptr
-  end type rotid_finding
+  type, bind(C) :: rotid_verdict
+    integer(c_int) :: kind = 0
+    integer(c_int) :: adequate_after = 0
+    real(c_double) :: p_value = 0
+    integer(c_int) :: ncauses = 0
+    type(c_ptr) :: causes = c_null_ptr ! rotid_cause
+    integer(c_int) :: nalternatives = 0
+    type(c_ptr) :: alternatives = c_null_ptr ! texts
+    integer(c_int) :: nalternative_causes = 0
+    type(c_ptr) :: alternative_causes = c_null_ptr ! rotid_cause
+    type(c_ptr) :: next_measurement = c_null_ptr ! text
+    type(c_ptr) :: sentence = c_null_ptr ! text
+    integer(c_int) :: undetermined_parameters = 0
+  end type rotid_verdict
 
-  type, bind(C) :: rotid_quality
-    real(c_double) :: frequency_rms_percent = 0, frequency_max_percent = 0, shape_rms = 0, chi2_per_dof = 0, nco_min = 0
-    real(c_double) :: holdout_frequency_rms_percent = 0, holdout_shape_rms = 0
-    real(c_double) :: mode_out_frequency_rms_percent = 0, mode_out_shape_rms = 0
-    real(c_double) :: sensor_out_shape_rms = 0
-  end type rotid_quality
+  type, bind(C) :: rotid_data_finding
+    type(c_ptr) :: id = c_null_ptr ! text
+    integer(c_int) :: nsensors = 0
+    type(c_ptr) :: sensors = c_null_ptr ! integer
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! integer
+    type(c_ptr) :: block = c_null_ptr ! text
+    real(c_double) :: value = 0
+    type(c_ptr) :: unit = c_null_ptr ! text
+    real(c_double) :: std = 0
+    real(c_double) :: chi2_drop = 0
+    type(c_ptr) :: text = c_null_ptr ! text
+  end type rotid_data_finding
+
+  type, bind(C) :: rotid_numerical_finding
+    type(c_ptr) :: id = c_null_ptr ! text
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! integer
+    type(c_ptr) :: error_percent = c_null_ptr ! real
+    type(c_ptr) :: text = c_null_ptr ! text
+  end type rotid_numerical_finding
+
+  type, bind(C) :: rotid_round
+    integer(c_int) :: round = 0
+    integer(c_int) :: kind = 0
+    real(c_double) :: chi2 = 0
+    real(c_double) :: chi2_frequency = 0
+    integer(c_int) :: dof = 0
+    integer(c_int) :: frequencies = 0
+    real(c_double) :: largest = 0
+    real(c_double) :: threshold = 0
+    real(c_double) :: p_scan = 0
+    real(c_double) :: p_frequency = 0
+    real(c_double) :: p_total = 0
+    real(c_double) :: required_margin = 0
+    integer(c_int) :: set = 0
+  end type rotid_round
+
+  type, bind(C) :: rotid_candidate
+    integer(c_int) :: round = 0
+    type(rotid_cause) :: cause = rotid_cause()
+    integer(c_int) :: suspect = 0
+    integer(c_int) :: refitted = 0
+    real(c_double) :: predicted_drop = 0
+    real(c_double) :: chi2 = 0
+    real(c_double) :: chi2_frequency = 0
+    real(c_double) :: chi2_drop = 0
+    real(c_double) :: bic = 0
+    real(c_double) :: holdout_rms = 0
+    real(c_double) :: mode_out_rms = 0
+    real(c_double) :: sensor_out_rms = 0
+    real(c_double) :: p_value = 0
+    integer(c_int) :: at_bound = 0
+    type(c_ptr) :: collinear_with = c_null_ptr ! text
+    type(c_ptr) :: collinear_target = c_null_ptr ! text
+    real(c_double) :: cosine = 0
+    type(c_ptr) :: rejected_because = c_null_ptr ! text
+  end type rotid_candidate
+
+  type, bind(C) :: rotid_pair
+    real(c_double) :: before = 0
+    real(c_double) :: after = 0
+  end type rotid_pair
+
+  type, bind(C) :: rotid_changed_parameter
+    type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: unit = c_null_ptr ! text
+    real(c_double) :: before = 0
+    real(c_double) :: after = 0
+    real(c_double) :: before_ci95(2) = 0
+    real(c_double) :: after_ci95(2) = 0
+  end type rotid_changed_parameter
+
+  type, bind(C) :: rotid_gain
+    type(rotid_pair) :: frequency_rms_percent = rotid_pair()
+    type(rotid_pair) :: frequency_max_percent = rotid_pair()
+    type(rotid_pair) :: shape_rms = rotid_pair()
+    type(rotid_pair) :: chi2_per_dof = rotid_pair()
+    type(rotid_pair) :: nco_min = rotid_pair()
+    type(rotid_pair) :: holdout_frequency_rms_percent = rotid_pair()
+    type(rotid_pair) :: holdout_shape_rms = rotid_pair()
+    type(rotid_pair) :: mode_out_frequency_rms_percent = rotid_pair()
+    type(rotid_pair) :: mode_out_shape_rms = rotid_pair()
+    type(rotid_pair) :: sensor_out_shape_rms = rotid_pair()
+    integer(c_int) :: nparameters = 0
+    type(c_ptr) :: parameters = c_null_ptr ! rotid_changed_parameter
+  end type rotid_gain
+
+  type, bind(C) :: rotid_sensor_residual
+    integer(c_int) :: id = 0
+    real(c_double) :: z_m = 0
+    real(c_double) :: rms = 0
+  end type rotid_sensor_residual
+
+  type, bind(C) :: rotid_localisation
+    real(c_double) :: z_m = 0
+    real(c_double) :: indicator = 0
+  end type rotid_localisation
 
   type, bind(C) :: rotid_detectable
-    type(c_ptr) :: id = c_null_ptr, target = c_null_ptr, parameter = c_null_ptr, unit = c_null_ptr
-    real(c_double) :: smallest = 0, z = 0, worst = 0
+    type(c_ptr) :: id = c_null_ptr ! text
+    type(c_ptr) :: target = c_null_ptr ! text
+    type(c_ptr) :: parameter = c_null_ptr ! text
+    real(c_double) :: smallest = 0
+    type(c_ptr) :: unit = c_null_ptr ! text
+    real(c_double) :: z_m = 0
+    real(c_double) :: worst = 0
     integer(c_int) :: beyond = 0
   end type rotid_detectable
 
+  type, bind(C) :: rotid_step
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: seconds = 0
+  end type rotid_step
+
   type, bind(C) :: rotid_diagnosis
-    integer(c_int) :: kind = 0
-    integer(c_int) :: adequate_after = 0
     integer(c_int) :: interrupted = 0
-    real(c_double) :: p_value = 0
-    type(c_ptr) :: sentence = c_null_ptr, next_measurement = c_null_ptr
-    integer(c_int) :: ncause = 0, nalternative = 0, ncandidate = 0
-    type(c_ptr) :: cause = c_null_ptr                                         ! rotid_cause [ncause]
-    type(c_ptr) :: alternative = c_null_ptr                                   ! rotid_cause [nalternative]
-    type(c_ptr) :: candidate = c_null_ptr                                     ! rotid_cause [ncandidate]
-    integer(c_int) :: ndata_finding = 0, nnumerical_finding = 0
-    type(c_ptr) :: data_finding = c_null_ptr, numerical_finding = c_null_ptr  ! rotid_finding [...]
-    type(c_ptr) :: base = c_null_ptr, extended = c_null_ptr                   ! a rotid_identification each
-    type(rotid_quality) :: before = rotid_quality(), after = rotid_quality()
-    integer(c_int) :: nlocal = 0
-    type(c_ptr) :: local_z = c_null_ptr, local = c_null_ptr                   ! real [nlocal]
+    type(rotid_verdict) :: verdict = rotid_verdict()
+    integer(c_int) :: ndata_findings = 0
+    type(c_ptr) :: data_findings = c_null_ptr ! rotid_data_finding
+    integer(c_int) :: nnumerical_findings = 0
+    type(c_ptr) :: numerical_findings = c_null_ptr ! rotid_numerical_finding
+    integer(c_int) :: nrounds = 0
+    type(c_ptr) :: rounds = c_null_ptr ! rotid_round
+    integer(c_int) :: ncandidates = 0
+    type(c_ptr) :: candidates = c_null_ptr ! rotid_candidate
+    type(rotid_gain) :: gain = rotid_gain()
+    integer(c_int) :: nmodes_standardised = 0
+    type(c_ptr) :: modes_standardised = c_null_ptr ! real
+    integer(c_int) :: nsensors = 0
+    type(c_ptr) :: sensors = c_null_ptr ! rotid_sensor_residual
+    integer(c_int) :: nlocalisation = 0
+    type(c_ptr) :: localisation = c_null_ptr ! rotid_localisation
     integer(c_int) :: ndetectable = 0
-    type(c_ptr) :: detectable = c_null_ptr                                    ! rotid_detectable [ndetectable]
-    type(c_ptr) :: extended_deck = c_null_ptr
+    type(c_ptr) :: detectable = c_null_ptr ! rotid_detectable
+    type(rotid_noise) :: noise = rotid_noise()
+    type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
+    type(c_ptr) :: today = c_null_ptr ! rotid_identification
+    type(c_ptr) :: base = c_null_ptr ! rotid_identification
+    type(c_ptr) :: extended = c_null_ptr ! rotid_identification
+    integer(c_int) :: nsteps = 0
+    type(c_ptr) :: steps = c_null_ptr ! rotid_step
     integer(c_int) :: nmessage = 0
-    type(c_ptr) :: message = c_null_ptr                                       ! rotid_message [nmessage]
+    type(c_ptr) :: message = c_null_ptr ! rotid_message
+    type(c_ptr) :: extended_deck = c_null_ptr ! text
     type(c_ptr) :: memory = c_null_ptr
   end type rotid_diagnosis
+
+  ! ---- types: end of results
 
   type, bind(C) :: rotid_diagnose_options
     integer(c_size_t) :: size = 24
@@ -442,8 +856,8 @@ module rotid
       type(c_ptr) :: text
     end function rotid_status_name
 
-    ! ---- run a deck; with strings and optional arguments: rotid_read_deck, rotid_read_deck_text, rotid_compute_spectrum,
-    ! rotid_identify_deck, rotid_diagnose_deck, rotid_free
+    ! ---- run a deck; with strings and optional arguments: rotid_read_deck, rotid_read_deck_text, rotid_check_deck,
+    ! rotid_compute_spectrum, rotid_identify_deck, rotid_diagnose_deck, rotid_free
 
     function rotid_deck_read(path, noverride, override, environment, failure, deck) result(status) bind(C, name="rotid_deck_read")
       import :: c_char, c_ptr, c_int
@@ -472,6 +886,19 @@ module rotid
       import :: c_ptr
       type(c_ptr), value :: deck
     end subroutine rotid_deck_free
+
+    function rotid_deck_check(deck, environment, failure, check) result(status) bind(C, name="rotid_deck_check")
+      import :: c_ptr, c_int
+      type(c_ptr), value :: deck
+      type(c_ptr), value :: environment, failure
+      type(c_ptr), intent(out) :: check
+      integer(c_int) :: status
+    end function rotid_deck_check
+
+    subroutine rotid_check_free(check) bind(C, name="rotid_check_free")
+      import :: c_ptr
+      type(c_ptr), value :: check
+    end subroutine rotid_check_free
 
     function rotid_spectrum_compute(deck, x, nmode, environment, failure, spectrum) result(status) &
       bind(C, name="rotid_spectrum_compute")
@@ -757,7 +1184,7 @@ module rotid
 
   ! Frees a deck or a result and nullifies its pointer; a null pointer is allowed.
   interface rotid_free
-    module procedure free_deck, free_spectrum, free_identification, free_diagnosis, free_fit
+    module procedure free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_fit
   end interface rotid_free
 
   ! rotid_reals(member, n), rotid_reals(member, m, n): the array behind a member; null where the member is.
@@ -773,7 +1200,8 @@ module rotid
     end function c_length
   end interface
 
-  private :: free_deck, free_spectrum, free_identification, free_diagnosis, free_fit, real_vector, real_matrix, c_length, &
+  private :: free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_fit, real_vector, real_matrix, &
+             c_length, &
              c_string, c_strings, ones_to_zeros
 
 contains
@@ -974,6 +1402,24 @@ contains
     if (c_associated(c_deck)) call c_f_pointer(c_deck, deck)
   end function rotid_read_deck_text
 
+  ! rotid_deck_check.
+  function rotid_check_deck(deck, check, environment, failure) result(status)
+    type(rotid_deck), intent(in), target :: deck
+    type(rotid_check), pointer, intent(out) :: check
+    type(rotid_environment), intent(in), optional, target :: environment
+    character(len=:), allocatable, intent(out), optional :: failure
+    type(rotid_environment), target :: given
+    integer(c_int) :: status
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
+    type(c_ptr) :: c_check
+    if (present(environment)) given = environment
+    given%size = c_sizeof(given)
+    nullify (check)
+    status = rotid_deck_check(c_loc(deck), c_loc(given), c_loc(why), c_check)
+    if (present(failure)) failure = rotid_string(c_loc(why))
+    if (c_associated(c_check)) call c_f_pointer(c_check, check)
+  end function rotid_check_deck
+
   ! rotid_spectrum_compute; without x at the starts of the parameters.
   function rotid_compute_spectrum(deck, nmode, spectrum, x, environment, failure) result(status)
     type(rotid_deck), intent(in), target :: deck
@@ -1149,6 +1595,12 @@ contains
     if (associated(deck)) call rotid_deck_free(c_loc(deck))
     nullify (deck)
   end subroutine free_deck
+
+  subroutine free_check(check)
+    type(rotid_check), pointer, intent(inout) :: check
+    if (associated(check)) call rotid_check_free(c_loc(check))
+    nullify (check)
+  end subroutine free_check
 
   subroutine free_spectrum(spectrum)
     type(rotid_spectrum), pointer, intent(inout) :: spectrum

@@ -177,7 +177,7 @@ ROTID_API void rotid_deck_free(rotid_deck *deck);
  * NULL, and null in JSON. Units stand in brackets, [1] for a pure number; where a name ends in a unit that is the unit. Results are
  * not to be changed, and go as a whole with the routine that is named `rotid_..._free`. */
 
-#define ROTID_NONE (-2147483647 - 1) /* an integer that is not known */
+#define ROTID_NONE (-2147483647) /* an integer that is not known */
 
 /* A material at the values of the model. */
 typedef struct rotid_material {
@@ -464,6 +464,7 @@ typedef struct rotid_identification {
     int *matrix_columns; /* mode of the columns; empty without measured shapes */
     int nhistory;
     rotid_history_entry *history; /* accepted points, the start first */
+    int nlopt;                    /* 0: built without NLopt, so there is no baseline */
     int nbaseline;
     rotid_minimiser *baseline;   /* the same problem minimised by NLopt; empty where that was not asked for, or without NLopt */
     double seconds;              /* of Levenberg-Marquardt [s] */

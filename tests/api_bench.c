@@ -51,18 +51,18 @@ void bench_hidden_deck(const char *path, double gradient, unsigned seed)
         (void)fprintf(out, "*CAUSE, NAME=hidden, TYPE=stiffness_gradient, GROUP=core\nslope, %.17g\n", gradient);
     (void)fclose(out);
     rotid_deck *deck = bench_deck(path);
-    if (rotid_spectrum_compute(deck, NULL, MODES, NULL, NULL, &s) || s->nmode != MODES)
+    if (rotid_spectrum_compute(deck, NULL, MODES, NULL, NULL, &s) || s->nmodes != MODES)
         abort();
     rotid_deck_free(deck);
     out = open_deck(path, 1);
     (void)fprintf(out, "*MODES\n");
     for (int k = 0; k < MODES; k++)
-        (void)fprintf(out, "%d, %.17g\n", k + 1, s->hz[k] * (1 + FREQUENCY_NOISE * random_normal(&stream)));
+        (void)fprintf(out, "%d, %.17g\n", k + 1, s->modes[k].full_hz * (1 + FREQUENCY_NOISE * random_normal(&stream)));
     (void)fprintf(out, "*NOISE, FREQUENCY=%g, SHAPE=%g\n", FREQUENCY_NOISE, SHAPE_NOISE);
     for (int k = 0; k < MODES; k++) {
         (void)fprintf(out, "*SHAPE, MODE=%d\n", k + 1);
         for (int i = 0; i < SENSORS; i++)
-            (void)fprintf(out, "%d, %.17g\n", i + 1, s->shape[i + k * SENSORS] + SHAPE_NOISE * random_normal(&stream));
+            (void)fprintf(out, "%d, %.17g\n", i + 1, s->modes[k].shape[i] + SHAPE_NOISE * random_normal(&stream));
     }
     (void)fprintf(out, "*IDENTIFY\ncore.E, 2e10, 2.2e11, 0.9e11\ncore.G, 1e10, 0.9e11, 0.35e11\n");
     if (fclose(out) != 0)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "result/records.h"
 #include "support.h"
 
 static void put_text(FILE *out, const char *name, const char *text)
@@ -81,23 +82,6 @@ char *dump_deck(const rotid_deck *d)
     return close_text(out, &text);
 }
 
-char *dump_spectrum(const rotid_spectrum *s)
-{
-    char *text;
-    size_t length;
-    FILE *out = open_memstream(&text, &length);
-    put_integers(out, "sizes", 3, (const int[]){s->nrigid, s->nmode, s->nmaster});
-    put_numbers(out, "rigid", 2, s->rigid_hz);
-    put_numbers(out, "hz", s->nmode, s->hz);
-    put_numbers(out, "reduced", s->nmode, s->reduced_hz);
-    put_numbers(out, "reduction", s->nmode, s->reduction_error_percent);
-    put_numbers(out, "mesh", s->nmode, s->mesh_error_percent);
-    put_numbers(out, "shape", (ptrdiff_t)s->nmaster * s->nmode, s->shape);
-    put_numbers(out, "z", s->nmaster, s->master_z);
-    put_numbers(out, "mass", (ptrdiff_t)s->nmaster * s->nmaster, s->master_mass);
-    return close_text(out, &text);
-}
-
 static void put_fit(FILE *out, const rotid_fit_result *f)
 {
     ptrdiff_t n = f->n;
@@ -137,107 +121,53 @@ static void put_fit(FILE *out, const rotid_fit_result *f)
     }
 }
 
-static void put_identification(FILE *out, const rotid_identification *r)
+/* What the table of the result says, times apart. */
+static char *dump_record(const struct record *record, const void *result, const rotid_fit_result *const fit[2], int nmessage,
+                         const rotid_message *message)
 {
-    put_fit(out, r->fit);
-    put_parameters(out, r->nparameter, r->parameter);
-    put_integers(out, "number", r->nmode, r->number);
-    put_numbers(out, "measured", r->nmode, r->measured_hz);
-    put_numbers(out, "nco", r->nmode, r->nco);
-    put_numbers(out, "reduction", r->nmode, r->reduction_error_percent);
-    put_numbers(out, "mesh", r->nmode, r->mesh_error_percent);
-    put_numbers(out, "rotor", 2, (const double[]){r->mass, r->centre});
-    put_messages(out, r->nmessage, r->message);
+    char *text;
+    size_t length;
+    struct json_tree tree;
+    FILE *out = open_memstream(&text, &length);
+    json_open(&tree);
+    record_write(&tree, tree.root, record, result);
+    char *json = json_close(&tree);
+    if (!json)
+        abort();
+    for (const char *line = json; *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        int columns = (int)strcspn(line, "\n");
+        const char *time = strstr(line, "\"seconds\"");
+        if (!time || time > line + columns)
+            (void)fprintf(out, "%.*s\n", columns, line);
+    }
+    json_free(json);
+    for (int i = 0; i < 2; i++)
+        if (fit[i])
+            put_fit(out, fit[i]);
+    put_messages(out, nmessage, message);
+    return close_text(out, &text);
+}
+
+char *dump_spectrum(const rotid_spectrum *s)
+{
+    return dump_record(&spectrum_record, s, (const rotid_fit_result *const[2]){NULL, NULL}, s->nmessage, s->message);
 }
 
 char *dump_identification(const rotid_identification *r)
 {
-    char *text;
-    size_t length;
-    FILE *out = open_memstream(&text, &length);
-    put_identification(out, r);
-    return close_text(out, &text);
-}
-
-static void put_causes(FILE *out, const char *title, int count, const rotid_cause *cause)
-{
-    for (int i = 0; i < count; i++) {
-        const rotid_cause *c = &cause[i];
-        put_text(out, title, c->id);
-        put_text(out, "target", c->target);
-        put_text(out, "name", c->name);
-        put_text(out, "variant", c->variant);
-        put_integers(out, "round", 3, (const int[]){c->round, c->refitted, c->at_bound});
-        put_numbers(out, "judged", 9,
-                    (const double[]){c->chi2, c->chi2_drop, c->bic, c->holdout_rms, c->mode_out_rms, c->sensor_out_rms,
-                                     c->predicted_drop, c->p_value, c->cosine});
-        put_text(out, "collinear", c->collinear_with);
-        put_text(out, "rejected", c->rejected_because);
-        for (int v = 0; v < c->nvalue; v++) {
-            put_text(out, "value", c->value[v].name);
-            put_text(out, "unit", c->value[v].unit);
-            put_integers(out, "fixed", 1, &c->value[v].fixed);
-            put_numbers(out, "value", 4,
-                        (const double[]){c->value[v].value, c->value[v].std, c->value[v].ci_lower, c->value[v].ci_upper});
-        }
-    }
-}
-
-static void put_findings(FILE *out, int count, const rotid_finding *finding)
-{
-    for (int i = 0; i < count; i++) {
-        const rotid_finding *f = &finding[i];
-        put_text(out, "finding", f->id);
-        put_integers(out, "sensor", f->nsensor, f->sensor);
-        put_integers(out, "mode", f->nmode, f->mode);
-        put_numbers(out, "error", f->nmode, f->error_percent);
-        put_text(out, "block", f->block);
-        put_numbers(out, "found", 3, (const double[]){f->value, f->std, f->chi2_drop});
-        put_text(out, "text", f->text);
-    }
-}
-
-static void put_quality(FILE *out, const rotid_quality *q)
-{
-    put_numbers(out, "quality", 10,
-                (const double[]){q->frequency_rms_percent, q->frequency_max_percent, q->shape_rms, q->chi2_per_dof, q->nco_min,
-                                 q->holdout_frequency_rms_percent, q->holdout_shape_rms, q->mode_out_frequency_rms_percent,
-                                 q->mode_out_shape_rms, q->sensor_out_shape_rms});
+    return dump_record(&identification_record, r, (const rotid_fit_result *const[2]){r->fit, NULL}, r->nmessage, r->message);
 }
 
 char *dump_diagnosis(const rotid_diagnosis *d)
 {
-    char *text;
-    size_t length;
-    FILE *out = open_memstream(&text, &length);
-    put_integers(out, "verdict", 3, (const int[]){d->kind, d->adequate_after, d->interrupted});
-    put_number(out, "p", d->p_value);
-    put_text(out, "sentence", d->sentence);
-    put_text(out, "next", d->next_measurement);
-    put_causes(out, "cause", d->ncause, d->cause);
-    put_causes(out, "alternative", d->nalternative, d->alternative);
-    put_causes(out, "candidate", d->ncandidate, d->candidate);
-    put_findings(out, d->ndata_finding, d->data_finding);
-    put_findings(out, d->nnumerical_finding, d->numerical_finding);
-    if (d->base)
-        put_identification(out, d->base);
-    if (d->extended)
-        put_identification(out, d->extended);
-    put_quality(out, &d->before);
-    put_quality(out, &d->after);
-    put_numbers(out, "local z", d->nlocal, d->local_z);
-    put_numbers(out, "local", d->nlocal, d->local);
-    for (int i = 0; i < d->ndetectable; i++) {
-        const rotid_detectable *f = &d->detectable[i];
-        put_text(out, "detectable", f->id);
-        put_text(out, "target", f->target);
-        put_text(out, "parameter", f->parameter);
-        put_text(out, "unit", f->unit);
-        put_numbers(out, "size", 4, (const double[]){f->smallest, f->z, f->worst, f->beyond});
-    }
-    put_text(out, "deck", d->extended_deck);
-    put_messages(out, d->nmessage, d->message);
-    return close_text(out, &text);
+    const rotid_fit_result *const fit[2] = {d->base ? d->base->fit : NULL, d->extended ? d->extended->fit : NULL};
+    char *text = dump_record(&diagnosis_record, d, fit, d->nmessage, d->message);
+    size_t length = strlen(text), more = d->extended_deck ? strlen(d->extended_deck) : 0;
+    text = realloc(text, length + more + 1);
+    if (!text)
+        abort();
+    memcpy(text + length, d->extended_deck ? d->extended_deck : "", more + 1);
+    return text;
 }
 
 void assert_dump(char *is, const char *expected)

@@ -4,34 +4,45 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "deck/deck.h"
-#include "report/json.h"
+#include "api/deck_handle.h"
+#include "result/json_tree.h"
+#include "result/result.h"
 #include "support.h"
-
-static const struct provenance provenance = {"test", "0", "none", "a BLAS", 1, 1};
 
 void json_deck_open(struct json_deck *deck, const char *text)
 {
-    char path[] = "/tmp/json_deck_XXXXXX";
-    int file = mkstemp(path);
-    size_t length = strlen(text);
-    assert_true(file >= 0 && write(file, text, length) == (ssize_t)length && close(file) == 0);
     *deck = (struct json_deck){0};
     pool_open(&deck->pool, NULL);
-    message_open(&deck->messages, &deck->pool);
-    int status = deck_read(&deck->pool, path, 0, NULL, &deck->messages, &deck->job);
-    for (size_t i = 0; i < deck->messages.count && status; i++)
-        print_error("%d:%d: %s\n", deck->messages.item[i].line, deck->messages.item[i].column, deck->messages.item[i].text);
-    (void)unlink(path);
+    int status = rotid_deck_read_text(strlen(text), text, NULL, NULL, 0, NULL, NULL, NULL, &deck->read);
+    for (int i = 0; status && i < deck->read->nmessage; i++)
+        print_error("%d:%d: %s\n", deck->read->message[i].line, deck->read->message[i].column, deck->read->message[i].text);
     assert_status(status, ROTID_OK);
+    deck->job = deck_job_of(deck->read);
 }
 
 void json_deck_close(struct json_deck *deck)
 {
-    rotid_fit_free(deck->result.fit);
+    rotid_identification_free(deck->result);
+    rotid_deck_free(deck->read);
     pool_close(&deck->pool);
+}
+
+static struct result result_of(const struct json_deck *deck, const char *command)
+{
+    const rotid_deck *read = deck->read;
+    return (struct result){.head = {.schema = RESULT_SCHEMA,
+                                    .rotid = "0",
+                                    .commit = "none",
+                                    .blas = "a BLAS",
+                                    .seed = 1,
+                                    .threads = 1,
+                                    .command = command,
+                                    .deck = read->path,
+                                    .nheading = read->nheading,
+                                    .heading = read->heading,
+                                    .nreferences = read->nreferences,
+                                    .references = read->references}};
 }
 
 static cJSON *parsed(char *text)
@@ -45,17 +56,24 @@ static cJSON *parsed(char *text)
 
 cJSON *json_deck_check(struct json_deck *deck)
 {
-    struct spectrum spectrum;
-    struct mass_properties mass;
-    assert_status(spectrum_compute(&deck->pool, NULL, &deck->job.rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &spectrum), ROTID_OK);
-    model_mass_properties(spectrum.model, &mass);
-    return parsed(json_check(&provenance, &deck->job, &mass, &spectrum, &deck->messages));
+    struct result result = result_of(deck, "check");
+    assert_status(rotid_deck_check(deck->read, NULL, NULL, &result.check), ROTID_OK);
+    cJSON *json = parsed(result_json(&result));
+    rotid_check_free(result.check);
+    return json;
+}
+
+char *json_deck_text(const struct json_deck *deck)
+{
+    struct result result = result_of(deck, "identify");
+    result.identify = deck->result;
+    return result_json(&result);
 }
 
 cJSON *json_deck_identify(struct json_deck *deck, int baseline)
 {
-    assert_status(identify_run(&deck->pool, &deck->job, baseline, NULL, &deck->messages, &deck->result), ROTID_OK);
-    return parsed(json_identify(&provenance, &deck->job, &deck->result, &deck->messages));
+    assert_status(rotid_identify(deck->read, baseline, NULL, NULL, &deck->result), ROTID_OK);
+    return parsed(json_deck_text(deck));
 }
 
 const cJSON *json_member(const cJSON *object, const char *list, int at)

@@ -190,10 +190,10 @@ static void a_diagnosis_shows_what_was_finished(void **state)
             assert_true(host.said && r->interrupted);
             assert_true(host.polls_after < threads); /* the others may be asking */
             assert_true(host.told_after < threads);
-            assert_null(r->sentence);
+            assert_null(r->verdict.sentence);
             assert_null(r->extended_deck);
-            assert_int_equal(r->kind, -1);
-            assert_true(isnan(r->p_value) && isnan(r->before.shape_rms) && isnan(r->after.shape_rms));
+            assert_int_equal(r->verdict.kind, -1);
+            assert_true(isnan(r->verdict.p_value) && isnan(r->gain.shape_rms.before) && isnan(r->gain.shape_rms.after));
             if (r->extended)
                 assert_true(r->extended->fit->status != ROTID_STOP_CANCELLED);
             nobase += r->base == NULL;
@@ -225,7 +225,7 @@ static void a_broken_off_model_is_no_result(void **state)
         assert_int_equal(r->interrupted, !ended);
         assert_true(r->base && r->base->fit->converged);
         assert_true(!r->extended || r->extended->fit->converged);
-        assert_int_equal(r->ncause, 1);
+        assert_int_equal(r->verdict.ncauses, 1);
         with += r->extended != NULL;
         without += r->extended == NULL;
         rotid_diagnosis_free(r);

@@ -228,8 +228,8 @@ static void arguments_out_of_range_are_refused(void **state)
     assert_status(rotid_deck_read(PAPER, 0, NULL, NULL, NULL, &deck), ROTID_OK);
     assert_status(rotid_spectrum_compute(NULL, NULL, 1, NULL, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
     assert_null(spectrum);
-    assert_status(rotid_spectrum_compute(deck, NULL, 0, NULL, failure, &spectrum), ROTID_ERROR_ARGUMENT);
-    assert_string_equal(failure, "nmode is 0, expected 1 or more");
+    assert_status(rotid_spectrum_compute(deck, NULL, -1, NULL, failure, &spectrum), ROTID_ERROR_ARGUMENT);
+    assert_string_equal(failure, "nmode is -1, expected 0 or more");
     assert_status(rotid_spectrum_compute(deck, x, 1, NULL, failure, &spectrum), ROTID_ERROR_ARGUMENT);
     assert_string_equal(failure, "x[1], the value of core.G, is nan, expected a number");
     assert_status(rotid_spectrum_compute(deck, NULL, 1, NULL, NULL, NULL), ROTID_ERROR_ARGUMENT);

@@ -1,8 +1,9 @@
 /* Deflection of tie rods and bars, beside motions that every element follows exactly. */
 #include "support.h"
 
-#include "json_deck.h"
 #include "model/deflection.h"
+#include "json_deck.h"
+#include "run/spectrum.h"
 
 #define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 #define SHAFT                                                                                                                    \
@@ -43,7 +44,7 @@ static void members_follow_a_motion_that_all_elements_can_follow(void **state)
     struct json_deck deck;
     struct spectrum s;
     json_deck_open(&deck, MEMBERS);
-    assert_status(spectrum_compute(&deck.pool, NULL, &deck.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &s), ROTID_OK);
+    assert_status(spectrum_compute(&deck.pool, NULL, &deck.job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &s), ROTID_OK);
     double *u = POOL_ARRAY(&deck.pool, double, s.model->equations.n);
     for (int m = 0; m < 3; m++) {
         const double *q = motion[m];

@@ -4,6 +4,7 @@
 
 #include "compilers.h"
 #include "fortran_twin.h"
+#include "fortran_types.h"
 #include "shell.h"
 #include "support.h"
 
@@ -44,6 +45,19 @@ static void the_module_declares_what_the_header_declares(void **state)
     assert_string_equal(fortran_differences(&test_pool, &header, &module), "");
 }
 
+static void the_types_of_results_are_those_of_the_header(void **state)
+{
+    (void)state;
+    struct header header;
+    const char *module = shell_file(&test_pool, MODULE);
+    read_header(shell_file(&test_pool, HEADER), &header);
+    const char *types = fortran_types(&test_pool, &header), *now = fortran_with_types(&test_pool, module, types ? types : "");
+    assert_non_null(types);
+    assert_non_null(now);
+    if (strcmp(now, module) != 0)
+        fail_msg("the types of results in include/rotid.f90 are not those of rotid.h: write them with `make fortran`");
+}
+
 /* Every kind of drift, made on purpose: what the comparison has to say about it. */
 static void drift_is_told(void **state)
 {
@@ -60,21 +74,21 @@ static void drift_is_told(void **state)
         {"frequency_std = c_null_ptr ! real [nmode]\n    type(c_ptr) :: shape =",
          "shape = c_null_ptr\n    type(c_ptr) :: frequency_std =", "rotid_deck: member 14 is shape, not frequency_std\n"},
         {"lower = 0, upper = 0", "upper = 0, lower = 0", "rotid_parameter: member 3 is upper, not lower\n"},
-        {"bijection_chi = 0", "bijection = 0", "rotid_fit_options: member 9 is bijection, not bijection_chi\n"},
+        {"baseline = 0\n    integer(c_int) :: max", "base = 0\n    integer(c_int) :: max",
+         "rotid_fit_options: member 5 is base, not baseline\n"},
         {", mass = 0, centre = 0", ", mass = 0", "rotid_deck: member 7 is nsensor, not centre\n"},
-        {"    integer(c_int) :: fixed = 0\n", "", "rotid_cause_value: member 7 is the end, not fixed\n"},
+        {"    integer(c_int) :: fixed = 0\n", "", "rotid_cause_value: member 6 is the end, not fixed\n"},
         {"    integer(c_int) :: fixed = 0\n", "    real(c_double) :: fixed = 0\n",
          "rotid_cause_value.fixed is real(c_double)(), not integer(c_int)()\n"},
         {"integer(c_long) :: seed", "integer(c_int) :: seed",
          "rotid_diagnose_options.seed is integer(c_int)(), not integer(c_long)"},
-        {"rigid_hz(2)", "rigid_hz(3)", "rotid_spectrum.rigid_hz is real(c_double)(3), not real(c_double)(2)\n"},
+        {"ci95(2)", "ci95(3)", "rotid_fitted_parameter.ci95 is real(c_double)(3), not real(c_double)(2)\n"},
         {"type(c_funptr) :: trace =", "type(c_ptr) :: trace =",
          "rotid_lm_options.trace is type(c_ptr)(), not type(c_funptr)()\n"},
         {"    integer(c_int) :: beyond = 0\n", "    integer(c_int) :: beyond = 0, more = 0\n",
          "rotid_detectable: member 9 is more, not the end\n"},
-        {":: nrigid = 0\n    integer(c_int) :: nmode", ":: nrigid\n    integer(c_int) :: nmode",
-         "rotid_spectrum.nrigid has no value to begin with\n"},
-        {"type, bind(C) :: rotid_quality", "type, bind(C) :: rotid_goodness", "rotid_goodness is not in the header\n"},
+        {":: nrigid_hz = 0\n", ":: nrigid_hz\n", "rotid_spectrum.nrigid_hz has no value to begin with\n"},
+        {"type, bind(C) :: rotid_pair", "type, bind(C) :: rotid_goodness", "rotid_goodness is not in the header\n"},
         /* functions: missing, bound to another, another number, name, kind, passing or intent of arguments, another result */
         {"function rotid_mac(n, a, b) result(mac) bind(C, name=\"rotid_mac\")\n      import :: c_double, c_int\n"
          "      integer(c_int), value :: n\n      real(c_double), intent(in) :: a(*), b(*)\n      real(c_double) :: mac\n"
@@ -132,8 +146,8 @@ static void a_header_that_goes_on_is_told(void **state)
     } change[] = {
         {"ROTID_API double rotid_mac(", "ROTID_API int rotid_more(int n);\nROTID_API double rotid_mac(",
          "rotid_more is missing\n"},
-        {"    double bijection_chi;", "    double more, bijection_chi;",
-         "rotid_fit_options: member 9 is bijection_chi, not more\n"},
+        {"    int max_iterations; ", "    int more, max_iterations; ",
+         "rotid_fit_options: member 6 is max_iterations, not more\n"},
         {"ROTID_HYBRID_F, ", "ROTID_MORE, ROTID_HYBRID_F, ",
          "ROTID_MORE is missing\nROTID_HYBRID_F is 1, not 2\nROTID_LIKELIHOOD is 2, not 3\n"},
         {"X(ROTID_ERROR_IO, -14,", "X(ROTID_ERROR_IO, -24,", "ROTID_ERROR_IO is -14, not -24\n"},
@@ -221,7 +235,7 @@ static void both_compilers_give_the_same_values_sizes_and_offsets(void **state)
     static const char *const drift[][2] = {{"integer(c_long) :: seed", "integer(c_int) :: seed"},
                                            {"lower = 0, upper = 0", "upper = 0, lower = 0"},
                                            {"ROTID_NAMED = 1", "ROTID_NAMED = 3"},
-                                           {"rigid_hz(2)", "rigid_hz(3)"},
+                                           {"ci95(2)", "ci95(3)"},
                                            {"size = 80", "size = 72"}};
     const char *text = shell_file(&test_pool, MODULE);
     for (size_t i = 0; i < sizeof drift / sizeof *drift; i++) {
@@ -241,9 +255,33 @@ static void the_module_is_standard_fortran(void **state)
     remove_folder(&test_pool, folder);
 }
 
-int main(void)
+static int write_types(void)
 {
+    struct pool pool;
+    struct header header;
+    pool_open(&pool, NULL);
+    if (header_read(&pool, HEADER, &header)) {
+        (void)fprintf(stderr, "rotid.h:%d: %s\n", header.line, header.error);
+        return 1;
+    }
+    const char *types = fortran_types(&pool, &header),
+               *text = types ? fortran_with_types(&pool, shell_file(&pool, MODULE), types) : NULL;
+    FILE *stream = text ? fopen(MODULE, "w") : NULL;
+    int written = stream && fputs(text, stream) >= 0;
+    if (!stream || fclose(stream) != 0 || !written) {
+        (void)fprintf(stderr, "include/rotid.f90 is not written\n");
+        return 1;
+    }
+    pool_close(&pool);
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1 && strcmp(argv[1], "--write") == 0)
+        return write_types();
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(the_types_of_results_are_those_of_the_header, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_module_declares_what_the_header_declares, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(drift_is_told, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_header_that_goes_on_is_told, open_test_pool, close_test_pool),

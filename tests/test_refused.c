@@ -322,6 +322,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     double kc[4], mc[4], lambda[3], phi[9], dlambda, error[2], doubt[2];
     rotid_deck *deck = (void *)&c;
     rotid_spectrum *spectrum = (void *)&c;
+    rotid_check *check = (void *)&c;
     rotid_identification *identification = (void *)&c;
     rotid_diagnosis *diagnosis = (void *)&c;
     chain_open(&c);
@@ -330,6 +331,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_null(deck);
     deck = (void *)&c;
     assert_refused(rotid_deck_read_text(9, "*MATERIAL", NULL, NULL, 0, NULL, environment, failure, &deck), text);
+    assert_refused(rotid_deck_check(good, environment, failure, &check), text);
     assert_refused(rotid_spectrum_compute(good, NULL, 2, environment, failure, &spectrum), text);
     assert_refused(rotid_identify(good, 0, environment, failure, &identification), text);
     assert_refused(rotid_diagnose(good, NULL, environment, failure, &diagnosis), text);
@@ -341,7 +343,7 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_eigenpairs(&c.k, &c.m, 3, environment, failure, lambda, phi), text);
     assert_refused(rotid_eigenpair_derivative(&c.k, &c.m, &c.k, &c.m, 3, lambda, phi, 0, environment, failure, &dlambda, lambda),
                    text);
-    return 11;
+    return 12;
 }
 
 static void an_environment_that_is_none_is_refused_by_all(void **state)

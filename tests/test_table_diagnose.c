@@ -8,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report/json_diagnose.h"
+#include "api/result_diagnosis.h"
 #include "report/table_diagnose.h"
+#include "result/json_tree.h"
 
 #define MODES   6
 #define SENSORS 34
@@ -75,8 +76,6 @@ static struct store {
     struct diagnosis_step step[2];
 } s;
 
-static const struct provenance provenance = {"diagnose", "0.1.0", "0123456789ab", "a BLAS", 7, 4};
-static struct message_list notes;
 
 static const double measured_hz[MODES] = {435.55, 735.16, 1159.4, 1802, 2425.8, 2918.4};
 
@@ -294,7 +293,6 @@ static void fill_named(void)
     s.d.job.fit = (rotid_fit_options){.size = sizeof(rotid_fit_options), .functional = ROTID_LIKELIHOOD};
     s.d.extended_job.fit = s.d.job.fit;
     s.d.extended_job.nparameter = 3;
-    message_open(&notes, &test_pool);
 }
 
 static void fill_adequate(void)
@@ -413,14 +411,48 @@ static void (*const fills[])(void) = {fill_named,     fill_adequate,       fill_
 
 #define CASES (sizeof fills / sizeof *fills)
 
+/* The result that the library makes of it; the fits in it are not to be freed. */
+static struct result_memory *open_result(struct result *result)
+{
+    struct result_memory *memory = result_memory_new(NULL);
+    struct diagnosis d = s.d;
+    assert_non_null(memory);
+    *result = (struct result){.head = {.schema = RESULT_SCHEMA,
+                                       .rotid = "0.1.0",
+                                       .commit = "0123456789ab",
+                                       .blas = "a BLAS",
+                                       .seed = 7,
+                                       .threads = 4,
+                                       .command = "diagnose",
+                                       .deck = s.deck.deck,
+                                       .nheading = s.deck.nheading,
+                                       .heading = s.deck.heading},
+                              .diagnose = result_diagnosis(memory, &s.deck, &d)};
+    memory->nfit = 0;
+    assert_non_null(result->diagnose);
+    return memory;
+}
+
+static char *json_text_of(void)
+{
+    struct result result;
+    struct result_memory *memory = open_result(&result);
+    char *text = result_json(&result);
+    result_memory_free(memory);
+    return text;
+}
+
 /* ------------------------------------------------------------------------------------------------ the screen */
 
 static void show(int verbose, int width)
 {
     FILE *out = tmpfile();
     assert_non_null(out);
-    const struct diagnosis_view view = {out, &provenance, &s.deck, &s.d, verbose, width};
+    struct result result;
+    struct result_memory *memory = open_result(&result);
+    const struct diagnosis_view view = {out, &result.head, result.diagnose, verbose, width};
     table_diagnose(&view);
+    result_memory_free(memory);
     rewind(out);
     size_t length = fread(screen, 1, sizeof screen - 1, out);
     screen[length] = 0;
@@ -593,7 +625,7 @@ static const cJSON *get(const cJSON *json, const char *path)
 
 static cJSON *json_of(void)
 {
-    char *text = json_diagnose(&provenance, &s.deck, &s.d, &notes);
+    char *text = json_text_of();
     assert_non_null(text);
     assert_null(strstr(text, "nan"));
     assert_null(strstr(text, "inf,"));
@@ -685,7 +717,7 @@ static void json_is_whole_or_not_there(void **state)
     for (;; n += n < 200 ? 1 : 37) {
         until_failure = n;
         in_use = 0;
-        char *text = json_diagnose(&provenance, &s.deck, &s.d, &notes);
+        char *text = json_text_of();
         if (text) {
             assert_true(until_failure > 0); /* nothing was refused */
             json_free(text);

@@ -218,6 +218,7 @@ static void decks(void)
 {
     rotid_deck *deck;
     rotid_spectrum *spectrum;
+    rotid_check *check;
     rotid_identification *found;
     rotid_diagnosis *diagnosis;
     char failure[ROTID_FAILURE_LENGTH];
@@ -225,6 +226,8 @@ static void decks(void)
     failed |= rotid_deck_read(SOLID, 0, NULL, NULL, failure, &deck);
     rotid_deck_free(deck);
     failed |= rotid_deck_read_text(with.length, with.text, NULL, ROTID_SOURCE_DIR "/input", 0, NULL, NULL, failure, &deck);
+    failed |= rotid_deck_check(deck, NULL, failure, &check);
+    rotid_check_free(check);
     failed |= rotid_spectrum_compute(deck, NULL, 4, NULL, failure, &spectrum);
     rotid_spectrum_free(spectrum);
     failed |= rotid_identify(deck, 1, NULL, failure, &found);
@@ -249,7 +252,7 @@ static const struct {
     {condensations, "rotid_condense rotid_condense_derivative "},
     {least_squares, "rotid_lm_workspace rotid_check_jacobian_workspace rotid_lm rotid_check_jacobian "},
     {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_free "},
-    {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_spectrum_compute rotid_spectrum_free rotid_identify "
+    {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_deck_check rotid_check_free rotid_spectrum_compute rotid_spectrum_free rotid_identify "
             "rotid_identification_free rotid_diagnose rotid_diagnosis_free "},
 };
 enum { CALLS = sizeof table / sizeof *table };

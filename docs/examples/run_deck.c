@@ -23,9 +23,10 @@ int main(int argc, char **argv)
         fprintf(stderr, "%s\n", failure);
     if (found) {
         tell(found->nmessage, found->message);
-        for (int p = 0; p < found->nparameter; p++)
-            printf("%s %.6g %s, 95 %% interval %.6g ... %.6g\n", found->parameter[p].name, found->fit->x[p],
-                   found->parameter[p].unit, found->fit->ci_lower[p], found->fit->ci_upper[p]);
+        for (int i = 0; i < found->nparameters; i++) {
+            const rotid_fitted_parameter *p = &found->parameters[i];
+            printf("%s %.6g %s, 95 %% interval %.6g ... %.6g\n", p->name, p->value, p->unit, p->ci95[0], p->ci95[1]);
+        }
     }
     int good = found && found->fit->converged;
     rotid_identification_free(found);

@@ -15,8 +15,8 @@ if rotid.rotid_deck_read(sys.argv[1].encode(), 0, ffi.NULL, ffi.NULL, failure, d
     sys.exit(ffi.string(failure).decode())
 if rotid.rotid_identify(deck[0], 0, ffi.NULL, failure, found) != rotid.ROTID_OK:
     sys.exit(ffi.string(failure).decode())
-for p in range(found[0].nparameter):
-    name, fit = ffi.string(found[0].parameter[p].name).decode(), found[0].fit
-    print(f"{name} {fit.x[p]:.6g}, 95 % interval {fit.ci_lower[p]:.6g} ... {fit.ci_upper[p]:.6g}")
+for i in range(found[0].nparameters):
+    p = found[0].parameters[i]
+    print(f"{ffi.string(p.name).decode()} {p.value:.6g}, 95 % interval {p.ci95[0]:.6g} ... {p.ci95[1]:.6g}")
 rotid.rotid_identification_free(found[0])
 rotid.rotid_deck_free(deck[0])

@@ -46,7 +46,7 @@ static void fill_verdict(struct result_memory *memory, const struct diagnosis *d
 {
     *out = (rotid_verdict){.kind = d->sentence ? (int)d->kind : -1,
                            .adequate_after = d->adequate_after,
-                           .p_value = d->p_value,
+                           .p_value = if_known(d->sentence != NULL, d->p_value),
                            .next_measurement = result_text(memory, d->next_measurement),
                            .sentence = result_text(memory, d->sentence),
                            .undetermined_parameters = d->undetermined};

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/order.h"
+#include "fit/baseline.h"
 #include "run/mode_shapes.h"
 
 static void fill_parameters(struct result_memory *memory, const struct job *job, const rotid_fit_result *fit,
@@ -219,6 +220,7 @@ rotid_identification *result_identification(struct result_memory *memory, const 
                                       .stop_reason = rotid_status_text(fit->status),
                                       .mass_kg = found->mass.mass,
                                       .center_of_mass_m = found->mass.center,
+                                      .nlopt = baseline_exists(),
                                       .seconds = fit->seconds,
                                       .fit = fit};
         fill_parameters(memory, job, fit, out);

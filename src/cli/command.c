@@ -5,10 +5,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "api/deck_handle.h"
 #include "base/clock.h"
 #include "cli/arguments.h"
-#include "deck/deck.h"
 #include "report/output.h"
+#include "result/result.h"
 
 void command_print_messages(struct command *command)
 {
@@ -45,13 +46,39 @@ int command_fail(struct command *command, int status)
     }
 }
 
+int command_fail_with(struct command *command, int status, const char *failure)
+{
+    if (*failure && strcmp(failure, rotid_status_text(status)) != 0)
+        message_add(&command->messages, SEVERITY_ERROR, NULL, 0, 0, "%s", failure);
+    return command_fail(command, status);
+}
+
+void command_take_messages(struct command *command, int count, const rotid_message *message)
+{
+    for (int i = 0; i < count; i++)
+        message_add(&command->messages, (enum severity)message[i].severity, message[i].file, message[i].line, message[i].column,
+                    "%s", message[i].text);
+}
+
 int command_read_deck(struct command *command)
 {
-    int status =
-        deck_read(&command->pool, command->deck, command->noverride, command->override, &command->messages, &command->job);
+    char failure[ROTID_FAILURE_LENGTH];
+    const char **override = POOL_ARRAY(&command->pool, const char *, command->noverride);
+    if (!override)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    for (int i = 0; i < command->noverride; i++)
+        override[i] = command->override[i].text;
+    int status = rotid_deck_read(command->deck, command->noverride, override, NULL, failure, &command->read);
+    if (command->read) {
+        command_take_messages(command, command->read->nmessage, command->read->message);
+        command->messages.errors = command->read->nerror;
+    }
+    if (status && (!command->read || !command->read->nerror)) /* no message says why */
+        return command_fail_with(command, status, failure);
     if (status)
         return command_fail(command, status);
-    int refused = arguments_refuse_read(command, command->job.nfile, command->job.file);
+    command->job = deck_job_of(command->read);
+    int refused = arguments_refuse_read(command, command->job->nfile, command->job->file);
     if (refused >= 0)
         return refused;
     command_print_messages(command);
@@ -86,6 +113,41 @@ int command_write_json(struct command *command, char *text, int code)
     char *line = text ? pool_format(&command->pool, "%s\n", text) : NULL;
     json_free(text);
     return command_write_file(command, command->json, line, code);
+}
+
+int command_open_result(struct command *command, struct result *result)
+{
+    const struct provenance *p = &command->provenance;
+    const rotid_deck *deck = command->read;
+    int count = 0;
+    const char **warnings = POOL_ARRAY(&command->pool, const char *, (int)command->messages.count);
+    if (!warnings)
+        return ROTID_ERROR_MEMORY;
+    for (size_t i = 0; i < command->messages.count; i++)
+        if (command->messages.item[i].severity == SEVERITY_WARNING)
+            warnings[count++] = command->messages.item[i].text;
+    *result = (struct result){.head = {.schema = RESULT_SCHEMA,
+                                       .rotid = p->version,
+                                       .commit = p->commit,
+                                       .blas = p->blas,
+                                       .seed = (double)p->seed,
+                                       .threads = p->threads,
+                                       .command = p->command},
+                              .nwarnings = count,
+                              .warnings = warnings};
+    if (deck) {
+        result->head.deck = deck->path;
+        result->head.nheading = deck->nheading;
+        result->head.heading = deck->heading;
+        result->head.nreferences = deck->nreferences;
+        result->head.references = deck->references;
+    }
+    return ROTID_OK;
+}
+
+int command_write_result(struct command *command, const struct result *result, int code)
+{
+    return command->json ? command_write_json(command, result_json(result), code) : code;
 }
 
 int command_wants_progress(const struct command *command)

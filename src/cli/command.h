@@ -26,6 +26,8 @@ struct study_arguments {
     const char *given; /* the first option of it that was given, or NULL */
 };
 
+struct result;
+
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
     const char *name, *deck, *json, *at, *extended, *output, *format;
@@ -42,7 +44,8 @@ struct command {
     struct pool pool;
     struct message_list messages;
     size_t printed; /* of the messages */
-    struct job job;
+    rotid_deck *read;      /* what was read; NULL of commands that read none */
+    const struct job *job; /* of it */
     struct provenance provenance;
 };
 
@@ -52,14 +55,24 @@ int command_read_deck(struct command *command);
 /* Prints the messages that are new on standard error: errors always, the rest unless quiet. */
 void command_print_messages(struct command *command);
 
+/* The messages of a call of the library go to those of the command. */
+void command_take_messages(struct command *command, int count, const rotid_message *message);
+
+/* The result of the command so far: its head, and the warnings among the messages. ROTID_ERROR_MEMORY. */
+int command_open_result(struct command *command, struct result *result);
+
 /* The exit code of a status below zero, after saying what happened. */
 int command_fail(struct command *command, int status);
+/* The same of a call of the library that left its reason in `failure`. */
+int command_fail_with(struct command *command, int status, const char *failure);
 
 /* Tables go to standard output unless that carries JSON or the user wants none. */
 int command_wants_table(const struct command *command);
 
 /* Writes text (may be NULL: out of memory) where --json says and frees it; `code` unless that fails. */
 int command_write_json(struct command *command, char *text, int code);
+/* The same of a result. */
+int command_write_result(struct command *command, const struct result *result, int code);
 
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);

@@ -1,20 +1,27 @@
 #include "cli/command.h"
 #include "report/table.h"
-#include "run/spectrum.h"
+
+static int show(struct command *command, rotid_check *check)
+{
+    struct result result;
+    if (command_open_result(command, &result))
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    result.check = check;
+    if (command_wants_table(command)) {
+        table_check(terminal_out(), &result, command->job);
+        table_notes(terminal_out(), &command->messages);
+    }
+    return command_write_result(command, &result, EXIT_DONE);
+}
 
 int command_check(struct command *command)
 {
-    struct job *job = &command->job;
-    struct spectrum spectrum;
-    struct mass_properties mass;
-    int status = spectrum_compute(&command->pool, job->models, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &spectrum);
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_check *check;
+    int status = rotid_deck_check(command->read, NULL, failure, &check);
     if (status)
-        return command_fail(command, status);
-    model_mass_properties(spectrum.model, &mass);
-    if (command_wants_table(command)) {
-        table_check(terminal_out(), job, &mass, &spectrum);
-        table_notes(terminal_out(), &command->messages);
-    }
-    char *text = command->json ? json_check(&command->provenance, job, &mass, &spectrum, &command->messages) : NULL;
-    return command_write_json(command, text, EXIT_DONE);
+        return command_fail_with(command, status, failure);
+    int code = show(command, check);
+    rotid_check_free(check);
+    return code;
 }

@@ -19,7 +19,7 @@ static void warn(struct command *command, const char *text)
 /* The fit, where there is something to fit and to fit it to. identified->fit stays NULL where the model is taken as it stands. */
 static int identify(struct command *command, struct identification *identified)
 {
-    struct job *job = &command->job;
+    const struct job *job = command->job;
     double last = 0;
     const rotid_environment environment = command_environment(command, &last);
     if (!job->nparameter || command->start)
@@ -39,7 +39,7 @@ static int judge_condensed(struct command *command, const struct export_model *m
 {
     const struct export_condensed *c = &model->condensed;
     const struct spectrum *s = &model->spectrum;
-    int alone = format == EXPORT_DMIG, highest = comparison_highest(&command->job), worst = -1;
+    int alone = format == EXPORT_DMIG, highest = comparison_highest(command->job), worst = -1;
     if (c->impossible) {
         message_add(&command->messages, alone ? SEVERITY_ERROR : SEVERITY_WARNING, NULL, 0, 0, "no condensed matrices: %s",
                     c->impossible);
@@ -67,7 +67,7 @@ static int judge_condensed(struct command *command, const struct export_model *m
 /* 0, or an exit code after saying which file would be lost. */
 static int refuse_files(const struct command *command, const struct export_files *files)
 {
-    const struct job *job = &command->job;
+    const struct job *job = command->job;
     for (int i = 0; i < files->count; i++) {
         if (command->json && arguments_same_file(command->json, files->path[i]))
             return arguments_wrong("--output would write %s, the file of --json, expected another name", files->path[i]);
@@ -107,7 +107,7 @@ static int export(struct command *command, const struct identification *identifi
         return command_fail(command, ROTID_ERROR_ARGUMENT);
     int wants_condensed = format == EXPORT_MATRIX_MARKET || command->condensed, is_ross = format == EXPORT_ROSS;
     int status =
-        export_model_open(&command->pool, &command->job, identified, command->provenance.version, wants_condensed, &model);
+        export_model_open(&command->pool, command->job, identified, command->provenance.version, wants_condensed, &model);
     if (!status && wants_condensed && judge_condensed(command, &model, format))
         status = ROTID_ERROR_ARGUMENT;
     if (!status)
@@ -137,7 +137,7 @@ int command_export(struct command *command)
         code = EXIT_DOUBTFUL;
     }
     if (fit)
-        identify_warn_of_reduction(&command->job, &identified, "written", &command->messages);
+        identify_warn_of_reduction(command->job, &identified, "written", &command->messages);
     code = export(command, fit ? &identified : NULL, code);
     rotid_fit_free(identified.fit);
     return code;

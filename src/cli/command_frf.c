@@ -10,7 +10,7 @@
 /* The measured functions of *FRF, FILE. */
 static int read_measured(struct command *command, struct measurement *measurement, struct frf_measured *measured)
 {
-    const struct frf_request *request = &command->job.frf;
+    const struct frf_request *request = &command->job->frf;
     const struct measurement_options options = {
         .low_hz = request->low_hz, .high_hz = request->high_hz, .threads = command->threads};
     int status = measurement_read(&command->pool, request->file, &options, &command->messages, measurement);
@@ -68,7 +68,7 @@ static int report(struct command *command, const struct frf_view *view, int code
 
 int command_frf(struct command *command)
 {
-    struct job *job = &command->job;
+    const struct job *job = command->job;
     double last = 0;
     int status = ROTID_OK, code = EXIT_DONE;
     const rotid_environment environment = command_environment(command, &last);

@@ -1,27 +1,17 @@
 #include "cli/command.h"
 #include "report/table.h"
 
-int command_identify(struct command *command)
+static int show(struct command *command, rotid_identification *found)
 {
-    struct job *job = &command->job;
-    double last = 0;
-    const rotid_environment environment = command_environment(command, &last);
-    struct identification result;
-    if (!job->nparameter) {
-        message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
-                    "the deck names nothing to identify, expected a card *IDENTIFY");
-        return command_fail(command, ROTID_ERROR_ARGUMENT);
-    }
-    int status = identify_run(&command->pool, job, command->baseline, &environment, &command->messages, &result);
-    if (environment.progress)
-        terminal_progress_end();
-    if (status)
-        return command_fail(command, status);
-    identify_warn_of_mesh(job, &result, &command->messages);
-    const rotid_fit_result *fit = result.fit;
+    struct result result;
+    const rotid_fit_result *fit = found->fit;
     int code = fit->converged && !fit->any_at_bound && !fit->any_undetermined ? EXIT_DONE : EXIT_DOUBTFUL;
+    command_take_messages(command, found->nmessage, found->message);
+    if (command_open_result(command, &result))
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    result.identify = found;
     if (command_wants_table(command)) {
-        table_identify(terminal_out(), job, &result, command->baseline, command->verbose);
+        table_identify(terminal_out(), &result, command->baseline, command->verbose);
         table_notes(terminal_out(), &command->messages);
     }
     if (fit->status == ROTID_STOP_CANCELLED) {
@@ -30,8 +20,26 @@ int command_identify(struct command *command)
         terminal_say("rotid: interrupted; the fit was complete, what comes after it is not\n");
         code = EXIT_DOUBTFUL;
     }
-    char *text = command->json ? json_identify(&command->provenance, job, &result, &command->messages) : NULL;
-    code = command_write_json(command, text, code);
-    rotid_fit_free(result.fit);
+    return command_write_result(command, &result, code);
+}
+
+int command_identify(struct command *command)
+{
+    char failure[ROTID_FAILURE_LENGTH];
+    double last = 0;
+    const rotid_environment environment = command_environment(command, &last);
+    rotid_identification *found;
+    if (!command->job->nparameter) {
+        message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
+                    "the deck names nothing to identify, expected a card *IDENTIFY");
+        return command_fail(command, ROTID_ERROR_ARGUMENT);
+    }
+    int status = rotid_identify(command->read, command->baseline, &environment, failure, &found);
+    if (environment.progress)
+        terminal_progress_end();
+    if (status)
+        return command_fail_with(command, status, failure);
+    int code = show(command, found);
+    rotid_identification_free(found);
     return code;
 }

@@ -1,24 +1,30 @@
 #include "cli/command.h"
 #include "report/table.h"
 
-#define MODES_SHOWN 6
+static int show(struct command *command, rotid_spectrum *spectrum)
+{
+    struct result result;
+    command_take_messages(command, spectrum->nmessage, spectrum->message);
+    if (command->messages.errors) /* no pairing */
+        return command_fail(command, ROTID_ERROR_UNPAIRED);
+    if (command_open_result(command, &result))
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    result.modes = spectrum;
+    if (command_wants_table(command)) {
+        table_modes(terminal_out(), &result, command->verbose);
+        table_notes(terminal_out(), &command->messages);
+    }
+    return command_write_result(command, &result, EXIT_DONE);
+}
 
 int command_modes(struct command *command)
 {
-    struct job *job = &command->job;
-    struct spectrum spectrum;
-    struct comparison compared;
-    int count = comparison_candidates(job), reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
-    count = count > MODES_SHOWN ? count : MODES_SHOWN;
-    int status = spectrum_compute(&command->pool, job->models, &job->rotor, 0, NULL, NULL, reduction, count, &spectrum);
-    if (!status)
-        status = comparison_make(&command->pool, job, &spectrum, &command->messages, &compared);
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_spectrum *spectrum;
+    int status = rotid_spectrum_compute(command->read, command->read->stated, 0, NULL, failure, &spectrum);
     if (status)
-        return command_fail(command, status);
-    if (command_wants_table(command)) {
-        table_modes(terminal_out(), job, &spectrum, &compared, command->verbose);
-        table_notes(terminal_out(), &command->messages);
-    }
-    char *text = command->json ? json_modes(&command->provenance, job, &spectrum, &compared, &command->messages) : NULL;
-    return command_write_json(command, text, EXIT_DONE);
+        return command_fail_with(command, status, failure);
+    int code = show(command, spectrum);
+    rotid_spectrum_free(spectrum);
+    return code;
 }

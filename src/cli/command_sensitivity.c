@@ -17,7 +17,7 @@ struct selection {
 /* "core.E=8e10,core.nu": names with or without a reference value; without, the model's own. */
 static int select_listed(struct command *command, struct selection *s)
 {
-    const struct rotor *rotor = &command->job.rotor;
+    const struct rotor *rotor = &command->job->rotor;
     char *list = pool_copy_text(&command->pool, command->at), *rest = NULL;
     for (char *item = list ? strtok_r(list, ",", &rest) : NULL; item; item = strtok_r(NULL, ",", &rest)) {
         char *equals = strchr(item, '='), *end;
@@ -53,7 +53,7 @@ static int select_listed(struct command *command, struct selection *s)
 
 static int select_parameters(struct command *command, struct selection *s)
 {
-    const struct job *job = &command->job;
+    const struct job *job = command->job;
     size_t room = (size_t)job->nparameter + 1;
     for (const char *c = command->at; c && *c; c++)
         room += *c == ',';
@@ -79,7 +79,7 @@ static int select_parameters(struct command *command, struct selection *s)
 
 int command_sensitivity(struct command *command)
 {
-    struct job *job = &command->job;
+    const struct job *job = command->job;
     struct selection selection;
     struct sensitivity result;
     struct sensitivity_options options = {.step = command->step,

@@ -81,6 +81,7 @@ int main(int argc, char **argv)
         terminal_say("rotid: cannot write to standard output: %s\n", strerror(errno));
         code = EXIT_INTERNAL;
     }
+    rotid_deck_free(command.read);
     pool_close(&command.pool);
     return code;
 }

@@ -27,7 +27,7 @@ void table_export(FILE *out, const struct export_files *files, const struct expo
     const struct spectrum *s = &model->spectrum;
     int count;
     const double *hz = export_exported_hz(files, model, ross, &count);
-    table_heading(out, job);
+    table_job_heading(out, job);
     (void)fprintf(out,
                   model->identified ? "model           identified from %d measured modes\n"
                                     : "model           as the deck states it\n",

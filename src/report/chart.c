@@ -44,23 +44,25 @@ void strip_digits(struct strip *strip, int count, const double *z, const double 
 }
 
 /* Straight lines between the points, 0 outside them. */
-static double interpolate(int count, const double *z, const double *value, double at)
+static double interpolate(int count, const rotid_localisation *point, double at)
 {
-    for (int i = 1; i < count; i++)
-        if (z[i - 1] <= at && at <= z[i])
-            return z[i] > z[i - 1] ? value[i - 1] + (value[i] - value[i - 1]) * (at - z[i - 1]) / (z[i] - z[i - 1])
-                                   : fmax(value[i - 1], value[i]);
+    for (const rotid_localisation *b = point + 1; b < point + count; b++) {
+        const rotid_localisation *a = b - 1;
+        if (a->z_m <= at && at <= b->z_m)
+            return b->z_m > a->z_m ? a->indicator + (b->indicator - a->indicator) * (at - a->z_m) / (b->z_m - a->z_m)
+                                   : fmax(a->indicator, b->indicator);
+    }
     return 0;
 }
 
-void strip_density(struct strip *strip, int count, const double *z, const double *value)
+void strip_density(struct strip *strip, int count, const rotid_localisation *point)
 {
     static const char scale[] = " .:-=+*#%@";
     for (int c = 0; c < strip->columns; c++) {
-        double largest = interpolate(count, z, value, strip->length * c / (strip->columns - 1));
+        double largest = interpolate(count, point, strip->length * c / (strip->columns - 1));
         for (int i = 0; i < count; i++)
-            if (column_of(strip, z[i]) == c) /* no peak falls between two columns */
-                largest = fmax(largest, value[i]);
+            if (column_of(strip, point[i].z_m) == c) /* no peak falls between two columns */
+                largest = fmax(largest, point[i].indicator);
         double level = 10 * largest;
         strip->line[c] = level >= 9 ? scale[9] : level > 0 ? scale[(int)level] : ' ';
     }

@@ -4,6 +4,8 @@
 
 #include <stdio.h>
 
+#include "rotid.h"
+
 /* A bar of 2 half + 1 columns around '|' that reaches the end at +-scale; '>' or '<' at the end beyond that. */
 void chart_bar(FILE *out, int half, double scale, double value);
 
@@ -20,7 +22,7 @@ void strip_open(struct strip *strip, double length, int columns);
 /* One digit a column, the largest value there rounded to the nearest; '+' from 9.5; values that are not finite leave no trace. */
 void strip_digits(struct strip *strip, int count, const double *z, const double *value);
 /* From 0 (' ') to 1 ('@'), between the points [count] with increasing z by straight lines. */
-void strip_density(struct strip *strip, int count, const double *z, const double *value);
+void strip_density(struct strip *strip, int count, const rotid_localisation *point);
 /* "^", or "^---^" where it spans more than a column, with a label behind or before it. */
 void strip_mark(struct strip *strip, double from, double to, const char *label);
 /* "|name   ", cut to what lies between from and to. */

@@ -3,7 +3,6 @@
 #define ROTID_REPORT_JSON_H
 
 #include "base/message.h"
-#include "run/identify.h"
 #include "run/job.h"
 #include "run/sensitivity.h"
 
@@ -14,15 +13,9 @@ struct provenance {
     int threads;
 };
 
-/* Each returns a text to be freed with json_free, or NULL where memory is out. */
-char *json_check(const struct provenance *provenance, const struct job *job, const struct mass_properties *mass,
-                 const struct spectrum *spectrum, const struct message_list *notes);
-char *json_modes(const struct provenance *provenance, const struct job *job, const struct spectrum *spectrum,
-                 const struct comparison *compared, const struct message_list *notes);
+/* Returns a text to be freed with json_free, or NULL where memory is out. */
 char *json_sensitivity(const struct provenance *provenance, const struct job *job, const rotid_parameter *parameter,
                        const struct sensitivity_options *options, const struct sensitivity *result);
-char *json_identify(const struct provenance *provenance, const struct job *job, const struct identification *result,
-                    const struct message_list *notes);
 void json_free(char *text);
 
 #endif

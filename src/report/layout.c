@@ -55,6 +55,16 @@ const char *layout_number(char text[64], int digits, double value)
     return text;
 }
 
+const char *layout_unit(const char *unit)
+{
+    return unit && strcmp(unit, "1") != 0 ? unit : "";
+}
+
+const char *layout_gap(const char *unit)
+{
+    return *layout_unit(unit) ? " " : "";
+}
+
 void chance_cell(FILE *out, int width, double value)
 {
     if (value < 0.001)

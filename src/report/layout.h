@@ -15,6 +15,9 @@ void power_cell(FILE *out, int width, int decimals, double value);
 /* A number within a sentence, or a dash. Returns text. */
 const char *layout_number(char text[64], int digits, double value);
 #define NUMBER(digits, value) layout_number((char[64]){""}, (digits), (value))
+/* What stands behind a value: its unit, and the blank before it; both empty of a pure number. */
+const char *layout_unit(const char *unit);
+const char *layout_gap(const char *unit);
 /* A probability: three decimals, "<0.001" below. */
 void chance_cell(FILE *out, int width, double value);
 /* A text to the left; what does not fit ends in '~'. Control characters, line feeds among them, become U+FFFD. */

@@ -4,14 +4,12 @@
 
 #include <stdio.h>
 
-#include "diagnose/diagnose.h"
-#include "report/json.h"
+#include "result/result.h"
 
 struct diagnosis_view {
     FILE *out;
-    const struct provenance *provenance;
-    const struct job *deck; /* as the user states it: its FIT is what `today` was fitted with */
-    const struct diagnosis *diagnosis;
+    const struct result_head *head;
+    const rotid_diagnosis *diagnosis;
     int verbose; /* all candidates, times of the steps */
     int width;   /* columns of texts and charts, 100 to 120; tables take no more than 100 */
 };

@@ -1,49 +1,47 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/items.h"
 #include "report/layout.h"
 #include "report/table_diagnose.h"
 
 #define SET_SHOWN 5 /* candidates of the set, unless verbose */
 #define SHOWN     4 /* of the others */
 
-static void print_values(struct wrap *wrap, const struct candidate *candidate)
+static void print_values(struct wrap *wrap, const rotid_cause *cause)
 {
-    const struct effect_parameter_name *parameter;
-    for (int p = 0; (parameter = candidate_parameter(candidate, p)); p++) {
-        int pure = !parameter->unit || !strcmp(parameter->unit, "1");
-        wrap_item(wrap, "%s%s %s%s%s%s", p ? ", " : "", parameter->name, NUMBER(4, candidate->effect.value[p]), pure ? "" : " ",
-                  pure ? "" : parameter->unit, candidate->fixed[p] ? " fixed" : "");
-        if (!candidate->fixed[p] && isfinite(candidate->ci_lower[p]) && isfinite(candidate->ci_upper[p]))
-            wrap_item(wrap, "(%.3g ... %.3g)", candidate->ci_lower[p], candidate->ci_upper[p]);
+    for (int p = 0; p < cause->nparameters; p++) {
+        const rotid_cause_value *value = &cause->parameters[p];
+        wrap_item(wrap, "%s%s %s%s%s%s", p ? ", " : "", value->name, NUMBER(4, value->value), layout_gap(value->unit),
+                  layout_unit(value->unit), value->fixed ? " fixed" : "");
+        if (!value->fixed && isfinite(value->ci95[0]) && isfinite(value->ci95[1]))
+            wrap_item(wrap, "(%.3g ... %.3g)", value->ci95[0], value->ci95[1]);
     }
 }
 
-static void print_candidate(const struct diagnosis_view *view, const struct diagnosis_round *round, const struct candidate *c,
+static void print_candidate(const struct diagnosis_view *view, const rotid_round *round, const rotid_candidate *c,
                             int in_set)
 {
     struct wrap wrap;
     (void)fprintf(view->out, "  %c ", in_set ? '*' : ' ');
-    text_cell(view->out, 19, c->suspect ? c->effect.name : c->cause->id);
+    text_cell(view->out, 19, c->suspect ? c->cause.name : c->cause.id);
     (void)fputc(' ', view->out);
-    text_cell(view->out, 12, c->target ? c->target : "");
+    text_cell(view->out, 12, c->cause.target);
     digits_cell(view->out, 9, 4, c->predicted_drop);
-    digits_cell(view->out, 8, 4, c->refitted ? c->chi2_drop : NAN);
-    digits_cell(view->out, 8, 5, c->refitted ? c->bic : NAN);
+    digits_cell(view->out, 8, 4, c->chi2_drop);
+    digits_cell(view->out, 8, 5, c->bic);
     chance_cell(view->out, 8, c->p_value);
-    digits_cell(view->out, 8, 3, c->refitted ? c->mode_out_rms : NAN);
-    digits_cell(view->out, 9, 3, c->refitted ? c->sensor_out_rms : NAN);
-    digits_cell(view->out, 9, 3, c->refitted ? c->holdout_rms : NAN);
+    digits_cell(view->out, 8, 3, c->mode_out_rms);
+    digits_cell(view->out, 9, 3, c->sensor_out_rms);
+    digits_cell(view->out, 9, 3, c->holdout_rms);
     (void)fputc('\n', view->out);
     wrap_open(&wrap, view->out, 8, view->width, "      ");
     if (in_set)
-        wrap_item(&wrap, "%s%s", round->kind == VERDICT_NAMED ? "NAMED" : "POSSIBLE", candidate_parameter(c, 0) ? ":" : "");
-    print_values(&wrap, c);
+        wrap_item(&wrap, "%s%s", round->kind == ROTID_NAMED ? "NAMED" : "POSSIBLE", c->cause.nparameters ? ":" : "");
+    print_values(&wrap, &c->cause);
     if (c->at_bound)
         wrap_item(&wrap, "AT A BOUND");
     if (c->suspect)
-        wrap_item(&wrap, "[your suspicion, a %s]", c->cause->id);
+        wrap_item(&wrap, "[your suspicion, a %s]", c->cause.id);
     if (c->collinear_with && isfinite(c->cosine))
         wrap_item(&wrap, "; looks like %s%s%s (%.2f)", c->collinear_with, c->collinear_target && *c->collinear_target ? " " : "",
                   c->collinear_target ? c->collinear_target : "", c->cosine);
@@ -71,11 +69,12 @@ static void print_columns(FILE *out)
 
 static void print_round(const struct diagnosis_view *view, int number)
 {
-    const struct diagnosis_round *round = &view->diagnosis->round[number];
+    const rotid_diagnosis *d = view->diagnosis;
+    const rotid_round *round = &d->rounds[number];
     struct wrap wrap;
-    int hidden = 0, shown = 0, any = 0;
+    int hidden = 0, shown = 0, any = 0, place = 0; /* place: among the candidates of the round */
     wrap_open(&wrap, view->out, 4, view->width, "  ");
-    wrap_item(&wrap, "round %d, %s:", number + 1, verdict_name(round->kind));
+    wrap_item(&wrap, "round %d, %s:", round->round, rotid_verdict_name(round->kind));
     if (isfinite(round->chi2))
         wrap_item(&wrap, "chi2 %.4g of %d degrees of freedom", round->chi2, round->dof);
     if (isfinite(round->largest) && isfinite(round->threshold))
@@ -84,10 +83,12 @@ static void print_round(const struct diagnosis_view *view, int number)
     print_chance(&wrap, ", of the frequencies", round->p_frequency);
     print_chance(&wrap, ", of chi2", round->p_total);
     wrap_close(&wrap);
-    for (int i = 0; i < round->ncandidate; i++) {
-        const struct candidate *c = &round->candidate[i];
-        int in_set = i < round->nset;
-        if (!c->suspect && !view->verbose && (in_set ? i >= SET_SHOWN : !c->refitted || shown >= SHOWN)) {
+    for (int i = 0; i < d->ncandidates; i++) {
+        const rotid_candidate *c = &d->candidates[i];
+        if (c->round != round->round)
+            continue;
+        int in_set = place++ < round->set;
+        if (!c->suspect && !view->verbose && (in_set ? place > SET_SHOWN : !c->refitted || shown >= SHOWN)) {
             hidden++;
             continue;
         }
@@ -98,17 +99,17 @@ static void print_round(const struct diagnosis_view *view, int number)
     }
     if (hidden)
         (void)fprintf(view->out, "    %d more with --verbose\n", hidden);
-    if (isfinite(round->required_margin) && round->nset > 1)
+    if (isfinite(round->required_margin) && round->set > 1)
         (void)fprintf(view->out, "    a cause is named alone where its chi2 drop leads every other by %.3g\n",
                       round->required_margin);
 }
 
 void table_evidence(const struct diagnosis_view *view)
 {
-    const struct diagnosis *d = view->diagnosis;
-    if (d->nround)
+    const rotid_diagnosis *d = view->diagnosis;
+    if (d->nrounds)
         (void)fprintf(view->out,
                       "\nEVIDENCE  (noise: drop that chance alone reaches in 3 %% of tests; modes in %%, sensors over noise)\n");
-    for (int i = 0; i < d->nround; i++)
+    for (int i = 0; i < d->nrounds; i++)
         print_round(view, i);
 }

@@ -222,7 +222,7 @@ static int print_first(FILE *out, const struct frf_view *view)
 
 int table_frf(FILE *out, const struct frf_view *view)
 {
-    table_heading(out, view->job);
+    table_job_heading(out, view->job);
     print_model(out, view);
     print_modes(out, view);
     int status = print_rows(out, view);

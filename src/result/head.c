@@ -1,5 +1,9 @@
 #include "result/head.h"
 
+#include <string.h>
+
+#include "result/records.h"
+
 static const struct field reference_fields[] = {
     TEXT(rotid_reference, quantity, 0),
     NUMBERS(rotid_reference, values, ELEMENTS_MAY_BE_NULL),
@@ -21,3 +25,11 @@ static const struct field head_fields[] = {
     {0},
 };
 const struct record head_record = RECORD(struct result_head, head_fields);
+
+const rotid_reference *head_reference(const struct result_head *head, const char *quantity)
+{
+    for (int i = 0; i < head->nreferences; i++)
+        if (!strcmp(head->references[i].quantity, quantity))
+            return &head->references[i];
+    return NULL;
+}

@@ -2,8 +2,9 @@
 #ifndef ROTID_RESULT_HEAD_H
 #define ROTID_RESULT_HEAD_H
 
-#include "result/record.h"
 #include "rotid.h"
+
+#define RESULT_SCHEMA 1 /* raised where a key is removed, or means something else */
 
 struct result_head {
     int schema;          /* version of this schema */
@@ -20,6 +21,7 @@ struct result_head {
     rotid_reference *references; /* values that the heading of the deck gives to compare with */
 };
 
-extern const struct record head_record;
+/* The values of a reference, or NULL. */
+const rotid_reference *head_reference(const struct result_head *head, const char *quantity);
 
 #endif

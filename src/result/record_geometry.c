@@ -20,7 +20,7 @@ static const struct field segment_fields[] = {
     NUMBER(rotid_segment, width_m, IF_KNOWN | ABOVE_0 | ROUNDED),
     NUMBER(rotid_segment, outer_m, IF_KNOWN | ABOVE_0 | ROUNDED),
     NUMBER(rotid_segment, inner_m, IF_KNOWN | FROM_0 | ROUNDED),
-    NUMBER(rotid_segment, stiff_outer_m, MAY_BE_NULL | ABOVE_0 | ROUNDED),
+    NUMBER(rotid_segment, stiff_outer_m, MAY_BE_NULL | SINCE_LATER | ABOVE_0 | ROUNDED),
     {0},
 };
 static const struct record segment_record = RECORD(rotid_segment, segment_fields);

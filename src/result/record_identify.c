@@ -140,6 +140,7 @@ static const struct field identification_fields[] = {
     INTEGERS_BY(rotid_identification, matrix_rows, FROM_1 | SINCE_LATER, nmatrix_rows, "rows of mac_matrix"),
     INTEGERS_BY(rotid_identification, matrix_columns, FROM_1 | SINCE_LATER, nmatrix_columns, "columns of mac_matrix"),
     STRUCTS(rotid_identification, history, NOT_EMPTY, history_record),
+    FLAG(rotid_identification, nlopt, SINCE_LATER),
     STRUCTS(rotid_identification, baseline, 0, minimiser_record),
     NUMBER(rotid_identification, seconds, FROM_0),
     {0},

@@ -113,7 +113,7 @@ static void write_matrix(struct json_tree *tree, cJSON *object, const struct fie
 static int is_known(const struct field *field, const void *from)
 {
     const void *value = target_of(field, from);
-    if (field->shape != SHAPE_ONE || field->kind == FIELD_RECORD)
+    if (field->shape != SHAPE_ONE || field->kind == FIELD_RECORD || field->kind == FIELD_INLINE)
         return value != NULL;
     if (field->kind == FIELD_NUMBER)
         return isfinite(*(const double *)value);

@@ -17,11 +17,6 @@ struct result {
     const char **warnings; /* what the reader of the deck, the pairing and the fit have to say; empty where there is nothing */
 };
 
-/* The i-th command whose results have a table; NULL behind the last. */
-const char *result_command(int i);
-/* The table of the results of a command, NULL where no result of the command has one. */
-const struct record *result_record(const char *command);
-
 /* The result as JSON: a text to be freed with json_free, or NULL where memory is out. */
 char *result_json(const struct result *result);
 

@@ -336,7 +336,9 @@ contains
     type(rotid_fit_result), pointer :: fit
     type(rotid_message), pointer :: message(:)
     type(rotid_environment), target :: environment
-    real(dp), pointer :: x(:), hz(:), at_start(:)
+    type(rotid_check), pointer :: checked
+    type(rotid_model_mode), pointer :: modes(:)
+    real(dp), pointer :: x(:), at_start(:)
     integer(c_int), pointer :: held(:)
     character(len=:), allocatable :: failure
     integer(c_int) :: status
@@ -346,14 +348,17 @@ contains
     call check(rotid_string(deck%path) == good, 'its path')
     held => rotid_integers(deck%holdout, deck%nmode)
     call check(all(held == 0), 'nothing held out')
+    call check(rotid_check_deck(deck, checked) == ROTID_OK .and. associated(checked), 'a check')
+    if (associated(checked)) call check(abs(checked%mass_kg / deck%mass - 1) < 1e-12_dp, 'its mass')
+    call rotid_free(checked)
     call check(rotid_compute_spectrum(deck, 3, spectrum, x=[1.1e11_dp, 4e10_dp]) == ROTID_OK, 'a spectrum')
-    hz => rotid_reals(spectrum%hz, spectrum%nmode)
     at_start => rotid_reals(deck%frequency_hz, deck%nmode)
-    call check(spectrum%nmode == 3 .and. all(abs(hz / at_start(1:3) - 1) < 1e-4_dp), 'its frequencies at the truth')
+    call c_f_pointer(spectrum%modes, modes, [spectrum%nmodes])
+    call check(spectrum%nmodes == 3 .and. all(abs(modes%full_hz / at_start(1:3) - 1) < 1e-4_dp), 'its frequencies at the truth')
     call rotid_free(spectrum)
     call check(rotid_compute_spectrum(deck, 3, spectrum) == ROTID_OK, 'a spectrum at the start')
-    hz => rotid_reals(spectrum%hz, spectrum%nmode)
-    call check(all(abs(hz / at_start(1:3) - 1) > 1e-3_dp), 'its frequencies at the start')
+    call c_f_pointer(spectrum%modes, modes, [spectrum%nmodes])
+    call check(all(abs(modes%full_hz / at_start(1:3) - 1) > 1e-3_dp), 'its frequencies at the start')
     call rotid_free(spectrum)
     call check(rotid_compute_spectrum(deck, 3, spectrum, x=[1e11_dp], failure=failure) == ROTID_ERROR_ARGUMENT, &
                'a value too few')

@@ -101,7 +101,7 @@ int main(int argc, char **argv)
     expect(rotid_deck_read(argv[1], 0, NULL, NULL, NULL, &deck), ROTID_OK);
     expect(rotid_spectrum_compute(deck, NULL, 4, NULL, NULL, &spectrum), ROTID_OK);
     rotid_spectrum_free(spectrum);
-    expect(rotid_spectrum_compute(deck, NULL, 0, NULL, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
+    expect(rotid_spectrum_compute(deck, NULL, -1, NULL, NULL, &spectrum), ROTID_ERROR_ARGUMENT);
     expect(rotid_identify(deck, 1, NULL, failure, &found), ROTID_OK);
     rotid_identification_free(found);
     expect(rotid_identify(deck, 1, &poor, failure, &found), ROTID_ERROR_MEMORY);

@@ -1,0 +1,198 @@
+#include <math.h>
+#include <string.h>
+
+#include "fit/quantile.h"
+#include "report/layout.h"
+#include "report/table.h"
+
+static double reference_value(const rotid_reference *reference, int i)
+{
+    return reference && i < reference->nvalues ? reference->values[i] : NAN;
+}
+
+static void print_rms(FILE *out, const rotid_identification *fit)
+{
+    double sum[2] = {0, 0}; /* fitted, held out */
+    int count[2] = {0, 0};
+    for (int k = 0; k < fit->nmodes; k++) {
+        int is_held = fit->modes[k].holdout != 0;
+        sum[is_held] += fit->modes[k].error_percent * fit->modes[k].error_percent;
+        count[is_held]++;
+    }
+    (void)fputs("rms error of the fitted modes ", out);
+    number_cell(out, 0, 2, sqrt(sum[0] / count[0]));
+    (void)fputs(" %", out);
+    if (count[1]) {
+        (void)fputs(", of the modes held out ", out);
+        number_cell(out, 0, 2, sqrt(sum[1] / count[1]));
+        (void)fputs(" %", out);
+    }
+    (void)fprintf(out, "\n");
+}
+
+static void print_modes(FILE *out, const struct result_head *head, const rotid_identification *fit)
+{
+    const rotid_reference *paper_hz = head_reference(head, "predicted_hz"), *paper_error = head_reference(head, "error_percent");
+    int paper = paper_hz || paper_error, shapes = 0;
+    for (int k = 0; k < fit->nmodes; k++)
+        shapes |= isfinite(fit->modes[k].nco);
+    (void)fprintf(out, "mode   measured  predicted    error%s  reduction    mesh%s\n", paper ? "      paper    paper" : "",
+                  shapes ? "     NCO    MAC" : "");
+    (void)fprintf(out, "           [Hz]       [Hz]      [%%]%s        [%%]     [%%]\n", paper ? "       [Hz]      [%]" : "");
+    for (int k = 0; k < fit->nmodes; k++) {
+        const rotid_compared_mode *mode = &fit->modes[k];
+        (void)fprintf(out, "%4d", mode->mode);
+        number_cell(out, 11, 2, mode->measured_hz);
+        number_cell(out, 11, 2, mode->predicted_hz);
+        signed_cell(out, 9, 2, mode->error_percent);
+        if (paper) {
+            number_cell(out, 11, 2, reference_value(paper_hz, k));
+            signed_cell(out, 9, 2, reference_value(paper_error, k));
+        }
+        signed_cell(out, 11, 2, fit->reduction_error_percent[k]);
+        signed_cell(out, 8, 3, fit->mesh_error_percent[k]);
+        if (shapes) {
+            number_cell(out, 8, 3, mode->nco);
+            number_cell(out, 7, 3, mode->mac);
+        }
+        (void)fprintf(out, "%s\n", mode->holdout ? "  held out" : "");
+    }
+    print_rms(out, fit);
+}
+
+static void print_parameter(FILE *out, const rotid_fitted_parameter *p)
+{
+    double ratio = fabs(p->value) / (p->ci95[1] - p->ci95[0]); /* an interval shows two digits of its width */
+    int digits = ratio > 1e3 && isfinite(ratio) ? (int)ceil(log10(ratio)) + 2 : 5;
+    digits = digits < 5 ? 5 : digits > 8 ? 8 : digits;
+    name_cell(out, 14, p->name);
+    (void)fprintf(out, " %14.*g  %-8s ", digits > 6 ? digits : 6, p->value, p->unit);
+    if (isfinite(p->ci95[0]))
+        (void)fprintf(out, "%12.*g ...%12.*g", digits, p->ci95[0], digits, p->ci95[1]);
+    else
+        (void)fprintf(out, "%27s", "cannot be stated");
+    (void)fprintf(out, "   %.4g%s%s\n", p->start, p->at_bound ? "   AT ITS BOUND" : "",
+                  !p->identifiable && !p->at_bound ? "   NOT DETERMINED by these data" : "");
+}
+
+/* What the intervals rest on, and what the misfit has made of them. */
+static void print_intervals(FILE *out, const rotid_identification *fit)
+{
+    if (fit->noise && !strcmp(fit->noise->intervals_from, "residuals") && fit->dof > 0)
+        (void)fprintf(out,
+                      "intervals rest on the misfit that is left (Student t, %d degrees of freedom); state *NOISE to rest them "
+                      "on the measurement\n",
+                      fit->dof);
+    if (!(fit->intervals_widened_by > 1))
+        return;
+    double chance = chi_square_tail(fit->chi2, fit->dof); /* half of all adequate models have a misfit above the noise */
+    (void)fprintf(out, "the misfit is %s times the stated noise: the intervals are widened by that",
+                  NUMBER(3, fit->intervals_widened_by));
+    if (chance < 0.01)
+        (void)fprintf(out, ", and the model is not adequate for these data\n");
+    else
+        (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests\n", 100 * chance);
+}
+
+static void print_parameters(FILE *out, const rotid_identification *fit)
+{
+    int n = fit->nparameters;
+    (void)fprintf(out, "%-14s %14s  %-8s %27s   %s\n", "parameter", "value", "unit", "95 % interval", "start");
+    for (int p = 0; p < n; p++)
+        print_parameter(out, &fit->parameters[p]);
+    for (int j = 0; j < fit->nundetermined_directions; j++) {
+        (void)fprintf(out, "the data do not determine the combination");
+        for (int p = 0; p < n; p++) {
+            const rotid_component *component = &fit->undetermined_directions[p + (ptrdiff_t)j * n];
+            if (fabs(component->value) > 0.05)
+                (void)fprintf(out, " %+.2f %s", component->value, component->name);
+        }
+        (void)fprintf(out, " (relative changes)\n");
+    }
+    if (n > 1) {
+        (void)fprintf(out, "condition number %s", NUMBER(3, fit->condition_number));
+        if (n == 2 && isfinite(fit->correlation[1]))
+            (void)fprintf(out, ", correlation %.3f", fit->correlation[1]);
+        (void)fprintf(out, "\n");
+    }
+    print_intervals(out, fit);
+}
+
+static void print_history(FILE *out, const rotid_identification *fit)
+{
+    (void)fprintf(out, "\niteration   objective         gradient    mu         gain      step\n");
+    for (int i = 0; i < fit->nhistory; i++) {
+        const rotid_history_entry *entry = &fit->history[i];
+        (void)fprintf(out, "%6d", entry->iteration);
+        power_cell(out, 22, 10, entry->objective);
+        power_cell(out, 10, 2, entry->gradient);
+        power_cell(out, 12, 2, entry->mu);
+        number_cell(out, 10, 3, entry->gain_ratio);
+        power_cell(out, 10, 2, entry->step);
+        (void)fputc('\n', out);
+    }
+}
+
+/* The objective of one that failed may be none. */
+static void print_minimiser(FILE *out, const char *library, const char *name, double objective, int evaluations, double seconds)
+{
+    (void)fprintf(out, "%s%-*s", library, 20 - (int)strlen(library), name);
+    power_cell(out, 15, 8, objective);
+    (void)fprintf(out, " %11d %9.2f", evaluations, 1e3 * seconds);
+}
+
+static void print_baseline(FILE *out, const rotid_identification *fit)
+{
+    (void)fprintf(out, "\n%-20s %14s %11s %9s", "minimiser", "objective", "evaluations", "ms");
+    for (int p = 0; p < fit->nparameters; p++)
+        (void)fprintf(out, " %13s", fit->parameters[p].name);
+    (void)fprintf(out, "   result\n");
+    print_minimiser(out, "", "Levenberg-Marquardt", fit->objective, fit->evaluations, fit->seconds);
+    for (int p = 0; p < fit->nparameters; p++)
+        digits_cell(out, 14, 7, fit->parameters[p].value);
+    (void)fprintf(out, "   %s\n", fit->stop_reason);
+    for (int i = 0; i < fit->nbaseline; i++) {
+        const rotid_minimiser *b = &fit->baseline[i];
+        print_minimiser(out, "NLopt ", b->algorithm, b->objective, b->evaluations, b->seconds);
+        for (int p = 0; p < b->nx; p++)
+            digits_cell(out, 14, 7, b->x[p]);
+        (void)fprintf(out, "   %s\n", b->result);
+    }
+}
+
+static void print_head(FILE *out, const rotid_identification *fit)
+{
+    int fitted = 0;
+    for (int k = 0; k < fit->nmodes; k++)
+        fitted += !fit->modes[k].holdout;
+    (void)fprintf(out, "%s, fit of %d mode%s, functional %s, reduction %s, objective %s, gradient ",
+                  !strcmp(fit->status, "converged")  ? "converged"
+                  : !strcmp(fit->status, "at_bound") ? "converged AT A BOUND"
+                                                     : "NOT CONVERGED",
+                  fitted, fitted == 1 ? "" : "s", fit->functional, fit->reduction, NUMBER(10, fit->objective));
+    power_cell(out, 0, 1, fit->gradient);
+    (void)fputs("\n\n", out);
+}
+
+void table_identify(FILE *out, const struct result *result, int baseline, int history)
+{
+    const rotid_identification *fit = result->identify;
+    table_heading(out, &result->head);
+    print_head(out, fit);
+    print_parameters(out, fit);
+    if (fit->nbaseline)
+        print_baseline(out, fit);
+    else if (baseline && !fit->nlopt)
+        (void)fprintf(out, "\nno minimiser beside it: this rotid is built without NLopt (WITH_NLOPT=0)\n");
+    if (history)
+        print_history(out, fit);
+    (void)fputc('\n', out);
+    print_modes(out, &result->head, fit);
+    if (strcmp(fit->functional, "LIKELIHOOD") != 0)
+        (void)fprintf(
+            out,
+            "the hybrid quotient equals the frequency of the %s for any measured shape: this functional fits frequencies alone\n",
+            strcmp(fit->reduction, "NONE") ? "condensed model" : "model");
+    if (isfinite(fit->chi2_per_dof))
+        (void)fprintf(out, "chi2 %.4g with %d degrees of freedom\n", fit->chi2, fit->dof);
+}
