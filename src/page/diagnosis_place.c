@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "diagnose/engine.h"
+#include "diagnose/decide.h"
 #include "page/diagnosis.h"
 
 static const struct told_value *value_of(const struct told_cause *cause, const char *name)
