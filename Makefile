@@ -19,6 +19,7 @@
 #   make lint, make format                  clang-tidy, checks of the manual pages; clang-format
 #   make abi        the snapshot of the public interface anew, include/rotid.abi (CONTRIBUTING.md)
 #   make fortran    the types of results in include/rotid.f90 anew, from include/rotid.h
+#   make tables     completions, the option lists of docs/rotid.1 and the card tables of docs/deck.md anew, from their rows in src
 #   make install, make uninstall            with PREFIX (/usr/local), DESTDIR, and BINDIR, LIBDIR, PKGCONFIGDIR, CMAKEDIR, INCLUDEDIR,
 #                   DATADIR, MANDIR, DOCDIR, BASHDIR, ZSHDIR, FISHDIR for what is to go elsewhere
 #   make clean
@@ -95,7 +96,7 @@ SUPPORT_OBJECTS := $(call OBJECTS_OF,$(filter-out $(wildcard tests/test_*.c),$(w
                    $(call OBJECTS_OF,$(filter-out %/hide_main.c %/power.c %/hammer_main.c,$(wildcard tools/hide/*.c tools/power/*.c tools/hammer/*.c)))
 TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 
-.PHONY: all abi demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
+.PHONY: all abi schema check-schema demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
         coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -157,7 +158,7 @@ $(BUILD)/rotid: $(call OBJECTS_OF,$(CLI_SOURCES)) $(PROGRAM_OBJECTS) $(OBJECTS)
 MPICC ?= mpicc
 STUDY_RUNS ?= 1000
 $(BUILD)/src/mpi/%.o: override CC = $(MPICC)
-$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c,$(CLI_SOURCES))) $(PROGRAM_OBJECTS) $(OBJECTS)
+$(BUILD)/rotid-study: $(call OBJECTS_OF,src/mpi/rotid_study.c $(filter-out %/main.c %/command_table.c,$(CLI_SOURCES))) $(PROGRAM_OBJECTS) $(OBJECTS)
 	$(MPICC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
 
 check-mpi:
@@ -183,7 +184,7 @@ power: $(BUILD)/power
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS) $(OBJECTS)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
@@ -199,6 +200,13 @@ abi: $(BUILD)/tests/test_abi
 .PHONY: fortran
 fortran: $(BUILD)/tests/test_fortran
 	@$< --write
+
+# The table of options is that of the program, so the test of what follows from it links the program except its main.
+$(BUILD)/tests/test_manual: $(call OBJECTS_OF,$(wildcard tools/tables/*.c) $(filter-out %/main.c,$(CLI_SOURCES)))
+$(BUILD)/tools/tables/%.o: ALL_CFLAGS += -Itools
+.PHONY: tables
+tables: all $(BUILD)/tests/test_manual
+	@$(BUILD)/tests/test_manual --write
 
 demo: all
 	@sh tools/demo $(BUILD)/rotid $(BUILD)/demo
@@ -265,7 +273,19 @@ coverage:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 -g --coverage' LDFLAGS=--coverage test
 	@sh tools/coverage $(BUILD)/coverage
 
-lint:
+# docs/schema, from the tables of src/result and the comments of the structs that they describe
+SCHEMA_HEADERS := include/rotid.h $(wildcard src/result/*.h) src/run/growth.h src/run/sensitivity.h
+$(BUILD)/tools/schema/%.o: ALL_CFLAGS += -Itools/schema
+$(BUILD)/schema: $(call OBJECTS_OF,$(wildcard tools/schema/*.c)) $(PROGRAM_OBJECTS) $(OBJECTS)
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
+schema: $(BUILD)/schema
+	@$(BUILD)/schema docs/schema $(SCHEMA_HEADERS)
+# they stand in docs/schema as they are generated
+check-schema: $(BUILD)/schema
+	@rm -rf $(BUILD)/docs-schema && cp -r docs/schema $(BUILD)/docs-schema && $(BUILD)/schema $(BUILD)/docs-schema $(SCHEMA_HEADERS) && \
+	    diff -r docs/schema $(BUILD)/docs-schema || { echo 'docs/schema is not as make schema writes it'; exit 1; }
+
+lint: check-schema
 	$(CLANG_TIDY) --quiet $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) $(CLI_SOURCES) -- $(ALL_CFLAGS) -DROTID_COMMIT='""'
 	@sh tools/lint-manual
 

@@ -1,12 +1,76 @@
 # Completion of rotid for bash: commands, the options of each, the files they read. Needs nothing of bash-completion.
 
-# Paths that begin with $1, those with an ending of the pattern $2 and folders; where none has it, all.
+# Commands and the endings of their files; options, the commands that have each, and what completes its value.
+# what follows is written by make tables
+_rotid_commands=(
+    'check:inp'
+    'modes:inp'
+    'sensitivity:inp'
+    'identify:inp'
+    'diagnose:inp'
+    'frf:inp'
+    'ema:unv|uff|uf'
+    'export:inp'
+    'uff:unv|uff|uf'
+    'report:json|jsonl'
+    'study:inp|jsonl'
+)
+_rotid_options=(
+    '--quiet:check modes sensitivity identify diagnose frf ema export uff report study::'
+    '--verbose:check modes sensitivity identify diagnose frf ema export uff report study::'
+    '--threads:check modes sensitivity identify diagnose frf ema export uff report study:value:'
+    '--seed:check modes sensitivity identify diagnose frf ema export uff report study:value:'
+    '--version:check modes sensitivity identify diagnose frf ema export uff report study::'
+    '--help:check modes sensitivity identify diagnose frf ema export uff report study::'
+    '--json:check modes sensitivity identify diagnose frf export ema uff study:files:json'
+    '--set:check modes sensitivity identify diagnose frf export study:value:'
+    '--at:sensitivity:value:'
+    '--step:sensitivity:value:'
+    '--range:sensitivity:value:'
+    '--points:sensitivity:value:'
+    '--no-baseline:identify::'
+    '--extended:diagnose:files:inp'
+    '--replicates:diagnose:value:'
+    '-o --output:frf:files:unv|uff|uf'
+    '-o --output:ema:files:unv|uff|uf'
+    '--band:ema:value:'
+    '--method:ema:words:lscf quadrature'
+    '--order:ema:value:'
+    '--pick:ema:value:'
+    '--per-point:ema::'
+    '--no-refinement:ema::'
+    '--reference:ema:value:'
+    '--averages:ema:value:'
+    '--estimator:ema:words:H1 H2 HV'
+    '--exponential:ema:value:'
+    '--force-window:ema:value:'
+    '--block:ema:value:'
+    '--pretrigger:ema:value:'
+    '--trigger-level:ema:value:'
+    '--keep-double-hits:ema::'
+    '-o --output:export:files:mtx|dmig|bdf|py'
+    '--format:export:words:matrix-market dmig ross'
+    '--start:export::'
+    '--condensed:export::'
+    '-o --output:uff:files:unv|uff|uf'
+    '--format:uff:words:ascii binary'
+    '-o --output:report:files:/'
+    '-o --output:study:files:jsonl'
+    '--shard:study:value:'
+    '--timeout:study:value:'
+    '--retry-failed:study::'
+    '--merge:study::'
+    '--summary:study::'
+)
+# end of what make tables writes
+
+# Paths that begin with $1, those with an ending of $2 (separated by bars) and folders; where none has it, all.
 _rotid_files() {
     local path matching=() others=()
     while IFS= read -r path; do
         if [[ -d $path ]]; then
             matching+=("$path")
-        elif [[ ${path,,} == $2 ]]; then
+        elif [[ ${path,,} == *.@($2) ]]; then
             matching+=("$path")
             others=(found)
         elif [[ ${others[0]-} != found ]]; then
@@ -23,15 +87,18 @@ _rotid_words() {
     COMPREPLY=($(compgen -W "$2" -- "$1"))
 }
 
+# The row of option $1 of command $2, or of any command where $2 is empty: kind and words or endings
+_rotid_row() {
+    local names of kind_here what_here row
+    kind='' what=''
+    for row in "${_rotid_options[@]}"; do
+        IFS=: read -r names of kind_here what_here <<< "$row"
+        [[ " $names " == *" $1 "* ]] && [[ -z $2 || " $of " == *" $2 "* ]] && kind=$kind_here what=$what_here && return
+    done
+}
+
 _rotid() {
-    local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command='' files=0 i
-    local commands='check modes sensitivity identify diagnose frf ema export uff study report'
-    local common='--json --quiet --verbose --threads --seed --version --help'
-    local of_deck='--set'
-    local of_ema='--band --method --order --pick --per-point --no-refinement --reference --averages --estimator --exponential
-        --force-window --block --pretrigger --threshold --keep-double-hits'
-    local with_value=' --json --threads --seed --set --at --step --range --points --extended --replicates -o --output --format --band
-        --method --order --pick --reference --averages --estimator --exponential --force-window --block --pretrigger --threshold --shard --timeout '
+    local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command='' files=0 kind what row names of i
     COMPREPLY=()
 
     # --option=value comes as three words
@@ -43,72 +110,48 @@ _rotid() {
     for ((i = 1; i < COMP_CWORD; i++)); do
         case ${COMP_WORDS[i]} in
             =) ((i++)) ;;
-            -*) [[ ${COMP_WORDS[i + 1]} != = && $with_value == *[[:space:]]${COMP_WORDS[i]}[[:space:]]* ]] && ((i++)) ;;
+            -*) _rotid_row "${COMP_WORDS[i]}" ''; [[ ${COMP_WORDS[i + 1]} != = && -n $kind ]] && ((i++)) ;;
             *) if [[ -z $command ]]; then command=${COMP_WORDS[i]}; else ((files++)); fi ;;
         esac
     done
 
     case $before in
-        --json) _rotid_files "$current" '*.json'; return ;;
-        --extended) _rotid_files "$current" '*.inp'; return ;;
-        -o | --output)
-            case $command in
-                export) _rotid_files "$current" '*.@(mtx|dmig|bdf|py)' ;;
-                study) _rotid_files "$current" '*.jsonl' ;;
-                report) _rotid_files "$current" '' ;;
-                *) _rotid_files "$current" '*.@(unv|uff|uf)' ;;
-            esac
-            return
-            ;;
-        --method) _rotid_words "$current" 'lscf quadrature'; return ;;
-        --estimator) _rotid_words "$current" 'H1 H2 HV'; return ;;
         FIT.FUNCTIONAL) _rotid_words "$current" 'HYBRID HYBRID_F LIKELIHOOD'; return ;;
         FIT.REDUCTION) _rotid_words "$current" 'NONE GUYAN IRS'; return ;;
         FIT.DERIVATIVE) _rotid_words "$current" 'MODAL NELSON'; return ;;
         TIEROD.MODEL) _rotid_words "$current" 'RODS TUBE'; return ;;
-        --format)
-            case $command in
-                uff) _rotid_words "$current" 'ascii binary' ;;
-                export) _rotid_words "$current" 'matrix-market dmig ross' ;;
-                *) _rotid_words "$current" 'ascii binary matrix-market dmig ross' ;;
-            esac
-            return
-            ;;
         --set)
             _rotid_words "$current" 'FIT.FUNCTIONAL= FIT.REDUCTION= FIT.MODES= FIT.HOLDOUT= FIT.DERIVATIVE= NOISE.FREQUENCY=
                 NOISE.SHAPE= TIEROD.MODEL= MEASURED.FILE= FRF.FILE='
             compopt -o nospace 2> /dev/null
             return
             ;;
+        -*)
+            _rotid_row "$before" "$command"
+            case $kind in
+                files) _rotid_files "$current" "$what" ;;
+                words) _rotid_words "$current" "$what" ;;
+            esac
+            [[ -n $kind ]] && return # a number, or a name of the deck
+            ;;
     esac
-    [[ $before == -* && $with_value == *[[:space:]]$before[[:space:]]* ]] && return # a number, or a name of the deck
 
     if [[ $current == -* ]]; then
-        case $command in
-            check | modes) common+=" $of_deck" ;;
-            sensitivity) common+=" $of_deck --at --step --range --points" ;;
-            identify) common+=" $of_deck --no-baseline" ;;
-            diagnose) common+=" $of_deck --extended --replicates" ;;
-            frf) common+=" $of_deck -o --output" ;;
-            ema) common+=" $of_ema -o --output" ;;
-            export) common+=" $of_deck -o --output --format --start --condensed" ;;
-            uff) common+=' -o --output --format' ;;
-            report) common="${common#--json } -o --output" ;;
-            study) common+=" $of_deck -o --output --shard --merge --timeout --retry-failed --summary" ;;
-        esac
-        _rotid_words "$current" "$common"
-    elif [[ -z $command ]]; then
-        _rotid_words "$current" "$commands"
-    elif [[ $command == report ]]; then
-        _rotid_files "$current" '*.@(json|jsonl)'
-    elif [[ $command == study ]]; then
-        _rotid_files "$current" '*.@(inp|jsonl)'
-    elif ((files == 0)); then
-        case $command in
-            ema | uff) _rotid_files "$current" '*.@(unv|uff|uf)' ;;
-            *) _rotid_files "$current" '*.inp' ;;
-        esac
+        what=''
+        for row in "${_rotid_options[@]}"; do
+            IFS=: read -r names of kind row <<< "$row"
+            [[ " $of " == *" ${command:-check} "* ]] && what+=" $names"
+        done
+        _rotid_words "$current" "$what"
+        return
     fi
+    what=''
+    for row in "${_rotid_commands[@]}"; do
+        what+=" ${row%%:*}"
+        [[ ${row%%:*} == "$command" ]] && { ((files == 0)) || [[ $command == @(report|study) ]]; } &&
+            _rotid_files "$current" "${row#*:}"
+    done
+    [[ -z $command ]] && _rotid_words "$current" "$what"
 }
 
 complete -F _rotid rotid

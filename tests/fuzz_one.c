@@ -201,12 +201,13 @@ static void read_results(const uint8_t *bytes, size_t count)
 {
     struct pool pool;
     struct message_list messages;
-    struct summary summary;
+    struct study_result summary;
+    struct header header;
     char path[32];
     int descriptor = hold(bytes, count, path);
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = summary_read(&pool, path, &messages, &summary);
+    int status = summary_read(&pool, path, &messages, &header, &summary);
     require((status == ROTID_OK) == (messages.errors == 0));
     if (status == ROTID_OK) {
         const struct provenance provenance = {"study", "0", "0", "", 1, 1};

@@ -1,8 +1,8 @@
 /* Deflection of tie rods and bars, beside motions that every element follows exactly. */
 #include "support.h"
 
-#include "model/deflection.h"
 #include "json_deck.h"
+#include "model/deflection.h"
 #include "run/spectrum.h"
 
 #define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"

@@ -1,16 +1,17 @@
-/* What the program offers beside what the manual page and the completions of the shells say of it, in both directions. */
+/* What the program offers beside what the manual page and the completions of the shells say of it. With --write (make tables):
+ * writes what the tables of options and cards give. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/options.h"
 #include "shell.h"
 #include "support.h"
+#include "tables/generated.h"
 
 #define MOST   200
 #define MANUAL ROTID_SOURCE_DIR "/docs/rotid.1"
 #define BASH   ROTID_SOURCE_DIR "/completions/rotid.bash"
-#define ZSH    ROTID_SOURCE_DIR "/completions/_rotid"
-#define FISH   ROTID_SOURCE_DIR "/completions/rotid.fish"
 
 /* A set of words. */
 struct words {
@@ -110,7 +111,7 @@ static struct words offered(const char *words)
     return found;
 }
 
-static void the_manual_names_every_command_and_option(void **state)
+static void the_manual_names_the_commands_and_no_other_option(void **state)
 {
     (void)state;
     struct words commands = commands_of_the_program(), options = options_of_the_program(), named = {0}, listed = {0};
@@ -122,15 +123,9 @@ static void the_manual_names_every_command_and_option(void **state)
     *end = 0;
     find_behind(&listed, text, "\n.It Ic ", "");
     assert_same_words(&commands, "rotid --help", &listed, "docs/rotid.1");
-    /* each in a list where it is explained, and none anywhere that there is not */
     find_behind(&named, text, "Fl -", "--");
     find_options(&named, text);
     assert_same_words(&options, "rotid --help", &named, "docs/rotid.1");
-    named.count = 0;
-    for (const char *at = text; *at; at += strcspn(at, "\n") + 1)
-        if (strncmp(at, ".It ", 4) == 0)
-            find_behind(&named, pool_format(&test_pool, "%.*s", (int)strcspn(at, "\n"), at), "Fl -", "--");
-    assert_same_words(&options, "rotid --help", &named, "the lists of docs/rotid.1");
 }
 
 static void bash_offers_every_command_and_option(void **state)
@@ -176,7 +171,7 @@ static const char *value_of(const char *command, const char *option)
                                             {"--force-window", "1"},
                                             {"--block", "1"},
                                             {"--pretrigger", "0.1"},
-                                            {"--threshold", "0.1"},
+                                            {"--trigger-level", "0.1"},
                                             {"--shard", "1/2"},
                                             {"--timeout", "1"},
                                             {NULL, NULL}};
@@ -256,45 +251,110 @@ static void bash_completes_values_and_files(void **state)
     (void)shell(&test_pool, "rm -r %s", folder);
 }
 
-/* By their texts: these shells need not be there. */
-static void zsh_and_fish_offer_every_command_and_option(void **state)
+static const char *path_of(const struct generated *part)
 {
-    (void)state;
-    struct words commands = commands_of_the_program(), options = options_of_the_program(), found = {0}, listed = {0};
-    const char *zsh = shell_file(&test_pool, ZSH), *fish = shell_file(&test_pool, FISH);
-    const char *list = strstr(zsh, "commands=(");
-    assert_non_null(list);
-    find_behind(&listed, pool_format(&test_pool, "%.*s", (int)(strstr(list, "\n    )") - list), list), "\n        '", "");
-    assert_same_words(&commands, "rotid --help", &listed, "_rotid");
-    find_options(&found, zsh);
-    assert_same_words(&options, "rotid --help", &found, "_rotid");
-
-    found.count = listed.count = 0;
-    find_behind(&found, fish, " -l ", "--");
-    /* of fish's own `set -l` */
-    static const char *const own[] = {"--commands", "--decks", "--none", "--ema", NULL};
-    for (int i = 0; own[i]; i++)
-        for (int j = 0; j < found.count; j++)
-            if (strcmp(found.word[j], own[i]) == 0)
-                found.word[j] = found.word[--found.count];
-    assert_same_words(&options, "rotid --help", &found, "rotid.fish");
-    find_behind(&listed, fish, "-n $none -a ", "");
-    assert_same_words(&commands, "rotid --help", &listed, "rotid.fish");
-    list = strstr(fish, "set -l commands ");
-    assert_non_null(list);
-    listed.count = 0;
-    find_behind(&listed, pool_format(&test_pool, "%.*s", (int)strcspn(list, "\n") - 15, list + 15), " ", "");
-    assert_same_words(&commands, "rotid --help", &listed, "the list of commands in rotid.fish");
+    return pool_format(&test_pool, ROTID_SOURCE_DIR "/%s", part->path);
 }
 
-int main(void)
+static void generated_parts_are_those_of_the_tables(void **state)
 {
+    (void)state;
+    for (const struct generated *part = generated_parts; part->path; part++) {
+        const char *text = shell_file(&test_pool, path_of(part));
+        char *wanted = generated_text(part, text);
+        assert_non_null(wanted);
+        if (strcmp(text, wanted) != 0)
+            fail_msg("%s is not what its table gives, expected it after make tables", part->path);
+        free(wanted);
+    }
+}
+
+/* Words for people, names for getopt: what the compiler does not see in a row. */
+static void rows_are_sound(void **state)
+{
+    (void)state;
+    struct words commands = commands_of_the_program();
+    for (const struct option_row *row = option_table; row->name; row++) {
+        struct words of = {0};
+        for (const char *at = row->commands; at && *at; at += strspn(at, " ")) {
+            add(&of, "", at, span(at));
+            at += span(at);
+        }
+        for (int i = 0; i < of.count; i++)
+            assert_true(has(&commands, of.word[i]));
+        assert_true(row->help && row->help[strlen(row->help) - 1] != '.');
+        assert_int_equal(row->kind > OPTION_SWITCH, row->value || row->words);
+        if (row->kind == OPTION_WHOLE || row->kind == OPTION_REAL || row->kind == OPTION_SEED)
+            assert_true(row->least < row->most &&
+                        (row->standard == 0 || (row->least <= row->standard && row->standard <= row->most)));
+        for (const struct option_row *other = row + 1; other->name; other++)
+            if (strcmp(row->name, other->name) == 0) { /* of other commands, else the same */
+                assert_true(row->kind == other->kind && row->offset == other->offset && row->letter == other->letter);
+                for (int i = 0; i < of.count; i++)
+                    assert_false(option_of(other, of.word[i]));
+            }
+    }
+}
+
+static void an_option_of_another_command_is_refused(void **state)
+{
+    (void)state;
+    struct words commands = commands_of_the_program();
+    for (const struct option_row *row = option_table; row->name; row++)
+        for (int i = 0; i < commands.count; i++) {
+            const char *output;
+            if (option_find(row->name, commands.word[i]))
+                continue;
+            int code = shell_code(&test_pool, &output, "%s %s --%s %s /nowhere/file", ROTID_PROGRAM, commands.word[i], row->name,
+                                  row->kind > OPTION_SWITCH ? "1" : "");
+            if (code != 2 || !strstr(output, pool_format(&test_pool, "--%s is ", row->name)) || !strstr(output, "option of"))
+                fail_msg("rotid %s --%s: exit code %d, %s", commands.word[i], row->name, code, output);
+        }
+}
+
+static void an_old_name_is_taken(void **state)
+{
+    const char *output;
+    (void)state;
+    for (const struct option_row *row = option_table; row->name; row++)
+        if (row->alias) {
+            (void)shell_code(&test_pool, &output, "%s %.*s --%s x /nowhere/file", ROTID_PROGRAM, span(row->commands),
+                             row->commands, row->alias);
+            assert_non_null(strstr(output, pool_format(&test_pool, "--%s x: expected", row->name)));
+        }
+}
+
+static int write_files(void)
+{
+    int code = 0;
+    for (const struct generated *part = generated_parts; part->path; part++) {
+        char *text = generated_text(part, shell_file(&test_pool, path_of(part)));
+        FILE *out = text ? fopen(path_of(part), "w") : NULL;
+        if (!out || fputs(text, out) < 0 || fclose(out)) {
+            print_error("cannot write %s\n", part->path);
+            code = 1;
+        }
+        free(text);
+    }
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1 && strcmp(argv[1], "--write") == 0) {
+        void *state = NULL;
+        int code = open_test_pool(&state) || write_files();
+        return close_test_pool(&state) || code;
+    }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_manual_names_every_command_and_option, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_manual_names_the_commands_and_no_other_option, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(bash_offers_every_command_and_option, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(bash_offers_what_a_command_takes, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(bash_completes_values_and_files, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(zsh_and_fish_offer_every_command_and_option, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(generated_parts_are_those_of_the_tables, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(rows_are_sound, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(an_option_of_another_command_is_refused, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(an_old_name_is_taken, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

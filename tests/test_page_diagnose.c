@@ -8,8 +8,9 @@
 
 #include "fit/quantile.h"
 #include "json_value.h"
-#include "page/diagnosis.h"
+#include "result/cause_place.h"
 #include "page/figures_diagnosis.h"
+#include "page/result.h"
 #include "page_bench.h"
 #include "support.h"
 
@@ -323,18 +324,13 @@ static void a_result_that_lacks_something_says_what(void **state)
 
 /* ----------------------------------------------------------------------------------------------------------------- routines */
 
-static struct diagnosis_outcome *outcome_of(const char *name, cJSON **json)
+static const rotid_diagnosis *diagnosis_of(const char *name)
 {
     static struct message_list messages;
-    static struct reader reader;
-    struct json_place root = {.reader = &reader};
+    static struct result result;
     message_open(&messages, &test_pool);
-    reader = (struct reader){.pool = &test_pool, .messages = &messages, .file = name};
-    *json = page_json(name);
-    root.json = *json;
-    struct diagnosis_outcome *d = diagnosis_read(&root);
-    assert_non_null(d);
-    return d;
+    assert_status(page_result_read(&test_pool, page_path(name), &messages, &result), ROTID_OK);
+    return result.diagnose;
 }
 
 /* What the page counts as the lead is what the decision wrote into its reasons. */
@@ -342,23 +338,22 @@ static void leads_are_those_of_the_decision(void **state)
 {
     (void)state;
     static const char *const names[] = {"mass.json", "solid.json"};
-    int compared = 0;
+    int compared = 0, count;
     diagnose(RINGED, "mass.json");
     diagnose(SOLID, "solid.json");
     for (size_t i = 0; i < 2; i++) {
-        cJSON *json;
-        struct diagnosis_outcome *d = outcome_of(names[i], &json);
-        for (int r = 0; r < d->nround; r++)
-            for (int k = 1; k < d->round[r].ncandidate; k++) {
-                const struct evidence *c = &d->round[r].candidate[k];
-                const char *loses = c->rejected_because ? strstr(c->rejected_because, "loses to ") : NULL;
+        const rotid_diagnosis *d = diagnosis_of(names[i]);
+        for (int r = 0; r < d->nrounds; r++) {
+            const rotid_candidate *candidate = diagnosis_candidates(d, r, &count);
+            for (int k = 1; k < count; k++) {
+                const char *why = candidate[k].rejected_because, *loses = why ? strstr(why, "loses to ") : NULL;
                 if (!loses)
                     continue;
                 double by = strtod(strrchr(loses, ' '), NULL);
-                assert_close(diagnosis_lead(&d->round[r].candidate[0], c), by, 5e-3, 0);
+                assert_close(candidate_lead(&candidate[0], &candidate[k]), by, 5e-3, 0);
                 compared++;
             }
-        cJSON_Delete(json);
+        }
     }
     assert_true(compared > 10);
 }
@@ -366,13 +361,13 @@ static void leads_are_those_of_the_decision(void **state)
 static void places_are_found_on_the_rotor(void **state)
 {
     (void)state;
-    struct drawn_group group[] = {{.name = "left", .from = 0, .to = 0.5}, {.name = "core", .from = 0.5, .to = 1.2}};
-    struct drawn_point spring[] = {{.name = "sling", .z = 0.1}, {.name = NULL, .z = 1.1}};
-    struct drawn_bundle bundle = {.name = "ties", .from = 0.4, .to = 1.3};
-    const struct geometry geometry = {
-        .length = 1.2, .ngroup = 2, .nspring = 2, .nbundle = 1, .group = group, .spring = spring, .bundle = &bundle};
-    struct told_value value[] = {
-        {"mass", "kg", 3, {1, 5}, 0}, {"z", "m", 0.9, {0.85, 0.95}, 0}, {"width", "m", 0.05, {NAN, NAN}, 1}};
+    rotid_group group[] = {{.name = "left", .from_m = 0, .to_m = 0.5}, {.name = "core", .from_m = 0.5, .to_m = 1.2}};
+    rotid_spring spring[] = {{.name = "sling", .z_m = 0.1}, {.name = NULL, .z_m = 1.1}};
+    rotid_tierods ties[] = {{.name = NULL, .from_m = 0, .to_m = 1}, {.name = "ties", .from_m = 0.4, .to_m = 1.3}};
+    const rotid_geometry geometry = {
+        .length_m = 1.2, .ngroups = 2, .nsprings = 2, .ntierods = 2, .groups = group, .springs = spring, .tierods = ties};
+    rotid_cause_value value[] = {
+        {"mass", "kg", 3, 1, {1, 5}, 0}, {"z", "m", 0.9, 0.025, {0.85, 0.95}, 0}, {"width", "m", 0.05, NAN, {NAN, NAN}, 1}};
     static const struct {
         const char *target;
         int nvalue, found;
@@ -380,19 +375,18 @@ static void places_are_found_on_the_rotor(void **state)
     } cases[] = {{"", 2, 1, 0.9, 0.9},      {"", 3, 1, 0.85, 0.95},       {"core", 1, 1, 0.5, 1.2}, {"left|core", 1, 1, 0.5, 0.5},
                  {"sling", 1, 1, 0.1, 0.1}, {"at 1.1 m", 1, 1, 1.1, 1.1}, {"ties", 1, 1, 0.4, 1.3}, {"cor", 1, 0, 0, 0},
                  {"", 1, 0, 0, 0},          {"core2", 1, 0, 0, 0}};
+    struct cause_place place;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct told_cause cause = {.id = "any", .target = cases[i].target, .nvalue = cases[i].nvalue, .value = value};
-        struct told_place place;
-        assert_int_equal(diagnosis_place(&geometry, &cause, &place), cases[i].found);
+        const rotid_cause cause = {.id = "any", .target = cases[i].target, .nparameters = cases[i].nvalue, .parameters = value};
+        assert_int_equal(cause_place(&geometry, &cause, &place), cases[i].found);
         if (!cases[i].found)
             continue;
         assert_close(place.from, cases[i].from, 1e-12, 0);
         assert_close(place.to, cases[i].to, 1e-12, 0);
         assert_int_equal(isfinite(place.ci[0]) != 0, cases[i].nvalue >= 2);
     }
-    struct told_place place;
-    const struct told_cause ring = {.id = "added_mass", .target = "", .nvalue = 2, .value = value};
-    assert_false(diagnosis_place(NULL, &ring, &place));
+    const rotid_cause ring = {.id = "added_mass", .target = "", .nparameters = 2, .parameters = value};
+    assert_false(cause_place(NULL, &ring, &place));
 }
 
 static void limits_of_chi_square_are_those_of_its_table(void **state)

@@ -51,7 +51,7 @@ static void files_that_are_no_result_are_refused_with_their_place(void **state)
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": 2}", "schema: is 2, expected 1"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"identify\", \"schema\": \"1\"}", "schema: is a text, expected a number"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"uff\", \"schema\": 1}",
-         "command: is 'uff', of which no page is made, expected identify, diagnose"},
+         "command: is 'uff', of which no page is made, expected check, modes, identify, diagnose, sensitivity, frf or study"},
         {"{\"rotid\": \"0.2.0\", \"command\": 7, \"schema\": 1}", "command: is a number, expected a text"},
         {"{\"rotid\": \"0.2.0\", \"command\": \"modes\", \"schema\": 1}", "modes: is missing"},
     };
@@ -105,7 +105,7 @@ static int compose(const char *name, int *wrong)
     struct document document;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = result_read(&pool, page_path(name), &messages, &result);
+    int status = page_result_read(&pool, page_path(name), &messages, &result);
     *wrong = messages.errors;
     if (!status) {
         document_open(&document, &pool);
@@ -222,6 +222,48 @@ static void every_value_that_is_wrong_is_refused_or_does_no_harm(void **state)
     }
 }
 
+/* What no single value is wrong in. */
+static void a_result_that_contradicts_itself_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *file, *list; /* of which the last value is taken away, in the first element */
+        const char *says;
+    } wrong[] = {
+        {"identify.json", "history.x", "history[].x has 1 values, expected 2 as parameters"},
+        {"identify.json", "baseline.predicted_hz", "baseline[].predicted_hz has "},
+        {"identify.json", "shapes/modes.predicted", "shapes.modes[].predicted has "},
+        {"identify.json", "shapes/modes.predicted_axis", "as shapes.axis_z_m"},
+        {"identify.json", "shapes/modes.measured", "as shapes.sensor_id"},
+        {"identify.json", "/correlation", "correlation: has 1 rows of 2 values, expected 2 of 2"},
+        {"identify.json", "/reduction_error_percent", "reduction_error_percent: has "},
+        {"identify.json", "/matrix_rows", "as rows of mac_matrix"},
+        {"modes.json", "modes.shape", "modes[].shape has "},
+        {"diagnose.json", "/modes_standardised", "as base.modes"},
+        {"diagnose.json", "/rounds", "expected one of the "},
+    };
+    make_results();
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        cJSON *json = page_json(wrong[i].file), *at = json;
+        char path[64], *rest = path, *key;
+        (void)snprintf(path, sizeof path, "%s", wrong[i].list);
+        while ((key = strtok_r(rest, "/.", &rest))) { /* through lists their first element */
+            at = cJSON_IsArray(at) ? at->child : at;
+            at = cJSON_GetObjectItem(at, key);
+            assert_non_null(at);
+        }
+        assert_true(cJSON_IsArray(at) && cJSON_GetArraySize(at) > 1);
+        cJSON_DeleteItemFromArray(at, cJSON_GetArraySize(at) - 1);
+        page_write_json("wrong.json", json);
+        cJSON_Delete(json);
+        assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("wrong.json"), page_path("page")), 2);
+        if (!strstr(page_err, wrong[i].says))
+            print_error("%s: '%s'\n", wrong[i].list, page_err);
+        assert_non_null(strstr(page_err, wrong[i].says));
+        assert_false(page_exists("page"));
+    }
+}
+
 static void a_file_cut_off_anywhere_is_refused(void **state)
 {
     (void)state;
@@ -260,7 +302,7 @@ static void memory_that_runs_out_is_survived(void **state)
             failing_allocator_open(&failing, n);
             pool_open(&pool, &failing.allocator);
             message_open(&messages, &pool);
-            int status = result_read(&pool, page_path(names[i]), &messages, &result);
+            int status = page_result_read(&pool, page_path(names[i]), &messages, &result);
             if (!status) {
                 document_open(&document, &pool);
                 page_compose(&document, 1, &result);
@@ -282,6 +324,7 @@ int main(void)
         cmocka_unit_test(files_that_are_no_result_are_refused_with_their_place),
         cmocka_unit_test(all_files_are_judged_and_one_bad_one_is_enough),
         cmocka_unit_test(every_value_that_is_wrong_is_refused_or_does_no_harm),
+        cmocka_unit_test(a_result_that_contradicts_itself_is_refused),
         cmocka_unit_test(a_file_cut_off_anywhere_is_refused),
         cmocka_unit_test(memory_that_runs_out_is_survived),
     };

@@ -252,10 +252,10 @@ static void broken_lines_are_told_with_their_place(void **state)
         const char *from, *to, *says;
     } wrong[] = {
         {"\"status\":\"converged\"", "\"status\":\"perhaps\"",
-         "2:1: this line is no result: expected converged, at_bound, not_converged or failed as status"},
-        {"\"objective\":", "\"objective\":\"x\",\"y\":", "2:1: this line is no result: expected a number or null as objective"},
-        {"\"parameters\":[{", "\"parameters\":[7,{", "2:1: this line is no result: expected a text as name of a parameter"},
-        {"\"modes\":[", "\"modes\":7,\"y\":[", "2:1: this line is no result: expected a list as modes"},
+         "2:1: this line is no result: status: is 'perhaps', expected converged, at_bound, not_converged or failed"},
+        {"\"objective\":", "\"objective\":\"x\",\"y\":", "2:1: this line is no result: objective: is a text, expected a number"},
+        {"\"parameters\":[{", "\"parameters\":[7,{", "2:1: this line is no result: parameters[0]: is a number, expected an object"},
+        {"\"modes\":[", "\"modes\":7,\"y\":[", "2:1: this line is no result: modes: is a number, expected a list"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         const char *whole = page_read("truth.jsonl"), *at = strstr(strchr(whole, '\n'), wrong[i].from);
@@ -290,34 +290,22 @@ static void broken_lines_are_told_with_their_place(void **state)
 static void runs_are_sorted_into_series_by_their_modes(void **state)
 {
     (void)state;
-    struct told_cell cell[] = {{.deck = "a",
-                                .variant = "one",
-                                .modes = "1-4",
-                                .label = "one, modes 1-4",
-                                .but_modes = "one",
-                                .noise_frequency = NAN,
-                                .noise_shape = NAN},
-                               {.deck = "a",
-                                .variant = "one",
-                                .modes = "1-2",
-                                .label = "one, modes 1-2",
-                                .but_modes = "one",
-                                .noise_frequency = NAN,
-                                .noise_shape = NAN},
-                               {.deck = "a",
-                                .variant = "two",
-                                .modes = "1-2",
-                                .label = "two, modes 1-2",
-                                .but_modes = "two",
-                                .noise_frequency = NAN,
-                                .noise_shape = NAN}};
+    struct told_cell cell[] = {{.label = "one, modes 1-4", .but_modes = "one"},
+                               {.label = "one, modes 1-2", .but_modes = "one"},
+                               {.label = "two, modes 1-2", .but_modes = "two"}};
+    for (int i = 0; i < 3; i++)
+        cell[i].is.cell = (struct study_axes){.deck = "a",
+                                              .variant = i < 2 ? "one" : "two",
+                                              .modes = i < 1 ? "1-4" : "1-2",
+                                              .noise_frequency = NAN,
+                                              .noise_shape = NAN};
     struct told_run run[] = {{.cell = 0, .fitted = 4, .objective = 32},
                              {.cell = 0, .fitted = 4, .objective = 16},
                              {.cell = 1, .fitted = 2, .objective = 4},
                              {.cell = 2, .fitted = 2, .objective = 8},
-                             {.cell = 2, .fitted = 2, .objective = 800, .status = TOLD_NOT_CONVERGED},
-                             {.cell = 2, .status = TOLD_FAILED, .objective = NAN}};
-    struct study_outcome study = {.ncell = 3, .nrun = 6, .cell = cell, .run = run};
+                             {.cell = 2, .fitted = 2, .objective = 800, .status = STUDY_NOT_CONVERGED},
+                             {.cell = 2, .status = STUDY_FAILED, .objective = NAN}};
+    struct study_outcome study = {.is = {.ncells = 3}, .nrun = 6, .cell = cell, .run = run};
     struct by_modes by;
     assert_status(by_modes_make(&test_pool, &study, &by), ROTID_OK);
     assert_int_equal(by.nseries, 2);
@@ -364,13 +352,13 @@ static void a_parameter_that_stands_again_is_refused(void **state)
                                      "parameter once"));
     assert_false(page_exists("again"));
     static struct cell_parameter parameter[2][AGAIN];
-    struct told_cell cell[2] = {{.label = "one", .nparameter = AGAIN, .parameter = parameter[0]},
-                                {.label = "two", .nparameter = AGAIN, .parameter = parameter[1]}};
+    struct told_cell cell[2] = {{.label = "one", .is = {.nparameters = AGAIN, .parameters = parameter[0]}},
+                                {.label = "two", .is = {.nparameters = AGAIN, .parameters = parameter[1]}}};
     for (int i = 0; i < 2 * AGAIN; i++)
         parameter[i / AGAIN][i % AGAIN] =
-            (struct cell_parameter){.name = i % 3 ? "a" : "b", .unit = "1", .coverage = i < AGAIN ? 0.9 : 0.875, .intervals = 40};
-    struct study_outcome study = {.ncell = 2, .cell = cell};
-    struct result result = {.file = "again.json", .study = &study};
+            (struct cell_parameter){.name = i % 3 ? "a" : "b", .unit = "1", .coverage95 = i < AGAIN ? 0.9 : 0.875, .intervals = 40};
+    struct study_outcome study = {.is = {.ncells = 2}, .cell = cell};
+    struct result result = {.file = "again.json", .studied = &study};
     struct document document;
     document_open(&document, &test_pool);
     document_section(&document, "study", "Study");
@@ -395,7 +383,7 @@ static void memory_that_runs_out_is_survived(void **state)
         failing_allocator_open(&failing, n);
         pool_open(&pool, &failing.allocator);
         message_open(&messages, &pool);
-        int status = result_read(&pool, page_path("starts.jsonl"), &messages, &result);
+        int status = page_result_read(&pool, page_path("starts.jsonl"), &messages, &result);
         if (!status) {
             document_open(&document, &pool);
             page_compose(&document, 1, &result);

@@ -154,7 +154,7 @@ static int is_read(const char *name)
     struct document document;
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = result_read(&pool, page_path(name), &messages, &result);
+    int status = page_result_read(&pool, page_path(name), &messages, &result);
     if (!status) {
         document_open(&document, &pool);
         page_compose(&document, 1, &result);

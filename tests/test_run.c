@@ -181,23 +181,24 @@ static void sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivativ
     struct pool pool;
     struct job job;
     struct sensitivity coarse, fine;
+    static const rotid_parameter named[3] = {{.name = "core.E"}, {.name = "core.G"}, {.name = "core.nu"}};
     struct sensitivity_options options = {.step = 1e-2, .range = 0.5, .points = 3, .modes = 6};
     const double x[3] = {8e10, 3e10, 1.0 / 3};
     const struct parameter parameter[3] = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}, {PARAMETER_NU, 1, 0}};
     pool_open(&pool, NULL);
     make_job(&pool, 6, &job);
     job.fit.reduction = ROTID_GUYAN;
-    assert_int_equal(sensitivity_run(&pool, &job, 3, parameter, x, &options, &coarse), ROTID_OK);
+    assert_int_equal(sensitivity_run(&pool, &job, 3, parameter, named, x, &options, &coarse), ROTID_OK);
     options.step = 1e-5;
-    assert_int_equal(sensitivity_run(&pool, &job, 3, parameter, x, &options, &fine), ROTID_OK);
+    assert_int_equal(sensitivity_run(&pool, &job, 3, parameter, named, x, &options, &fine), ROTID_OK);
     for (int k = 0; k < 6; k++) {
         for (int p = 0; p < 3; p++)
-            assert_close(fine.difference[k + 6 * p], fine.derivative[k + 6 * p], 1e-4, 1e-9);
+            assert_close(fine.parameters[p].sensitivity[k], fine.parameters[p].derivative[k], 1e-4, 1e-9);
         /* all stiffness times (1 + e) raises every eigenvalue by e, so a part of it by less */
-        double sum = -(coarse.derivative[k] + coarse.derivative[k + 6]);
+        double sum = -(coarse.parameters[0].derivative[k] + coarse.parameters[1].derivative[k]);
         assert_true(sum > 0 && sum < 1);
         /* E_k vanishes at the reference and grows to both sides: Figure 5 */
-        const double *curve = coarse.curve + k;
+        const double *curve = coarse.parameters[0].curves + k;
         assert_true(curve[6] < 1e-15 && curve[0] > curve[6] && curve[12] > curve[6]);
     }
     pool_close(&pool);

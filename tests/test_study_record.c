@@ -35,17 +35,21 @@ static int setup(void **state)
     return 0;
 }
 
+#define CELL                                                                                                                     \
+    "{\"deck\":\"d\",\"variant\":null,\"modes\":null,\"sensors\":null,\"noise_frequency\":null,\"noise_shape\":null,\"hide\":null}"
+
 /* As study_run writes them: the time last. */
 static const char *line_of(long run, const char *status, double value)
 {
-    static char text[8][500];
+    static char text[8][900];
     static int next;
     next = (next + 1) % 8;
     (void)snprintf(text[next], sizeof text[next],
-                   "{\"run\":%ld,\"cell\":{\"deck\":\"d\"},\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
-                   "\"objective\":%g,\"chi2_per_dof\":null,\"evaluations\":1,\"parameters\":[{\"name\":\"a\",\"unit\":\"1\","
-                   "\"value\":%g,\"std\":2,\"ci95\":[0,4],\"truth\":3}],"
-                   "\"modes\":[],\"seconds\":%g}\n",
+                   "{\"run\":%ld,\"cell\":" CELL ",\"replicate\":%ld,\"start\":0,\"status\":\"%s\",\"error\":null,"
+                   "\"functional\":\"HYBRID\",\"reduction\":\"GUYAN\",\"objective\":%g,\"chi2_per_dof\":null,\"dof\":1,"
+                   "\"iterations\":1,\"evaluations\":1,\"stop_reason\":\"\",\"sensors\":0,\"parameters\":[{\"name\":\"a\","
+                   "\"unit\":\"1\",\"value\":%g,\"start\":1,\"std\":2,\"ci95\":[0,4],\"at_bound\":false,"
+                   "\"identifiable\":true,\"truth\":3}],\"modes\":[],\"hidden\":null,\"warnings\":[],\"seconds\":%g}\n",
                    run, run, status, value, value, 0.001 * (double)run);
     return text[next];
 }
@@ -393,7 +397,7 @@ static void parts_that_contradict_each_other_are_refused(void **state)
     assert_non_null(strstr(messages.item[0].text, "run 0 has another result in"));
     assert_int_equal(access(all, F_OK), -1);
     /* another time is no contradiction, and what failed in one part is taken from the other */
-    char later[500];
+    char later[900];
     (void)snprintf(later, sizeof later, "%s", line_of(0, "converged", 1));
     strcpy(strstr(later, "\"seconds\":"), "\"seconds\":77}\n");
     (void)snprintf(text, sizeof text, "%s%s%s", first, stamped(later), stamped(line_of(1, "converged", 2)));
@@ -426,7 +430,8 @@ static void assert_all_refuse(const char *text, int line, const char *words)
 {
     struct message_list messages;
     struct study_record record;
-    struct summary summary;
+    struct study_result summary;
+    struct header found;
     struct merge merge;
     char *part = pool_copy_text(&test_pool, bench_path("r.jsonl"));
     const char *all = bench_path("all.jsonl");
@@ -434,7 +439,7 @@ static void assert_all_refuse(const char *text, int line, const char *words)
     for (int reader = 0; reader < 3; reader++) {
         message_open(&messages, &test_pool);
         int status = reader == 0   ? record_open(&test_pool, part, &header, 0, &messages, &record)
-                     : reader == 1 ? summary_read(&test_pool, part, &messages, &summary)
+                     : reader == 1 ? summary_read(&test_pool, part, &messages, &found, &summary)
                                    : merge_results(&test_pool, 1, &part, all, &messages, &merge);
         if (status >= 0 || messages.errors != 1 || messages.item[0].line != line || !strstr(messages.item[0].text, words) ||
             !strstr(messages.item[0].text, "expected"))
@@ -486,17 +491,17 @@ static void a_line_that_is_wrong_is_never_kept(void **state)
     assert_all_refuse(pool_format(&test_pool, "%s%s", first, foreign), 2, "of another study than the first line");
     /* with the right digest */
     static const char *const forged[][3] = {
-        {"\"objective\":1,", "\"objective\":1e999,", "beyond what a number can be"},
-        {"\"value\":1,", "\"value\":-1e999,", "beyond what a number can be"},
+        {"\"objective\":1,", "\"objective\":1e999,", "objective: is beyond the range of numbers"},
+        {"\"value\":1,", "\"value\":-1e999,", "parameters[0].value: is beyond the range of numbers"},
         {"\"objective\":1,", "\"objective\":NaN,", "no JSON"},
-        {"\"objective\":1,", "\"objective\":\"1\",", "a number or null as objective"},
-        {"\"std\":2", "\"std\":[2]", "a number or null as std of a parameter"},
-        {"\"ci95\":[0,4]", "\"ci95\":4", "a list as ci95"},
-        {"\"status\":\"converged\"", "\"status\":\"fine\"", "converged, at_bound, not_converged or failed"},
-        {"\"replicate\":1", "\"replicate\":null", "a number as replicate"},
-        {"\"run\":1,", "\"run\":1.5,", "of a run that the study"},
-        {"\"run\":1,", "\"run\":\"1\",", "a number as run"},
-        {"\"cell\":{\"deck\":\"d\"}", "\"cell\":null", "an object as cell"},
+        {"\"objective\":1,", "\"objective\":\"1\",", "objective: is a text, expected a number"},
+        {"\"std\":2", "\"std\":[2]", "parameters[0].std: is a list, expected a number"},
+        {"\"ci95\":[0,4]", "\"ci95\":4", "parameters[0].ci95: is a number, expected a list"},
+        {"\"status\":\"converged\"", "\"status\":\"fine\"", "status: is 'fine', expected converged, at_bound, not_converged or failed"},
+        {"\"replicate\":1", "\"replicate\":null", "replicate: is null, expected a number"},
+        {"\"run\":1,", "\"run\":1.5,", "run: is 1.5, expected a whole number"},
+        {"\"run\":1,", "\"run\":\"1\",", "run: is a text, expected a number"},
+        {"\"cell\":" CELL, "\"cell\":null", "cell: is null, expected an object"},
     };
     for (size_t i = 0; i < sizeof forged / sizeof *forged; i++)
         assert_all_refuse(pool_format(&test_pool, "%s%s", first, stamped(changed(line, forged[i][0], forged[i][1]))), 2,
@@ -515,7 +520,8 @@ static void summaries_add_up(void **state)
 {
     (void)state;
     struct message_list messages;
-    struct summary s;
+    struct study_result s;
+    struct header found;
     struct study_record record = opened(0);
     static const double value[] = {2, 3, 5, 6}; /* truth 3, interval 0 to 4, std 2 */
     for (long run = 3; run >= 0; run--)
@@ -524,19 +530,19 @@ static void summaries_add_up(void **state)
     assert_status(record_append(&record, 5, line_of(5, "not_converged", 1e9), 0), ROTID_OK);
     record_close(&record);
     message_open(&messages, &test_pool);
-    assert_status(summary_read(&test_pool, bench_path("r.jsonl"), &messages, &s), ROTID_OK);
-    assert_true(s.ncell == 1 && s.there == RUNS && s.wanted == RUNS && s.failed == 1 && s.nerror == 1);
-    const struct summary_cell *cell = &s.cell[0];
+    assert_status(summary_read(&test_pool, bench_path("r.jsonl"), &messages, &found, &s), ROTID_OK);
+    assert_true(s.ncells == 1 && s.done == RUNS && s.runs == RUNS && s.missing == 0 && s.failed == 1 && s.nerrors == 1);
+    const struct study_cell_result *cell = &s.cells[0];
     assert_true(cell->converged == 3 && cell->at_bound == 1 && cell->not_converged == 1 && cell->failed == 1);
-    const struct summary_parameter *p = &cell->parameter[0];
-    assert_true(cell->nparameter == 1 && p->count == 4 && p->smallest == 2 && p->largest == 6);
+    const struct cell_parameter *p = &cell->parameters[0];
+    assert_true(cell->nparameters == 1 && p->count == 4 && p->min == 2 && p->max == 6);
     assert_close(p->mean, 4, 1e-14, 0);
-    assert_close(summary_std(p), sqrt(10.0 / 3), 1e-14, 0);
-    assert_close(summary_mean_std(p), 2, 1e-14, 0);
-    assert_close(summary_bias(p), 1, 1e-14, 0);
-    assert_close(summary_rms_error(p), sqrt((1 + 0 + 4 + 9) / 4.0), 1e-14, 0);
-    assert_close(summary_std_error(p), sqrt(10.0 / 3), 1e-13, 0);
-    assert_close(summary_coverage(p), 1, 1e-14, 0); /* the interval of every line holds 3 */
+    assert_close(p->std, sqrt(10.0 / 3), 1e-14, 0);
+    assert_close(p->mean_stated_std, 2, 1e-14, 0);
+    assert_close(p->bias, 1, 1e-14, 0);
+    assert_close(p->rms_error, sqrt((1 + 0 + 4 + 9) / 4.0), 1e-14, 0);
+    assert_close(p->std_error, sqrt(10.0 / 3), 1e-13, 0);
+    assert_close(p->coverage95, 1, 1e-14, 0); /* the interval of every line holds 3 */
     assert_close(s.seconds, 0.015, 1e-9, 0);
 }
 

@@ -226,8 +226,8 @@ rotid_diagnosis *result_diagnosis(struct result_memory *memory, const struct job
     fill_gain(memory, d, &out->gain);
     fill_misfit(memory, d, out);
     fill_detectable(memory, d, out);
-    out->noise = (rotid_noise){.frequency = d->frequency_noise,
-                               .shape = d->shape_noise,
+    out->noise = (rotid_noise){.frequency = if_known(d->frequency_noise > 0, d->frequency_noise),
+                               .shape = if_known(d->shape_noise > 0, d->shape_noise),
                                .frequency_assumed = d->frequency_noise_assumed,
                                .shape_assumed = d->shape_noise_assumed};
     out->geometry = result_geometry(memory, d->job.deck ? &d->job.rotor : &deck->rotor, d->base.spectrum.model);

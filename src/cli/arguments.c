@@ -1,176 +1,211 @@
 #include "cli/arguments.h"
 
+#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-#include "cli/arguments_ema.h"
-#include "cli/arguments_study.h"
-#include "export/files.h"
+#include "base/text.h"
+#include "cli/options.h"
 #include "fit/baseline.h"
 
-static void print_help(FILE *out)
-{
-    (void)fputs("usage: rotid COMMAND FILE [options]\n\n", out);
-    for (const struct command_entry *c = command_table; c->name; c++)
-        (void)fprintf(out, "  %-12s %s\n", c->name, c->text);
-    (void)fputs(
-        "\n"
-        "  --json FILE              the result as JSON; - for standard output, which then carries nothing else\n"
-        "  --set CARD.OPTION=VALUE  another option on every such card of the deck, e.g. FIT.REDUCTION=NONE\n"
-        "  --quiet, --verbose       no tables; with shapes (modes), iterations (identify), notes of the readers\n"
-        "  --no-baseline            identify: without NLopt\n"
-        "  --at NAME[=VALUE],...    sensitivity: other parameters and reference values than those of *IDENTIFY\n"
-        "  --step 0.01, --range 0.5, --points 11   sensitivity: relative step, range and points of the curves\n"
-        "  --extended FILE          diagnose: a deck with the cause that was named\n"
-        "  --replicates N           diagnose: of the bootstrap that tells a cause from chance (1000)\n"
-        "  -o, --output FILE        ema: the modes, for *MEASURED; uff: the file anew, its functions in the other format\n"
-        "                           frf: the synthesised functions; export: the model, of matrix-market the beginning of the "
-        "names\n"
-        "                           report: the folder of the page\n"
-        "  --format ascii|binary    uff: or in this one\n"
-        "  --format matrix-market|dmig|ross   export: for SciPy and others, for Nastran, for ROSS\n"
-        "  --start, --condensed     export: the model as the deck states it; dmig: the model condensed onto the sensors\n"
-        "  --threads N, --seed N    threads of the BLAS (1), of diagnose and ema, processes of study (one a processor); seed of "
-        "random numbers (1)\n"
-        "  --version, --help\n\n",
-        out);
-    (void)fputs(ema_options_help, out);
-    (void)fputs(study_options_help, out);
-    (void)fputs(
-        "\n"
-        "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"
-        "      2 wrong usage or input; 3 failure\n",
-        out);
-}
+#define FIRST_OPTION 256 /* values of getopt: the row of an option, behind those of letters */
 
 int arguments_wrong(const char *format, const char *value)
 {
     terminal_say("rotid: ");
     terminal_say(format, value);
-    terminal_say(" (rotid --help lists what there is)\n");
+    terminal_say(" (rotid COMMAND --help lists its options)\n");
     return EXIT_USAGE;
 }
 
-enum {
-    OPTION_JSON = 256,
-    OPTION_SET,
-    OPTION_QUIET,
-    OPTION_VERBOSE,
-    OPTION_NO_BASELINE,
-    OPTION_AT,
-    OPTION_STEP,
-    OPTION_RANGE,
-    OPTION_POINTS,
-    OPTION_THREADS,
-    OPTION_SEED,
-    OPTION_EXTENDED,
-    OPTION_REPLICATES,
-    OPTION_OUTPUT,
-    OPTION_FORMAT,
-    OPTION_START,
-    OPTION_CONDENSED,
-    OPTION_VERSION,
-    OPTION_HELP
-};
-
-int arguments_number(const char *option, const char *text, double least, double most, int whole, double *value)
+const char *arguments_given(const struct command *command, const char *name)
 {
-    char *end;
-    *value = strtod(text, &end);
-    if (end != text && !*end && *value >= least && *value <= most && (!whole || *value == floor(*value)))
-        return 0;
-    terminal_say("rotid: %s %s: expected a %snumber from %g to %g\n", option, text, whole ? "whole " : "", least, most);
-    return 1;
+    for (int i = 0; i < command->ngiven; i++)
+        if (!strcmp(command->given[i].name, name))
+            return command->given[i].value;
+    return NULL;
 }
 
-/* Returns -1 to go on, or an exit code. */
-static int take_option(struct command *command, int option, const char *value)
+const struct command_entry *command_find(const char *name)
 {
-    double n;
-    switch (option) {
-    case OPTION_JSON:
-        command->json = value;
-        return -1;
-    case OPTION_SET:
-        if (override_parse(&command->pool, value, &command->override[command->noverride]))
-            return arguments_wrong("--set %s: expected CARD.OPTION=VALUE", value);
-        command->noverride++;
-        return -1;
-    case OPTION_QUIET:
-        command->quiet = 1;
-        return -1;
-    case OPTION_VERBOSE:
-        command->verbose = 1;
-        return -1;
-    case OPTION_NO_BASELINE:
-        command->baseline = 0;
-        return -1;
-    case OPTION_AT:
-        command->at = value;
-        return -1;
-    case OPTION_STEP:
-        return arguments_number("--step", value, 1e-9, 0.5, 0, &command->step) ? EXIT_USAGE : -1;
-    case OPTION_RANGE:
-        return arguments_number("--range", value, 1e-6, 0.95, 0, &command->range) ? EXIT_USAGE : -1;
-    case OPTION_POINTS:
-        if (arguments_number("--points", value, 1, 1000, 1, &n))
-            return EXIT_USAGE;
-        command->points = (int)n;
-        return -1;
-    case OPTION_THREADS:
-        if (arguments_number("--threads", value, 1, THREADS_MOST, 1, &n))
-            return EXIT_USAGE;
-        command->threads = (int)n;
-        return -1;
+    for (const struct command_entry *c = command_table; c->name; c++)
+        if (!strcmp(c->name, name))
+            return c;
+    return NULL;
+}
+
+/* ---- values: nonzero after saying what was expected */
+
+static int take_number(const struct option_row *row, const char *text, double *value)
+{
+    char *end;
+    int whole = row->kind != OPTION_REAL;
+    *value = strtod(text, &end);
+    if (end != text && !*end && *value >= row->least && *value <= row->most && (!whole || *value == floor(*value)))
+        return 0;
+    terminal_say("rotid: --%s %s: expected a %snumber from %g to %g\n", row->name, text, whole ? "whole " : "", row->least,
+                 row->most);
+    return EXIT_USAGE;
+}
+
+static int take_word(const struct option_row *row, const char *text, int *index)
+{
+    for (*index = 0; row->words[*index]; ++*index)
+        if (same_text(text, row->words[*index]))
+            return 0;
+    terminal_say("rotid: --%s %s: expected ", row->name, text);
+    for (int i = 0; row->words[i]; i++)
+        terminal_say("%s%s", !i ? "" : row->words[i + 1] ? ", " : " or ", row->words[i]);
+    terminal_say("\n");
+    return EXIT_USAGE;
+}
+
+/* Frequencies separated by commas: how many, or 0 after an error. */
+static int frequencies(const struct option_row *row, const char *text, int most, double *hz)
+{
+    int count = 0;
+    for (const char *at = text; count < most; at++) {
+        char *end;
+        hz[count] = strtod(at, &end);
+        if (end == at || !(hz[count] >= row->least && hz[count] <= row->most) || (*end && *end != ','))
+            break;
+        count++;
+        if (!*end)
+            return count;
+        at = end;
+    }
+    terminal_say("rotid: --%s %s: expected frequencies from %g to %g Hz, separated by commas\n", row->name, text, row->least,
+                 row->most);
+    return 0;
+}
+
+static int take_band(const struct option_row *row, const char *text, struct ema_options *ema)
+{
+    double hz[2];
+    int count = frequencies(row, text, 2, hz);
+    if (!count)
+        return EXIT_USAGE;
+    if (count != 2 || !(hz[1] > hz[0]))
+        return arguments_wrong("--band %s: expected two frequencies, the lower one first", text);
+    ema->low_hz = hz[0];
+    ema->high_hz = hz[1];
+    return 0;
+}
+
+static int take_picks(struct command *command, const struct option_row *row, const char *text, struct ema_options *ema)
+{
+    int most = (int)strlen(text) / 2 + 1;
+    double *hz = POOL_ARRAY(&command->pool, double, most);
+    if (!hz)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    ema->npick = frequencies(row, text, most, hz);
+    ema->pick_hz = hz;
+    return ema->npick ? 0 : EXIT_USAGE;
+}
+
+static int take_shard(const char *text, struct study_arguments *study)
+{
+    int end = 0;
+    if (sscanf(text, "%9d/%9d%n", &study->shard, &study->shards, &end) != 2 || text[end] || study->shard < 1 ||
+        study->shard > study->shards)
+        return arguments_wrong("--shard %s: expected I/N with I from 1 to N", text);
+    return 0;
+}
+
+static int take_override(struct command *command, const char *text)
+{
+    if (override_parse(&command->pool, text, &command->override[command->noverride]))
+        return arguments_wrong("--set %s: expected CARD.OPTION=VALUE", text);
+    command->noverride++;
+    return 0;
+}
+
+static int take_value(struct command *command, const struct option_row *row, const char *text)
+{
+    void *member = (char *)command + row->offset;
+    double number = 0;
+    int index = 0, wrong = 0;
+    if (row->kind == OPTION_WHOLE || row->kind == OPTION_SEED || row->kind == OPTION_REAL)
+        wrong = take_number(row, text, &number);
+    else if (row->words)
+        wrong = take_word(row, text, &index);
+    if (wrong)
+        return wrong;
+    switch (row->kind) {
+    case OPTION_SWITCH:
+        *(int *)member = 1;
+        return 0;
+    case OPTION_TEXT:
+    case OPTION_WRITES:
+        *(const char **)member = row->words ? row->words[index] : text;
+        return 0;
+    case OPTION_WORD:
+        *(int *)member = index;
+        return 0;
+    case OPTION_WHOLE:
+        *(int *)member = (int)number;
+        return 0;
     case OPTION_SEED:
-        if (arguments_number("--seed", value, 0, 4294967295.0, 1, &n))
-            return EXIT_USAGE;
-        command->seed = (unsigned long)n;
-        command->seed_given = 1;
-        return -1;
-    case OPTION_EXTENDED:
-        command->extended = value;
-        return -1;
-    case OPTION_REPLICATES:
-        if (arguments_number("--replicates", value, 100, 1000000, 1, &n))
-            return EXIT_USAGE;
-        command->replicates = (int)n;
-        return -1;
-    case 'o':
-    case OPTION_OUTPUT:
-        command->output = value;
-        return -1;
-    case OPTION_FORMAT:
-        command->format = value;
-        return -1;
-    case OPTION_START:
-        command->start = 1;
-        return -1;
-    case OPTION_CONDENSED:
-        command->condensed = 1;
-        return -1;
-    case OPTION_VERSION:
-        (void)fprintf(terminal_out(), "rotid %s (%s), %s%s\n", ROTID_VERSION, build_commit, build_blas(),
-                      baseline_exists() ? "" : ", without NLopt: identify has no baseline");
-        return EXIT_DONE;
-    case OPTION_HELP:
-        print_help(terminal_out());
-        return EXIT_DONE;
+        *(unsigned long *)member = (unsigned long)number;
+        return 0;
+    case OPTION_REAL:
+        *(double *)member = number;
+        return 0;
+    case OPTION_BAND:
+        return take_band(row, text, member);
+    case OPTION_PICK:
+        return take_picks(command, row, text, member);
+    case OPTION_SHARD:
+        return take_shard(text, member);
+    case OPTION_OVERRIDE:
+        return take_override(command, text);
     default:
-        return option >= STUDY_OPTION_SHARD ? arguments_study(command, option, value) : arguments_ema(command, option, value);
+        return 0;
     }
 }
 
-/* Says what getopt would have; word: where it stopped. */
-static int refuse_option(int why, const struct option *options, const char *word)
+/* What stands in a member without the option. */
+static void set_standards(struct command *command)
 {
-    const char *name = NULL;
-    for (; options->name; options++)
-        if (optopt && options->val == optopt)
-            name = options->name;
+    for (const struct option_row *row = option_table; row->name; row++) {
+        void *member = (char *)command + row->offset;
+        if (row->kind == OPTION_WHOLE)
+            *(int *)member = (int)row->standard;
+        else if (row->kind == OPTION_SEED)
+            *(unsigned long *)member = (unsigned long)row->standard;
+        else if (row->kind == OPTION_REAL)
+            *(double *)member = row->standard;
+    }
+}
+
+/* ---- words of the command line */
+
+/* One of each name, what stands in the table for getopt. Of several rows the first: they have one kind. */
+static struct option *long_options(struct command *command)
+{
+    int count = 0, i = 0;
+    while (option_table[count].name)
+        count++;
+    struct option *options = POOL_ARRAY(&command->pool, struct option, 2 * count + 1);
+    for (int r = 0; r < count && options; r++) {
+        const struct option_row *row = &option_table[r];
+        int argument = row->kind <= OPTION_SWITCH ? no_argument : required_argument, first = 0;
+        while (strcmp(option_table[first].name, row->name) != 0)
+            first++;
+        if (first == r)
+            options[i++] = (struct option){row->name, argument, NULL, FIRST_OPTION + r};
+        if (row->alias)
+            options[i++] = (struct option){row->alias, argument, NULL, FIRST_OPTION + r};
+    }
+    return options;
+}
+
+/* Says what getopt would have; word: where it stopped. */
+static int refuse_word(int why, const char *word)
+{
+    const char *name = optopt >= FIRST_OPTION ? option_table[optopt - FIRST_OPTION].name : NULL;
     if (why == ':' && !name)
         return arguments_wrong("-%s: expected a value behind it", (char[]){(char)optopt, 0});
     if (why == ':')
@@ -182,153 +217,86 @@ static int refuse_option(int why, const struct option *options, const char *word
     return arguments_wrong("%s is no option, or the beginning of several", word);
 }
 
-int arguments_parse(struct command *command, int argc, char **argv)
+/* Names and values, in their order, before it is known of which command. Returns -1 to go on, or an exit code. */
+static int collect(struct command *command, int argc, char **argv)
 {
-    static const struct option options[] = {{"json", required_argument, NULL, OPTION_JSON},
-                                            {"set", required_argument, NULL, OPTION_SET},
-                                            {"quiet", no_argument, NULL, OPTION_QUIET},
-                                            {"verbose", no_argument, NULL, OPTION_VERBOSE},
-                                            {"no-baseline", no_argument, NULL, OPTION_NO_BASELINE},
-                                            {"at", required_argument, NULL, OPTION_AT},
-                                            {"step", required_argument, NULL, OPTION_STEP},
-                                            {"range", required_argument, NULL, OPTION_RANGE},
-                                            {"points", required_argument, NULL, OPTION_POINTS},
-                                            {"threads", required_argument, NULL, OPTION_THREADS},
-                                            {"seed", required_argument, NULL, OPTION_SEED},
-                                            {"extended", required_argument, NULL, OPTION_EXTENDED},
-                                            {"replicates", required_argument, NULL, OPTION_REPLICATES},
-                                            {"output", required_argument, NULL, OPTION_OUTPUT},
-                                            {"format", required_argument, NULL, OPTION_FORMAT},
-                                            {"start", no_argument, NULL, OPTION_START},
-                                            {"condensed", no_argument, NULL, OPTION_CONDENSED},
-                                            EMA_LONG_OPTIONS,
-                                            STUDY_LONG_OPTIONS,
-                                            {"version", no_argument, NULL, OPTION_VERSION},
-                                            {"help", no_argument, NULL, OPTION_HELP},
-                                            {NULL, 0, NULL, 0}};
+    struct option *options = long_options(command);
     int option;
+    command->given = POOL_ARRAY(&command->pool, struct given_option, argc);
     command->override = POOL_ARRAY(&command->pool, struct override, argc);
-    if (!command->override)
+    if (!options || !command->given || !command->override)
         return command_fail(command, ROTID_ERROR_MEMORY);
     (void)unsetenv("POSIXLY_CORRECT"); /* with it getopt takes the options behind COMMAND FILE for files */
     opterr = 0;                        /* getopt prints what it was given as it is */
     while ((option = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
-        int code = option == '?' || option == ':' ? refuse_option(option, options, argv[optind - 1])
-                                                  : take_option(command, option, optarg);
-        if (code >= 0)
-            return code;
+        if (option == '?' || option == ':')
+            return refuse_word(option, argv[optind - 1]);
+        const char *name = option == 'o' ? "output" : option_table[option - FIRST_OPTION].name;
+        command->given[command->ngiven++] = (struct given_option){name, optarg ? optarg : ""};
     }
-    if (optind >= argc) {
-        print_help(terminal_out());
+    return -1;
+}
+
+/* An option that another command has. */
+static int refuse_option(const struct command *command, const char *name)
+{
+    const struct option_row *of = NULL;
+    int rows = 0;
+    for (const struct option_row *row = option_table; row->name; row++)
+        if (!strcmp(row->name, name)) {
+            of = row;
+            rows++;
+        }
+    if (rows > 1 || strchr(of->commands, ' '))
+        terminal_say("rotid: --%s is no option of %s\n", name, command->name);
+    else
+        terminal_say("rotid: --%s is an option of %s alone\n", name, of->commands);
+    return EXIT_USAGE;
+}
+
+static int refuse_command(const char *name)
+{
+    terminal_say("rotid: %s is no command, expected", name);
+    for (const struct command_entry *c = command_table; c->name; c++)
+        terminal_say("%s %s", c == command_table ? "" : c[1].name ? "," : " or", c->name);
+    terminal_say(" (rotid --help tells what they do)\n");
+    return EXIT_USAGE;
+}
+
+int arguments_parse(struct command *command, int argc, char **argv)
+{
+    set_standards(command);
+    int code = collect(command, argc, argv);
+    if (code >= 0)
+        return code;
+    command->name = optind < argc ? argv[optind++] : NULL;
+    const struct command_entry *entry = command->name ? command_find(command->name) : NULL;
+    if (arguments_given(command, "help")) {
+        help_print(terminal_out(), entry);
+        return EXIT_DONE;
+    }
+    if (arguments_given(command, "version")) {
+        (void)fprintf(terminal_out(), "rotid %s (%s), %s%s\n", ROTID_VERSION, build_commit, build_blas(),
+                      baseline_exists() ? "" : ", without NLopt: identify has no baseline");
+        return EXIT_DONE;
+    }
+    if (!command->name) {
+        help_print(terminal_out(), NULL);
         terminal_to_error();
         return EXIT_USAGE;
     }
-    command->name = argv[optind++];
+    if (!entry)
+        return refuse_command(command->name);
     if (optind >= argc)
         return arguments_wrong("%s: no file given, expected rotid COMMAND FILE", command->name);
     command->file = &argv[optind];
     command->nfile = argc - optind;
     command->deck = command->file[0];
-    return -1;
-}
-
-int arguments_same_file(const char *a, const char *b)
-{
-    struct stat first, second;
-    int exists = stat(a, &first) == 0;
-    if (exists != (stat(b, &second) == 0))
-        return 0;
-    if (exists)
-        return S_ISREG(first.st_mode) && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
-    const char *name_a = strrchr(a, '/'), *name_b = strrchr(b, '/');
-    char folder[2][4096];
-    (void)snprintf(folder[0], sizeof folder[0], "%.*s", name_a ? (int)(name_a - a) + 1 : 1, name_a ? a : ".");
-    (void)snprintf(folder[1], sizeof folder[1], "%.*s", name_b ? (int)(name_b - b) + 1 : 1, name_b ? b : ".");
-    return !strcmp(name_a ? name_a + 1 : a, name_b ? name_b + 1 : b) && stat(folder[0], &first) == 0 &&
-           stat(folder[1], &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
-}
-
-int arguments_refuse_read(const struct command *command, int count, const char *const *file)
-{
-    const char *const option[] = {"json", "extended", "output"}, *const path[] = {command->json, command->extended,
-                                                                                  command->output};
-    for (int i = 0; i < count; i++)
-        for (int o = 0; o < 3; o++)
-            if (path[o] && strcmp(path[o], "-") && arguments_same_file(path[o], file[i])) {
-                terminal_say("rotid: --%s %s is a file that is read, expected another one\n", option[o], path[o]);
-                return EXIT_USAGE;
-            }
-    return -1;
-}
-
-/* -1, or the exit code after saying what is wrong with the options of export. */
-static int refuse_export(const struct command *command)
-{
-    enum export_format format;
-    int exports = !strcmp(command->name, "export");
-    if (!exports && (command->start || command->condensed))
-        return arguments_wrong("%s is an option of export alone", command->start ? "--start" : "--condensed");
-    if (!exports)
-        return -1;
-    if (!command->format)
-        return arguments_wrong("%s: expected --format matrix-market, dmig or ross", command->name);
-    if (export_format_find(command->format, &format))
-        return arguments_wrong("--format %s: expected matrix-market, dmig or ross", command->format);
-    if (!command->output)
-        return arguments_wrong("%s: expected --output FILE as well", command->name);
-    if (command->condensed && format != EXPORT_DMIG)
-        return arguments_wrong("--condensed is an option of --format dmig, not of %s", command->format);
-    return -1;
-}
-
-/* -1, or the exit code after saying what is wrong with -o and --format. */
-static int refuse_output(const struct command *command, const struct command_entry *entry)
-{
-    int converts = !strcmp(command->name, "uff"), exports = !strcmp(command->name, "export");
-    if (command->output && !(entry->flags & TAKES_OUTPUT))
-        return arguments_wrong("--output is no option of %s", command->name);
-    if (command->format && !converts && !exports)
-        return arguments_wrong("--format is no option of %s", command->name);
-    if (command->format && converts && strcmp(command->format, "ascii") && strcmp(command->format, "binary"))
-        return arguments_wrong("--format %s: expected ascii or binary", command->format);
-    if (!command->output)
-        return command->format ? arguments_wrong("--format %s: expected --output as well", command->format) : -1;
-    if (!strcmp(command->output, "-"))
-        return arguments_wrong("--output %s: expected a file", command->output);
-    for (int i = 0; i < command->nfile; i++)
-        if (arguments_same_file(command->file[i], command->output))
-            return arguments_wrong("--output %s is the file that is read, expected another one", command->output);
-    if (command->json && arguments_same_file(command->json, command->output))
-        return arguments_wrong("--output %s is the file of --json as well, expected another file", command->output);
-    return -1;
-}
-
-int arguments_refuse(const struct command *command, const struct command_entry *entry)
-{
-    int diagnoses = !strcmp(command->name, "diagnose"), refused = refuse_export(command);
-    if (refused >= 0)
-        return refused;
-    if (command->json && !strcmp(command->name, "report"))
-        return arguments_wrong("--json is no option of %s", command->name);
-    if (!diagnoses && (command->extended || command->replicates))
-        return arguments_wrong("%s is an option of diagnose alone", command->extended ? "--extended" : "--replicates");
-    if (command->ema.given && strcmp(command->name, "ema"))
-        return arguments_wrong("--%s is an option of ema alone", command->ema.given);
-    if (command->nfile > 1 && !(entry->flags & SEVERAL_FILES))
-        return arguments_wrong("%s is one argument too many, expected one file", command->file[1]);
-    refused = arguments_refuse_study(command);
-    if (refused >= 0)
-        return refused;
-    for (int i = 0; i < command->nfile && command->json && strcmp(command->json, "-"); i++)
-        if (arguments_same_file(command->file[i], command->json))
-            return arguments_wrong("--json %s is the file that is read, expected another one", command->json);
-    if (!command->extended)
-        return refuse_output(command, entry);
-    if (!strcmp(command->extended, "-"))
-        return arguments_wrong("--extended %s: expected a file", command->extended);
-    if (arguments_same_file(command->deck, command->extended))
-        return arguments_wrong("--extended %s is the deck itself, expected another file", command->extended);
-    if (command->json && arguments_same_file(command->json, command->extended))
-        return arguments_wrong("--extended %s is the file of --json as well, expected another file", command->extended);
+    for (int i = 0; i < command->ngiven; i++) {
+        const struct option_row *row = option_find(command->given[i].name, command->name);
+        code = row ? take_value(command, row, command->given[i].value) : refuse_option(command, command->given[i].name);
+        if (code)
+            return code;
+    }
     return -1;
 }

@@ -9,21 +9,25 @@
 #include "report/terminal.h"
 #include "run/job.h"
 
+#define THREADS_MOST 1024
+
 enum exit_code { EXIT_DONE = 0, EXIT_DOUBTFUL = 1, EXIT_USAGE = 2, EXIT_INTERNAL = 3 };
 
 /* Of `ema`: what to read, and how to look for modes in it. */
 struct ema_arguments {
     struct measurement_options measurement;
     struct ema_options options;
-    const char *given; /* the first option of it that was given, or NULL */
 };
 
 /* Of `study`: which runs, or what else to do with their results. */
 struct study_arguments {
     int shard, shards; /* 0: all runs */
     int retry_failed, merge, summary;
-    double timeout;    /* s, 0: none */
-    const char *given; /* the first option of it that was given, or NULL */
+    double timeout; /* s, 0: none */
+};
+
+struct given_option {
+    const char *name, *value; /* value: "" where it has none */
 };
 
 struct result;
@@ -33,10 +37,11 @@ struct command {
     const char *name, *deck, *json, *at, *extended, *output, *format;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
-    int quiet, verbose, threads, baseline, points, replicates, seed_given, start, condensed;
+    int quiet, verbose, threads, no_baseline, points, replicates, start, condensed;
     unsigned long seed;
     double step, range;
-    int noverride;
+    int ngiven, noverride;
+    struct given_option *given; /* [ngiven] in their order */
     struct override *override;
     struct ema_arguments ema;
     struct study_arguments study;

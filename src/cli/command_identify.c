@@ -11,7 +11,7 @@ static int show(struct command *command, rotid_identification *found)
         return command_fail(command, ROTID_ERROR_MEMORY);
     result.identify = found;
     if (command_wants_table(command)) {
-        table_identify(terminal_out(), &result, command->baseline, command->verbose);
+        table_identify(terminal_out(), &result, !command->no_baseline, command->verbose);
         table_notes(terminal_out(), &command->messages);
     }
     if (fit->status == ROTID_STOP_CANCELLED) {
@@ -34,7 +34,7 @@ int command_identify(struct command *command)
                     "the deck names nothing to identify, expected a card *IDENTIFY");
         return command_fail(command, ROTID_ERROR_ARGUMENT);
     }
-    int status = rotid_identify(command->read, command->baseline, &environment, failure, &found);
+    int status = rotid_identify(command->read, !command->no_baseline, &environment, failure, &found);
     if (environment.progress)
         terminal_progress_end();
     if (status)

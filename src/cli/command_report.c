@@ -20,10 +20,8 @@ int command_report(struct command *command)
     struct document document;
     struct page_written written;
     int status = result ? ROTID_OK : ROTID_ERROR_MEMORY;
-    if (!command->output)
-        return arguments_wrong("%s: expected -o FOLDER", command->name);
     for (int i = 0; i < command->nfile && result; i++) {
-        int wrong = result_read(pool, command->file[i], &command->messages, &result[i]);
+        int wrong = page_result_read(pool, command->file[i], &command->messages, &result[i]);
         status = status ? status : wrong; /* all files are judged */
     }
     if (status)

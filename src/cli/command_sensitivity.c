@@ -93,11 +93,11 @@ int command_sensitivity(struct command *command)
         options.modes = MODES_WITHOUT_DATA;
     int status = select_parameters(command, &selection);
     if (!status)
-        status = sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.x, &options, &result);
+        status = sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.named, selection.x, &options, &result);
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command))
-        table_sensitivity(terminal_out(), job, selection.named, &options, &result);
-    char *text = command->json ? json_sensitivity(&command->provenance, job, selection.named, &options, &result) : NULL;
+        table_sensitivity(terminal_out(), job, &result);
+    char *text = command->json ? json_sensitivity(&command->provenance, job, &result) : NULL;
     return command_write_json(command, text, EXIT_DONE);
 }

@@ -57,14 +57,15 @@ static int refuse(struct command *command, int status)
 
 static int report(struct command *command, const char *path, int code)
 {
-    struct summary summary;
-    int status = summary_read(&command->pool, path, &command->messages, &summary);
+    struct study_result summary;
+    struct header header;
+    int status = summary_read(&command->pool, path, &command->messages, &header, &summary);
     if (status)
         return refuse(command, status);
     if (command_wants_table(command))
         summary_table(terminal_out(), &summary);
-    command->provenance.seed = summary.header.seed;
-    if (summary.failed || summary.there < summary.wanted)
+    command->provenance.seed = header.seed;
+    if (summary.failed || summary.missing)
         code = code > EXIT_DOUBTFUL ? code : EXIT_DOUBTFUL;
     return command_write_json(command, command->json ? summary_json(&command->provenance, &summary) : NULL, code);
 }
@@ -87,7 +88,7 @@ int study_prepare(struct command *command, struct study *study)
                        : plan_of_decks(&command->pool, command->nfile, command->file, plan);
     if (!status)
         status = study_open(&command->pool, plan, command->noverride, command->override,
-                            command->seed_given ? command->seed : plan->seed, &command->messages, study);
+                            arguments_given(command, "seed") ? command->seed : plan->seed, &command->messages, study);
     if (status)
         return command_fail(command, status);
     int refused = arguments_refuse_read(command, plan->text.nfile, plan->text.file);

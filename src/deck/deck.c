@@ -5,64 +5,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "deck/card_table.h"
 #include "deck/deck_cards.h"
 #include "deck/deck_frequencies.h"
 #include "rotid.h"
 
-/* Cards in the order in which they are read: what a later one refers to comes first, wherever it stands in the deck. */
-static const struct {
-    const char *name;
-    void (*read)(struct deck_reader *reader, const struct card *card);
-    int phase;
-    const char *options[13];
-} table[] = {
-    {"MATERIAL", deck_material, 0, {"NAME", NULL}},
-    {"ELASTIC", deck_elastic, 0, {"TYPE", NULL}},
-    {"DENSITY", deck_density, 0, {NULL}},
-    {"SHAFT", deck_shaft, 1, {"NAME", "MATERIAL", NULL}},
-    {"BEAM", deck_beam, 1, {"NAME", "MATERIAL", NULL}},
-    {"PERFORATION", deck_perforation, 2, {"GROUP", NULL}},
-    {"TIEROD", deck_tierod, 2, {"NAME", "MATERIAL", "FROM", "TO", "MODEL", "SELF_EQUILIBRATED", NULL}},
-    {"BARS", deck_bars, 2, {"NAME", "MATERIAL", "CENTER", "LENGTH", "MODEL", NULL}},
-    {"PRELOAD", deck_preload, 2, {"GROUP", NULL}},
-    {"DISK", deck_disk, 2, {"NAME", NULL}},
-    {"SPRING", deck_spring, 2, {"NAME", NULL}},
-    {"SLING", deck_sling, 2, {"LENGTH", NULL}},
-    {"HEADING", deck_heading, 2, {NULL}},
-    {"SENSORS", deck_sensors, 2, {NULL}},
-    {"MODES", deck_modes, 3, {NULL}},
-    {"NOISE", deck_noise, 3, {"FREQUENCY", "SHAPE", "FLOOR_FREQUENCY", "FLOOR_SHAPE", NULL}},
-    {"SHAPE", deck_shape, 4, {"MODE", NULL}},
-    {"FREQUENCIES", deck_frequencies, 4, {"MODE", "MEAN", NULL}},
-    {"MEASURED", deck_measured, 4, {"FILE", "AXIS", "DIRECTION", "ORIGIN", "FLIP", "SCALE", "HAMMER", NULL}},
-    {"FRF", deck_frf, 4, {"FILE", "LOW", "HIGH", "STEP", "LINES", "QUANTITY", "DAMPING", "AXIS", "ORIGIN", "FLIP", NULL}},
-    {"CAUSE", deck_cause, 5, {"NAME", "TYPE", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", "SUSPECT", NULL}},
-    {"IDENTIFY", deck_identify, 6, {NULL}},
-    {"FIT", deck_fit, 6, {"FUNCTIONAL", "REDUCTION", "MODES", "HOLDOUT", "DERIVATIVE", "TIE", NULL}},
-};
-
-#define CARDS      (sizeof table / sizeof *table)
 #define LAST_PHASE 6
 
 static void check_names(struct deck_reader *reader, const struct card *card)
 {
-    size_t t = 0;
-    while (t < CARDS && strcmp(card->name, table[t].name))
-        t++;
-    if (t == CARDS) {
+    const struct deck_card *kind = deck_card_find(card->name);
+    if (!kind) {
         deck_error(reader, card->place, "card *%s is not known, expected one of docs/deck.md such as *SHAFT", card->name);
         return;
     }
+    char list[256] = "";
+    for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
+        if (row->option)
+            (void)snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "", row->option);
     for (int i = 0; i < card->noption; i++) {
         int known = !strcmp(card->name, "CAUSE") && deck_cause_list_item(card, &card->option[i]);
-        for (const char *const *name = table[t].options; *name; name++)
-            known |= same_text(*name, card->option[i].name);
-        char list[256] = "none";
-        for (int o = 0, length = 0; table[t].options[o]; o++)
-            length += snprintf(list + length, sizeof list - (size_t)length, "%s%s", o ? ", " : "", table[t].options[o]);
+        for (const struct deck_row *row = kind->row; !deck_row_is_last(row); row++)
+            known |= row->option && same_text(row->option, card->option[i].name);
         if (!known)
             deck_error(reader, card->option[i].place, "option %s of *%s is not known, expected %s", card->option[i].name,
-                       card->name, list);
+                       card->name, *list ? list : "none");
     }
 }
 
@@ -210,6 +177,18 @@ static void check_elements(struct deck_reader *reader)
     }
 }
 
+static void read_card(struct deck_reader *reader, const struct card *card, int phase)
+{
+    const struct deck_card *kind = deck_card_find(card->name);
+    if (!kind || kind->phase != phase)
+        return;
+    reader->layout = kind->lines;
+    if (kind->read)
+        kind->read(reader, card);
+    else
+        deck_read_list(reader, card, kind, &reader->list_room[kind - deck_card_table]);
+}
+
 static void read_cards(struct deck_reader *reader)
 {
     struct job *job = reader->job;
@@ -228,9 +207,7 @@ static void read_cards(struct deck_reader *reader)
             reader->out_of_memory |= !job->holdout;
         }
         for (int c = 0; c < reader->text.ncard && !reader->out_of_memory; c++)
-            for (size_t t = 0; t < CARDS; t++)
-                if (table[t].phase == phase && !strcmp(table[t].name, reader->text.card[c].name))
-                    table[t].read(reader, &reader->text.card[c]);
+            read_card(reader, &reader->text.card[c], phase);
     }
     check_materials(reader);
     check_unique(reader);

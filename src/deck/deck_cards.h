@@ -5,19 +5,23 @@
 #include "deck/deck_text.h"
 #include "run/job.h"
 
+#define DECK_MOST_KINDS 64 /* of cards */
+
 struct deck_reader {
     struct pool *pool;
     struct message_list *messages;
     struct deck_text text;
     struct job *job;
     int nmaterial;
-    size_t material_room, group_room, segment_room, tierod_room, bars_room, disk_room, spring_room, sensor_room, parameter_room;
+    size_t material_room, group_room, segment_room, tierod_room, bars_room, sensor_room, parameter_room;
+    size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
     struct material *material;
     int *material_complete; /* bit 1: elastic constants, bit 2: density */
     struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
     size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,
         bounds_room, effect_room, suspect_room, correction_room, correction_place_room, pair_room;
     struct place *correction_place; /* of the CAUSE cards of the measurement chain */
+    const char *layout;             /* what a data line of the card at hand holds */
     double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
@@ -58,6 +62,7 @@ int deck_position(struct deck_reader *reader, const char *text, struct place pla
 /* The value of an option that must be there, or NULL after an error. */
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected);
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value);
+int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value);
 /* Index of the option's value in a list of words that ends with NULL; -1 after an error. */
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
 /* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than
@@ -70,6 +75,7 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 /* Index of a material, -1 where there is none of that name. */
 int deck_find_material(const struct deck_reader *reader, const char *name);
 
+#define FRF_MOST_LINES     1000000
 #define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods, of the rotor with its bundles */
 #define DECK_MOST_LINES    10000 /* of a card, and sensors of the rotor: they are compared with each other */
 
@@ -83,8 +89,6 @@ void deck_perforation(struct deck_reader *reader, const struct card *card);
 void deck_tierod(struct deck_reader *reader, const struct card *card);
 void deck_bars(struct deck_reader *reader, const struct card *card);
 void deck_preload(struct deck_reader *reader, const struct card *card);
-void deck_disk(struct deck_reader *reader, const struct card *card);
-void deck_spring(struct deck_reader *reader, const struct card *card);
 void deck_sling(struct deck_reader *reader, const struct card *card);
 void deck_heading(struct deck_reader *reader, const struct card *card);
 void deck_sensors(struct deck_reader *reader, const struct card *card);

@@ -102,7 +102,7 @@ static int find_value(const struct cause_card *c, const struct field *field, int
 /* The data lines: values [count] of the parameters `known` [count], given [count] says which were there. */
 static int read_values(struct cause_card *c, int count, const struct effect_parameter_name *known, double *value, int *given)
 {
-    static const char layout[] = "parameter, value";
+    const char *layout = c->reader->layout;
     int bad = 0;
     for (int i = 0; i < c->card->nline; i++) {
         const struct data_line *line = &c->card->line[i];

@@ -177,6 +177,20 @@ int deck_option_number(struct deck_reader *reader, const struct card_option *opt
     return parse_number(reader, option->value, option->value_place, option->name, range, value);
 }
 
+int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value)
+{
+    double number;
+    if (deck_option_number(reader, option, ANY, &number))
+        return 1;
+    if (number != floor(number) || number < least || number > most) {
+        deck_error(reader, option->value_place, "%s is %s, expected a whole number from %d to %d", option->name, option->value,
+                   least, most);
+        return 1;
+    }
+    *value = (int)number;
+    return 0;
+}
+
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words)
 {
     char list[256] = "";

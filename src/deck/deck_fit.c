@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/deck_cards.h"
+#include "deck/deck_row.h"
 #include "diagnose/causes/catalogue.h"
 
 /* Below zero is physical for some parameters of causes: each states its own range. */
@@ -25,7 +25,7 @@ static void check_effect_bounds(struct deck_reader *reader, const struct data_li
 
 void deck_identify(struct deck_reader *reader, const struct card *card)
 {
-    static const char layout[] = "parameter, lower bound, upper bound, start";
+    const char *layout = reader->layout;
     struct job *job = reader->job;
     reader->identify_card = card;
     for (int i = 0, count = deck_lines(reader, card, 1, 100, layout); i < count; i++) {
@@ -138,12 +138,9 @@ static void choose_modes(struct deck_reader *reader, const struct card *card)
 
 void deck_fit(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const functionals[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL},
-                             *const reductions[] = {"NONE", "GUYAN", "IRS", NULL},
-                             *const derivatives[] = {"NELSON", "MODAL", NULL}, *const ties[] = {"E:G", NULL};
+    static const char *const ties[] = {"E:G", NULL};
     struct job *job = reader->job;
     const struct card_option *option;
-    int word;
     if (reader->fit_card) {
         deck_error(reader, card->place, "*FIT is given twice, expected once");
         return;
@@ -151,14 +148,9 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
     reader->fit_card = card;
     for (int i = 0; i < card->nline; i++)
         deck_error(reader, card->line[i].place, "*FIT has no data lines, expected options on the card");
-    if ((option = card_option(card, "FUNCTIONAL")) && (word = deck_option_word(reader, option, functionals)) >= 0) {
-        job->fit.functional = word;
-        job->has_fit = 1;
-    }
-    if ((option = card_option(card, "REDUCTION")) && (word = deck_option_word(reader, option, reductions)) >= 0)
-        job->fit.reduction = word;
-    if ((option = card_option(card, "DERIVATIVE")) && (word = deck_option_word(reader, option, derivatives)) >= 0)
-        job->fit.derivative = word;
+    job->fit.functional = -1;
+    (void)deck_read_options(reader, card, deck_fit_rows, &job->fit);
+    job->has_fit = job->fit.functional >= 0;
     if ((option = card_option(card, "TIE")) && deck_option_word(reader, option, ties) >= 0)
         reader->tie = option->value;
     option = card_option(card, "DERIVATIVE"); /* missing where a second *FIT takes the first one's */

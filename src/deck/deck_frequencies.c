@@ -34,7 +34,7 @@ int deck_point_is_far(const struct job *job, int mode, double hz)
 void deck_frequencies(struct deck_reader *reader, const struct card *card)
 {
     static const char *const answers[] = {"NO", "YES", NULL};
-    static const char layout[] = "sensor id, frequency [Hz] [, standard deviation of it [Hz]]";
+    const char *layout = reader->layout;
     struct job *job = reader->job;
     const struct card_option *option = card_option(card, "MODE"), *mean = card_option(card, "MEAN");
     double number;

@@ -5,9 +5,7 @@
 #include <unistd.h>
 
 #include "base/host.h"
-#include "deck/deck_cards.h"
-
-#define MOST_LINES 1000000
+#include "deck/deck_row.h"
 
 /* Absolute, since an extended deck may be written elsewhere; that it is there is known before anything is computed. */
 static const char *measured_file(struct deck_reader *reader, const struct card *card, const struct card_option *option)
@@ -30,36 +28,12 @@ static const char *measured_file(struct deck_reader *reader, const struct card *
     return path;
 }
 
-/* A whole number as the value of an option. 0, or 1 after an error. */
-static int option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value)
-{
-    double number;
-    if (deck_option_number(reader, option, ANY, &number))
-        return 1;
-    if (number != floor(number) || number < least || number > most) {
-        deck_error(reader, option->value_place, "%s is %s, expected a whole number from %d to %d", option->name, option->value,
-                   least, most);
-        return 1;
-    }
-    *value = (int)number;
-    return 0;
-}
-
 static void read_lines(struct deck_reader *reader, const struct card *card)
 {
     struct frf_request *frf = &reader->job->frf;
     const struct card_option *low = card_option(card, "LOW"), *high = card_option(card, "HIGH"),
                              *step = card_option(card, "STEP"), *lines = card_option(card, "LINES");
-    int bad = 0;
-    if (low)
-        bad |= deck_option_number(reader, low, POSITIVE, &frf->low_hz);
-    if (high)
-        bad |= deck_option_number(reader, high, POSITIVE, &frf->high_hz);
-    if (step)
-        bad |= deck_option_number(reader, step, POSITIVE, &frf->step_hz);
-    if (lines)
-        bad |= option_integer(reader, lines, 2, MOST_LINES, &frf->nline);
-    if (bad)
+    if (deck_read_options(reader, card, deck_frf_rows, frf))
         return;
     if (low && high && frf->high_hz <= frf->low_hz)
         deck_error(reader, high->value_place, "HIGH is %s and LOW %s, expected HIGH above LOW", high->value, low->value);
@@ -70,8 +44,8 @@ static void read_lines(struct deck_reader *reader, const struct card *card)
             reader, (step ? step : lines)->place,
             "%s with FILE: measured functions are not interpolated, expected the lines of the file (LOW and HIGH limit them)",
             step ? "STEP" : "LINES");
-    else if (step && high && frf->high_hz / frf->step_hz > MOST_LINES)
-        deck_error(reader, step->value_place, "STEP is %s, expected at most %d lines up to HIGH", step->value, MOST_LINES);
+    else if (step && high && frf->high_hz / frf->step_hz > FRF_MOST_LINES)
+        deck_error(reader, step->value_place, "STEP is %s, expected at most %d lines up to HIGH", step->value, FRF_MOST_LINES);
 }
 
 static void read_nodes_of_file(struct deck_reader *reader, const struct card *card)
@@ -103,7 +77,7 @@ static int is_sensor(const struct rotor *rotor, int id)
 /* Ids that are no sensors may be nodes of the file, which is read when the functions are. */
 static void read_pairs(struct deck_reader *reader, const struct card *card)
 {
-    static const char layout[] = "response sensor id, reference sensor id";
+    const char *layout = reader->layout;
     struct frf_request *frf = &reader->job->frf;
     for (int i = 0, count = deck_lines(reader, card, 0, DECK_MOST_LINES, layout); i < count; i++) {
         const struct data_line *line = &card->line[i];

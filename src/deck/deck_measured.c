@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/deck_cards.h"
+#include "deck/deck_row.h"
 
 /* "paper QUANTITY = value, value, ..." gives a reference; any other line is text. */
 static int read_reference(struct deck_reader *reader, const struct data_line *line)
@@ -57,7 +57,7 @@ void deck_heading(struct deck_reader *reader, const struct card *card)
 
 void deck_sensors(struct deck_reader *reader, const struct card *card)
 {
-    static const char layout[] = "sensor id, position";
+    const char *layout = reader->layout;
     struct rotor *rotor = &reader->job->rotor;
     int count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count; i++) {
@@ -94,7 +94,7 @@ void deck_sensors(struct deck_reader *reader, const struct card *card)
 
 void deck_modes(struct deck_reader *reader, const struct card *card)
 {
-    static const char layout[] = "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]";
+    const char *layout = reader->layout;
     struct job *job = reader->job;
     if (reader->modes_card) {
         deck_error(reader, card->place, "*MODES is given twice, expected once");
@@ -168,7 +168,7 @@ static void new_shapes(struct deck_reader *reader)
 
 void deck_shape(struct deck_reader *reader, const struct card *card)
 {
-    static const char layout[] = "sensor id, value [, standard deviation relative to the largest component]";
+    const char *layout = reader->layout;
     struct job *job = reader->job;
     const struct card_option *option = card_option(card, "MODE");
     double number;
@@ -216,19 +216,11 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
 
 void deck_noise(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const name[] = {"FREQUENCY", "SHAPE", "FLOOR_FREQUENCY", "FLOOR_SHAPE"};
-    double *const value[] = {&reader->noise_frequency, &reader->noise_shape, &reader->floor_frequency, &reader->floor_shape};
-    int given = 0;
     if (reader->noise_card)
         deck_error(reader, card->place, "*NOISE is given twice, expected once");
     reader->noise_card = card;
-    for (int i = 0; i < 4; i++) {
-        const struct card_option *option = card_option(card, name[i]);
-        given |= option != NULL;
-        if (option)
-            (void)deck_option_number(reader, option, i < 2 ? POSITIVE : NOT_NEGATIVE, value[i]);
-    }
-    if (!given)
+    (void)deck_read_options(reader, card, deck_noise_rows, reader);
+    if (!card->noption)
         deck_error(
             reader, card->place,
             "*NOISE has no value, expected FREQUENCY=relative standard deviation, SHAPE=the same of the largest component");

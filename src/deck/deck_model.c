@@ -1,5 +1,5 @@
 /* Cards of materials and of the shaft itself. */
-#include "deck/deck_cards.h"
+#include "deck/deck_row.h"
 
 int deck_find_material(const struct deck_reader *reader, const char *name)
 {
@@ -51,11 +51,7 @@ void deck_elastic(struct deck_reader *reader, const struct card *card)
     if (!material || deck_lines(reader, card, 1, 1, layout) != 1)
         return;
     const struct data_line *line = &card->line[0];
-    int last = shear ? 2 : 1, bad = deck_count(reader, line, last + 1, layout);
-    bad |= deck_number(reader, line, 0, "Young's modulus E [Pa]", POSITIVE, &material->e);
-    if (shear)
-        bad |= deck_number(reader, line, 1, "shear modulus G [Pa]", POSITIVE, &material->g);
-    bad |= deck_number(reader, line, last, "Poisson ratio nu", ANY, &material->nu);
+    int last = shear ? 2 : 1, bad = deck_read_values(reader, line, shear ? deck_shear_rows : deck_elastic_rows, layout, material);
     material->isotropic = !shear;
     if (!bad && !(material->nu > -1 && material->nu <= 0.5))
         deck_error(reader, line->field[last].place, "Poisson ratio nu is %s, expected above -1 and at most 0.5",
@@ -64,11 +60,10 @@ void deck_elastic(struct deck_reader *reader, const struct card *card)
 
 void deck_density(struct deck_reader *reader, const struct card *card)
 {
+    const char *layout = reader->layout;
     struct material *material = current_material(reader, card, 2);
-    if (!material || deck_lines(reader, card, 1, 1, "density [kg/m3]") != 1)
-        return;
-    (void)deck_count(reader, &card->line[0], 1, "density [kg/m3]");
-    (void)deck_number(reader, &card->line[0], 0, "density [kg/m3]", POSITIVE, &material->rho);
+    if (material && deck_lines(reader, card, 1, 1, layout) == 1)
+        (void)deck_read_values(reader, &card->line[0], deck_density_rows, layout, material);
 }
 
 /* A new group, or -1 after an error. */
@@ -111,20 +106,14 @@ static struct segment *add_segment(struct deck_reader *reader, int group)
 
 void deck_shaft(struct deck_reader *reader, const struct card *card)
 {
-    static const char layout[] = "length, outer diameter, inner diameter [m], elements [, outer diameter that carries stiffness]";
+    const char *layout = reader->layout;
     int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count && group >= 0; i++) {
         const struct data_line *line = &card->line[i];
         struct segment *s = add_segment(reader, group);
-        if (!s || deck_count(reader, line, 5, layout))
-            continue;
-        int bad = deck_number(reader, line, 0, "length [m]", POSITIVE, &s->length);
-        bad |= deck_number(reader, line, 1, "outer diameter [m]", POSITIVE, &s->outer);
-        bad |= deck_number(reader, line, 2, "inner diameter [m]", NOT_NEGATIVE, &s->inner);
-        bad |= deck_integer(reader, line, 3, "number of elements", 1, DECK_MOST_ELEMENTS, &s->elements);
-        s->stiff_outer = s->outer;
-        if (deck_has(line, 4))
-            bad |= deck_number(reader, line, 4, "outer diameter that carries stiffness [m]", POSITIVE, &s->stiff_outer);
+        if (!s)
+            return;
+        int bad = deck_read_values(reader, line, deck_shaft_rows, layout, s);
         if (!bad && s->inner >= s->outer)
             deck_error(reader, line->field[2].place,
                        "inner diameter %s m is not below the outer diameter %s m, expected a smaller one", line->field[2].text,
@@ -138,17 +127,13 @@ void deck_shaft(struct deck_reader *reader, const struct card *card)
 
 void deck_beam(struct deck_reader *reader, const struct card *card)
 {
-    static const char layout[] = "length, height in the bending plane, width [m], elements";
+    const char *layout = reader->layout;
     int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count && group >= 0; i++) {
-        const struct data_line *line = &card->line[i];
         struct segment *s = add_segment(reader, group);
-        if (!s || deck_count(reader, line, 4, layout))
-            continue;
+        if (!s)
+            return;
         s->rectangular = 1;
-        (void)deck_number(reader, line, 0, "length [m]", POSITIVE, &s->length);
-        (void)deck_number(reader, line, 1, "height in the bending plane [m]", POSITIVE, &s->height);
-        (void)deck_number(reader, line, 2, "width [m]", POSITIVE, &s->width);
-        (void)deck_integer(reader, line, 3, "number of elements", 1, DECK_MOST_ELEMENTS, &s->elements);
+        (void)deck_read_values(reader, &card->line[i], deck_beam_rows, layout, s);
     }
 }

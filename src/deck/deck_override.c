@@ -11,7 +11,7 @@ int override_parse(struct pool *pool, const char *text, struct override *overrid
         return ROTID_ERROR_SYNTAX;
     *override = (struct override){pool_format(pool, "%.*s", (int)(dot - text), text),
                                   pool_format(pool, "%.*s", (int)(equals - dot - 1), dot + 1), equals + 1,
-                                  pool_format(pool, "--set %s", text)};
+                                  pool_format(pool, "--set %s", text), text};
     return override->card && override->option && override->text ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 

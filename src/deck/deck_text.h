@@ -55,9 +55,11 @@ struct deck_text {
     const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
 };
 
-/* --set CARD.OPTION=VALUE; text: what stands for the file in messages */
+/* "CARD.OPTION=VALUE" that replaces an option of a deck. */
 struct override {
-    const char *card, *option, *value, *text;
+    const char *card, *option, *value;
+    const char *text;  /* what stands for the file in messages: "--set CARD.OPTION=VALUE" */
+    const char *given; /* the whole, NULL of one that nobody wrote so */
 };
 
 /* Reads a deck and what it includes. Errors go to the list with their place. ROTID_OK, ROTID_ERROR_SYNTAX, ROTID_ERROR_IO or

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "deck/deck_cards.h"
-#include "deck/deck_writer.h"
+#include "deck/card_table.h"
 #include "diagnose/causes/catalogue.h"
 #include "rotid.h"
 
@@ -167,9 +166,8 @@ void deck_write_measured(struct deck_writer *w)
 /* Whether BETWEEN=left,NAME is read as two groups: the second name stands where an option could. */
 static int is_list_item(const char *name)
 {
-    static const char *const options[] = {"NAME", "TYPE", "GROUP", "AT", "SENSOR", "BETWEEN", "SHAPE", "MOUNT", "SUSPECT"};
-    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
-        if (same_text(name, options[i]))
+    for (const struct deck_row *row = deck_card_find("CAUSE")->row; !deck_row_is_last(row); row++)
+        if (same_text(name, row->option))
             return 0;
     return !strchr(name, '=');
 }
@@ -335,10 +333,7 @@ void deck_write_identify(struct deck_writer *w)
     if (!job->has_fit && !any_held_out && job->fit.reduction == ROTID_REDUCTION_NONE && job->fit.derivative == ROTID_NELSON)
         return;
     deck_put_card(w, "FIT");
-    if (job->has_fit)
-        deck_put_option(w, "FUNCTIONAL", functional_name(job->fit.functional));
-    deck_put_option(w, "REDUCTION", reduction_name(job->fit.reduction));
-    deck_put_option(w, "DERIVATIVE", derivative_name(job->fit.derivative));
+    deck_write_options(w, job->has_fit ? deck_fit_rows : deck_fit_rows + 1, &job->fit); /* the first one: FUNCTIONAL */
     if (any_held_out)
         write_holdout(w);
     deck_put(w, "\n");

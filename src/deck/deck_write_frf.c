@@ -1,14 +1,10 @@
 /* The card of the transfer functions. */
-#include <stdio.h>
-
-#include "deck/deck_cards.h"
-#include "deck/deck_writer.h"
+#include "deck/deck_row.h"
 
 void deck_write_frf(struct deck_writer *w)
 {
     static const char *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION"}, *const axes[] = {"X", "Y", "Z"};
     const struct frf_request *frf = &w->job->frf;
-    char lines[16];
     if (!frf->given)
         return;
     if (frf->npair > DECK_MOST_LINES)
@@ -20,15 +16,7 @@ void deck_write_frf(struct deck_writer *w)
         deck_put_option(w, "FLIP", frf->flip ? "YES" : "NO");
         deck_put_option_number(w, "ORIGIN", frf->origin);
     }
-    if (frf->low_hz > 0)
-        deck_put_option_number(w, "LOW", frf->low_hz);
-    if (frf->high_hz > 0)
-        deck_put_option_number(w, "HIGH", frf->high_hz);
-    if (frf->step_hz > 0)
-        deck_put_option_number(w, "STEP", frf->step_hz);
-    (void)snprintf(lines, sizeof lines, "%d", frf->nline);
-    if (frf->nline)
-        deck_put_option(w, "LINES", lines);
+    deck_write_options(w, deck_frf_rows, frf);
     if (frf->has_quantity)
         deck_put_option(w, "QUANTITY", quantities[frf->quantity]);
     if (frf->damping > 0)

@@ -3,9 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "report/json_result.h"
 #include "report/layout.h"
 #include "report/table.h"
-#include "result/json_tree.h"
+#include "result/export.h"
 
 const double *export_exported_hz(const struct export_files *files, const struct export_model *model,
                                  const struct ross_model *ross, int *count)
@@ -61,43 +62,47 @@ void table_export(FILE *out, const struct export_files *files, const struct expo
         (void)fprintf(out, "%s\n", files->path[i]);
 }
 
-static void add_parameters(struct json_tree *tree, const struct export_model *model)
+static struct export_parameter_result *parameters(struct pool *pool, const struct export_model *model)
 {
     const struct job *job = model->job;
-    cJSON *list = json_array(tree, tree->root, "parameters");
-    for (int p = 0; p < job->nparameter; p++) {
-        cJSON *item = json_object(tree, list, NULL);
-        json_text(tree, item, "name", job->bounds[p].name);
-        json_text(tree, item, "unit", job->bounds[p].unit);
-        json_number(tree, item, "value", export_parameter(model, p));
-        json_number(tree, item, "std", export_parameter_std(model, p));
-    }
+    struct export_parameter_result *list = POOL_ARRAY(pool, struct export_parameter_result, job->nparameter);
+    for (int p = 0; p < job->nparameter && list; p++)
+        list[p] = (struct export_parameter_result){job->bounds[p].name, job->bounds[p].unit, export_parameter(model, p),
+                                                   export_parameter_std(model, p)};
+    return list;
 }
 
 char *json_export(const struct provenance *provenance, const struct export_files *files, const struct export_model *model,
                   const struct ross_model *ross, const struct message_list *notes)
 {
     const struct spectrum *s = &model->spectrum;
-    struct json_tree tree;
-    int count;
-    const double *hz = export_exported_hz(files, model, ross, &count);
-    json_begin(&tree, provenance, model->job);
-    json_text(&tree, tree.root, "format", export_format_name(files->format));
-    cJSON *list = json_array(&tree, tree.root, "files");
-    for (int i = 0; i < files->count; i++)
-        json_text(&tree, list, NULL, files->path[i]);
-    json_text(&tree, tree.root, "model", model->identified ? "identified" : "stated");
-    json_text(&tree, tree.root, "status", state_of(model));
-    add_parameters(&tree, model);
-    json_number(&tree, tree.root, "mass_kg", model->mass.mass);
-    json_number(&tree, tree.root, "center_of_mass_m", model->mass.center);
-    json_number(&tree, tree.root, "nodes", model->discrete->beam.mesh.nnode);
-    json_number(&tree, tree.root, "degrees_of_freedom", model->k.n);
-    json_text(&tree, tree.root, "reduction", model->condensed.k ? reduction_name(model->condensed.kind) : NULL);
-    json_number(&tree, tree.root, "masters", model->condensed.k ? (double)model->condensed.count : NAN);
-    json_list(&tree, tree.root, "rigid_hz", s->nrigid, s->rigid_hz);
-    json_list(&tree, tree.root, "full_hz", s->count, s->full_hz);
-    json_list(&tree, tree.root, "exported_hz", count, hz);
-    json_notes(&tree, notes);
-    return json_close(&tree);
+    struct pool pool;
+    struct export_result out = {
+        .format = export_format_name(files->format),
+        .nfiles = files->count,
+        .model = model->identified ? "identified" : "stated",
+        .status = state_of(model),
+        .nparameters = model->job->nparameter,
+        .mass_kg = model->mass.mass,
+        .center_of_mass_m = model->mass.center,
+        .nodes = model->discrete->beam.mesh.nnode,
+        .degrees_of_freedom = model->k.n,
+        .reduction = model->condensed.k ? reduction_name(model->condensed.kind) : NULL,
+        .masters = model->condensed.k ? model->condensed.count : ROTID_NONE,
+        .nrigid_hz = s->nrigid,
+        .rigid_hz = s->rigid_hz,
+        .nfull_hz = s->count,
+        .full_hz = s->full_hz,
+    };
+    struct result result = {.export = &out};
+    pool_open(&pool, NULL);
+    out.exported_hz = export_exported_hz(files, model, ross, &out.nexported_hz);
+    out.parameters = parameters(&pool, model);
+    out.files = POOL_ARRAY(&pool, const char *, files->count);
+    for (int i = 0; i < files->count && out.files; i++)
+        out.files[i] = files->path[i];
+    if (out.parameters && out.files)
+        return json_result(&pool, provenance, model->job, notes, &result);
+    pool_close(&pool);
+    return NULL;
 }

@@ -24,9 +24,9 @@
 enum { TAG_RUN = 1, TAG_LINE };
 
 const struct command_entry command_table[] = {
-    {"study", "many runs from one plan over MPI: mpirun -n N rotid-study PLAN -o RESULTS", command_study,
-     PARALLEL | TAKES_OUTPUT | SEVERAL_FILES},
-    {NULL, NULL, NULL, 0},
+    {"study", "many runs from one plan over MPI: mpirun -n N rotid-study PLAN -o RESULTS", "inp|jsonl", command_study,
+     PARALLEL | SEVERAL_FILES},
+    {NULL, NULL, NULL, NULL, 0},
 };
 
 /* MPI_Probe and MPI_Recv keep a processor busy while they wait. */
@@ -270,7 +270,7 @@ static int run(struct command *command, int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    struct command command = {.seed = 1, .baseline = 1};
+    struct command command = {0};
     MPI_Init(&argc, &argv);
     command_watch_signals();
     pool_open(&command.pool, NULL);

@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "fit/quantile.h"
+#include "page/geometry.h"
 #include "page/human.h"
 #include "page/sections.h"
 
@@ -13,7 +13,6 @@
 #define POOR_PERCENT      2.0  /* error of a fitted frequency that a beam need not leave */
 #define CONDENSED_PERCENT 0.5  /* as `rotid frf` warns */
 #define SAME_POINT        1e-6 /* relative difference of objectives */
-#define CHANCE            0.01 /* below which a misfit is no noise: as in the tables */
 
 struct reasons {
     struct pool *pool;
@@ -30,20 +29,20 @@ static void say(struct reasons *reasons, enum tone tone, const char *text)
 }
 
 /* "core.E = 115.7 GPa (95 %: 55 to 176), core.G = ..." */
-static const char *values(struct pool *pool, const struct fitted *fit)
+static const char *values(struct pool *pool, const rotid_identification *fit)
 {
     const char *text = "";
-    for (int p = 0; p < fit->nparameter && p < NAMED && text; p++) {
-        const struct fitted_parameter *parameter = &fit->parameter[p];
+    for (int p = 0; p < fit->nparameters && p < NAMED && text; p++) {
+        const rotid_fitted_parameter *parameter = &fit->parameters[p];
         text = pool_format(pool, "%s%s%s = %s", text, p ? "; " : "", parameter->name,
-                           human_interval(pool, parameter->value, parameter->ci, parameter->unit));
+                           human_interval(pool, parameter->value, parameter->ci95, parameter->unit));
     }
-    if (fit->nparameter > NAMED && text)
-        text = pool_format(pool, "%s; and %s more", text, human_count(pool, fit->nparameter - NAMED));
+    if (fit->nparameters > NAMED && text)
+        text = pool_format(pool, "%s; and %s more", text, human_count(pool, fit->nparameters - NAMED));
     return text ? text : "";
 }
 
-static void on_convergence(struct reasons *reasons, const struct fitted *fit)
+static void on_convergence(struct reasons *reasons, const rotid_identification *fit)
 {
     struct pool *pool = reasons->pool;
     if (!strcmp(fit->status, "converged"))
@@ -56,10 +55,10 @@ static void on_convergence(struct reasons *reasons, const struct fitted *fit)
     else
         say(reasons, TONE_BAD, pool_format(pool, "The fit did not converge: %s.", fit->stop_reason));
     const char *held = "", *loose = "";
-    for (int p = 0; p < fit->nparameter && held && loose; p++) {
-        const char **list = fit->parameter[p].at_bound ? &held : &loose;
-        if (!fit->parameter[p].identifiable)
-            *list = pool_format(pool, "%s%s%s", *list, **list ? ", " : "", fit->parameter[p].name);
+    for (int p = 0; p < fit->nparameters && held && loose; p++) {
+        const char **list = fit->parameters[p].at_bound ? &held : &loose;
+        if (!fit->parameters[p].identifiable)
+            *list = pool_format(pool, "%s%s%s", *list, **list ? ", " : "", fit->parameters[p].name);
     }
     if (held && *held)
         say(reasons, TONE_BAD, pool_format(pool, "At a bound: %s.", held));
@@ -67,7 +66,7 @@ static void on_convergence(struct reasons *reasons, const struct fitted *fit)
         say(reasons, TONE_BAD, pool_format(pool, "Not determined by these data, alone or in a combination: %s.", loose));
 }
 
-static void on_baseline(struct reasons *reasons, const struct fitted *fit)
+static void on_baseline(struct reasons *reasons, const rotid_identification *fit)
 {
     struct pool *pool = reasons->pool;
     double best = INFINITY, furthest = 0;
@@ -95,26 +94,25 @@ static void on_baseline(struct reasons *reasons, const struct fitted *fit)
         say(reasons, TONE_GOOD, pool_format(pool, "Not all of NLopt's minimisers (%s) got as far; none got further.", names));
 }
 
-static void on_misfit(struct reasons *reasons, const struct fitted *fit, const char *deck)
+static void on_misfit(struct reasons *reasons, const rotid_identification *fit, const char *deck)
 {
     struct pool *pool = reasons->pool;
-    int worst = fitted_worst(fit), noisy = isfinite(fit->chi2) && fit->dof > 0;
-    double rms = fitted_rms_percent(fit, 0), held = fitted_rms_percent(fit, 1), chance = NAN;
+    int worst = fit_worst_mode(fit), noisy = isfinite(fit_p_value(fit));
+    double rms = fit_rms_percent(fit, 0), held = fit_rms_percent(fit, 1);
     if (worst >= 0)
-        say(reasons, !noisy && fabs(fit->mode[worst].error_percent) > POOR_PERCENT ? TONE_CARE : TONE_GOOD,
+        say(reasons, !noisy && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_CARE : TONE_GOOD,
             pool_format(pool,
                         "The model leaves an error of %s\xc2\xa0%% rms in the frequencies that were fitted, and of %s\xc2\xa0%% "
                         "in mode %d.",
-                        human_digits(pool, rms, 2), human_signed(pool, fit->mode[worst].error_percent, 2),
-                        fit->mode[worst].mode));
+                        human_digits(pool, rms, 2), human_signed(pool, fit->modes[worst].error_percent, 2),
+                        fit->modes[worst].mode));
     if (isfinite(held))
         say(reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,
             pool_format(pool, "Of the modes that were held out it leaves %s\xc2\xa0%% rms.", human_digits(pool, held, 2)));
     if (!noisy)
         return;
-    chance = chi_square_tail(fit->chi2, fit->dof);
-    if (chance < CHANCE)
-        say(reasons, worst >= 0 && fabs(fit->mode[worst].error_percent) > POOR_PERCENT ? TONE_BAD : TONE_CARE,
+    if (fit_p_value(fit) < JUDGEMENT_CHANCE)
+        say(reasons, worst >= 0 && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_BAD : TONE_CARE,
             pool_format(
                 pool,
                 "The misfit is %s times what the stated noise explains (\xcf\x87\xc2\xb2 = %s with %d degrees of freedom): the "
@@ -126,40 +124,41 @@ static void on_misfit(struct reasons *reasons, const struct fitted *fit, const c
                         human_digits(pool, fit->chi2, 3), fit->dof));
 }
 
-static void on_intervals(struct reasons *reasons, const struct fitted *fit)
+static void on_intervals(struct reasons *reasons, const rotid_identification *fit)
 {
     struct pool *pool = reasons->pool;
     const char *wide = "";
     double widest = 0;
     int none = 0;
-    for (int p = 0; p < fit->nparameter && wide; p++) {
-        double half = human_half_width_percent(fit->parameter[p].value, fit->parameter[p].ci);
+    for (int p = 0; p < fit->nparameters && wide; p++) {
+        double half = human_half_width_percent(fit->parameters[p].value, fit->parameters[p].ci95);
         if (!isfinite(half)) {
             none++;
             continue;
         }
         widest = fmax(widest, half);
-        wide = pool_format(pool, "%s%s%s \xc2\xb1%s\xc2\xa0%%", wide, *wide ? ", " : "", fit->parameter[p].name,
+        wide = pool_format(pool, "%s%s%s \xc2\xb1%s\xc2\xa0%%", wide, *wide ? ", " : "", fit->parameters[p].name,
                            human_digits(pool, half, 2));
     }
-    if (none == fit->nparameter)
+    if (none == fit->nparameters)
         say(reasons, TONE_CARE, "No interval can be stated for any parameter.");
     else
         say(reasons, widest > WIDE_PERCENT ? TONE_CARE : TONE_GOOD,
             pool_format(pool, "The 95\xc2\xa0%% intervals: %s%s.%s", wide ? wide : "", none ? ", none for the others" : "",
-                        isfinite(fit->chi2)
-                            ? fit->widened_by > 1 ? " They are widened because the misfit exceeds the stated noise." : ""
-                            : " They rest on the misfit that is left, since no noise is stated (*NOISE)."));
+                        isfinite(fit->chi2) ? fit->intervals_widened_by > 1
+                                                  ? " They are widened because the misfit exceeds the stated noise."
+                                                  : ""
+                                            : " They rest on the misfit that is left, since no noise is stated (*NOISE)."));
 }
 
-static void on_condensation(struct reasons *reasons, const struct fitted *fit)
+static void on_condensation(struct reasons *reasons, const rotid_identification *fit)
 {
     double worst = 0;
     int mode = 0;
-    for (int k = 0; k < fit->nmode; k++)
-        if (!fit->mode[k].holdout && fabs(fit->mode[k].reduction_percent) > fabs(worst)) {
-            worst = fit->mode[k].reduction_percent;
-            mode = fit->mode[k].mode;
+    for (int k = 0; k < fit->nmodes; k++)
+        if (!fit->modes[k].holdout && fabs(fit->reduction_error_percent[k]) > fabs(worst)) {
+            worst = fit->reduction_error_percent[k];
+            mode = fit->modes[k].mode;
         }
     if (strcmp(fit->reduction, "NONE") != 0 && fabs(worst) > CONDENSED_PERCENT)
         say(reasons, TONE_CARE,
@@ -170,12 +169,12 @@ static void on_condensation(struct reasons *reasons, const struct fitted *fit)
                 fit->reduction, mode, human_signed(reasons->pool, worst, 2)));
 }
 
-void answer_identify(struct document *document, const struct result *result, const struct fitted *fit)
+void answer_identify(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct reasons reasons = {.pool = document->pool};
     document->answer = values(document->pool, fit);
     on_convergence(&reasons, fit);
-    on_misfit(&reasons, fit, result->deck ? result->deck : "DECK");
+    on_misfit(&reasons, fit, result->head.deck ? result->head.deck : "DECK");
     on_intervals(&reasons, fit);
     on_condensation(&reasons, fit);
     on_baseline(&reasons, fit);
@@ -189,22 +188,22 @@ void answer_plain(struct document *document, const struct result *result)
     struct pool *pool = document->pool;
     const char *text = "";
     document->tone = TONE_NONE;
-    if (result->modes && result->modes->nmode) {
-        const struct modes_entry *mode = result->modes->mode;
+    if (result->modes && result->modes->nmodes) {
+        const rotid_model_mode *mode = result->modes->modes;
         text =
-            pool_format(pool, "%d bending modes from %s to %s\xc2\xa0Hz", result->modes->nmode,
-                        human_trimmed(pool, mode[0].full_hz, 5), human_trimmed(pool, mode[result->modes->nmode - 1].full_hz, 5));
+            pool_format(pool, "%d bending modes from %s to %s\xc2\xa0Hz", result->modes->nmodes,
+                        human_trimmed(pool, mode[0].full_hz, 5), human_trimmed(pool, mode[result->modes->nmodes - 1].full_hz, 5));
     } else if (result->sensitivity) {
-        text = pool_format(pool, "How %d modes depend on %d %s", result->sensitivity->nmode, result->sensitivity->nparameter,
-                           human_plural(result->sensitivity->nparameter, "parameter", "parameters"));
-    } else if (result->transfer) {
-        text = pool_format(pool, "%d transfer %s from %s to %s\xc2\xa0Hz", result->transfer->nfunction,
-                           human_plural(result->transfer->nfunction, "function", "functions"),
-                           human_trimmed(pool, result->transfer->low_hz, 4), human_trimmed(pool, result->transfer->high_hz, 5));
-    } else if (result->geometry) {
-        text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d %s", human_trimmed(pool, result->geometry->length, 4),
-                           geometry_elements(result->geometry),
-                           human_plural(geometry_elements(result->geometry), "element", "elements"));
+        text = pool_format(pool, "How %d modes depend on %d %s", result->sensitivity->nfrequency_hz, result->sensitivity->nparameters,
+                           human_plural(result->sensitivity->nparameters, "parameter", "parameters"));
+    } else if (result->frf) {
+        text = pool_format(pool, "%d transfer %s from %s to %s\xc2\xa0Hz", result->frf->nfunctions,
+                           human_plural(result->frf->nfunctions, "function", "functions"),
+                           human_trimmed(pool, result->frf->low_hz, 4), human_trimmed(pool, result->frf->high_hz, 5));
+    } else if (geometry_of_result(result)) {
+        text = pool_format(pool, "A rotor of %s\xc2\xa0m in %d %s", human_trimmed(pool, geometry_of_result(result)->length_m, 4),
+                           geometry_elements(geometry_of_result(result)),
+                           human_plural(geometry_elements(geometry_of_result(result)), "element", "elements"));
     }
     document->answer = text ? text : "";
 }

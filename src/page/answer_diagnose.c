@@ -27,8 +27,7 @@ static const char *or_nothing(const char *text)
 }
 
 /* "a mass ... (added_mass: ...); and a zone ..." */
-static const char *causes(struct pool *pool, const struct diagnosis_outcome *d, int count, const struct told_cause *cause,
-                          const char *between)
+static const char *causes(struct pool *pool, const rotid_diagnosis *d, int count, const rotid_cause *cause, const char *between)
 {
     const char *text = "";
     for (int i = 0; i < count && i < LISTED && text; i++)
@@ -36,77 +35,80 @@ static const char *causes(struct pool *pool, const struct diagnosis_outcome *d, 
                            !i               ? ""
                            : i + 1 == count ? between
                                             : "; ",
-                           cause_in_words(pool, &cause[i], count == 1 || cause == d->cause));
+                           cause_in_words(pool, d, &cause[i], count == 1 || cause == d->verdict.causes));
     if (count > LISTED && text)
         text = pool_format(pool, "%s%s%s more", text, between, human_count(pool, count - LISTED));
     return or_nothing(text);
 }
 
 /* Faults of the data, as a sentence that begins with a blank. */
-static const char *faults(struct pool *pool, const struct diagnosis_outcome *d)
+static const char *faults(struct pool *pool, const rotid_diagnosis *d)
 {
     const char *text = "";
-    for (int i = 0; i < d->ndata && i < LISTED && text; i++)
-        text = pool_format(pool, "%s%s%s", text, i ? "; " : "", d->data[i].text ? d->data[i].text : d->data[i].id);
-    if (!d->ndata)
+    for (int i = 0; i < d->ndata_findings && i < LISTED && text; i++)
+        text = pool_format(pool, "%s%s%s", text, i ? "; " : "",
+                           d->data_findings[i].text ? d->data_findings[i].text : d->data_findings[i].id);
+    if (!d->ndata_findings)
         return "";
-    return or_nothing(pool_format(pool, " %s of the measurement %s taken into account: %s%s.",
-                                  words_sentence(pool, or_nothing(pool_format(pool, "%s %s", human_count(pool, d->ndata),
-                                                                              human_plural(d->ndata, "fault", "faults")))),
-                                  human_plural(d->ndata, "was", "were"), or_nothing(text),
-                                  d->ndata > LISTED ? "; and more" : ""));
+    return or_nothing(pool_format(
+        pool, " %s of the measurement %s taken into account: %s%s.",
+        words_sentence(pool, or_nothing(pool_format(pool, "%s %s", human_count(pool, d->ndata_findings),
+                                                    human_plural(d->ndata_findings, "fault", "faults")))),
+        human_plural(d->ndata_findings, "was", "were"), or_nothing(text), d->ndata_findings > LISTED ? "; and more" : ""));
 }
 
 /* The data are too few for that, or their noise is not stated: the result says so in its sentence alone. */
-static int unsure(const struct diagnosis_outcome *d)
+static int unsure(const rotid_diagnosis *d)
 {
-    return d->sentence && strstr(d->sentence, "nor with confidence") != NULL;
+    return d->verdict.sentence && strstr(d->verdict.sentence, "nor with confidence") != NULL;
 }
 
-static const char *named(struct pool *pool, const struct diagnosis_outcome *d)
+static const char *named(struct pool *pool, const rotid_diagnosis *d)
 {
-    const char *what = causes(pool, d, d->ncause, d->cause, "; and "), *with = d->ncause > 1 ? "With them" : "With it";
-    if (d->adequate_after)
+    const char *what = causes(pool, d, d->verdict.ncauses, d->verdict.causes, "; and "),
+               *with = d->verdict.ncauses > 1 ? "With them" : "With it";
+    if (d->verdict.adequate_after)
         return pool_format(pool, "The model lacks %s. %s it explains the measurement within its noise.", what, with);
-    if (d->nalternative)
+    if (d->verdict.nalternative_causes)
         return pool_format(pool, "The model lacks %s. What is left then, these data cannot tell: it may be %s.", what,
-                           causes(pool, d, d->nalternative, d->alternative, "; or "));
+                           causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
     return pool_format(
         pool, "The model lacks %s. %s it still leaves more than noise, and nothing in the catalogue explains that.", what, with);
 }
 
-static const char *verdict(struct pool *pool, const struct diagnosis_outcome *d)
+static const char *verdict(struct pool *pool, const rotid_diagnosis *d)
 {
     const char *text = "";
-    switch (d->kind) {
-    case TOLD_NONE:
+    switch (d->verdict.kind) {
+    default:
         return !d->base ? "The diagnosis was interrupted before the model was fitted: there is nothing to judge yet."
-               : d->ncause
+               : d->verdict.ncauses
                    ? pool_format(
                          pool,
                          "The diagnosis was interrupted before a verdict. A round that was finished would name %s; what would "
                          "have followed may speak against it.",
-                         causes(pool, d, d->ncause, d->cause, "; and "))
+                         causes(pool, d, d->verdict.ncauses, d->verdict.causes, "; and "))
                    : "The diagnosis was interrupted before a verdict. Below stands what was finished: it shows where the model "
                      "misses the measurement, and does not say why.";
-    case TOLD_ADEQUATE:
+    case ROTID_ADEQUATE:
         text = "The model explains the measurement within its noise: these data give no reason to doubt it.";
         break;
-    case TOLD_NAMED:
+    case ROTID_NAMED:
         text = named(pool, d);
         break;
-    case TOLD_AMBIGUOUS:
-        text = d->nalternative == 1
+    case ROTID_AMBIGUOUS:
+        text = d->verdict.nalternative_causes == 1
                    ? pool_format(pool,
                                  "Something is wrong with the model. One cause would explain it, but these data cannot carry its "
                                  "name: %s.",
-                                 causes(pool, d, 1, d->alternative, ""))
+                                 causes(pool, d, 1, d->verdict.alternative_causes, ""))
                    : pool_format(pool,
                                  "Something is wrong with the model, and these data cannot tell which of %s causes it is%s: %s.",
-                                 human_count(pool, d->nalternative), unsure(d) ? ", nor surely that it is one of them" : "",
-                                 causes(pool, d, d->nalternative, d->alternative, "; or "));
+                                 human_count(pool, d->verdict.nalternative_causes),
+                                 unsure(d) ? ", nor surely that it is one of them" : "",
+                                 causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
         break;
-    case TOLD_UNEXPLAINED:
+    case ROTID_UNEXPLAINED:
         text = "Something is wrong with the model, and nothing in the catalogue of causes explains it.";
         break;
     }
@@ -115,25 +117,30 @@ static const char *verdict(struct pool *pool, const struct diagnosis_outcome *d)
 }
 
 /* "step_stiffness and added_mass" */
-static const char *names(struct pool *pool, int count, const struct told_cause *cause)
+static const char *names(struct pool *pool, const rotid_diagnosis *d)
 {
     const char *text = "";
-    for (int i = 0; i < count && text; i++)
-        text = pool_format(pool, "%s%s%s", text, !i ? "" : i + 1 == count ? " and " : ", ", cause_label(pool, &cause[i]));
+    for (int i = 0; i < d->verdict.ncauses && text; i++)
+        text = pool_format(pool, "%s%s%s", text,
+                           !i                            ? ""
+                           : i + 1 == d->verdict.ncauses ? " and "
+                                                         : ", ",
+                           cause_label(pool, d, &d->verdict.causes[i]));
     return or_nothing(text);
 }
 
-static const char *headline(struct pool *pool, const struct diagnosis_outcome *d)
+static const char *headline(struct pool *pool, const rotid_diagnosis *d)
 {
-    switch (d->kind) {
-    case TOLD_ADEQUATE:
+    switch (d->verdict.kind) {
+    case ROTID_ADEQUATE:
         return "Adequate";
-    case TOLD_NAMED:
-        return pool_format(pool, "Named: %s", names(pool, d->ncause, d->cause));
-    case TOLD_AMBIGUOUS:
-        return d->nalternative == 1 ? "Ambiguous: no name can be given"
-                                    : pool_format(pool, "Ambiguous: one of %s causes", human_count(pool, d->nalternative));
-    case TOLD_UNEXPLAINED:
+    case ROTID_NAMED:
+        return pool_format(pool, "Named: %s", names(pool, d));
+    case ROTID_AMBIGUOUS:
+        return d->verdict.nalternative_causes == 1
+                   ? "Ambiguous: no name can be given"
+                   : pool_format(pool, "Ambiguous: one of %s causes", human_count(pool, d->verdict.nalternative_causes));
+    case ROTID_UNEXPLAINED:
         return "Unexplained";
     default:
         return "Interrupted: no verdict";
@@ -141,39 +148,39 @@ static const char *headline(struct pool *pool, const struct diagnosis_outcome *d
 }
 
 /* How to look for all that was named. */
-static const char *checks(struct pool *pool, const struct diagnosis_outcome *d)
+static const char *checks(struct pool *pool, const rotid_diagnosis *d)
 {
     const char *text = "";
-    for (int i = 0; i < d->ncause && text; i++)
-        if (!strstr(text, cause_check(d->cause[i].id)))
-            text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", cause_check(d->cause[i].id));
+    for (int i = 0; i < d->verdict.ncauses && text; i++)
+        if (!strstr(text, cause_check(d->verdict.causes[i].id)))
+            text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", cause_check(d->verdict.causes[i].id));
     return or_nothing(text);
 }
 
-static const char *next(struct pool *pool, const struct diagnosis_outcome *d, const char *deck)
+static const char *next(struct pool *pool, const rotid_diagnosis *d, const char *deck)
 {
-    const char *text = d->next_measurement, *look = checks(pool, d);
-    if (d->kind == TOLD_NONE)
+    const char *text = d->verdict.next_measurement, *look = checks(pool, d);
+    if (d->verdict.kind == -1)
         return pool_format(pool, "Next: run rotid diagnose %s to its end.", deck);
-    if (d->kind == TOLD_ADEQUATE)
+    if (d->verdict.kind == ROTID_ADEQUATE)
         return "Next: read the blind spots below before you rely on the moduli. What is smaller than they say may be there.";
-    if (d->kind == TOLD_NAMED && *look && !(text && strstr(text, look))) /* or it says it already */
+    if (d->verdict.kind == ROTID_NAMED && *look && !(text && strstr(text, look))) /* or it says it already */
         text = pool_format(pool, "%s%s%s", look, text ? "; and " : ", before you believe it", text ? text : "");
     return text ? pool_format(pool, "Next: %s.", text) : NULL;
 }
 
 /* How often chance does what was found, and what that rests on. */
-static void on_chance(struct reasons *reasons, const struct diagnosis_outcome *d, const struct result *result)
+static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
 {
     struct pool *pool = reasons->pool;
-    const struct evidence_round *round = d->nround ? d->round : NULL;
-    int assumed = result->frequency_assumed || result->shape_assumed;
-    if (round && isfinite(d->p_value))
+    const rotid_round *round = d->nrounds ? d->rounds : NULL;
+    int assumed = d->noise.frequency_assumed || d->noise.shape_assumed;
+    if (round && isfinite(d->verdict.p_value))
         say(reasons, pool_format(pool,
                                  "A model that is right misses the measurement so far or further %s tests: the "
                                  "misfit \xcf\x87\xc2\xb2 is %s, where a right model has about %d.",
-                                 words_chance(pool, d->p_value), human_digits(pool, round->chi2, 3), round->dof));
-    if (round && d->kind == TOLD_ADEQUATE && isfinite(round->largest) && isfinite(round->threshold))
+                                 words_chance(pool, d->verdict.p_value), human_digits(pool, round->chi2, 3), round->dof));
+    if (round && d->verdict.kind == ROTID_ADEQUATE && isfinite(round->largest) && isfinite(round->threshold))
         say(reasons,
             pool_format(pool,
                         "No cause of the catalogue promises to lower it by more than %s; chance alone reaches %s in 3 of "
@@ -184,51 +191,53 @@ static void on_chance(struct reasons *reasons, const struct diagnosis_outcome *d
                      "be another one, so no cause is named: state *NOISE.");
 }
 
-static void on_lead(struct reasons *reasons, const struct diagnosis_outcome *d)
+static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
 {
     struct pool *pool = reasons->pool;
-    const struct evidence_round *round = d->round;
-    int first, second, tried = 0;
-    if (!d->nround || d->kind == TOLD_NONE)
+    const rotid_round *round = d->rounds;
+    int first, second, count, tried = 0;
+    if (!d->nrounds || d->verdict.kind == -1)
         return;
-    diagnosis_leaders(round, &first, &second);
-    for (int i = 0; i < round->ncandidate; i++)
-        tried += round->candidate[i].refitted;
-    if (d->kind == TOLD_NAMED && first >= 0 && second >= 0)
+    const rotid_candidate *candidate = diagnosis_candidates(d, 0, &count);
+    diagnosis_leaders(d, 0, &first, &second);
+    for (int i = 0; i < count; i++)
+        tried += candidate[i].refitted;
+    if (d->verdict.kind == ROTID_NAMED && first >= 0 && second >= 0)
         say(reasons,
             pool_format(pool, "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; %s are asked for.",
-                        human_count(pool, tried), cause_label(pool, &round->candidate[first].cause),
-                        cause_label(pool, &round->candidate[second].cause),
-                        human_digits(pool, diagnosis_lead(&round->candidate[first], &round->candidate[second]), 3),
+                        human_count(pool, tried), cause_label(pool, d, &candidate[first].cause),
+                        cause_label(pool, d, &candidate[second].cause),
+                        human_digits(pool, candidate_lead(&candidate[first], &candidate[second]), 3),
                         human_trimmed(pool, round->required_margin, 3)));
-    else if (d->kind == TOLD_NAMED && first >= 0 && tried > 1)
+    else if (d->verdict.kind == ROTID_NAMED && first >= 0 && tried > 1)
         say(reasons,
             pool_format(pool,
                         "Of %s causes that were fitted all others were refused, for their size or for what they do to modes "
                         "that were held out.",
                         human_count(pool, tried)));
-    if (d->kind == TOLD_AMBIGUOUS && d->nalternative > 1 && isfinite(round->required_margin))
+    if (d->verdict.kind == ROTID_AMBIGUOUS && d->verdict.nalternative_causes > 1 && isfinite(round->required_margin))
         say(reasons, pool_format(pool,
                                  "None of them leads the others by %s in the misfit, which a name asks for. The order in which "
                                  "they stand is that of the fit, and the next test may reverse it.",
                                  human_trimmed(pool, round->required_margin, 3)));
-    if (d->kind == TOLD_UNEXPLAINED)
+    if (d->verdict.kind == ROTID_UNEXPLAINED)
         say(reasons,
             tried ? pool_format(pool, "%s %s fitted and refused; the evidence says why.",
                                 words_sentence(pool, human_count(pool, tried)), human_plural(tried, "cause was", "causes were"))
                   : "No cause of the catalogue promises enough to be fitted.");
 }
 
-static void on_left_out(struct reasons *reasons, const struct diagnosis_outcome *d)
+static void on_left_out(struct reasons *reasons, const rotid_diagnosis *d)
 {
     struct pool *pool = reasons->pool;
-    static const struct {
-        enum gain_kind gain;
+    const struct {
+        const rotid_pair *pair;
         const char *what;
-    } rows[] = {{GAIN_HELD_FREQUENCY, "the modes that the deck holds out"}, {GAIN_MODE_FREQUENCY, "modes left out in turn"}};
+    } rows[] = {{&d->gain.holdout_frequency_rms_percent, "the modes that the deck holds out"},
+                {&d->gain.mode_out_frequency_rms_percent, "modes left out in turn"}};
     for (int i = 0; i < 2; i++) {
-        double before = d->gain[rows[i].gain].before, after = d->gain[rows[i].gain].after;
-        if (!isfinite(before) || !d->ncause || !isfinite(after))
+        double before = rows[i].pair->before, after = rows[i].pair->after;
+        if (!isfinite(before) || !d->verdict.ncauses || !isfinite(after))
             continue;
         say(reasons,
             pool_format(pool,
@@ -237,43 +246,43 @@ static void on_left_out(struct reasons *reasons, const struct diagnosis_outcome 
     }
 }
 
-static void on_parameters(struct reasons *reasons, const struct diagnosis_outcome *d)
+static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
 {
     struct pool *pool = reasons->pool;
     const char *moved = "";
     int count = 0;
-    for (int p = 0; p < d->nparameter && moved; p++) {
-        double percent = 100 * (d->parameter[p].after / d->parameter[p].before - 1);
+    for (int p = 0; p < d->gain.nparameters && moved; p++) {
+        double percent = 100 * (d->gain.parameters[p].after / d->gain.parameters[p].before - 1);
         if (isfinite(percent))
-            moved = pool_format(pool, "%s%s%s by %s\xc2\xa0%%", moved, count++ ? ", " : "", d->parameter[p].name,
+            moved = pool_format(pool, "%s%s%s by %s\xc2\xa0%%", moved, count++ ? ", " : "", d->gain.parameters[p].name,
                                 human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
     }
-    if (count && moved && d->kind != TOLD_NONE)
+    if (count && moved && d->verdict.kind != -1)
         say(reasons, pool_format(pool, "What was missing had moved the parameters: with it they change, %s.", moved));
-    const struct fitted *fit = d->extended ? d->extended : d->base;
-    for (int p = 0; fit && p < fit->nparameter; p++)
-        if (!fit->parameter[p].identifiable)
-            say(reasons, pool_format(pool, "%s %s.", fit->parameter[p].name,
-                                     fit->parameter[p].at_bound ? "ends at its bound: what it would be beyond is not known"
-                                                                : "is not determined by these data"));
+    const rotid_identification *fit = d->extended ? d->extended : d->base;
+    for (int p = 0; fit && p < fit->nparameters; p++)
+        if (!fit->parameters[p].identifiable)
+            say(reasons, pool_format(pool, "%s %s.", fit->parameters[p].name,
+                                     fit->parameters[p].at_bound ? "ends at its bound: what it would be beyond is not known"
+                                                                 : "is not determined by these data"));
 }
 
 /* What the FIT of the deck makes of the parameters beside the full model. */
-static void on_today(struct reasons *reasons, const struct diagnosis_outcome *d)
+static void on_today(struct reasons *reasons, const rotid_diagnosis *d)
 {
     struct pool *pool = reasons->pool;
-    const struct fitted *final = d->extended ? d->extended : d->base, *today = diagnosis_today(d);
+    const rotid_identification *final = d->extended ? d->extended : d->base, *today = diagnosis_today(d);
     const char *text = "";
     int count = 0;
     if (!today || !final)
         return;
-    for (int p = 0; p < today->nparameter && text; p++)
-        for (int q = 0; q < final->nparameter && text; q++) {
-            double percent = 100 * (today->parameter[p].value / final->parameter[q].value - 1);
-            if (strcmp(today->parameter[p].name, final->parameter[q].name) != 0 || !isfinite(percent))
+    for (int p = 0; p < today->nparameters && text; p++)
+        for (int q = 0; q < final->nparameters && text; q++) {
+            double percent = 100 * (today->parameters[p].value / final->parameters[q].value - 1);
+            if (strcmp(today->parameters[p].name, final->parameters[q].name) != 0 || !isfinite(percent))
                 continue;
-            text = pool_format(pool, "%s%s%s = %s, %s\xc2\xa0%%", text, count++ ? "; " : "", today->parameter[p].name,
-                               human_value(pool, today->parameter[p].value, today->parameter[p].unit),
+            text = pool_format(pool, "%s%s%s = %s, %s\xc2\xa0%%", text, count++ ? "; " : "", today->parameters[p].name,
+                               human_value(pool, today->parameters[p].value, today->parameters[p].unit),
                                human_signed(pool, percent, 1));
         }
     if (count && text)
@@ -284,30 +293,30 @@ static void on_today(struct reasons *reasons, const struct diagnosis_outcome *d)
                         today->functional, today->reduction, text, d->extended ? "extended model" : "model"));
 }
 
-static void on_data(struct reasons *reasons, const struct diagnosis_outcome *d)
+static void on_data(struct reasons *reasons, const rotid_diagnosis *d)
 {
-    for (int i = 0; i < d->nnumerical; i++)
-        if (d->numerical[i].text)
-            say(reasons, pool_format(reasons->pool, "Numbers: %s.", d->numerical[i].text));
+    for (int i = 0; i < d->nnumerical_findings; i++)
+        if (d->numerical_findings[i].text)
+            say(reasons, pool_format(reasons->pool, "Numbers: %s.", d->numerical_findings[i].text));
 }
 
 void answer_diagnose(struct document *document, const struct result *result)
 {
     static const enum tone tones[] = {TONE_BAD, TONE_GOOD, TONE_CARE, TONE_CARE, TONE_BAD};
-    const struct diagnosis_outcome *d = result->diagnosis;
+    const rotid_diagnosis *d = result->diagnose;
     struct reasons reasons = {.pool = document->pool};
-    document->tone = tones[d->kind];
+    document->tone = tones[d->verdict.kind + 1];
     document->headline = headline(document->pool, d);
     document->answer = or_nothing(verdict(document->pool, d));
-    document->next = next(document->pool, d, result->deck ? result->deck : "DECK");
-    on_chance(&reasons, d, result);
+    document->next = next(document->pool, d, result->head.deck ? result->head.deck : "DECK");
+    on_chance(&reasons, d);
     on_lead(&reasons, d);
     on_left_out(&reasons, d);
     on_parameters(&reasons, d);
     on_today(&reasons, d);
     on_data(&reasons, d);
-    if (d->sentence) /* holds what no key does: a second place, parameters that the data leave open */
-        say(&reasons, pool_format(document->pool, "In the words of rotid diagnose: %s", d->sentence));
+    if (d->verdict.sentence) /* holds what no key does: a second place, parameters that the data leave open */
+        say(&reasons, pool_format(document->pool, "In the words of rotid diagnose: %s", d->verdict.sentence));
     if (!reasons.count)
         return;
     document_section(document, "trust", "Why");

@@ -3,14 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Cells that differ in the modes alone. */
-static int same_but_modes(const struct told_cell *a, const struct told_cell *b)
-{
-    return axis_same_text(a->deck, b->deck) && axis_same_text(a->variant, b->variant) && axis_same_text(a->sensors, b->sensors) &&
-           axis_same_text(a->hide, b->hide) && axis_same_number(a->noise_frequency, b->noise_frequency) &&
-           axis_same_number(a->noise_shape, b->noise_shape);
-}
-
 static struct modes_point point_of(const struct study_outcome *study, int cell)
 {
     struct modes_point point = {.cell = cell};
@@ -18,7 +10,7 @@ static struct modes_point point_of(const struct study_outcome *study, int cell)
     int count = 0;
     for (int i = 0; i < study->nrun; i++) {
         const struct told_run *run = &study->run[i];
-        if (run->cell != cell || run->status > TOLD_AT_BOUND || !isfinite(run->objective))
+        if (run->cell != cell || run->status > STUDY_AT_BOUND || !isfinite(run->objective))
             continue;
         point.fitted = run->fitted > point.fitted ? run->fitted : point.fitted;
         sum += run->objective;
@@ -39,12 +31,12 @@ static void insert(struct modes_series *series, struct modes_point point)
 int by_modes_make(struct pool *pool, const struct study_outcome *study, struct by_modes *by)
 {
     *by = (struct by_modes){0};
-    for (int i = 0; i < study->ncell; i++) {
+    for (int i = 0; i < study->is.ncells; i++) {
         int s = 0;
-        struct modes_point point = study->cell[i].modes ? point_of(study, i) : (struct modes_point){.fitted = 0};
+        struct modes_point point = study->cell[i].is.cell.modes ? point_of(study, i) : (struct modes_point){.fitted = 0};
         if (!point.fitted)
             continue;
-        while (s < by->nseries && !same_but_modes(&study->cell[by->series[s].point[0].cell], &study->cell[i]))
+        while (s < by->nseries && !study_same_but_modes(&study->cell[by->series[s].point[0].cell].is.cell, &study->cell[i].is.cell))
             s++;
         if (s == BY_MODES_SERIES) {
             by->more++;
@@ -52,7 +44,7 @@ int by_modes_make(struct pool *pool, const struct study_outcome *study, struct b
         }
         struct modes_series *series = &by->series[s];
         if (s == by->nseries) {
-            *series = (struct modes_series){study->cell[i].but_modes, 0, POOL_ARRAY(pool, struct modes_point, study->ncell)};
+            *series = (struct modes_series){study->cell[i].but_modes, 0, POOL_ARRAY(pool, struct modes_point, study->is.ncells)};
             by->nseries++;
         }
         if (!series->point)

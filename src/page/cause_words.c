@@ -6,6 +6,7 @@
 
 #include "diagnose/causes/catalogue.h"
 #include "page/human.h"
+#include "result/judgement.h"
 
 static const char *or_nothing(const char *text)
 {
@@ -34,9 +35,9 @@ const char *cause_name(struct pool *pool, const char *id, const char *target)
     return or_nothing(pool_format(pool, strncmp(target, "at ", 3) ? "%s of %s" : "%s %s", id, target));
 }
 
-const char *cause_label(struct pool *pool, const struct told_cause *cause)
+const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause)
 {
-    return cause->suspect && cause->name ? cause->name : cause_name(pool, cause->id, cause->target);
+    return diagnosis_is_suspected(d, cause) ? cause->name : cause_name(pool, cause->id, cause->target);
 }
 
 #define TINY  1e-12 /* zero but for rounding, in SI units */
@@ -44,38 +45,38 @@ const char *cause_label(struct pool *pool, const struct told_cause *cause)
 #define LARGE 1e5
 
 /* "22.2 kg (95 %: 19.0 to 25.5)": two digits of half the interval, and of the value; this is read as a sentence. */
-static const char *with_interval(struct pool *pool, const struct told_value *value)
+static const char *with_interval(struct pool *pool, const rotid_cause_value *value)
 {
     struct human_unit shown = human_unit(value->value, value->unit);
     double f = shown.factor, number = fabs(value->value) < TINY ? 0 : f * value->value,
-           half = f * (value->ci[1] - value->ci[0]) / 2;
+           half = f * (value->ci95[1] - value->ci95[0]) / 2;
     const char *text[3], *space = *shown.text ? "\xc2\xa0" : "";
     if (value->fixed || !isfinite(half) || (number == 0 && half < TINY))
         return human_value(pool, number == 0 ? 0 : value->value, value->unit);
     int power = number != 0 && (fabs(number) < SMALL || fabs(number) >= LARGE),
         decimals = human_decimals(number, fmin(10 * half, fabs(number) > 0 ? 10 * fabs(number) : INFINITY));
-    const double part[3] = {number, f * value->ci[0], f * value->ci[1]};
+    const double part[3] = {number, f * value->ci95[0], f * value->ci95[1]};
     for (int i = 0; i < 3; i++)
         text[i] = power ? human_digits(pool, part[i], 2) : human_fixed(pool, part[i], decimals);
     return or_nothing(pool_format(pool, "%s%s%s (95\xc2\xa0%%: %s to %s)", text[0], space, shown.text, text[1], text[2]));
 }
 
-const char *cause_values(struct pool *pool, const struct told_cause *cause)
+const char *cause_values(struct pool *pool, const rotid_cause *cause)
 {
     const char *text = "";
-    for (int p = 0; p < cause->nvalue && text; p++) {
-        const struct told_value *value = &cause->value[p];
+    for (int p = 0; p < cause->nparameters && text; p++) {
+        const rotid_cause_value *value = &cause->parameters[p];
         text = pool_format(pool, "%s%s%s %s%s", text, p ? ", " : "", value->name, with_interval(pool, value),
                            value->fixed ? " (given)" : "");
     }
     return or_nothing(text);
 }
 
-const char *cause_in_words(struct pool *pool, const struct told_cause *cause, int with_values)
+const char *cause_in_words(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause, int with_values)
 {
     const char *meaning = cause_meaning(cause->id), *name = cause_name(pool, cause->id, cause->target),
                *values = with_values ? cause_values(pool, cause) : "";
-    if (cause->suspect && cause->name)
+    if (diagnosis_is_suspected(d, cause))
         name = or_nothing(pool_format(pool, "%s, a %s as you suspected", cause->name, name));
     if (!*meaning)
         return or_nothing(pool_format(pool, *values ? "%s (%s)" : "%s%s", name, values));

@@ -3,7 +3,7 @@
 #define ROTID_PAGE_CAUSE_WORDS_H
 
 #include "base/pool.h"
-#include "page/diagnosis.h"
+#include "rotid.h"
 
 /* "a zone softer than its surroundings", and how to look for it: "weigh the part"; "" of a cause that is not in the catalogue. */
 const char *cause_meaning(const char *id);
@@ -11,11 +11,11 @@ const char *cause_check(const char *id);
 /* "stiffness of right", "joint between core and right", "added_mass" */
 const char *cause_name(struct pool *pool, const char *id, const char *target);
 /* The same of a cause; of a suspicion the name that its card gives it. */
-const char *cause_label(struct pool *pool, const struct told_cause *cause);
+const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause);
 /* "mass 22.22 kg (95 %: 18.96 to 25.48), z 0.8983 m (95 %: 0.8886 to 0.9080)"; "" of one without values. */
-const char *cause_values(struct pool *pool, const struct told_cause *cause);
+const char *cause_values(struct pool *pool, const rotid_cause *cause);
 /* "a zone softer than its surroundings (stiffness_local: depth 0.58, ...)", the values only where they are asked for. */
-const char *cause_in_words(struct pool *pool, const struct told_cause *cause, int with_values);
+const char *cause_in_words(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause, int with_values);
 
 /* What has no effect of a size, where that is not zero and sizes are told as they are: 90 degrees of a cone; NaN else. */
 double cause_falls_from(const char *id);

@@ -8,24 +8,24 @@
 
 /* The rotor to scale: materials, mesh, sensors, springs, tie rods, disks (Figures 1 and 4 of the paper). fit: what was identified
  * is set off; may be NULL. */
-void figure_rotor(struct document *document, const struct result *result, const struct geometry *geometry,
-                  const struct fitted *fit);
+void figure_rotor(struct document *document, const struct result *result, const rotid_geometry *geometry,
+                  const rotid_identification *fit);
 
 /* Functional, gradient, damping and step over the iterations (10); parameters over those, relative to the end (11); the iterates
  * on the bijection that keeps them within their bounds (6). */
-void figure_convergence(struct document *document, const struct result *result, const struct fitted *fit);
-void figure_iterates(struct document *document, const struct result *result, const struct fitted *fit);
-void figure_bijection(struct document *document, const struct result *result, const struct fitted *fit);
+void figure_convergence(struct document *document, const struct result *result, const rotid_identification *fit);
+void figure_iterates(struct document *document, const struct result *result, const rotid_identification *fit);
+void figure_bijection(struct document *document, const struct result *result, const rotid_identification *fit);
 
 /* Errors of the frequencies beside those of NLopt's minimisers and of the references of the heading. */
-void figure_frequencies(struct document *document, const struct result *result, const struct fitted *fit);
+void figure_frequencies(struct document *document, const struct result *result, const rotid_identification *fit);
 /* 95 % intervals of the parameters; from three on their correlation as well. */
-void figure_intervals(struct document *document, const struct result *result, const struct fitted *fit);
-void figure_correlation(struct document *document, const struct result *result, const struct fitted *fit);
+void figure_intervals(struct document *document, const struct result *result, const rotid_identification *fit);
+void figure_correlation(struct document *document, const struct result *result, const rotid_identification *fit);
 /* Measured and predicted shapes (16). */
-void figure_shapes(struct document *document, const struct result *result, const struct fitted *fit);
+void figure_shapes(struct document *document, const struct result *result, const rotid_identification *fit);
 /* NCO and MAC of every measured with every predicted shape (17). */
-void figure_matrices(struct document *document, const struct result *result, const struct fitted *fit);
+void figure_matrices(struct document *document, const struct result *result, const rotid_identification *fit);
 
 /* Shapes of the model alone. */
 void figure_modes(struct document *document, const struct result *result);

@@ -107,7 +107,7 @@ void figure_functional_by_modes(struct document *document, const struct result *
     struct pool *pool = document->pool;
     struct by_modes by;
     const char *says = "";
-    if (by_modes_make(pool, result->study, &by)) {
+    if (by_modes_make(pool, result->studied, &by)) {
         document->failed = 1;
         return;
     }
@@ -135,9 +135,9 @@ void figure_functional_by_modes(struct document *document, const struct result *
 
 static const struct cell_parameter *in(const struct told_cell *cell, const char *name)
 {
-    for (int p = 0; p < cell->nparameter; p++)
-        if (!strcmp(cell->parameter[p].name, name))
-            return &cell->parameter[p];
+    for (int p = 0; p < cell->is.nparameters; p++)
+        if (!strcmp(cell->is.parameters[p].name, name))
+            return &cell->is.parameters[p];
     return NULL;
 }
 
@@ -152,7 +152,7 @@ static int values_of(const struct study_outcome *study, const struct modes_serie
             continue;
         x[n] = series->point[i].fitted;
         y[n] = factor * p->mean;
-        bar[n++] = factor * p->stated;
+        bar[n++] = factor * p->mean_stated_std;
     }
     return n;
 }
@@ -161,14 +161,14 @@ static int parameters_script(struct document *document, struct figure *figure, c
                              const struct by_modes *by, int panels, const struct cell_parameter *const parameter[])
 {
     struct pool *pool = document->pool;
-    const struct study_outcome *study = result->study;
+    const struct study_outcome *study = result->studied;
     struct plot_entry entry[BY_MODES_SERIES];
     struct plot_layout layout = {
         .panels = panels, .columns = {panels > 1 ? 2 : 1, 1}, .height = 270, .left = 62, .right = 14, .top = 10, .bottom = 48};
     struct plot_range range[MOST_PANELS];
     int nentry = legend_of(by, entry), count[MOST_PANELS][BY_MODES_SERIES];
     struct human_unit unit[MOST_PANELS];
-    double *room = POOL_ARRAY(pool, double, 3 * (size_t)study->ncell);
+    double *room = POOL_ARRAY(pool, double, 3 * (size_t)study->is.ncells);
     struct plot plot;
     plot_head(entry, nentry, layout.head);
     if (!room || plot_open(&plot, pool, figure, result->file))
@@ -178,7 +178,7 @@ static int parameters_script(struct document *document, struct figure *figure, c
         range[p] = (struct plot_range){INFINITY, -INFINITY};
         unit[p] = human_unit(parameter[p]->mean, parameter[p]->unit);
         for (int s = 0; s < by->nseries; s++) {
-            double *x = room, *y = room + study->ncell, *bar = room + 2 * (ptrdiff_t)study->ncell;
+            double *x = room, *y = room + study->is.ncells, *bar = room + 2 * (ptrdiff_t)study->is.ncells;
             int n = values_of(study, &by->series[s], parameter[p]->name, unit[p].factor, x, y, bar);
             char name[48];
             for (int i = 0; i < n; i++) { /* a deviation larger than half the value is cut off by the panel */
@@ -228,12 +228,12 @@ static int parameters_of(const struct study_outcome *study, const struct by_mode
     for (int s = 0; s < by->nseries; s++)
         for (int i = 0; i < by->series[s].count; i++) {
             const struct told_cell *cell = &study->cell[by->series[s].point[i].cell];
-            for (int p = 0; p < cell->nparameter; p++) {
+            for (int p = 0; p < cell->is.nparameters; p++) {
                 int known = 0;
                 for (int k = 0; k < count; k++)
-                    known |= !strcmp(parameter[k]->name, cell->parameter[p].name);
-                if (!known && count < MOST_PANELS && isfinite(cell->parameter[p].mean))
-                    parameter[count++] = &cell->parameter[p];
+                    known |= !strcmp(parameter[k]->name, cell->is.parameters[p].name);
+                if (!known && count < MOST_PANELS && isfinite(cell->is.parameters[p].mean))
+                    parameter[count++] = &cell->is.parameters[p];
             }
         }
     return count;
@@ -242,7 +242,7 @@ static int parameters_of(const struct study_outcome *study, const struct by_mode
 void figure_parameters_by_modes(struct document *document, const struct result *result)
 {
     struct pool *pool = document->pool;
-    const struct study_outcome *study = result->study;
+    const struct study_outcome *study = result->studied;
     const struct cell_parameter *parameter[MOST_PANELS];
     struct by_modes by;
     const char *says = "";

@@ -1,110 +1,85 @@
-/* The worked example of a figure: numbers into a table and into the data of a script, the script, caption and alternative text.
- */
+/* The worked example of a figure: its numbers as series, caption and alternative text, and the script that draws them. */
 #include <math.h>
 
 #include "page/figures.h"
 #include "page/human.h"
 #include "page/palette.h"
-#include "page/plot.h"
+#include "page/series.h"
 
-enum { OBJECTIVE, GRADIENT, STEP, DAMPING, CURVES };
+enum { OBJECTIVE = 1, GRADIENT, STEP, DAMPING, OTHERS = DAMPING - 1, CURVES = DAMPING }; /* columns, from the first on drawn */
 #define MOST_DECADES 18
 
-static struct number_table *iterations_table(struct pool *pool, const struct fitted *fit)
+static const struct column columns[] = {
+    {"iteration", NULL, AS_FIXED, 0}, {"objective", "1", AS_DIGITS, 8}, {"gradient", "1", AS_DIGITS, 3},
+    {"step", "1", AS_DIGITS, 3},      {"damping", "1", AS_DIGITS, 3},   {"gain ratio", "1", AS_FIXED, 3},
+    {"time", "ms", AS_FIXED, 1},
+};
+
+static struct series *collect(struct document *document, const rotid_identification *fit)
 {
-    static const char *const head[] = {"iteration",      "objective [1]", "gradient [1]", "damping [1]",
-                                       "gain ratio [1]", "step [1]",      "time [ms]"};
-    struct number_table *table = table_new(pool, fit->nhistory, 7);
-    for (int j = 0; j < 7; j++)
-        table_head(table, j, head[j]);
+    struct series *series = series_new(document, "iterations", fit->nhistory, (int)(sizeof columns / sizeof *columns), columns);
     for (int i = 0; i < fit->nhistory; i++) {
-        const struct fitted_iteration *now = &fit->history[i];
-        table_cell(table, i, 0, human_fixed(pool, now->iteration, 0));
-        table_cell(table, i, 1, human_digits(pool, now->objective, 8));
-        table_cell(table, i, 2, human_digits(pool, now->gradient, 3));
-        table_cell(table, i, 3, human_digits(pool, now->mu, 3));
-        table_cell(table, i, 4, human_fixed(pool, now->gain_ratio, 3));
-        table_cell(table, i, 5, human_digits(pool, now->step, 3));
-        table_cell(table, i, 6, human_fixed(pool, 1e3 * now->seconds, 1));
+        const rotid_history_entry *now = &fit->history[i];
+        series_row(series, i,
+                   (const double[]){now->iteration, now->objective, now->gradient, now->step, now->mu, now->gain_ratio,
+                                    1e3 * now->seconds});
     }
-    return table;
+    return series;
 }
 
-/* The four curves over the iteration, [nhistory] each, NaN where a logarithm has none; NULL: memory is out. */
-static double *curves(struct pool *pool, const struct fitted *fit)
-{
-    int n = fit->nhistory;
-    double *y = POOL_ARRAY(pool, double, (CURVES + 1) * (size_t)n);
-    for (int i = 0; i < n && y; i++) {
-        const struct fitted_iteration *now = &fit->history[i];
-        const double value[CURVES] = {now->objective, now->gradient, now->step, now->mu};
-        y[i] = now->iteration;
-        for (int c = 0; c < CURVES; c++)
-            y[i + (ptrdiff_t)(c + 1) * n] = value[c] > 0 ? value[c] : (double)NAN;
-    }
-    return y;
-}
-
+/* The last number that a logarithm has. */
 static double last_of(int n, const double *value)
 {
-    while (n > 1 && !isfinite(value[n - 1]))
+    while (n > 1 && !(value[n - 1] > 0 && isfinite(value[n - 1])))
         n--;
     return value[n - 1];
 }
 
 /* The decades that are drawn. The damping can be smaller by far than all else, and is left out then: *drawn is the number of
  * curves. */
-static struct plot_range decades(int n, const double *y, int *drawn)
+static struct plot_range decades(int n, const double *curves, int *drawn)
 {
-    struct plot_range others = plot_decades(DAMPING * n, y + n, MOST_DECADES),
-                      all = plot_decades(CURVES * n, y + n, MOST_DECADES),
-                      damping = plot_decades(n, y + (ptrdiff_t)(1 + DAMPING) * n, MOST_DECADES);
-    *drawn = damping.to > others.from ? CURVES : DAMPING;
+    struct plot_range others = plot_decades(OTHERS * n, curves, MOST_DECADES),
+                      all = plot_decades(CURVES * n, curves, MOST_DECADES),
+                      damping = plot_decades(n, curves + (ptrdiff_t)OTHERS * n, MOST_DECADES);
+    *drawn = damping.to > others.from ? CURVES : OTHERS;
     return *drawn == CURVES ? all : others;
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct fitted *fit,
-                  const double *y)
+static void draw(struct plot *plot, struct series *series, const rotid_identification *fit, const struct plot_range *range,
+                 int drawn)
 {
-    static const char *const text[CURVES] = {"functional", "gradient", "step", "damping \xce\xbc"};
-    int n = fit->nhistory, steps = fit->history[n - 1].iteration, drawn;
-    const double *data[CURVES + 1];
-    struct plot plot;
-    struct plot_range range = decades(n, y, &drawn);
-    if (plot_open(&plot, document->pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    for (int c = 0; c <= CURVES; c++)
-        data[c] = y + (ptrdiff_t)c * n;
-    plot_line(&plot, "# columns: iteration, functional, gradient, step, damping");
-    plot_data(&plot, "iterations", n, CURVES + 1, data);
-    plot_begin(&plot, &(struct plot_layout){
-                          .panels = 1, .columns = {1, 1}, .height = 330, .left = 62, .right = 84, .top = 12, .bottom = 48});
-    plot_panel(&plot, 0);
-    plot_decades_axis(&plot, 'y', &range, 8);
-    plot_line(&plot, "set xrange [%g:%g]", fit->history[0].iteration - 0.02 * (steps + 1), steps * 1.02 + 0.02);
-    if (steps <= 12)
-        plot_line(&plot, "set xtics 1");
-    plot_axes(&plot, "iteration [1]", "value [1]");
+    static const char *const text[] = {"functional", "gradient", "step", "damping \xce\xbc"};
+    int n = fit->nhistory, steps = fit->history[n - 1].iteration;
     double height[CURVES];
+    plot_begin(plot, &(struct plot_layout){
+                         .panels = 1, .columns = {1, 1}, .height = 330, .left = 62, .right = 84, .top = 12, .bottom = 48});
+    plot_panel(plot, 0);
+    plot_decades_axis(plot, 'y', range, 8);
+    plot_line(plot, "set xrange [%g:%g]", fit->history[0].iteration - 0.02 * (steps + 1), steps * 1.02 + 0.02);
+    if (steps <= 12)
+        plot_line(plot, "set xtics 1");
+    plot_axes(plot, "iteration [1]", "value [1]");
     for (int c = 0; c < drawn; c++)
-        height[c] = plot_share(&range, log10(last_of(n, data[c + 1])));
-    plot_end_labels(&plot, drawn, text, height, series_color);
-    plot_line(&plot, "plot for [c = 2:%d] $iterations using 1:c with linespoints ls c-1 pointinterval %d", drawn + 1, 1 + n / 25);
-    return plot_close(&plot);
+        height[c] = plot_share(range, log10(last_of(n, series_values(series, OBJECTIVE + c))));
+    plot_end_labels(plot, drawn, text, height, series_color);
+    plot_line(plot, "plot for [c = 2:%d] $iterations using 1:c with linespoints ls c-1 pointinterval %d", drawn + 1, 1 + n / 25);
 }
 
-void figure_convergence(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_convergence(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
     if (fit->nhistory < 2)
         return;
     struct figure *figure =
         document_figure(document, "convergence", "Functional, gradient, damping and step over the iterations");
-    const struct fitted_iteration *first = &fit->history[0], *last = &fit->history[fit->nhistory - 1];
-    const double *y = curves(pool, fit);
-    int drawn = CURVES;
-    if (y)
-        (void)decades(fit->nhistory, y, &drawn);
+    const rotid_history_entry *first = &fit->history[0], *last = &fit->history[fit->nhistory - 1];
+    struct series *series = collect(document, fit);
+    struct plot plot;
+    int drawn;
+    if (!series || !figure_begin(document, figure, result->file, &plot))
+        return;
+    struct plot_range range = decades(fit->nhistory, series_values(series, OBJECTIVE), &drawn);
     const char *damping = drawn < CURVES
                               ? pool_format(pool, " The damping goes from %s to %s, too small to be drawn beside the others.",
                                             human_digits(pool, first->mu, 2), human_digits(pool, last->mu, 2))
@@ -123,6 +98,8 @@ void figure_convergence(struct document *document, const struct result *result, 
                     "falls to %s, the last step is %s, the damping ends at %s.",
                     drawn == CURVES ? "Four" : "Three", last->iteration, human_digits(pool, last->objective, 3),
                     human_digits(pool, last->gradient, 2), human_digits(pool, last->step, 2), human_digits(pool, last->mu, 2));
-    figure->table = iterations_table(pool, fit);
-    document->failed |= !y || !figure->caption || !figure->alt || script(document, figure, result, fit, y) != ROTID_OK;
+    figure->table = series_table(series);
+    plot_series(&plot, series);
+    draw(&plot, series, fit, &range, drawn);
+    figure_end(document, &plot);
 }

@@ -35,20 +35,20 @@ static void add_dot(struct coverage *c, const struct cell_parameter *p)
         for (int row = 0; row < ROWS_MOST; row++)
             dot->percent[row] = NAN;
     }
-    dot->percent[c->rows] = 100 * p->coverage;
-    c->least = fmin(c->least, 100 * p->coverage);
+    dot->percent[c->rows] = 100 * p->coverage95;
+    c->least = fmin(c->least, 100 * p->coverage95);
     c->fewest = fmin(c->fewest, p->intervals);
 }
 
 static void collect_coverage(const struct study_outcome *s, struct coverage *c)
 {
     *c = (struct coverage){.least = NOMINAL, .fewest = INFINITY};
-    for (int i = 0; i < s->ncell && c->rows < ROWS_MOST; i++) {
+    for (int i = 0; i < s->is.ncells && c->rows < ROWS_MOST; i++) {
         int any = 0;
-        for (int p = 0; p < s->cell[i].nparameter; p++)
-            if (isfinite(s->cell[i].parameter[p].coverage)) {
+        for (int p = 0; p < s->cell[i].is.nparameters; p++)
+            if (isfinite(s->cell[i].is.parameters[p].coverage95)) {
                 any = 1;
-                add_dot(c, &s->cell[i].parameter[p]);
+                add_dot(c, &s->cell[i].is.parameters[p]);
             }
         if (any)
             c->name[c->rows++] = s->cell[i].label;
@@ -100,7 +100,7 @@ void figure_coverage(struct document *document, const struct result *result)
         document->failed = 1;
         return;
     }
-    collect_coverage(result->study, c);
+    collect_coverage(result->studied, c);
     if (c->rows < 2)
         return;
     struct figure *figure = document_figure(document, "coverage", "How often the 95 % intervals hold the truth");

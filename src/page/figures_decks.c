@@ -25,18 +25,18 @@ static const char *commonest(const struct study_outcome *s)
 {
     const char *best = NULL;
     int most = 0;
-    for (int i = 0; i < s->ncell; i++) {
+    for (int i = 0; i < s->is.ncells; i++) {
         const struct told_cell *cell = &s->cell[i];
-        if (cell->variant || cell->modes || cell->sensors || cell->hide || cell->runs > 1)
+        if (cell->is.cell.variant || cell->is.cell.modes || cell->is.cell.sensors || cell->is.cell.hide || cell->is.runs > 1)
             return NULL;
-        for (int p = 0; p < cell->nparameter; p++) {
+        for (int p = 0; p < cell->is.nparameters; p++) {
             int count = 0;
-            for (int k = 0; k < s->ncell; k++)
-                for (int q = 0; q < s->cell[k].nparameter; q++)
-                    count += !strcmp(s->cell[k].parameter[q].name, cell->parameter[p].name);
+            for (int k = 0; k < s->is.ncells; k++)
+                for (int q = 0; q < s->cell[k].is.nparameters; q++)
+                    count += !strcmp(s->cell[k].is.parameters[q].name, cell->is.parameters[p].name);
             if (count > most) {
                 most = count;
-                best = cell->parameter[p].name;
+                best = cell->is.parameters[p].name;
             }
         }
     }
@@ -49,20 +49,20 @@ static void collect(const struct study_outcome *s, const char *name, struct deck
     for (int i = 0; i < s->nrun; i++) {
         const struct told_run *run = &s->run[i];
         const struct told_cell *cell = &s->cell[run->cell];
-        for (int p = 0; p < cell->nparameter && run->value; p++) {
-            if (strcmp(cell->parameter[p].name, name) != 0 || !isfinite(run->value[p].value))
+        for (int p = 0; p < cell->is.nparameters && run->value; p++) {
+            if (strcmp(cell->is.parameters[p].name, name) != 0 || !isfinite(run->value[p].value))
                 continue;
             if (!decks->parameter) {
-                decks->parameter = &cell->parameter[p];
-                decks->unit = human_unit(run->value[p].value, cell->parameter[p].unit);
+                decks->parameter = &cell->is.parameters[p];
+                decks->unit = human_unit(run->value[p].value, cell->is.parameters[p].unit);
             }
             double f = decks->unit.factor;
             if (decks->count == ROWS_MOST)
                 decks->hidden++;
             else
-                decks->row[decks->count++] = (struct deck_row){*cell->label ? cell->label : cell->deck,
+                decks->row[decks->count++] = (struct deck_row){*cell->label ? cell->label : cell->is.cell.deck,
                                                                f * run->value[p].value,
-                                                               {f * run->value[p].ci[0], f * run->value[p].ci[1]}};
+                                                               {f * run->value[p].ci95[0], f * run->value[p].ci95[1]}};
         }
     }
 }
@@ -122,7 +122,7 @@ void figure_decks(struct document *document, const struct result *result)
 {
     struct pool *pool = document->pool;
     struct decks *decks = POOL_NEW(pool, struct decks);
-    const char *name = commonest(result->study);
+    const char *name = commonest(result->studied);
     int least = 0, most = 0;
     if (!decks) {
         document->failed = 1;
@@ -130,7 +130,7 @@ void figure_decks(struct document *document, const struct result *result)
     }
     if (!name)
         return;
-    collect(result->study, name, decks);
+    collect(result->studied, name, decks);
     if (decks->count < LEAST)
         return;
     for (int i = 0; i < decks->count; i++) {

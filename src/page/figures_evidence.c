@@ -5,7 +5,7 @@
 #include "page/cause_words.h"
 #include "page/figures_diagnosis.h"
 #include "page/human.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_BARS 14
 #define WIDE_ROW  24.0
@@ -18,13 +18,13 @@ enum fate { FATE_NAMED, FATE_POSSIBLE, FATE_LOSES, FATE_REFUSED, FATE_SCANNED, F
 static const char *const fate_color[FATES] = {"VERMILION", "PURPLE", "BLUE", "MUTED", "BLUE"};
 
 struct bar {
-    const struct evidence *evidence;
+    const rotid_candidate *evidence;
     enum fate fate;
     double drop;
     const char *label;
 };
 
-struct bars {
+struct bar_list {
     int count, hidden, has[FATES];
     struct bar bar[MOST_BARS]; /* longest first */
 };
@@ -36,22 +36,25 @@ static int longer(const void *a, const void *b)
 }
 
 /* The longest ones, the set in any case. NULL: memory is out. */
-static struct bars *collect(struct pool *pool, const struct evidence_round *round)
+static struct bar_list *collect(struct pool *pool, const rotid_diagnosis *d, int number)
 {
-    struct bars *bars = POOL_NEW(pool, struct bars);
-    struct bar *all = POOL_ARRAY(pool, struct bar, round->ncandidate);
+    int ncandidate;
+    const rotid_candidate *candidate = diagnosis_candidates(d, number, &ncandidate);
+    const rotid_round *round = &d->rounds[number];
+    struct bar_list *bars = POOL_NEW(pool, struct bar_list);
+    struct bar *all = POOL_ARRAY(pool, struct bar, ncandidate);
     int count = 0;
     if (!bars || !all)
         return NULL;
-    for (int i = 0; i < round->ncandidate; i++) {
-        const struct evidence *c = &round->candidate[i];
+    for (int i = 0; i < ncandidate; i++) {
+        const rotid_candidate *c = &candidate[i];
         double drop = c->refitted ? c->chi2_drop : c->predicted_drop;
-        enum fate fate = i < round->nset         ? round->kind == TOLD_NAMED ? FATE_NAMED : FATE_POSSIBLE
+        enum fate fate = i < round->set          ? round->kind == ROTID_NAMED ? FATE_NAMED : FATE_POSSIBLE
                          : !c->refitted          ? FATE_SCANNED
-                         : diagnosis_is_rival(c) ? FATE_LOSES
+                         : candidate_is_rival(c) ? FATE_LOSES
                                                  : FATE_REFUSED;
         if (isfinite(drop))
-            all[count++] = (struct bar){c, fate, fmax(drop, 0), cause_label(pool, &c->cause)};
+            all[count++] = (struct bar){c, fate, fmax(drop, 0), cause_label(pool, d, &c->cause)};
     }
     qsort(all, (size_t)count, sizeof *all, longer);
     for (int i = 0; i < count; i++) {
@@ -64,7 +67,7 @@ static struct bars *collect(struct pool *pool, const struct evidence_round *roun
     return bars;
 }
 
-static int legend_of(const struct bars *bars, const struct evidence_round *round, int with_margin, struct plot_entry *entry)
+static int legend_of(const struct bar_list *bars, const rotid_round *round, int with_margin, struct plot_entry *entry)
 {
     static const char *const texts[FATES] = {"named", "possible, not to be told apart", "fitted, loses",
                                              "refused for a reason of its own", "only scanned: the drop expected"};
@@ -94,16 +97,9 @@ static double behind(double drop, double most, const char *text, int layout, con
     return at;
 }
 
-static void draw_bars(struct plot *plot, const struct bars *bars, double most, const double line[2])
+static void draw_bars(struct plot *plot, const struct bar_list *bars, double most, const double line[2])
 {
     int n = bars->count;
-    for (int i = 0; i < n; i++) {
-        const struct bar *bar = &bars->bar[i];
-        const char *how =
-            bar->fate == FATE_SCANNED ? "fs transparent pattern 4 border lc rgb BLUE fc rgb BLUE" : "fs solid noborder fc rgb ";
-        plot_line(plot, "set object %d rectangle from 0,%d-LIFT-0.5*BAR to %.6g,%d-LIFT+0.5*BAR front %s%s", i + 1, n - i,
-                  bar->drop, n - i, how, bar->fate == FATE_SCANNED ? "" : fate_color[bar->fate]);
-    }
     for (int l = 0; l < LAYOUTS; l++) {
         plot_line(plot, l == WIDE ? "if (!narrow) {" : "} else {");
         for (int i = 0; i < n; i++) {
@@ -133,10 +129,31 @@ static void upright(struct plot *plot, double x, int n, int style)
         100 * style, x, x, style, n, 100 * style, x, x, style);
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result,
-                  const struct evidence_round *round, const struct bars *bars, double margin_at)
+static struct series *collect_series(struct document *document, const struct bar_list *bars)
 {
-    struct plot plot;
+    static const char *const fates[FATES] = {"named", "possible", "loses", "refused for a reason of its own", "only scanned"};
+    static const struct column columns[] = {{"row from below", NULL, AS_PLACE, 0},
+                                            {"cause", NULL, AS_TEXT, 0},
+                                            {"drop expected", "1", AS_DIGITS, 4},
+                                            {"drop reached", "1", AS_DIGITS, 4},
+                                            {"length of the bar", "1", AS_PLACE, 0},
+                                            {"number of its fate", NULL, AS_PLACE, 0},
+                                            {"fate", NULL, AS_TEXT, 0}};
+    struct series *series = series_new(document, "candidates", bars->count, 7, columns);
+    for (int i = 0; i < bars->count; i++) {
+        const struct bar *bar = &bars->bar[i];
+        series_row(
+            series, i,
+            (const double[]){bars->count - i, bar->evidence->predicted_drop, bar->evidence->chi2_drop, bar->drop, bar->fate});
+        series_text(series, i, 1, bar->label);
+        series_text(series, i, 6, fates[bar->fate]);
+    }
+    return series;
+}
+
+static void script(struct plot *plot, const struct series *series, const rotid_round *round, const struct bar_list *bars,
+                   double margin_at)
+{
     struct plot_entry entry[FATES + 2];
     int n = bars->count, nentry = legend_of(bars, round, isfinite(margin_at), entry);
     double most = fmax(bars->bar[0].drop, isfinite(round->threshold) ? round->threshold : 0);
@@ -148,79 +165,65 @@ static int script(struct document *document, struct figure *figure, const struct
                                  .right = NUMBER_PX,
                                  .top = 10,
                                  .bottom = 52};
-    double *data = POOL_ARRAY(document->pool, double, 3 * (size_t)n);
     most = most > 0 ? most : 1;
     plot_head(entry, nentry, layout.head);
-    if (!data || plot_open(&plot, document->pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < n; i++) {
-        data[i] = n - i;
-        data[i + n] = bars->bar[i].evidence->predicted_drop;
-        data[i + 2 * (ptrdiff_t)n] = bars->bar[i].evidence->chi2_drop;
-    }
-    plot_line(&plot, "set style line 11 lc rgb INK lw 1.25 dt (2,3)\nset style line 12 lc rgb INK lw 1.25 dt (8,4)");
-    plot_line(&plot, "# columns: row from below, drop of chi2 expected by the linear scan, reached by the fit");
-    plot_data(&plot, "candidates", n, 3, (const double *const[]){data, data + n, data + 2 * (ptrdiff_t)n});
-    plot_begin(&plot, &layout);
-    plot_panel(&plot, 0);
-    plot_line(&plot,
+    plot_line(plot, "set style line 11 lc rgb INK lw 1.25 dt (2,3)\nset style line 12 lc rgb INK lw 1.25 dt (8,4)");
+    plot_series(plot, series);
+    plot_begin(plot, &layout);
+    plot_panel(plot, 0);
+    plot_line(plot,
               "# of a row: width of a bar, and how far it lies under the middle\nBAR = narrow ? 0.36 : 0.62; LIFT = narrow ? "
               "0.2 : 0");
-    plot_line(&plot, "if (narrow) { set lmargin at screen %g/W }", EDGE_PX);
-    plot_line(&plot, "set xrange [0:%.6g]\nset yrange [0.5:%g]\nunset ytics\nset border 1\nset xtics %g", most * 1.02, n + 0.5,
+    plot_line(plot, "if (narrow) { set lmargin at screen %g/W }", EDGE_PX);
+    plot_line(plot, "set xrange [0:%.6g]\nset yrange [0.5:%g]\nunset ytics\nset border 1\nset xtics %g", most * 1.02, n + 0.5,
               plot_tic(most, 5));
-    plot_legend(&plot, entry, nentry);
-    plot_axes(&plot, "drop of the misfit \xcf\x87\xc2\xb2 [1]", NULL);
-    draw_bars(&plot, bars, most, (const double[]){round->threshold, margin_at});
-    upright(&plot, round->threshold, n, 11);
-    upright(&plot, margin_at, n, 12);
-    plot_line(&plot, "plot $candidates using 3:1 with dots lc rgb PAPER");
-    return plot_close(&plot);
-}
-
-static struct number_table *bars_table(struct pool *pool, const struct bars *bars)
-{
-    static const char *const fates[FATES] = {"named", "possible", "loses", "refused for a reason of its own", "only scanned"};
-    struct number_table *table = table_new(pool, bars->count, 4);
-    table_head(table, 0, "cause");
-    table_head(table, 1, "drop expected [1]");
-    table_head(table, 2, "drop reached [1]");
-    table_head(table, 3, "fate");
-    for (int i = 0; i < bars->count; i++) {
-        table_cell(table, i, 0, bars->bar[i].label);
-        table_cell(table, i, 1, human_digits(pool, bars->bar[i].evidence->predicted_drop, 4));
-        table_cell(table, i, 2, human_digits(pool, bars->bar[i].evidence->chi2_drop, 4));
-        table_cell(table, i, 3, fates[bars->bar[i].fate]);
+    plot_legend(plot, entry, nentry);
+    plot_axes(plot, "drop of the misfit \xcf\x87\xc2\xb2 [1]", NULL);
+    draw_bars(plot, bars, most, (const double[]){round->threshold, margin_at});
+    upright(plot, round->threshold, n, 11);
+    upright(plot, margin_at, n, 12);
+    const char *between = "plot ";
+    for (int f = 0; f < FATES; f++) {
+        if (!bars->has[f])
+            continue;
+        (void)fprintf(
+            plot->out,
+            "%s$candidates using 4:($5 == %d ? $1-LIFT : NaN):(0):4:($1-LIFT-0.5*BAR):($1-LIFT+0.5*BAR) with boxxyerror %s%s",
+            between, f, f == FATE_SCANNED ? "fs transparent pattern 4 border lc rgb BLUE lw 1 " : "fs solid noborder fc rgb ",
+            f == FATE_SCANNED ? "fc rgb BLUE" : fate_color[f]);
+        between = ", \\\n    ";
     }
-    return table;
+    (void)fputc('\n', plot->out);
 }
 
 /* Who leads whom, and by how much. */
-static const char *lead(struct pool *pool, const struct evidence_round *round, const struct bars *bars)
+static const char *lead(struct pool *pool, const rotid_diagnosis *d, int number, const struct bar_list *bars)
 {
-    int first, second;
-    diagnosis_leaders(round, &first, &second);
-    const struct evidence *best = first >= 0 ? &round->candidate[first] : NULL, *longest = bars->bar[0].evidence;
-    const char *name = best ? cause_label(pool, &best->cause) : "",
-               *next = second >= 0 ? cause_label(pool, &round->candidate[second].cause) : "";
+    int first, second, count;
+    const rotid_round *round = &d->rounds[number];
+    const rotid_candidate *candidate = diagnosis_candidates(d, number, &count);
+    diagnosis_leaders(d, number, &first, &second);
+    const rotid_candidate *best = first >= 0 ? &candidate[first] : NULL, *longest = bars->bar[0].evidence;
+    const char *name = best ? cause_label(pool, d, &best->cause) : "",
+               *next = second >= 0 ? cause_label(pool, d, &candidate[second].cause) : "";
     const char *asked = human_trimmed(pool, round->required_margin, 3), *text = "";
-    if (round->kind == TOLD_NAMED && best)
+    if (round->kind == ROTID_NAMED && best)
         text = pool_format(pool, "%s lowers the misfit of %s by %s", name, human_digits(pool, round->chi2, 4),
                            human_digits(pool, best->chi2_drop, 3));
-    if (round->kind == TOLD_NAMED && best && second >= 0 && text)
+    if (round->kind == ROTID_NAMED && best && second >= 0 && text)
         text = pool_format(pool, "%s and leads the runner-up, %s, by %s, with 3 charged for each parameter; a name asks for %s",
-                           text, next, human_digits(pool, diagnosis_lead(best, &round->candidate[second]), 3), asked);
-    else if (round->kind == TOLD_NAMED && best && longest != best && text)
+                           text, next, human_digits(pool, candidate_lead(best, &candidate[second]), 3), asked);
+    else if (round->kind == ROTID_NAMED && best && longest != best && text)
         text = pool_format(pool, "%s. %s does so by more and was refused: %s", text, bars->bar[0].label,
                            longest->rejected_because ? longest->rejected_because : "");
-    else if (round->nset > 1)
+    else if (round->set > 1)
         text = pool_format(pool,
                            "%s causes explain the data about equally well: a name asks for a lead of %s over every other, with 3 "
                            "charged for each parameter",
-                           words_sentence(pool, human_count(pool, round->nset)), asked);
-    else if (round->nset == 1 && round->kind != TOLD_NAMED)
+                           words_sentence(pool, human_count(pool, round->set)), asked);
+    else if (round->set == 1 && round->kind != ROTID_NAMED)
         text = pool_format(pool, "%s leads, but these data cannot carry its name", name);
-    else if (!round->nset)
+    else if (!round->set)
         text =
             pool_format(pool, "Nothing is left to name: the longest bar, %s, was refused%s%s", bars->bar[0].label,
                         longest->rejected_because ? " because " : "", longest->rejected_because ? longest->rejected_because : "");
@@ -229,17 +232,19 @@ static const char *lead(struct pool *pool, const struct evidence_round *round, c
 
 void figure_evidence(struct document *document, const struct result *result, int number)
 {
-    const struct evidence_round *round = &result->diagnosis->round[number];
+    const rotid_diagnosis *d = result->diagnose;
+    const rotid_round *round = &d->rounds[number];
     struct pool *pool = document->pool;
-    struct bars *bars = collect(pool, round);
-    int first, second;
+    struct bar_list *bars = collect(pool, d, number);
+    int first, second, count;
+    const rotid_candidate *candidate = diagnosis_candidates(d, number, &count);
     if (!bars || !bars->count ||
         (!bars->has[FATE_NAMED] && !bars->has[FATE_POSSIBLE] && !bars->has[FATE_LOSES] && !bars->has[FATE_REFUSED])) {
         document->failed |= !bars;
         return;
     }
-    diagnosis_leaders(round, &first, &second);
-    double margin_at = first >= 0 ? round->candidate[first].chi2_drop - round->required_margin : NAN;
+    diagnosis_leaders(d, number, &first, &second);
+    double margin_at = first >= 0 ? candidate[first].chi2_drop - round->required_margin : NAN;
     if (!(margin_at > 0) || !bars->has[FATE_LOSES])
         margin_at = NAN;
     struct figure *figure =
@@ -252,12 +257,16 @@ void figure_evidence(struct document *document, const struct result *result, int
                *hidden = bars->hidden ? pool_format(pool, " %s shorter ones stand in the table.",
                                                     words_sentence(pool, human_count(pool, bars->hidden)))
                                       : "";
-    const char *says = lead(pool, round, bars);
+    const char *says = lead(pool, d, number, bars);
     figure->caption = pool_format(pool, "%s%s%s%s", says, *says ? "." : "", chance ? chance : "", hidden ? hidden : "");
     figure->alt = pool_format(pool, "Bars of %d causes, the longest %s with %s, the shortest %s with %s.", bars->count,
                               bars->bar[0].label, human_digits(pool, bars->bar[0].drop, 3), bars->bar[bars->count - 1].label,
                               human_digits(pool, bars->bar[bars->count - 1].drop, 3));
-    figure->table = bars_table(pool, bars);
-    document->failed |= !figure->caption || !figure->alt || !figure->title ||
-                        script(document, figure, result, round, bars, margin_at) != ROTID_OK;
+    struct series *series = collect_series(document, bars);
+    struct plot plot;
+    figure->table = series_table(series);
+    if (!figure_begin(document, figure, result->file, &plot))
+        return;
+    script(&plot, series, round, bars, margin_at);
+    figure_end(document, &plot);
 }

@@ -4,147 +4,114 @@
 
 #include "page/figures.h"
 #include "page/human.h"
-#include "page/palette.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_SERIES 6    /* the fit, three of NLopt, one reference */
 #define NORMAL_95   1.96 /* of the stated noise of a frequency */
 #define MOST_TICKS  24   /* numbers of modes side by side */
 #define SIDE        0.12 /* between series of a mode: they would lie on each other */
 
-struct error_series {
-    const char *name;
-    int style;
-    double *percent; /* [nmode] */
+enum { PLACE, MODE, MEASURED, PREDICTED, NOISE, ERRORS }; /* columns, those of the errors last */
+
+struct errors {
+    int count; /* series of errors */
+    const char *name[MOST_SERIES];
+    int style[MOST_SERIES];
+    struct series *series;
 };
 
-static double *errors_of(struct pool *pool, const struct fitted *fit, const double *hz)
-{
-    double *percent = POOL_ARRAY(pool, double, fit->nmode);
-    for (int k = 0; k < fit->nmode && percent; k++)
-        percent[k] = 100 * (hz[k] / fit->mode[k].measured_hz - 1);
-    return percent;
-}
-
-/* The series there are, the fit first; -1: memory is out. */
-static int collect(struct pool *pool, const struct result *result, const struct fitted *fit, struct error_series *series)
-{
-    const struct reference_values *reference = result_reference(result, "error_percent");
-    int n = fit->nmode, count = 1;
-    series[0] = (struct error_series){"Levenberg-Marquardt", 1, POOL_ARRAY(pool, double, n)};
-    if (!series[0].percent)
-        return -1;
-    for (int k = 0; k < n; k++)
-        series[0].percent[k] = fit->mode[k].error_percent;
-    for (int b = 0; b < fit->nbaseline && count < MOST_SERIES - 1; b++)
-        if (fit->baseline[b].predicted_hz) {
-            const char *name = pool_format(pool, "NLopt %s", fit->baseline[b].algorithm);
-            series[count] = (struct error_series){name, count + 6, errors_of(pool, fit, fit->baseline[b].predicted_hz)};
-            if (!name || !series[count++].percent)
-                return -1;
-        }
-    if (reference) {
-        double *percent = POOL_ARRAY(pool, double, n);
-        if (!percent)
-            return -1;
-        for (int k = 0; k < n; k++)
-            percent[k] = k < reference->count ? reference->value[k] : (double)NAN;
-        series[count++] = (struct error_series){"reference in the deck", 5, percent};
-    }
-    return count;
-}
-
-static struct number_table *errors_table(struct pool *pool, const struct fitted *fit, const struct error_series *series,
-                                         int count)
-{
-    struct number_table *table = table_new(pool, fit->nmode, 3 + count);
-    table_head(table, 0, "mode");
-    table_head(table, 1, "measured [Hz]");
-    table_head(table, 2, "predicted [Hz]");
-    for (int s = 0; s < count; s++)
-        table_head(table, 3 + s, pool_format(pool, "error, %s [%%]", series[s].name));
-    for (int k = 0; k < fit->nmode; k++) {
-        table_cell(table, k, 0, human_fixed(pool, fit->mode[k].mode, 0));
-        table_cell(table, k, 1, human_fixed(pool, fit->mode[k].measured_hz, 3));
-        table_cell(table, k, 2, human_fixed(pool, fit->mode[k].predicted_hz, 3));
-        for (int s = 0; s < count; s++)
-            table_cell(table, k, 3 + s, human_signed(pool, series[s].percent[k], 3));
-    }
-    return table;
-}
-
-static void draw_modes(struct plot *plot, const struct fitted *fit)
-{
-    FILE *out = plot->out;
-    (void)fputs("set xtics (", out);
-    int every = 1 + fit->nmode / MOST_TICKS;
-    for (int k = 0; k < fit->nmode; k += every)
-        (void)fprintf(out, "%s'%d%s' %d", k ? ", " : "", fit->mode[k].mode, fit->mode[k].holdout ? "*" : "", k + 1);
-    (void)fputs(")\n", out);
-}
-
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct fitted *fit,
-                  const struct error_series *series, int count)
+/* The fit first, then NLopt where it has frequencies, then the reference. */
+static void collect(struct document *document, const struct result *result, const rotid_identification *fit,
+                    struct errors *errors)
 {
     struct pool *pool = document->pool;
-    int n = fit->nmode, noisy = 0;
-    struct plot plot;
+    struct column column[ERRORS + MOST_SERIES] = {{"place", NULL, AS_PLACE, 0},
+                                                  {"mode", NULL, AS_FIXED, 0},
+                                                  {"measured", "Hz", AS_FIXED, 3},
+                                                  {"predicted", "Hz", AS_FIXED, 3},
+                                                  {"95 % noise", "%", AS_PLACE, 0}};
+    const rotid_reference *reference = head_reference(&result->head, "error_percent");
+    const double *hz[MOST_SERIES] = {NULL};
+    *errors = (struct errors){.count = 1, .name = {"Levenberg-Marquardt"}, .style = {1}};
+    for (int b = 0; b < fit->nbaseline && errors->count < MOST_SERIES - 1; b++)
+        if (fit->baseline[b].predicted_hz) {
+            hz[errors->count] = fit->baseline[b].predicted_hz;
+            errors->style[errors->count] = errors->count + 6;
+            errors->name[errors->count++] = pool_format(pool, "NLopt %s", fit->baseline[b].algorithm);
+        }
+    if (reference) {
+        errors->style[errors->count] = 5;
+        errors->name[errors->count++] = "reference in the deck";
+    }
+    for (int s = 0; s < errors->count; s++) {
+        const char *name = errors->name[s] ? pool_format(pool, "error, %s", errors->name[s]) : NULL;
+        document->failed |= !name;
+        column[ERRORS + s] = (struct column){name ? name : "", "%", AS_SIGNED, 3};
+    }
+    errors->series = series_new(document, "errors", fit->nmodes, ERRORS + errors->count, column);
+    for (int k = 0; k < fit->nmodes; k++) {
+        const rotid_compared_mode *mode = &fit->modes[k];
+        double row[ERRORS + MOST_SERIES] = {
+            k + 1, mode->mode, mode->measured_hz, mode->predicted_hz, 100 * NORMAL_95 * mode->frequency_std, mode->error_percent};
+        for (int s = 1; s < errors->count; s++)
+            row[ERRORS + s] = hz[s]                    ? 100 * (hz[s][k] / mode->measured_hz - 1)
+                              : k < reference->nvalues ? reference->values[k]
+                                                       : (double)NAN;
+        series_row(errors->series, k, row);
+    }
+}
+
+static void draw(struct plot *plot, const rotid_identification *fit, const struct errors *errors)
+{
+    int n = fit->nmodes, noisy = 0, count = errors->count;
     struct plot_entry entry[MOST_SERIES + 1];
-    double *x = POOL_ARRAY(pool, double, n), *noise = POOL_ARRAY(pool, double, n);
-    const double *data[MOST_SERIES + 2] = {x, noise};
     struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .height = 280, .right = 12, .top = 10, .bottom = 48};
-    if (!x || !noise || plot_open(&plot, pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
     struct plot_range range = {0, 0};
     for (int k = 0; k < n; k++) {
-        x[k] = k + 1;
-        noise[k] = 100 * NORMAL_95 * fit->mode[k].frequency_std;
-        noisy |= noise[k] > 0;
-        plot_range_join(&range, noise[k]);
-        plot_range_join(&range, -noise[k]);
+        double noise = series_values(errors->series, NOISE)[k];
+        noisy |= noise > 0;
+        plot_range_join(&range, noise);
+        plot_range_join(&range, -noise);
         for (int s = 0; s < count; s++)
-            plot_range_join(&range, series[s].percent[k]);
+            plot_range_join(&range, series_values(errors->series, ERRORS + s)[k]);
     }
-    for (int s = 0; s < count; s++) {
-        data[2 + s] = series[s].percent;
-        entry[s] = (struct plot_entry){.text = series[s].name, .style = series[s].style, .keys = KEY_MARK};
-    }
+    for (int s = 0; s < count; s++)
+        entry[s] =
+            (struct plot_entry){.text = errors->name[s] ? errors->name[s] : "", .style = errors->style[s], .keys = KEY_MARK};
     entry[count] = (struct plot_entry){.text = "95 % of the measurement's noise", .keys = KEY_FACE, .face = "STEEL"};
     plot_head(entry, count + noisy, layout.head);
-    plot_line(&plot, "# columns: place, 95 %% noise, then the errors [%%]: the fit, NLopt, references");
-    plot_data(&plot, "errors", n, 2 + count, data);
     double pad = 0.08 * (range.to - range.from) + (range.to <= range.from), tic = plot_tic(range.to - range.from + 2 * pad, 8);
     range = (struct plot_range){range.from - pad, range.to + pad};
     layout.left = plot_left(&range, tic);
-    plot_begin(&plot, &layout);
-    plot_panel(&plot, 0);
-    plot_legend(&plot, entry, count + noisy);
-    plot_line(&plot, "set xrange [0.5:%g]\nset yrange [%.6g:%.6g]\nset ytics %g", n + 0.5, range.from, range.to, tic);
-    draw_modes(&plot, fit);
-    plot_axes(&plot, "mode of the model [1]", "error of the frequency [%]");
-    plot_line(&plot, "set style fill solid noborder\nset boxwidth 0.7");
-    plot_line(&plot, "plot $errors using 1:(0):(0.35):2 with boxxyerror fc rgb STEEL, 0 with lines lc rgb INK lw 1 \\");
-    (void)fprintf(plot.out, "   , $errors using 1:(0):(0):3 with vectors nohead ls 1 lw 1.5");
+    plot_begin(plot, &layout);
+    plot_panel(plot, 0);
+    plot_legend(plot, entry, count + noisy);
+    plot_line(plot, "set xrange [0.5:%g]\nset yrange [%.6g:%.6g]\nset ytics %g", n + 0.5, range.from, range.to, tic);
+    plot_mode_tics(plot, n, fit->modes, MOST_TICKS);
+    plot_axes(plot, "mode of the model [1]", "error of the frequency [%]");
+    plot_line(plot, "set style fill solid noborder\nset boxwidth 0.7");
+    plot_line(plot, "plot $errors using 1:(0):(0.35):%d with boxxyerror fc rgb STEEL, 0 with lines lc rgb INK lw 1 \\",
+              NOISE + 1);
+    (void)fprintf(plot->out, "   , $errors using 1:(0):(0):%d with vectors nohead ls 1 lw 1.5", ERRORS + 1);
     for (int s = count - 1; s >= 0; s--) { /* the fit on top, the others to its left and right in turn */
         int steps = (s + 1) / 2;
-        (void)fprintf(plot.out, ", \\\n    $errors using ($1%+g):%d with points ls %d ps %s", (s % 2 ? -SIDE : SIDE) * steps,
-                      s + 3, series[s].style, s ? "0.85" : "0.9");
+        (void)fprintf(plot->out, ", \\\n    $errors using ($1%+g):%d with points ls %d ps %s", (s % 2 ? -SIDE : SIDE) * steps,
+                      ERRORS + s + 1, errors->style[s], s ? "0.85" : "0.9");
     }
-    (void)fputc('\n', plot.out);
-    return plot_close(&plot);
+    (void)fputc('\n', plot->out);
 }
 
 /* What the others say, in a sentence that begins with a blank. */
-static const char *compared(struct pool *pool, const struct fitted *fit, const struct error_series *series, int count)
+static const char *compared(struct pool *pool, const rotid_identification *fit, const struct errors *errors)
 {
     double furthest = 0;
     int others = 0;
-    for (int s = 1; s < count; s++) {
-        if (strncmp(series[s].name, "NLopt", 5) != 0)
+    for (int s = 1; s < errors->count; s++) {
+        if (!errors->name[s] || strncmp(errors->name[s], "NLopt", 5) != 0)
             continue;
         others++;
-        for (int k = 0; k < fit->nmode; k++)
-            furthest = fmax(furthest, fabs(series[s].percent[k] - series[0].percent[k]));
+        for (int k = 0; k < fit->nmodes; k++)
+            furthest = fmax(furthest, fabs(series_values(errors->series, ERRORS + s)[k] - fit->modes[k].error_percent));
     }
     if (!others)
         return fit->nbaseline ? "" : " NLopt was not run beside it.";
@@ -154,31 +121,34 @@ static const char *compared(struct pool *pool, const struct fitted *fit, const s
     return text ? text : "";
 }
 
-void figure_frequencies(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_frequencies(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
-    struct error_series series[MOST_SERIES];
-    int worst = fitted_worst(fit), held = 0;
+    struct errors errors;
+    struct plot plot;
+    int worst = fit_worst_mode(fit), held = 0;
     if (worst < 0)
         return;
     struct figure *figure = document_figure(document, "frequencies", "Errors of the predicted frequencies");
-    int count = collect(pool, result, fit, series);
-    if (count < 0) {
-        document->failed = 1;
+    collect(document, result, fit, &errors);
+    if (!errors.series)
         return;
-    }
-    for (int k = 0; k < fit->nmode; k++)
-        held += fit->mode[k].holdout;
+    for (int k = 0; k < fit->nmodes; k++)
+        held += fit->modes[k].holdout;
     const char *left = held ? pool_format(pool, "; modes with a star were held out of the fit (rms %s\xc2\xa0%%)",
-                                          human_digits(pool, fitted_rms_percent(fit, 1), 2))
+                                          human_digits(pool, fit_rms_percent(fit, 1), 2))
                             : "";
     figure->caption =
         pool_format(pool, "Predicted over measured frequency, less one: %s\xc2\xa0%% rms, largest %s\xc2\xa0%% in mode %d%s.%s",
-                    human_digits(pool, fitted_rms_percent(fit, 0), 2), human_signed(pool, fit->mode[worst].error_percent, 2),
-                    fit->mode[worst].mode, left ? left : "", compared(pool, fit, series, count));
-    figure->alt = pool_format(pool, "For each of %d modes its error in per cent, from %s to %s.", fit->nmode,
-                              human_signed(pool, plot_range_of(fit->nmode, series[0].percent, 0).from, 2),
-                              human_signed(pool, plot_range_of(fit->nmode, series[0].percent, 0).to, 2));
-    figure->table = errors_table(pool, fit, series, count);
-    document->failed |= !figure->caption || !figure->alt || script(document, figure, result, fit, series, count) != ROTID_OK;
+                    human_digits(pool, fit_rms_percent(fit, 0), 2), human_signed(pool, fit->modes[worst].error_percent, 2),
+                    fit->modes[worst].mode, left ? left : "", compared(pool, fit, &errors));
+    struct plot_range range = plot_range_of(fit->nmodes, series_values(errors.series, ERRORS), 0);
+    figure->alt = pool_format(pool, "For each of %d modes its error in per cent, from %s to %s.", fit->nmodes,
+                              human_signed(pool, range.from, 2), human_signed(pool, range.to, 2));
+    figure->table = series_table(errors.series);
+    if (!figure_begin(document, figure, result->file, &plot))
+        return;
+    plot_series(&plot, errors.series);
+    draw(&plot, fit, &errors);
+    figure_end(document, &plot);
 }

@@ -8,27 +8,32 @@
 
 #define MOST_TICKS 8 /* numbered decades of an axis */
 
-static struct number_table *growth_table(struct pool *pool, const struct growth_outcome *growth)
+static const struct growth_line *line_of(const struct growth *growth, int kind)
 {
-    struct number_table *table = table_new(pool, growth->points, 4);
+    return kind == GROWTH_E ? &growth->hybrid : &growth->hybrid_f;
+}
+
+static struct number_table *growth_table(struct pool *pool, const struct growth *growth)
+{
+    struct number_table *table = table_new(pool, growth->nepsilon_squared, 4);
     table_head(table, 0, "\xce\xb5\xc2\xb2 [1]");
     table_head(table, 1, "f(E) [1]");
     table_head(table, 2, "f(F) [1]");
     table_head(table, 3, "f(E), shapes alone [1]");
-    for (int i = 0; i < growth->points; i++) {
-        table_cell(table, i, 0, human_digits(pool, growth->epsilon2[i], 3));
+    for (int i = 0; i < growth->nepsilon_squared; i++) {
+        table_cell(table, i, 0, human_digits(pool, growth->epsilon_squared[i], 3));
         for (int kind = 0; kind < 2; kind++)
-            table_cell(table, i, 1 + kind, human_digits(pool, growth->objective[kind][i], 4));
+            table_cell(table, i, 1 + kind, human_digits(pool, line_of(growth, kind)->objective[i], 4));
         table_cell(table, i, 3, growth->shapes_alone ? human_digits(pool, growth->shapes_alone[i], 2) : "");
     }
     return table;
 }
 
 static int script(struct document *document, struct figure *figure, const struct result *result,
-                  const struct growth_outcome *growth)
+                  const struct growth *growth)
 {
     struct pool *pool = document->pool;
-    int n = growth->points;
+    int n = growth->nepsilon_squared;
     struct plot plot;
     struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .height = 300, .left = 62, .right = 16, .top = 10, .bottom = 48};
     const struct plot_entry entry[] = {{.text = "f(E), HYBRID", .style = 1, .keys = KEY_MARK | KEY_LINE},
@@ -37,14 +42,14 @@ static int script(struct document *document, struct figure *figure, const struct
     if (!both || plot_open(&plot, pool, figure, result->file))
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < 2 * n; i++)
-        both[i] = growth->objective[i / n][i % n];
-    struct plot_range y = plot_decades(2 * n, both, 30), x = plot_decades(n, growth->epsilon2, 30);
+        both[i] = line_of(growth, i / n)->objective[i % n];
+    struct plot_range y = plot_decades(2 * n, both, 30), x = plot_decades(n, growth->epsilon_squared, 30);
     plot_head(entry, 2, layout.head);
     plot_line(&plot, "# columns: eps^2, f(E), f(F)");
-    plot_data(&plot, "growth", n, 3, (const double *const[]){growth->epsilon2, growth->objective[0], growth->objective[1]});
+    plot_data(&plot, "growth", n, 3, (const double *const[]){growth->epsilon_squared, growth->hybrid.objective, growth->hybrid_f.objective});
     plot_line(&plot, "# straight lines through the logarithms\nE(x) = exp(%s + %s * log(x)); F(x) = exp(%s + %s * log(x))",
-              plot_number(&plot, growth->intercept[0]), plot_number(&plot, growth->slope[0]),
-              plot_number(&plot, growth->intercept[1]), plot_number(&plot, growth->slope[1]));
+              plot_number(&plot, growth->hybrid.intercept), plot_number(&plot, growth->hybrid.slope),
+              plot_number(&plot, growth->hybrid_f.intercept), plot_number(&plot, growth->hybrid_f.slope));
     plot_begin(&plot, &layout);
     plot_panel(&plot, 0);
     plot_decades_axis(&plot, 'x', &x, MOST_TICKS);
@@ -59,17 +64,17 @@ static int script(struct document *document, struct figure *figure, const struct
 void figure_growth(struct document *document, const struct result *result)
 {
     struct pool *pool = document->pool;
-    const struct growth_outcome *growth = result->sensitivity->growth;
-    if (!growth || growth->points < 2)
+    const struct growth *growth = result->sensitivity->functional_growth;
+    if (!growth || growth->nepsilon_squared < 2)
         return;
     struct figure *figure = document_figure(document, "growth", "Growth of the two functionals away from the optimum");
     const char *line[2];
     double rounding = 0;
     for (int kind = 0; kind < 2; kind++)
         line[kind] = pool_format(pool, "ln f(%c) = %s ln \xce\xb5\xc2\xb2 %s %s", "EF"[kind],
-                                 human_fixed(pool, growth->slope[kind], 4), growth -> intercept[kind] < 0 ? "\xe2\x88\x92" : "+",
-                                 human_fixed(pool, fabs(growth->intercept[kind]), 3));
-    for (int i = 0; i < growth->points && growth->shapes_alone; i++)
+                                 human_fixed(pool, line_of(growth, kind)->slope, 4), line_of(growth, kind)->intercept < 0 ? "\xe2\x88\x92" : "+",
+                                 human_fixed(pool, fabs(line_of(growth, kind)->intercept), 3));
+    for (int i = 0; i < growth->nepsilon_squared && growth->shapes_alone; i++)
         rounding = fmax(rounding, fabs(growth->shapes_alone[i]));
     const char *alone =
         growth->shapes_alone
@@ -78,10 +83,10 @@ void figure_growth(struct document *document, const struct result *result)
             : "";
     figure->caption = pool_format(
         pool, "Both grow with the square of the perturbation: %s, %s. They differ by a factor of %s (4 to first order).%s",
-        line[0] ? line[0] : "", line[1] ? line[1] : "", human_digits(pool, exp(growth->intercept[0] - growth->intercept[1]), 2),
+        line[0] ? line[0] : "", line[1] ? line[1] : "", human_digits(pool, exp(growth->hybrid.intercept - growth->hybrid_f.intercept), 2),
         alone ? alone : "");
     figure->alt = pool_format(pool, "Two straight lines on logarithmic scales, one above the other, with %d points on each.",
-                              growth->points);
+                              growth->nepsilon_squared);
     figure->table = growth_table(pool, growth);
     document->failed |= !figure->caption || !figure->alt || script(document, figure, result, growth) != ROTID_OK;
 }

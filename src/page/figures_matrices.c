@@ -7,7 +7,7 @@
 
 #define MOST_SIDE 40 /* rows and columns that are drawn: beyond that nobody can read a cell */
 
-static const char **numbers_as_text(struct pool *pool, int count, const double *number)
+static const char **numbers_as_text(struct pool *pool, int count, const int *number)
 {
     const char **text = POOL_ARRAY(pool, const char *, count);
     for (int i = 0; i < count && text; i++)
@@ -16,13 +16,14 @@ static const char **numbers_as_text(struct pool *pool, int count, const double *
 }
 
 /* Columns of the cells that belong together: measured mode of a row with the mode of the model it is paired with. */
-static int *pairs(struct pool *pool, const struct fitted *fit, int rows, int columns)
+static int *pairs(struct pool *pool, const rotid_identification *fit)
 {
+    int rows = fit->nmatrix_rows, columns = fit->nmatrix_columns;
     int *column = POOL_ARRAY(pool, int, rows);
     for (int i = 0; i < rows && column; i++) {
         column[i] = -1;
-        for (int j = 0; j < columns && i < fit->nmode; j++)
-            if (fit->matrix_column[j] == fit->mode[i].mode)
+        for (int j = 0; j < columns && i < fit->nmodes; j++)
+            if (fit->matrix_columns[j] == fit->modes[i].mode)
                 column[i] = j;
     }
     return column;
@@ -33,12 +34,12 @@ struct extremes { /* of the pairs, and of what is no pair */
     int row, column; /* of the latter, -1: none */
 };
 
-static struct extremes judge(const struct fitted_matrix *matrix, const int *mark)
+static struct extremes judge(const rotid_identification *fit, const double *matrix, const int *mark)
 {
     struct extremes e = {INFINITY, -INFINITY, -INFINITY, -1, -1};
-    for (int i = 0; i < matrix->rows; i++)
-        for (int j = 0; j < matrix->columns; j++) {
-            double value = matrix->value[i + (ptrdiff_t)j * matrix->rows];
+    for (int i = 0; i < fit->nmatrix_rows; i++)
+        for (int j = 0; j < fit->nmatrix_columns; j++) {
+            double value = matrix[i + (ptrdiff_t)j * fit->nmatrix_rows];
             if (!isfinite(value))
                 continue;
             if (mark[i] == j) {
@@ -53,49 +54,52 @@ static struct extremes judge(const struct fitted_matrix *matrix, const int *mark
     return e;
 }
 
-static const char *sentence(struct pool *pool, const char *name, const struct fitted_matrix *matrix, const struct fitted *fit,
+static const char *sentence(struct pool *pool, const char *name, const rotid_identification *fit, const double *matrix,
                             const int *mark)
 {
-    struct extremes e = judge(matrix, mark);
+    struct extremes e = judge(fit, matrix, mark);
     if (!isfinite(e.least))
         return "";
-    const char *other =
-        e.row < 0 ? ""
-                  : pool_format(pool, "; of all others the largest is %s, measured mode %.0f with mode %.0f of the model",
-                                human_fixed(pool, e.other, 2), fit->matrix_row[e.row], fit->matrix_column[e.column]);
+    const char *other = e.row < 0
+                            ? ""
+                            : pool_format(pool, "; of all others the largest is %s, measured mode %d with mode %d of the model",
+                                          human_fixed(pool, e.other, 2), fit->matrix_rows[e.row], fit->matrix_columns[e.column]);
     const char *text = pool_format(pool, "%s of the pairs (framed) lies between %s and %s%s. ", name,
                                    human_fixed(pool, e.least, 2), human_fixed(pool, e.most, 2), other ? other : "");
     return text ? text : "";
 }
 
-void figure_matrices(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_matrices(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
-    const struct fitted_matrix *matrix[2] = {&fit->nco, &fit->mac};
+    const double *const matrix[2] = {fit->nco_matrix, fit->mac_matrix};
     static const char *const title[] = {"NCO", "MAC"};
     static const char *const full[] = {"NCO, weighed with the mass", "MAC, without the mass"};
-    struct matrix_panel panel[2];
+    struct matrix_panel panel[MATRIX_MOST];
     const char *says = "";
-    int count = 0;
+    int count = 0, rows = fit->nmatrix_rows, columns = fit->nmatrix_columns;
+    if (rows > MOST_SIDE || columns > MOST_SIDE || !rows || !columns || !fit->matrix_rows || !fit->matrix_columns)
+        return;
+    int *mark = pairs(pool, fit);
+    const char **row = numbers_as_text(pool, rows, fit->matrix_rows),
+               **column = numbers_as_text(pool, columns, fit->matrix_columns);
+    if (!mark || !row || !column) {
+        document->failed = 1;
+        return;
+    }
     for (int i = 0; i < 2 && says; i++) {
-        const struct fitted_matrix *m = matrix[i];
-        if (!m->value || m->rows > MOST_SIDE || m->columns > MOST_SIDE || !m->rows || !m->columns)
+        if (!matrix[i])
             continue;
-        int *mark = pairs(pool, fit, m->rows, m->columns);
         panel[count++] = (struct matrix_panel){.title = full[i],
                                                .row_axis = "measured mode [1]",
                                                .column_axis = "mode of the model [1]",
-                                               .rows = m->rows,
-                                               .columns = m->columns,
-                                               .value = m->value,
-                                               .row = numbers_as_text(pool, m->rows, fit->matrix_row),
-                                               .column = numbers_as_text(pool, m->columns, fit->matrix_column),
+                                               .rows = rows,
+                                               .columns = columns,
+                                               .value = matrix[i],
+                                               .row = row,
+                                               .column = column,
                                                .mark = mark};
-        if (!mark || !panel[count - 1].row || !panel[count - 1].column) {
-            document->failed = 1;
-            return;
-        }
-        says = pool_format(pool, "%s%s", says, sentence(pool, title[i], m, fit, mark));
+        says = pool_format(pool, "%s%s", says, sentence(pool, title[i], fit, matrix[i], mark));
     }
     if (!count)
         return;
@@ -103,14 +107,13 @@ void figure_matrices(struct document *document, const struct result *result, con
     figure->caption = pool_format(pool, "%s1 is the same shape, 0 a shape that has nothing in common.", says ? says : "");
     figure->alt = pool_format(pool, "%d fields of %d by %d cells, dark where a measured shape is like one of the model.", count,
                               panel[0].rows, panel[0].columns);
-    figure->table = matrix_table(pool, count, panel);
-    document->failed |= !figure->caption || !figure->alt || matrix_script(pool, figure, result->file, count, panel) != ROTID_OK;
+    matrix_figure(document, figure, result->file, count, panel);
 }
 
-void figure_correlation(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_correlation(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
-    int n = fit->nparameter, first = -1, second = -1;
+    int n = fit->nparameters, first = -1, second = -1;
     if (n < 3 || n > MOST_SIDE || !fit->correlation)
         return; /* of two the caption of the intervals tells it */
     const char **name = POOL_ARRAY(pool, const char *, n);
@@ -119,7 +122,7 @@ void figure_correlation(struct document *document, const struct result *result, 
         return;
     }
     for (int i = 0; i < n; i++) {
-        name[i] = fit->parameter[i].name;
+        name[i] = fit->parameters[i].name;
         for (int j = 0; j < i; j++)
             if (isfinite(fit->correlation[i + (ptrdiff_t)j * n]) &&
                 (first < 0 ||
@@ -147,6 +150,5 @@ void figure_correlation(struct document *document, const struct result *result, 
                     name[first], name[second], human_fixed(pool, fit->correlation[first + (ptrdiff_t)second * n], 2),
                     human_digits(pool, fit->condition_number, 3));
     figure->alt = pool_format(pool, "A field of %d by %d cells, dark where two parameters depend on each other.", n, n);
-    figure->table = matrix_table(pool, 1, &panel);
-    document->failed |= !figure->caption || !figure->alt || matrix_script(pool, figure, result->file, 1, &panel) != ROTID_OK;
+    matrix_figure(document, figure, result->file, 1, &panel);
 }

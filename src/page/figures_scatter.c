@@ -21,18 +21,18 @@ struct histogram {
 
 static struct histogram count_errors(const struct study_outcome *s, int cell, int p)
 {
-    struct histogram h = {.parameter = &s->cell[cell].parameter[p]};
+    struct histogram h = {.parameter = &s->cell[cell].is.parameters[p]};
     double sum = 0, square = 0;
     for (int i = 0; i < s->nrun; i++) {
         const struct told_run *run = &s->run[i];
-        if (run->cell != cell || !run->value || run->status > TOLD_AT_BOUND)
+        if (run->cell != cell || !run->value || run->status > STUDY_AT_BOUND)
             continue;
-        const struct run_value *v = &run->value[p];
+        const struct run_parameter *v = &run->value[p];
         double z = (v->value - v->truth) / v->std;
         if (!isfinite(z))
             continue;
         h.bin[(int)fmin(fmax(floor((z + REACH) / BIN), 0), BINS - 1)] += 1;
-        h.held += v->ci[0] <= v->truth && v->truth <= v->ci[1];
+        h.held += v->ci95[0] <= v->truth && v->truth <= v->ci95[1];
         h.count++;
         sum += z;
         square += z * z;
@@ -45,9 +45,9 @@ static struct histogram count_errors(const struct study_outcome *s, int cell, in
 /* The histograms of the first cell that has enough runs with a truth. */
 static int collect(const struct study_outcome *s, struct histogram h[MOST_PANELS], int *cell)
 {
-    for (*cell = 0; *cell < s->ncell && s->nrun; (*cell)++) {
+    for (*cell = 0; *cell < s->is.ncells && s->nrun; (*cell)++) {
         int count = 0;
-        for (int p = 0; p < s->cell[*cell].nparameter && count < MOST_PANELS; p++) {
+        for (int p = 0; p < s->cell[*cell].is.nparameters && count < MOST_PANELS; p++) {
             h[count] = count_errors(s, *cell, p);
             count += h[count].count >= LEAST_RUNS;
         }
@@ -119,7 +119,7 @@ static struct number_table *errors_table(struct pool *pool, int count, const str
 
 void figure_errors_of_runs(struct document *document, const struct result *result)
 {
-    const struct study_outcome *s = result->study;
+    const struct study_outcome *s = result->studied;
     struct pool *pool = document->pool;
     struct histogram h[MOST_PANELS];
     int cell, count = collect(s, h, &cell);

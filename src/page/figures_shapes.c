@@ -2,8 +2,9 @@
 #include <math.h>
 
 #include "page/figures.h"
+#include "page/geometry.h"
 #include "page/human.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_PANELS 24  /* modes that are drawn */
 #define MOST_POINTS 120 /* of a measured shape that get bars for their noise and whole marks */
@@ -13,10 +14,11 @@
 
 struct shape_panel {
     const char *title, *right; /* over it, from the left and from the right */
-    int npoint, nline, nmember;
+    int npoint, nline;
     const double *point_z, *point, *bar; /* measured, and half its 95 % of noise; NULL: none */
     const double *line_z, *line;         /* of the model */
-    const struct fitted_member *member;
+    int ntierods, nbars;
+    const rotid_member_shape *tierods, *bars;
 };
 
 struct shapes_figure {
@@ -35,8 +37,8 @@ static int legend_of(int count, const struct shape_panel *panel, const char *sha
     int marked = 0, rods = 0, bars = 0, n = 0;
     for (int i = 0; i < count; i++) {
         marked |= panel[i].point != NULL;
-        for (int m = 0; m < panel[i].nmember; m++)
-            *(panel[i].member[m].is_bars ? &bars : &rods) = 1;
+        rods |= panel[i].ntierods;
+        bars |= panel[i].nbars;
     }
     entry[n++] = (struct plot_entry){.text = "model", .style = 1, .keys = KEY_LINE};
     if (rods || bars)
@@ -52,19 +54,28 @@ static int legend_of(int count, const struct shape_panel *panel, const char *sha
     return n;
 }
 
-static void data_of(struct plot *plot, const struct shape_panel *panel, int i)
+static void curve(struct document *document, struct plot *plot, const char *kind, int i, int n, const double *z,
+                  const double *value, const double *bar)
 {
-    char name[32];
-    (void)snprintf(name, sizeof name, "model%d", i + 1);
-    plot_data(plot, name, panel->nline, 2, (const double *const[]){panel->line_z, panel->line});
-    for (int m = 0; m < panel->nmember; m++) {
-        (void)snprintf(name, sizeof name, "member%d_%d", i + 1, m + 1);
-        plot_data(plot, name, panel->member[m].npoint, 2, (const double *const[]){panel->member[m].z, panel->member[m].shape});
+    static const struct column columns[] = {
+        {"z", "m", AS_PLACE, 0}, {"deflection", "1", AS_PLACE, 0}, {"half of the 95 % of its noise", "1", AS_PLACE, 0}};
+    const char *name = pool_format(document->pool, "%s%d", kind, i + 1);
+    struct series *series = series_new(document, name ? name : "", n, bar ? 3 : 2, columns);
+    for (int k = 0; k < n; k++)
+        series_row(series, k, (const double[]){z[k], value[k], bar ? bar[k] : 0});
+    plot_series(plot, series);
+}
+
+static void data_of(struct document *document, struct plot *plot, const struct shape_panel *panel, int i)
+{
+    curve(document, plot, "model", i, panel->nline, panel->line_z, panel->line, NULL);
+    for (int m = 0; m < panel->ntierods + panel->nbars; m++) {
+        const rotid_member_shape *member = m < panel->ntierods ? &panel->tierods[m] : &panel->bars[m - panel->ntierods];
+        const char *kind = pool_format(document->pool, "member%d_", i + 1);
+        curve(document, plot, kind ? kind : "", m, member->nz_m, member->z_m, member->shape, NULL);
     }
-    (void)snprintf(name, sizeof name, "measured%d", i + 1);
     if (panel->point)
-        plot_data(plot, name, panel->npoint, panel->bar ? 3 : 2,
-                  (const double *const[]){panel->point_z, panel->point, panel->bar ? panel->bar : panel->point});
+        curve(document, plot, "measured", i, panel->npoint, panel->point_z, panel->point, panel->bar);
 }
 
 static void draw_panel(struct plot *plot, const struct shapes_figure *all, int i)
@@ -91,12 +102,12 @@ static void draw_panel(struct plot *plot, const struct shapes_figure *all, int i
         (void)fprintf(out, ", $measured%d using 1:2 with points ls 2 ps %s", i + 1,
                       few ? panel->npoint <= SPARSE ? "0.6" : "0.4" : "0.25");
     (void)fprintf(out, ", \\\n    $model%d with %s", i + 1, all->sparse ? "linespoints ls 1 ps 0.5 lw 1" : "lines ls 1");
-    for (int m = 0; m < panel->nmember; m++)
+    for (int m = 0; m < panel->ntierods + panel->nbars; m++)
         (void)fprintf(out, ", $member%d_%d with lines ls 3 lw 2", i + 1, m + 1);
     (void)fputc('\n', out);
 }
 
-static int shapes_script(struct document *document, struct figure *figure, const char *source, const struct shapes_figure *all)
+static void shapes_script(struct document *document, struct figure *figure, const char *source, const struct shapes_figure *all)
 {
     struct plot plot;
     struct plot_entry entry[4];
@@ -110,12 +121,11 @@ static int shapes_script(struct document *document, struct figure *figure, const
                                  .top = TITLE_ROOM,
                                  .bottom = 47};
     plot_head(entry, nentry, layout.head);
-    if (plot_open(&plot, document->pool, figure, source))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "# columns: z [m], deflection [1], and of measured points half the 95 %% of their noise");
+    if (!figure_begin(document, figure, source, &plot))
+        return;
     struct plot_range range = {-1, 1};
     for (int i = 0; i < count; i++) {
-        data_of(&plot, &panel[i], i);
+        data_of(document, &plot, &panel[i], i);
         for (int j = 0; j < panel[i].nline; j++)
             plot_range_join(&range, panel[i].line[j]);
         for (int j = 0; j < panel[i].npoint && panel[i].point; j++)
@@ -130,50 +140,53 @@ static int shapes_script(struct document *document, struct figure *figure, const
             plot_legend(&plot, entry, nentry);
         draw_panel(&plot, all, i);
     }
-    return plot_close(&plot);
+    figure_end(document, &plot);
 }
 
 /* Groups with a parameter that was identified. */
-static void shade(struct pool *pool, const struct geometry *geometry, const struct fitted *fit, struct shapes_figure *all)
+static void shade(struct pool *pool, const rotid_geometry *geometry, const rotid_identification *fit, struct shapes_figure *all)
 {
     all->band = pool_get(pool, MOST_BANDS, sizeof *all->band);
-    for (int g = 0; geometry && g < geometry->ngroup && all->band && all->nband < MOST_BANDS; g++) {
+    for (int g = 0; geometry && g < geometry->ngroups && all->band && all->nband < MOST_BANDS; g++) {
         int is_identified = 0;
-        for (int p = 0; p < fit->nparameter; p++)
-            is_identified |= geometry_is_of(&geometry->group[g], fit->parameter[p].name);
+        for (int p = 0; p < fit->nparameters; p++)
+            is_identified |= geometry_is_of(&geometry->groups[g], fit->parameters[p].name);
         if (!is_identified)
             continue;
-        all->band[all->nband][0] = geometry->group[g].from;
-        all->band[all->nband++][1] = geometry->group[g].to;
+        all->band[all->nband][0] = geometry->groups[g].from_m;
+        all->band[all->nband++][1] = geometry->groups[g].to_m;
     }
-    all->shaded = all->nband && all->nband < geometry->ngroup ? "identified part" : NULL;
+    all->shaded = all->nband && all->nband < geometry->ngroups ? "identified part" : NULL;
     all->nband = all->shaded ? all->nband : 0; /* the whole rotor is no part to set off */
 }
 
-static struct number_table *sensors_table(struct pool *pool, const struct fitted_shapes *shapes, int count)
+/* Columns of the model after those of the measurement, mode by mode. */
+static struct number_table *sensors_table(struct document *document, const rotid_shapes *shapes, int count)
 {
-    struct number_table *table = table_new(pool, shapes->nsensor, 2 + 2 * count);
-    table_head(table, 0, "sensor");
-    table_head(table, 1, "z [m]");
-    for (int k = 0; k < count; k++) {
-        const struct fitted_shape *shape = &shapes->mode[k];
-        table_head(table, 2 + 2 * k, pool_format(pool, "mode %d measured [1]", shape->mode));
-        table_head(table, 3 + 2 * k, pool_format(pool, "mode %d model [1]", shape->mode));
-    }
-    for (int s = 0; s < shapes->nsensor; s++) {
-        table_cell(table, s, 0, human_fixed(pool, shapes->sensor_id[s], 0));
-        table_cell(table, s, 1, human_fixed(pool, shapes->sensor_z[s], 4));
-        for (int k = 0; k < count; k++) {
-            const struct fitted_shape *shape = &shapes->mode[k];
-            table_cell(table, s, 2 + 2 * k, shape->measured ? human_fixed(pool, shape->measured[s], 3) : "");
-            table_cell(table, s, 3 + 2 * k, human_fixed(pool, shape->predicted[s], 3));
+    struct column column[2 + 2 * MOST_PANELS] = {{"sensor", NULL, AS_FIXED, 0}, {"z", "m", AS_FIXED, 4}};
+    for (int k = 0; k < count; k++)
+        for (int m = 0; m < 2; m++) {
+            const char *name = pool_format(document->pool, "mode %d %s", shapes->modes[k].mode, m ? "model" : "measured");
+            document->failed |= !name;
+            column[2 + 2 * k + m] = (struct column){name ? name : "", "1", AS_FIXED, 3};
         }
+    struct series *series = series_new(document, "sensors", shapes->nsensor_id, 2 + 2 * count, column);
+    for (int s = 0; s < shapes->nsensor_id; s++) {
+        double row[2 + 2 * MOST_PANELS] = {shapes->sensor_id[s], shapes->z_m[s]};
+        for (int k = 0; k < count; k++) {
+            const rotid_mode_shapes *shape = &shapes->modes[k];
+            row[2 + 2 * k] = shape->measured ? shape->measured[s] : (double)NAN;
+            row[3 + 2 * k] = shape->predicted[s];
+            if (!shape->measured)
+                series_text(series, s, 2 + 2 * k, "");
+        }
+        series_row(series, s, row);
     }
-    return table;
+    return series_table(series);
 }
 
 /* Half the 95 % of the noise of each component, NULL where it is not known. */
-static const double *bars_of(struct pool *pool, const struct fitted_shape *shape, int nsensor)
+static const double *bars_of(struct pool *pool, const rotid_mode_shapes *shape, int nsensor)
 {
     double *bar = shape->measured && shape->measured_std ? POOL_ARRAY(pool, double, nsensor) : NULL;
     for (int s = 0; s < nsensor && bar; s++)
@@ -181,64 +194,66 @@ static const double *bars_of(struct pool *pool, const struct fitted_shape *shape
     return bar;
 }
 
-static const struct fitted_mode *mode_of(const struct fitted *fit, const struct fitted_shape *shape)
+static const rotid_compared_mode *mode_of(const rotid_identification *fit, const rotid_mode_shapes *shape)
 {
-    for (int k = 0; k < fit->nmode; k++)
-        if (fit->mode[k].mode == shape->mode)
-            return &fit->mode[k];
+    for (int k = 0; k < fit->nmodes; k++)
+        if (fit->modes[k].mode == shape->mode)
+            return &fit->modes[k];
     return NULL;
 }
 
-static const char *shapes_caption(struct pool *pool, const struct fitted *fit, int count, int with_shape)
+static const char *shapes_caption(struct pool *pool, const rotid_identification *fit, int count, int with_shape)
 {
-    const struct fitted_shapes *shapes = fit->shapes;
-    const struct fitted_mode *worst = NULL;
-    for (int k = 0; k < fit->nmode; k++)
-        if (isfinite(fit->mode[k].nco) && (!worst || fit->mode[k].nco < worst->nco))
-            worst = &fit->mode[k];
+    const rotid_shapes *shapes = fit->shapes;
+    const rotid_compared_mode *worst = NULL;
+    for (int k = 0; k < fit->nmodes; k++)
+        if (isfinite(fit->modes[k].nco) && (!worst || fit->modes[k].nco < worst->nco))
+            worst = &fit->modes[k];
     const char *drawn =
-        count < shapes->nmode ? pool_format(pool, " The first %d of %d modes are drawn.", count, shapes->nmode) : "";
+        count < shapes->nmodes ? pool_format(pool, " The first %d of %d modes are drawn.", count, shapes->nmodes) : "";
     if (!with_shape)
         return pool_format(
             pool,
             "Shapes of the fitted model, largest deflection 1, at the %d measured frequencies; no shapes were measured to "
             "compare them with.%s",
-            shapes->nmode, drawn ? drawn : "");
+            shapes->nmodes, drawn ? drawn : "");
     return pool_format(
         pool, "Measured shapes at %d sensors, largest component 1, and those of the fitted model at their best scale.%s%s%s",
-        shapes->nsensor,
+        shapes->nsensor_id,
         worst ? pool_format(pool, " The least alike is mode %d with a normalised cross orthogonality of %s.", worst->mode,
                             human_fixed(pool, worst->nco, 3))
               : "",
         fit->shapes_fitted == 0 ? " The fit did not use the shapes." : "", drawn ? drawn : "");
 }
 
-void figure_shapes(struct document *document, const struct result *result, const struct fitted *fit)
+void figure_shapes(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
-    const struct fitted_shapes *shapes = fit->shapes;
-    int count = shapes ? shapes->nmode : 0, with_shape = 0;
-    if (!count || shapes->naxis < 2)
+    const rotid_shapes *shapes = fit->shapes;
+    int count = shapes ? shapes->nmodes : 0, with_shape = 0;
+    if (!count || shapes->naxis_z_m < 2)
         return;
     count = count < MOST_PANELS ? count : MOST_PANELS;
     struct shape_panel *panel = POOL_ARRAY(pool, struct shape_panel, count);
     for (int k = 0; k < count && panel; k++) {
-        const struct fitted_shape *shape = &shapes->mode[k];
-        const struct fitted_mode *mode = mode_of(fit, shape);
+        const rotid_mode_shapes *shape = &shapes->modes[k];
+        const rotid_compared_mode *mode = mode_of(fit, shape);
         with_shape += shape->measured != NULL;
         panel[k] = (struct shape_panel){
             .title =
                 pool_format(pool, "mode %d, %s\xc2\xa0Hz", shape->mode, mode ? human_trimmed(pool, mode->measured_hz, 5) : ""),
             .right = mode && isfinite(mode->nco) ? pool_format(pool, "NCO %s", human_fixed(pool, mode->nco, 3)) : NULL,
-            .npoint = shape->measured ? shapes->nsensor : 0,
-            .nline = shapes->naxis,
-            .nmember = shape->nmember,
-            .point_z = shapes->sensor_z,
+            .npoint = shape->measured ? shapes->nsensor_id : 0,
+            .nline = shapes->naxis_z_m,
+            .ntierods = shape->ntierods,
+            .nbars = shape->nbars,
+            .point_z = shapes->z_m,
             .point = shape->measured,
-            .bar = bars_of(pool, shape, shapes->nsensor),
-            .line_z = shapes->axis_z,
-            .line = shape->axis,
-            .member = shape->member};
+            .bar = bars_of(pool, shape, shapes->nsensor_id),
+            .line_z = shapes->axis_z_m,
+            .line = shape->predicted_axis,
+            .tierods = shape->tierods,
+            .bars = shape->bars};
         document->failed |= !panel[k].title;
     }
     struct figure *figure =
@@ -248,43 +263,47 @@ void figure_shapes(struct document *document, const struct result *result, const
         return;
     }
     struct shapes_figure all = {.count = count, .panel = panel};
-    shade(pool, result->geometry, fit, &all);
+    shade(pool, geometry_of_result(result), fit, &all);
     figure->caption = shapes_caption(pool, fit, count, with_shape);
     figure->alt =
         pool_format(pool, "%d panels, one a mode: deflection over the position along the rotor, as a line for the model%s.",
                     count, with_shape ? " and points for what was measured" : "");
-    figure->table = shapes->nsensor ? sensors_table(pool, shapes, count) : NULL;
-    document->failed |= !figure->caption || !figure->alt || shapes_script(document, figure, result->file, &all) != ROTID_OK;
+    figure->table = shapes->nsensor_id ? sensors_table(document, shapes, count) : NULL;
+    shapes_script(document, figure, result->file, &all);
 }
 
-static struct number_table *points_table(struct pool *pool, const struct modes_outcome *modes, int count)
+static struct number_table *points_table(struct document *document, const rotid_spectrum *modes, int count)
 {
-    struct number_table *table = table_new(pool, modes->nsensor, 1 + count);
-    table_head(table, 0, "z [m]");
-    for (int k = 0; k < count; k++)
-        table_head(table, 1 + k, pool_format(pool, "mode %d [1]", modes->mode[k].mode));
-    for (int s = 0; s < modes->nsensor; s++) {
-        table_cell(table, s, 0, human_fixed(pool, modes->sensor_z[s], 4));
-        for (int k = 0; k < count; k++)
-            table_cell(table, s, 1 + k, human_fixed(pool, modes->mode[k].shape[s], 3));
+    struct column column[1 + MOST_PANELS] = {{"z", "m", AS_FIXED, 4}};
+    for (int k = 0; k < count; k++) {
+        const char *name = pool_format(document->pool, "mode %d", modes->modes[k].mode);
+        document->failed |= !name;
+        column[1 + k] = (struct column){name ? name : "", "1", AS_FIXED, 3};
     }
-    return table;
+    struct series *series = series_new(document, "points", modes->nsensor_z_m, 1 + count, column);
+    for (int s = 0; s < modes->nsensor_z_m; s++) {
+        double row[1 + MOST_PANELS] = {modes->sensor_z_m[s]};
+        for (int k = 0; k < count; k++)
+            row[1 + k] = modes->modes[k].shape[s];
+        series_row(series, s, row);
+    }
+    return series_table(series);
 }
 
 void figure_modes(struct document *document, const struct result *result)
 {
     struct pool *pool = document->pool;
-    const struct modes_outcome *modes = result->modes;
-    int count = modes->nmode < MOST_PANELS ? modes->nmode : MOST_PANELS;
-    if (!count || modes->nsensor < 2)
+    const rotid_spectrum *modes = result->modes;
+    int count = modes->nmodes < MOST_PANELS ? modes->nmodes : MOST_PANELS;
+    if (!count || modes->nsensor_z_m < 2)
         return;
     struct shape_panel *panel = POOL_ARRAY(pool, struct shape_panel, count);
     for (int k = 0; k < count && panel; k++) {
-        panel[k] = (struct shape_panel){.title = pool_format(pool, "mode %d, %s\xc2\xa0Hz", modes->mode[k].mode,
-                                                             human_trimmed(pool, modes->mode[k].full_hz, 5)),
-                                        .nline = modes->nsensor,
-                                        .line_z = modes->sensor_z,
-                                        .line = modes->mode[k].shape};
+        panel[k] = (struct shape_panel){.title = pool_format(pool, "mode %d, %s\xc2\xa0Hz", modes->modes[k].mode,
+                                                             human_trimmed(pool, modes->modes[k].full_hz, 5)),
+                                        .nline = modes->nsensor_z_m,
+                                        .line_z = modes->sensor_z_m,
+                                        .line = modes->modes[k].shape};
         document->failed |= !panel[k].title;
     }
     struct figure *figure = document_figure(document, "modes", "Bending modes of the model");
@@ -292,12 +311,12 @@ void figure_modes(struct document *document, const struct result *result)
         document->failed = 1;
         return;
     }
-    const struct shapes_figure all = {.count = count, .panel = panel, .sparse = modes->nsensor <= SPARSE};
+    const struct shapes_figure all = {.count = count, .panel = panel, .sparse = modes->nsensor_z_m <= SPARSE};
     figure->caption = pool_format(pool, "The first %s bending modes, %s to %s\xc2\xa0Hz, largest deflection 1, at %d points%s.",
-                                  human_count(pool, count), human_trimmed(pool, modes->mode[0].full_hz, 5),
-                                  human_trimmed(pool, modes->mode[count - 1].full_hz, 5), modes->nsensor,
+                                  human_count(pool, count), human_trimmed(pool, modes->modes[0].full_hz, 5),
+                                  human_trimmed(pool, modes->modes[count - 1].full_hz, 5), modes->nsensor_z_m,
                                   all.sparse ? " (joined by straight lines)" : "");
     figure->alt = pool_format(pool, "%d panels, one a mode: deflection over the position along the rotor.", count);
-    figure->table = points_table(pool, modes, count);
-    document->failed |= !figure->caption || !figure->alt || shapes_script(document, figure, result->file, &all) != ROTID_OK;
+    figure->table = points_table(document, modes, count);
+    shapes_script(document, figure, result->file, &all);
 }

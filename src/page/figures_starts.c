@@ -31,7 +31,7 @@ static int choose(const struct study_outcome *s)
     for (int i = 0; i < s->nrun; i++) {
         const struct told_run *run = &s->run[i];
         const struct told_cell *cell = &s->cell[run->cell];
-        if (isfinite(cell->reached_best) && cell->nparameter >= 2 && run->fitted > most) {
+        if (cell->is.reached_best != ROTID_NONE && cell->is.nparameters >= 2 && run->fitted > most) {
             best = run->cell;
             most = run->fitted;
         }
@@ -43,7 +43,7 @@ static double best_of(const struct study_outcome *s, int cell)
 {
     double best = INFINITY;
     for (int i = 0; i < s->nrun; i++)
-        if (s->run[i].cell == cell && s->run[i].status <= TOLD_AT_BOUND)
+        if (s->run[i].cell == cell && s->run[i].status <= STUDY_AT_BOUND)
             best = fmin(best, s->run[i].objective);
     return best;
 }
@@ -54,12 +54,12 @@ static int collect(struct pool *pool, const struct study_outcome *s, int cell, s
     double best = best_of(s, cell);
     *starts = (struct starts){.cell = cell, .whole = 1, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
     for (int p = 0; p < 2; p++)
-        starts->unit[p] = human_unit(s->cell[cell].parameter[p].mean, s->cell[cell].parameter[p].unit);
+        starts->unit[p] = human_unit(s->cell[cell].is.parameters[p].mean, s->cell[cell].is.parameters[p].unit);
     starts->way = POOL_ARRAY(pool, struct way, MOST_RUNS);
     for (int i = 0; i < s->nrun && starts->way; i++) {
         const struct told_run *run = &s->run[i];
         struct way way = {.run = run,
-                          .reached = run->status <= TOLD_AT_BOUND && run->objective <= best * (1 + SAME_BEST) + ROUNDING};
+                          .reached = run->status <= STUDY_AT_BOUND && run->objective <= best * (1 + SAME_BEST) + ROUNDING};
         if (run->cell != cell || !run->value)
             continue;
         for (int p = 0; p < 2; p++) {
@@ -69,7 +69,7 @@ static int collect(struct pool *pool, const struct study_outcome *s, int cell, s
             starts->high[p] = fmax(starts->high[p], way.from[p]);
         }
         starts->count++;
-        starts->converged += run->status <= TOLD_AT_BOUND;
+        starts->converged += run->status <= STUDY_AT_BOUND;
         starts->reached += way.reached;
         if (starts->drawn == MOST_RUNS)
             continue;
@@ -83,7 +83,7 @@ static int collect(struct pool *pool, const struct study_outcome *s, int cell, s
 static const char *axis_of(struct pool *pool, const struct told_cell *cell, const struct starts *starts, int p)
 {
     const char *unit = *starts->unit[p].text ? starts->unit[p].text : "1";
-    const char *text = pool_format(pool, "%s [%s]", cell->parameter[p].name, unit);
+    const char *text = pool_format(pool, "%s [%s]", cell->is.parameters[p].name, unit);
     return text ? text : "";
 }
 
@@ -95,7 +95,7 @@ static void lines(const struct told_cell *cell, const struct starts *starts, str
         const struct way *way = &starts->way[i];
         int known = way->run->niterate;
         for (int k = 0; k < (known >= 1 ? known : 2); k++, row++) {
-            const double *at = known >= 1 ? way->run->iterate + (ptrdiff_t)k * cell->nparameter : NULL;
+            const double *at = known >= 1 ? way->run->iterate + (ptrdiff_t)k * cell->is.nparameters : NULL;
             x[row] = at ? starts->unit[0].factor * at[0] : k ? way->to[0] : way->from[0];
             y[row] = at ? starts->unit[1].factor * at[1] : k ? way->to[1] : way->from[1];
             plot_range_join(&range[0], x[row]);
@@ -109,7 +109,7 @@ static void lines(const struct told_cell *cell, const struct starts *starts, str
 static int script(struct document *document, struct figure *figure, const struct result *result, const struct starts *starts)
 {
     struct pool *pool = document->pool;
-    const struct told_cell *cell = &result->study->cell[starts->cell];
+    const struct told_cell *cell = &result->studied->cell[starts->cell];
     int n = starts->drawn, elsewhere = starts->reached < starts->count;
     double *data = POOL_ARRAY(pool, double, 5 * (size_t)n), *x = POOL_ARRAY(pool, double, starts->corners),
            *y = POOL_ARRAY(pool, double, starts->corners);
@@ -190,7 +190,7 @@ static const char *span_of(struct pool *pool, const struct told_cell *cell, cons
         spread[p] = 100 * (starts->high[p] - starts->low[p]) / (starts->high[p] + starts->low[p]);
     int even = fabs(spread[0] - spread[1]) < 0.5;
     for (int p = 0; p < 2 && text; p++) {
-        const char *name = cell->parameter[p].name, *unit = starts->unit[p].text;
+        const char *name = cell->is.parameters[p].name, *unit = starts->unit[p].text;
         if (even)
             text = pool_format(pool, "%s%s%s = %s\xc2\xa0%s", text, p ? ", " : "", name,
                                human_trimmed(pool, (starts->low[p] + starts->high[p]) / 2, 3), unit);
@@ -207,7 +207,7 @@ static const char *span_of(struct pool *pool, const struct told_cell *cell, cons
 
 void figure_starts(struct document *document, const struct result *result)
 {
-    const struct study_outcome *s = result->study;
+    const struct study_outcome *s = result->studied;
     struct pool *pool = document->pool;
     struct starts starts;
     int chosen = choose(s);
@@ -221,9 +221,9 @@ void figure_starts(struct document *document, const struct result *result)
     if (starts.count < 2)
         return;
     struct figure *figure = document_figure(document, "starts", "Where the iterations begin and where they end");
-    const char *where = pool_format(pool, "%s = %s, %s = %s", cell->parameter[0].name,
-                                    human_value(pool, cell->parameter[0].mean, cell->parameter[0].unit), cell->parameter[1].name,
-                                    human_value(pool, cell->parameter[1].mean, cell->parameter[1].unit));
+    const char *where = pool_format(pool, "%s = %s, %s = %s", cell->is.parameters[0].name,
+                                    human_value(pool, cell->is.parameters[0].mean, cell->is.parameters[0].unit), cell->is.parameters[1].name,
+                                    human_value(pool, cell->is.parameters[1].mean, cell->is.parameters[1].unit));
     const char *span = span_of(pool, cell, &starts);
     const char *end = starts.reached == starts.count
                           ? pool_format(pool, "all end at the same minimum, %s", where ? where : "")
@@ -235,7 +235,7 @@ void figure_starts(struct document *document, const struct result *result)
                                   starts.whole ? "Small dots are the iterates between." : "Lines join start and end.");
     figure->alt =
         pool_format(pool, "%d points of departure over the plane of %s and %s, joined by lines to where the runs ended: %s.",
-                    starts.drawn, cell->parameter[0].name, cell->parameter[1].name, end ? end : "");
+                    starts.drawn, cell->is.parameters[0].name, cell->is.parameters[1].name, end ? end : "");
     figure->table = ways_table(pool, cell, &starts);
     document->failed |= !figure->caption || !figure->alt || script(document, figure, result, &starts) != ROTID_OK;
 }

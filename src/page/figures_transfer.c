@@ -17,6 +17,11 @@ struct curve { /* thinned: in each bucket the least and the largest magnitude, s
     double *hz, *size, *phase;
 };
 
+static double frac(const struct transfer_function *f)
+{
+    return f->beside ? f->beside->agreement.frac : (double)NAN;
+}
+
 static int extreme(const double *size, int from, int to, int sign)
 {
     int best = -1;
@@ -58,17 +63,17 @@ static int thin(struct pool *pool, int nline, const double *hz, const double *re
     return 0;
 }
 
-static void axes_of_modes(struct plot *plot, const struct transfer_outcome *out)
+static void axes_of_modes(struct plot *plot, const struct transfer_result *out)
 {
-    for (int m = 0; m < out->nmode; m++)
-        if (out->mode[m].mode && out->mode[m].measured_hz >= out->low_hz && out->mode[m].measured_hz <= out->high_hz)
-            plot_line(plot, "set label %d '' at %.6g, graph 1.03 point ls 21 front", ++plot->labels, out->mode[m].measured_hz);
+    for (int m = 0; m < out->nmodes; m++)
+        if (!out->modes[m].rigid && out->modes[m].measured_hz >= out->low_hz && out->modes[m].measured_hz <= out->high_hz)
+            plot_line(plot, "set label %d '' at %.6g, graph 1.03 point ls 21 front", ++plot->labels, out->modes[m].measured_hz);
 }
 
-static int has_measured_modes(const struct transfer_outcome *out)
+static int has_measured_modes(const struct transfer_result *out)
 {
-    for (int m = 0; m < out->nmode; m++)
-        if (out->mode[m].mode && out->mode[m].measured_hz >= out->low_hz && out->mode[m].measured_hz <= out->high_hz)
+    for (int m = 0; m < out->nmodes; m++)
+        if (!out->modes[m].rigid && out->modes[m].measured_hz >= out->low_hz && out->modes[m].measured_hz <= out->high_hz)
             return 1;
     return 0;
 }
@@ -77,15 +82,15 @@ static int script(struct document *document, struct figure *figure, const struct
                   const struct transfer_function *f)
 {
     struct pool *pool = document->pool;
-    const struct transfer_outcome *out = result->transfer;
+    const struct transfer_result *out = result->frf;
     struct curve curve[2];
     struct plot plot;
     struct plot_entry entry[3] = {{.text = "synthesised", .style = 1, .keys = KEY_LINE}};
     struct plot_layout layout = {.panels = 2, .columns = {1, 1}, .height = 220, .left = 66, .right = 14, .top = 16, .bottom = 48};
     int n = 1;
     char unit[64];
-    if (thin(pool, f->nline, f->hz, f->re, f->im, &curve[0]) ||
-        thin(pool, f->nline, f->hz, f->measured_re, f->measured_im, &curve[1]))
+    if (thin(pool, f->nfrequency_hz, f->frequency_hz, f->synthesised_re, f->synthesised_im, &curve[0]) ||
+        thin(pool, f->nfrequency_hz, f->frequency_hz, f->measured_re, f->measured_im, &curve[1]))
         return ROTID_ERROR_MEMORY;
     if (curve[1].count)
         entry[n++] = (struct plot_entry){.text = "measured", .style = 2, .keys = KEY_LINE};
@@ -125,26 +130,26 @@ static int script(struct document *document, struct figure *figure, const struct
     return plot_close(&plot);
 }
 
-static const char *caption(struct pool *pool, const struct transfer_outcome *out, const struct transfer_function *f)
+static const char *caption(struct pool *pool, const struct transfer_result *out, const struct transfer_function *f)
 {
     const char *where = pool_format(pool, "Point %d (%s\xc2\xa0m) over a force at point %d (%s\xc2\xa0m), %s per newton.",
-                                    f->response, human_trimmed(pool, f->response_z, 4), f->reference,
-                                    human_trimmed(pool, f->reference_z, 4), out->quantity),
+                                    f->response, human_trimmed(pool, f->response_z_m, 4), f->reference,
+                                    human_trimmed(pool, f->reference_z_m, 4), out->quantity),
                *agree = "";
     if (!where)
         return NULL;
-    if (isfinite(f->frac))
+    if (isfinite(frac(f)))
         agree = pool_format(
             pool, " FRAC with the measured function is %s, and %s with the measured frequencies put in for the model's.",
-            human_fixed(pool, f->frac, 3), human_fixed(pool, f->frac_moved, 3));
+            human_fixed(pool, frac(f), 3), human_fixed(pool, f->beside->agreement.frac_at_measured_frequencies, 3));
     else if (has_measured_modes(out)) {
         double worst = 0;
         int mode = 0;
-        for (int m = 0; m < out->nmode; m++) {
-            double off = 100 * (out->mode[m].model_hz / out->mode[m].measured_hz - 1);
-            if (out->mode[m].mode && fabs(off) > fabs(worst)) {
+        for (int m = 0; m < out->nmodes; m++) {
+            double off = 100 * (out->modes[m].model_hz / out->modes[m].measured_hz - 1);
+            if (!out->modes[m].rigid && fabs(off) > fabs(worst)) {
                 worst = off;
-                mode = out->mode[m].mode;
+                mode = out->modes[m].mode;
             }
         }
         agree = pool_format(
@@ -158,8 +163,8 @@ static const char *caption(struct pool *pool, const struct transfer_outcome *out
 static int nearest(const struct transfer_function *f, double hz)
 {
     int best = 0;
-    for (int l = 1; l < f->nline; l++)
-        if (fabs(f->hz[l] - hz) < fabs(f->hz[best] - hz))
+    for (int l = 1; l < f->nfrequency_hz; l++)
+        if (fabs(f->frequency_hz[l] - hz) < fabs(f->frequency_hz[best] - hz))
             best = l;
     return best;
 }
@@ -171,25 +176,25 @@ static void add_value(struct number_table *table, struct pool *pool, int row, in
 }
 
 /* Both curves at the frequencies of the model. */
-static struct number_table *peaks_table(struct pool *pool, const struct transfer_outcome *out, const struct transfer_function *f)
+static struct number_table *peaks_table(struct pool *pool, const struct transfer_result *out, const struct transfer_function *f)
 {
     int rows = 0, row = 0, columns = f->measured_re ? 6 : 4;
-    for (int m = 0; m < out->nmode; m++)
-        rows += out->mode[m].mode && out->mode[m].model_hz >= out->low_hz && out->mode[m].model_hz <= out->high_hz;
-    struct number_table *table = f->nline ? table_new(pool, rows, columns) : NULL;
+    for (int m = 0; m < out->nmodes; m++)
+        rows += !out->modes[m].rigid && out->modes[m].model_hz >= out->low_hz && out->modes[m].model_hz <= out->high_hz;
+    struct number_table *table = f->nfrequency_hz ? table_new(pool, rows, columns) : NULL;
     table_head(table, 0, "mode");
     table_head(table, 1, "line [Hz]");
     for (int c = 2; c < columns; c += 2) {
         table_head(table, c, pool_format(pool, "%s [%s]", c == 2 ? "synthesised" : "measured", out->unit));
         table_head(table, c + 1, "phase [\xc2\xb0]");
     }
-    for (int m = 0; m < out->nmode && row < rows && table; m++) {
-        if (!out->mode[m].mode || out->mode[m].model_hz < out->low_hz || out->mode[m].model_hz > out->high_hz)
+    for (int m = 0; m < out->nmodes && row < rows && table; m++) {
+        if (out->modes[m].rigid || out->modes[m].model_hz < out->low_hz || out->modes[m].model_hz > out->high_hz)
             continue;
-        int l = nearest(f, out->mode[m].model_hz);
-        table_cell(table, row, 0, human_fixed(pool, out->mode[m].mode, 0));
-        table_cell(table, row, 1, human_fixed(pool, f->hz[l], 2));
-        add_value(table, pool, row, 2, f->re[l], f->im[l]);
+        int l = nearest(f, out->modes[m].model_hz);
+        table_cell(table, row, 0, human_fixed(pool, out->modes[m].mode, 0));
+        table_cell(table, row, 1, human_fixed(pool, f->frequency_hz[l], 2));
+        add_value(table, pool, row, 2, f->synthesised_re[l], f->synthesised_im[l]);
         if (f->measured_re)
             add_value(table, pool, row, 4, f->measured_re[l], f->measured_im[l]);
         row++;
@@ -200,7 +205,7 @@ static struct number_table *peaks_table(struct pool *pool, const struct transfer
 static void add(struct document *document, const struct result *result, const struct transfer_function *f, const char *why)
 {
     struct pool *pool = document->pool;
-    const struct transfer_outcome *out = result->transfer;
+    const struct transfer_result *out = result->frf;
     const char *id = pool_format(pool, "transfer-%d-%d", f->response < 0 ? -f->response : f->response,
                                  f->reference < 0 ? -f->reference : f->reference),
                *title = pool_format(pool, "Transfer function between points %d and %d%s", f->response, f->reference, why);
@@ -214,10 +219,10 @@ static void add(struct document *document, const struct result *result, const st
 }
 
 /* Functions by rising agreement with the measured ones; those without are left as they are. */
-static void sort_by_agreement(int count, const struct transfer_outcome *out, int *order)
+static void sort_by_agreement(int count, const struct transfer_result *out, int *order)
 {
     for (int i = 1; i < count; i++)
-        for (int k = i; k > 0 && out->function[order[k]].frac < out->function[order[k - 1]].frac; k--) {
+        for (int k = i; k > 0 && frac(&out->functions[order[k]]) < frac(&out->functions[order[k - 1]]); k--) {
             int other = order[k];
             order[k] = order[k - 1];
             order[k - 1] = other;
@@ -226,8 +231,8 @@ static void sort_by_agreement(int count, const struct transfer_outcome *out, int
 
 void figure_transfer(struct document *document, const struct result *result)
 {
-    const struct transfer_outcome *out = result->transfer;
-    int n = out->nfunction, *order = POOL_ARRAY(document->pool, int, n);
+    const struct transfer_result *out = result->frf;
+    int n = out->nfunctions, *order = POOL_ARRAY(document->pool, int, n);
     if (!order) {
         document->failed = 1;
         return;
@@ -238,18 +243,18 @@ void figure_transfer(struct document *document, const struct result *result)
         return;
     if (n <= MOST_FIGURES) {
         for (int i = 0; i < n; i++)
-            add(document, result, &out->function[i], "");
+            add(document, result, &out->functions[i], "");
         return;
     }
     document_paragraph(document, "Of %d functions %s are drawn; the result has all.", n,
-                       isfinite(out->frac) ? "the best, the middle and the worst one" : "the first four");
+                       out->agreement && isfinite(out->agreement->frac) ? "the best, the middle and the worst one" : "the first four");
     sort_by_agreement(n, out, order);
-    if (!isfinite(out->function[order[0]].frac)) {
+    if (!isfinite(frac(&out->functions[order[0]]))) {
         for (int i = 0; i < MOST_FIGURES; i++)
-            add(document, result, &out->function[i], "");
+            add(document, result, &out->functions[i], "");
         return;
     }
-    add(document, result, &out->function[order[n - 1]], ", the best of all");
-    add(document, result, &out->function[order[n / 2]], ", the middle one");
-    add(document, result, &out->function[order[0]], ", the worst of all");
+    add(document, result, &out->functions[order[n - 1]], ", the best of all");
+    add(document, result, &out->functions[order[n / 2]], ", the middle one");
+    add(document, result, &out->functions[order[0]], ", the worst of all");
 }

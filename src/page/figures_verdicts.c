@@ -5,12 +5,13 @@
 #include "page/figures_study.h"
 #include "page/human.h"
 #include "page/rows.h"
+#include "study/summary.h"
 
 #define LEAST_WIDE 0.09 /* of a bar, for a number in it */
 
 struct part {
     const char *text, *says, *color; /* in the legend, in a sentence */
-    int which;                       /* of told_score_text or told_verdict_text */
+    int which;                       /* of score_words or verdict_words */
 };
 
 /* Best first, so that bars are compared from the left. */
@@ -31,26 +32,26 @@ static const struct part verdict_parts[] = {{"adequate", "adequate", "GREEN", 0}
 struct verdicts {
     int rows, nshown, scored;
     const struct part *part;
-    int shown[TOLD_SCORES]; /* parts that occur */
+    int shown[STUDY_SCORES]; /* parts that occur */
     const struct told_cell *cell[ROWS_MOST];
 };
 
 static double part_of(const struct verdicts *v, const struct told_cell *cell, int shown)
 {
     int which = v->part[v->shown[shown]].which;
-    return v->scored ? cell->score[which] : cell->verdict[which];
+    return v->scored ? cell->is.diagnoses->scores[which] : cell->is.diagnoses->verdicts[which];
 }
 
 static void collect_verdicts(const struct study_outcome *s, struct verdicts *v)
 {
     *v = (struct verdicts){.scored = 1};
-    for (int i = 0; i < s->ncell && v->rows < ROWS_MOST; i++)
-        if (s->cell[i].judged > 0) {
+    for (int i = 0; i < s->is.ncells && v->rows < ROWS_MOST; i++)
+        if (s->cell[i].is.diagnoses) {
             v->cell[v->rows++] = &s->cell[i];
-            v->scored &= s->cell[i].scored;
+            v->scored &= summary_is_scored(&s->cell[i].is);
         }
     v->part = v->scored ? score_parts : verdict_parts;
-    for (int k = 0; k < (v->scored ? TOLD_SCORES : TOLD_VERDICTS); k++) {
+    for (int k = 0; k < (v->scored ? STUDY_SCORES : STUDY_VERDICTS); k++) {
         double sum = 0;
         v->shown[v->nshown] = k;
         for (int i = 0; i < v->rows; i++)
@@ -71,7 +72,7 @@ static void draw_verdicts(struct plot *plot, const struct verdicts *v)
         double from = 0;
         for (int k = 0; k < v->nshown; k++) {
             const struct part *part = &v->part[v->shown[k]];
-            double share = 100 * part_of(v, v->cell[i], k) / v->cell[i]->judged;
+            double share = 100 * part_of(v, v->cell[i], k) / v->cell[i]->is.diagnoses->count;
             char where[64];
             if (!(share > 0))
                 continue;
@@ -91,7 +92,7 @@ static int verdicts_script(struct document *document, struct figure *figure, con
                            const struct verdicts *v)
 {
     struct plot_layout layout = rows_layout(v->rows);
-    struct plot_entry entry[TOLD_SCORES];
+    struct plot_entry entry[STUDY_SCORES];
     const char *name[ROWS_MOST] = {NULL};
     struct plot plot;
     for (int k = 0; k < v->nshown; k++)
@@ -106,7 +107,7 @@ static int verdicts_script(struct document *document, struct figure *figure, con
     for (int i = v->rows - 1; i >= 0; i--) {
         for (int k = 0; k < v->nshown; k++)
             (void)fprintf(plot.out, "%.0f ", part_of(v, v->cell[i], k));
-        (void)fprintf(plot.out, "%.0f\n", v->cell[i]->judged);
+        (void)fprintf(plot.out, "%d\n", v->cell[i]->is.diagnoses->count);
     }
     (void)fputs("end\n", plot.out);
     plot_begin(&plot, &layout);
@@ -131,7 +132,7 @@ static struct number_table *verdicts_table(struct pool *pool, const struct verdi
         table_head(table, 2 + k, v->part[v->shown[k]].text);
     for (int i = 0; i < v->rows; i++) {
         table_cell(table, i, 0, *v->cell[i]->label ? v->cell[i]->label : "all runs");
-        table_cell(table, i, 1, human_fixed(pool, v->cell[i]->judged, 0));
+        table_cell(table, i, 1, human_fixed(pool, v->cell[i]->is.diagnoses->count, 0));
         for (int k = 0; k < v->nshown; k++)
             table_cell(table, i, 2 + k, human_fixed(pool, part_of(v, v->cell[i], k), 0));
     }
@@ -144,12 +145,12 @@ void figure_verdicts(struct document *document, const struct result *result)
     struct verdicts v;
     const char *says = "";
     double runs = 0;
-    collect_verdicts(result->study, &v);
+    collect_verdicts(result->studied, &v);
     if (!v.rows || !v.nshown)
         return;
     struct figure *figure = document_figure(document, "verdicts", v.scored ? "Verdicts beside what was hidden" : "Verdicts");
     for (int i = 0; i < v.rows; i++)
-        runs += v.cell[i]->judged;
+        runs += v.cell[i]->is.diagnoses->count;
     for (int k = 0; k < v.nshown && says; k++) {
         double sum = 0;
         for (int i = 0; i < v.rows; i++)

@@ -1,64 +1,33 @@
-/* "geometry" of a result: the model as it is drawn and meshed. Positions and lengths in m. */
+/* A rotor as it is drawn, out of "geometry" of a result. Positions and lengths in m. */
 #ifndef ROTID_PAGE_GEOMETRY_H
 #define ROTID_PAGE_GEOMETRY_H
 
-#include "result/place.h"
+#include "rotid.h"
 
-struct drawn_material {
-    const char *name;
-    double e, g, nu, rho; /* Pa, Pa, 1, kg/m3 */
-};
+/* Its name, "" where it has none. */
+const char *material_name(const rotid_material *material);
 
-struct drawn_segment {
-    int group, elements;
-    double from, to;
-    double outer, inner; /* diameters; of a rectangle its height in the bending plane, 0 */
-    double stiff_outer;  /* diameter that carries stiffness, NaN where that is the whole */
-};
+/* Height of a section in the bending plane: its outer diameter, or that of a rectangle. */
+double segment_height(const rotid_segment *segment);
 
-struct drawn_group {
-    const char *name;
-    double from, to;
-    struct drawn_material material;
-    double hole_pitch; /* radius of the circle of axial holes, NaN: none */
-};
+/* Largest radius; and that of the segment around z (the larger one where two meet). */
+double geometry_radius(const rotid_geometry *geometry);
+double geometry_radius_at(const rotid_geometry *geometry, double z);
+/* Whether a parameter called "NAME.E" or the like is one of this group. */
+int geometry_is_of(const rotid_group *group, const char *parameter);
+/* Elements along the axis. */
+int geometry_elements(const rotid_geometry *geometry);
 
-struct drawn_bundle { /* tie rods, or bars */
-    const char *name;
+/* Tie rods and bars as what is drawn of both, the tie rods first. */
+struct bundle {
+    const char *name; /* or NULL */
     int is_bars, number;
     double from, to, diameter, pitch; /* pitch radius */
 };
+int geometry_nbundle(const rotid_geometry *geometry);
+struct bundle geometry_bundle(const rotid_geometry *geometry, int i);
 
-struct drawn_point { /* a disk, spring or sensor */
-    const char *name;
-    double z, value, rotational; /* kg; N/m and N.m/rad; id of the sensor */
-};
-
-struct drawn_cause {
-    const char *name, *id, *target;
-    double z; /* m, NaN where it has no place */
-};
-
-struct geometry {
-    double length;
-    int ngroup, nsegment, nbundle, ndisk, nspring, nsensor, ncause, nnode;
-    struct drawn_group *group;
-    struct drawn_segment *segment; /* along the axis */
-    struct drawn_bundle *bundle;
-    struct drawn_point *disk, *spring, *sensor;
-    struct drawn_cause *cause;
-    double *node_z; /* [nnode] of the mesh of the axis */
-};
-
-/* The object under "geometry" of `above`, NULL where it is not there or wrong: reader->status tells. */
-struct geometry *geometry_read(const struct json_place *above);
-
-/* Largest radius; and that of the segment around z (the larger one where two meet). */
-double geometry_radius(const struct geometry *geometry);
-double geometry_radius_at(const struct geometry *geometry, double z);
-/* Whether a parameter called "NAME.E" or the like is one of this group. */
-int geometry_is_of(const struct drawn_group *group, const char *parameter);
-/* Elements along the axis. */
-int geometry_elements(const struct geometry *geometry);
+/* Where a cause in the model acts, NaN where it has no place. */
+double model_cause_z(const rotid_model_cause *cause);
 
 #endif

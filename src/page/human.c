@@ -31,6 +31,7 @@ struct human_unit human_unit(double value, const char *unit)
         const char *prefix;
     } prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {0, ""}};
     struct human_unit human = {1, ""};
+    unit = unit ? unit : "1";
     (void)snprintf(human.text, sizeof human.text, "%s", unit);
     for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
         if (strcmp(units[i].unit, unit))

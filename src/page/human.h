@@ -5,7 +5,8 @@
 
 #include "base/pool.h"
 
-/* The prefix a unit is read best with at a value: value in it = factor * value. Unit "1" and unknown ones stay as they are. */
+/* The prefix a unit is read best with at a value: value in it = factor * value. Unit "1", which NULL stands for, and unknown ones
+ * stay as they are. */
 struct human_unit {
     double factor;
     char text[24]; /* "GPa", "kN/m"; "" for a pure number */

@@ -70,18 +70,50 @@ static void numbers(struct plot *plot, const struct matrix_panel *panel)
         }
 }
 
-int matrix_script(struct pool *pool, struct figure *figure, const char *source, int count, const struct matrix_panel *panel)
+/* Rows of the matrix, headed by their names and, of several matrices, by its title. */
+static struct series *collect(struct document *document, int count, const struct matrix_panel *panel, int i)
+{
+    const struct matrix_panel *m = &panel[i];
+    struct pool *pool = document->pool;
+    const char *name = pool_format(pool, "matrix%d", i + 1);
+    struct column *column = POOL_ARRAY(pool, struct column, m->columns + 1);
+    double *row = POOL_ARRAY(pool, double, m->columns);
+    if (!name || !column || !row) {
+        document->failed = 1;
+        return NULL;
+    }
+    column[0] = (struct column){count > 1 ? "matrix and row" : m->row_axis ? m->row_axis : "", NULL, AS_TEXT, 0};
+    for (int j = 0; j < m->columns; j++)
+        column[j + 1] = (struct column){m->column[j], NULL, AS_FIXED, 3};
+    struct series *series = series_new(document, name, m->rows, m->columns + 1, column);
+    for (int r = 0; r < m->rows; r++) {
+        for (int j = 0; j < m->columns; j++)
+            row[j] = m->value[r + (ptrdiff_t)j * m->rows];
+        series_row(series, r, row);
+        series_text(series, r, 0, count > 1 ? pool_format(pool, "%s, %s", m->title, m->row[r]) : m->row[r]);
+    }
+    return series;
+}
+
+void matrix_figure(struct document *document, struct figure *figure, const char *source, int count,
+                   const struct matrix_panel *panel)
 {
     struct plot plot;
     int columns = most_columns(count, panel), rows = 1;
     double left = LEFT_PX + fmax(longest_name(count, panel) - 16, 0);
-    for (int i = 0; i < count; i++)
+    const struct series *series[MATRIX_MOST] = {NULL};
+    for (int i = 0; i < count; i++) {
         rows = panel[i].rows > rows ? panel[i].rows : rows;
+        series[i] = collect(document, count, panel, i);
+    }
+    figure->table = series_table_of(count, series);
     int beside = count > 1 && (WIDE_PX / 2.0 - left - 10) / columns >= NUMBER_PX ? 2 : 1;
     double wide = fmin((WIDE_PX / (double)beside - left - 10) / columns, MOST_CELL),
            narrow = fmin((NARROW_PX - left - 10) / columns, MOST_CELL), height = fmin(fmax(narrow, LEAST_CELL), 34);
-    if (plot_open(&plot, pool, figure, source))
-        return ROTID_ERROR_MEMORY;
+    if (!figure_begin(document, figure, source, &plot))
+        return;
+    for (int i = 0; i < count; i++)
+        plot_series(&plot, series[i]);
     plot_begin(&plot, &(struct plot_layout){.panels = count,
                                             .columns = {beside, 1},
                                             .height = 78 + height * rows,
@@ -105,23 +137,5 @@ int matrix_script(struct pool *pool, struct figure *figure, const char *source, 
         }
         plot_line(&plot, "plot NaN");
     }
-    return plot_close(&plot);
-}
-
-struct number_table *matrix_table(struct pool *pool, int count, const struct matrix_panel *panel)
-{
-    int rows = 0, columns = most_columns(count, panel);
-    for (int i = 0; i < count; i++)
-        rows += panel[i].rows;
-    struct number_table *table = table_new(pool, rows, columns + 1);
-    table_head(table, 0, count > 1 ? "matrix and row" : panel->row_axis ? panel->row_axis : "");
-    for (int j = 0; j < panel->columns; j++)
-        table_head(table, j + 1, panel->column[j]);
-    for (int i = 0, row = 0; i < count; i++)
-        for (int r = 0; r < panel[i].rows; r++, row++) {
-            table_cell(table, row, 0, count > 1 ? pool_format(pool, "%s, %s", panel[i].title, panel[i].row[r]) : panel[i].row[r]);
-            for (int j = 0; j < panel[i].columns; j++)
-                table_cell(table, row, j + 1, human_fixed(pool, panel[i].value[r + (ptrdiff_t)j * panel[i].rows], 3));
-        }
-    return table;
+    figure_end(document, &plot);
 }

@@ -2,7 +2,7 @@
 #ifndef ROTID_PAGE_MATRIX_H
 #define ROTID_PAGE_MATRIX_H
 
-#include "page/plot.h"
+#include "page/series.h"
 
 struct matrix_panel {
     const char *title, *row_axis, *column_axis; /* what rows and columns are; the axes with their units */
@@ -12,9 +12,11 @@ struct matrix_panel {
     const int *mark;                        /* [rows] the column of a cell that is framed, -1: none; or NULL */
 };
 
-/* A script with a panel for each. */
-int matrix_script(struct pool *pool, struct figure *figure, const char *source, int count, const struct matrix_panel *panel);
-/* Its numbers, rows of all panels below each other, headed by title and row. */
-struct number_table *matrix_table(struct pool *pool, int count, const struct matrix_panel *panel);
+#define MATRIX_MOST 2 /* in one figure */
+
+/* Series, table and script of a figure with a panel for each; rows of all panels stand below each other in the table. The figure
+ * has its texts. */
+void matrix_figure(struct document *document, struct figure *figure, const char *source, int count,
+                   const struct matrix_panel *panel);
 
 #endif

@@ -22,6 +22,14 @@ static void styles(FILE *out)
                       dash[(i + i / SERIES) % SERIES], mark[i % SERIES] - i / SERIES);
 }
 
+void plot_comment(struct plot *plot, const char *text)
+{
+    for (const char *c = text; *c; c += text_utf8(c) ? text_utf8(c) : 1) {
+        int is_kept = text_visible(c) && *c != '\\'; /* at its end a backslash would continue the comment */
+        (void)fwrite(is_kept ? c : "?", 1, is_kept ? text_visible(c) : 1, plot->out);
+    }
+}
+
 int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const char *source)
 {
     *plot = (struct plot){.pool = pool, .figure = figure};
@@ -30,11 +38,7 @@ int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const
         return ROTID_ERROR_MEMORY;
     FILE *out = plot->out;
     (void)fprintf(out, "# rotid %s, figure %s of ", ROTID_VERSION, figure->id);
-    for (const char *c = source; *c;
-         c += text_utf8(c) ? text_utf8(c) : 1) { /* a comment, which a backslash at its end continues */
-        int is_kept = text_visible(c) && *c != '\\';
-        (void)fwrite(is_kept ? c : "?", 1, is_kept ? text_visible(c) : 1, out);
-    }
+    plot_comment(plot, source);
     (void)fprintf(out,
                   "\n# Change what you like, then run:  gnuplot %s.gp\n"
                   "# It writes %s.svg and %s.pdf. Colours and styles come first, then the data, then what is drawn.\n"

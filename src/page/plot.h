@@ -4,7 +4,7 @@
  *     struct plot plot;
  *     if (plot_open(&plot, pool, figure, "result.json"))    // no memory
  *         return ROTID_ERROR_MEMORY;
- *     plot_data(&plot, "curve", n, 2, (const double *const[]){x, y});
+ *     plot_series(&plot, curve);                            // of page/series.h
  *     plot_begin(&plot, &(struct plot_layout){.panels = 1, .columns = {1, 1}, .height = 300, .left = 60, ...});
  *     plot_panel(&plot, 0);
  *     plot_axes(&plot, "iteration [1]", "objective [1]");
@@ -51,6 +51,8 @@ struct plot {
 
 /* Begins the script of a figure, which has its id. ROTID_OK or ROTID_ERROR_MEMORY, then there is nothing to close. */
 int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const char *source);
+/* A text of a user within a comment. */
+void plot_comment(struct plot *plot, const char *text);
 /* $name: rows of columns; NaN for what is not finite. Before plot_begin. */
 void plot_data(struct plot *plot, const char *name, int rows, int columns, const double *const column[]);
 /* From here on everything is done once for each layout: W, H [px], COLUMNS and `narrow` are set in the script. */

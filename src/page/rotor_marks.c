@@ -1,4 +1,5 @@
 #include "page/rotor_marks.h"
+#include "page/geometry.h"
 
 #include <math.h>
 
@@ -27,18 +28,18 @@ static int place(const double *taken, double middle, double width, double room, 
 }
 
 /* Lanes in use. */
-static int place_labels(struct pool *pool, const struct geometry *geometry, int layout, const struct rotor_drawing *d)
+static int place_labels(struct pool *pool, const rotid_geometry *geometry, int layout, const struct rotor_drawing *d)
 {
     struct rotor_label *label = d->label;
     double taken[LANES] = {0, 0, 0};
     int deepest = 0;
-    for (int g = 0; g < geometry->ngroup; g++) {
-        const struct drawn_group *group = &geometry->group[g];
-        const struct drawn_material *m = &group->material;
-        const char *text[3] = {pool_format(pool, "%s: %s, E %s, G %s", group->name, m->name, human_value(pool, m->e, "Pa"),
-                                           human_value(pool, m->g, "Pa")),
-                               pool_format(pool, "%s: %s", group->name, m->name), group->name};
-        double z = (group->from + group->to) / 2, span = d->scale * (group->to - group->from);
+    for (int g = 0; g < geometry->ngroups; g++) {
+        const rotid_group *group = &geometry->groups[g];
+        const rotid_material *m = &group->material;
+        const char *text[3] = {pool_format(pool, "%s: %s, E %s, G %s", group->name, material_name(m),
+                                           human_value(pool, m->e_pa, "Pa"), human_value(pool, m->g_pa, "Pa")),
+                               pool_format(pool, "%s: %s", group->name, material_name(m)), group->name};
+        double z = (group->from_m + group->to_m) / 2, span = d->scale * (group->to_m - group->from_m);
         label[g] = (struct rotor_label){.z = z, .lane = -1};
         for (int t = 0; t < 3 && label[g].lane < 0; t++) {
             double width = text[t] ? plot_width(text[t]) : 0, from;
@@ -53,10 +54,10 @@ static int place_labels(struct pool *pool, const struct geometry *geometry, int 
     return deepest + 1;
 }
 
-static void group_labels(struct plot *plot, const struct geometry *geometry, const struct rotor_drawing *d)
+static void group_labels(struct plot *plot, const rotid_geometry *geometry, const struct rotor_drawing *d)
 {
     const struct rotor_label *label = d->label;
-    for (int g = 0; g < geometry->ngroup; g++) {
+    for (int g = 0; g < geometry->ngroups; g++) {
         char where[96];
         double up = ABOVE_PX + LANE_PX * (label[g].lane + 0.5), r = geometry_radius_at(geometry, label[g].z);
         if (label[g].lane < 0)
@@ -69,12 +70,12 @@ static void group_labels(struct plot *plot, const struct geometry *geometry, con
 }
 
 /* A spring as a line: z and radius in m, the way from there in px; the coil, then the ground with its hatching. */
-static void spring_data(struct plot *plot, const struct geometry *geometry)
+static void spring_data(struct plot *plot, const rotid_geometry *geometry)
 {
     FILE *out = plot->out;
     (void)fputs("# springs: z, radius [m], then what is added to both [px]\n$springs << end\n", out);
-    for (int s = 0; s < geometry->nspring; s++) {
-        double z = geometry->spring[s].z, r = geometry_radius_at(geometry, z);
+    for (int s = 0; s < geometry->nsprings; s++) {
+        double z = geometry->springs[s].z_m, r = geometry_radius_at(geometry, z);
         (void)fprintf(out, "%.6g %.6g 0 0\n", z, r);
         for (int t = 0; t <= COIL_TURNS; t++)
             (void)fprintf(out, "%.6g %.6g %d %g\n", z, r,
@@ -92,15 +93,15 @@ static void spring_data(struct plot *plot, const struct geometry *geometry)
 }
 
 /* Stiffnesses under the springs, as far as there is room for them beside each other. */
-static void spring_labels(struct plot *plot, const struct geometry *geometry, const struct rotor_drawing *d, int layout)
+static void spring_labels(struct plot *plot, const rotid_geometry *geometry, const struct rotor_drawing *d, int layout)
 {
     double taken = 0;
-    for (int s = 0; s < geometry->nspring; s++) {
-        const struct drawn_point *spring = &geometry->spring[s];
-        double r = geometry_radius_at(geometry, spring->z), from;
-        const char *text = human_value(plot->pool, spring->value, "N/m");
+    for (int s = 0; s < geometry->nsprings; s++) {
+        const rotid_spring *spring = &geometry->springs[s];
+        double r = geometry_radius_at(geometry, spring->z_m), from;
+        const char *text = human_value(plot->pool, spring->lateral_n_m, "N/m");
         char where[96];
-        from = fmin(fmax(d->left + d->scale * spring->z - plot_width(text) / 2, 4), page_width[layout] - plot_width(text) - 4);
+        from = fmin(fmax(d->left + d->scale * spring->z_m - plot_width(text) / 2, 4), page_width[layout] - plot_width(text) - 4);
         if (from < taken)
             continue;
         taken = from + plot_width(text) + 8;
@@ -110,54 +111,73 @@ static void spring_labels(struct plot *plot, const struct geometry *geometry, co
 }
 
 /* px under the axis of the rotor. */
-static double below(const struct geometry *geometry, const struct rotor_drawing *d)
+static double below(const rotid_geometry *geometry, const struct rotor_drawing *d)
 {
     double px = d->radius + 12;
-    for (int s = 0; s < geometry->nspring; s++)
-        px = fmax(px, d->scale * geometry_radius_at(geometry, geometry->spring[s].z) + UNDER_PX);
+    for (int s = 0; s < geometry->nsprings; s++)
+        px = fmax(px, d->scale * geometry_radius_at(geometry, geometry->springs[s].z_m) + UNDER_PX);
     return px;
 }
 
-static void point_data(struct plot *plot, const struct geometry *geometry, const struct fitted *fit)
+/* What stands at the surface of the rotor, each at its z. */
+static void points(struct document *document, struct plot *plot, const rotid_geometry *geometry, const char *name, int n,
+                   double (*z_of)(const rotid_geometry *geometry, int i))
 {
-    FILE *out = plot->out;
-    (void)fputs("# sensors: z, radius [m]\n$sensors << end\n", out);
-    for (int s = 0; s < geometry->nsensor; s++)
-        (void)fprintf(out, "%.6g %.6g\n", geometry->sensor[s].z, geometry_radius_at(geometry, geometry->sensor[s].z));
-    (void)fputs("end\n# disks: z, radius [m]\n$disks << end\n", out);
-    for (int i = 0; i < geometry->ndisk; i++)
-        (void)fprintf(out, "%.6g %.6g\n", geometry->disk[i].z, geometry_radius_at(geometry, geometry->disk[i].z));
-    (void)fputs("end\n# causes in the model: z, radius [m]\n$causes << end\n", out);
-    for (int i = 0; i < geometry->ncause; i++)
-        if (isfinite(geometry->cause[i].z))
-            (void)fprintf(out, "%.6g %.6g\n", geometry->cause[i].z, geometry_radius_at(geometry, geometry->cause[i].z));
-    (void)fputs("end\n# nodes of the mesh: z [m]\n$nodes << end\n", out);
-    for (int i = 0; i < geometry->nnode; i++)
-        (void)fprintf(out, "%.6g\n", geometry->node_z[i]);
-    (void)fprintf(out, "end\ncenter = %s\n", plot_number(plot, fit ? fit->center_m : (double)NAN));
+    static const struct column columns[] = {{"z", "m", AS_PLACE, 0}, {"radius", "m", AS_PLACE, 0}};
+    struct series *series = series_new(document, name, n, 2, columns);
+    for (int i = 0; i < n; i++) {
+        double z = z_of(geometry, i);
+        series_row(series, i, (const double[]){z, isfinite(z) ? geometry_radius_at(geometry, z) : (double)NAN});
+    }
+    plot_series(plot, series);
 }
 
-int rotor_measure(struct pool *pool, const struct geometry *geometry, int layout, struct rotor_drawing *d)
+static double sensor_z(const rotid_geometry *geometry, int i)
+{
+    return geometry->sensors[i].z_m;
+}
+
+static double disk_z(const rotid_geometry *geometry, int i)
+{
+    return geometry->disks[i].z_m;
+}
+
+static double cause_z(const rotid_geometry *geometry, int i)
+{
+    return model_cause_z(&geometry->causes[i]);
+}
+
+static double node_z(const rotid_geometry *geometry, int i)
+{
+    return geometry->nodes_z_m[i];
+}
+
+int rotor_measure(struct pool *pool, const rotid_geometry *geometry, int layout, struct rotor_drawing *d)
 {
     double radius = geometry_radius(geometry), width = page_width[layout] - 2 * SIDE_PX;
-    *d = (struct rotor_drawing){.scale = fmin(width / geometry->length, MOST_BODY / (2 * radius)),
-                                .label = POOL_ARRAY(pool, struct rotor_label, geometry->ngroup)};
+    *d = (struct rotor_drawing){.scale = fmin(width / geometry->length_m, MOST_BODY / (2 * radius)),
+                                .label = POOL_ARRAY(pool, struct rotor_label, geometry->ngroups)};
     if (!d->label)
         return ROTID_ERROR_MEMORY;
-    d->left = (page_width[layout] - d->scale * geometry->length) / 2;
+    d->left = (page_width[layout] - d->scale * geometry->length_m) / 2;
     d->radius = d->scale * radius;
     d->above = d->radius + ABOVE_PX + LANE_PX * place_labels(pool, geometry, layout, d);
     d->below = below(geometry, d);
     return ROTID_OK;
 }
 
-void rotor_marks_data(struct plot *plot, const struct geometry *geometry, const struct fitted *fit)
+void rotor_marks_data(struct document *document, struct plot *plot, const rotid_geometry *geometry,
+                      const rotid_identification *fit)
 {
-    point_data(plot, geometry, fit);
+    points(document, plot, geometry, "sensors", geometry->nsensors, sensor_z);
+    points(document, plot, geometry, "disks", geometry->ndisks, disk_z);
+    points(document, plot, geometry, "causes", geometry->ncauses, cause_z);
+    points(document, plot, geometry, "nodes", geometry->nnodes_z_m, node_z);
+    plot_line(plot, "center = %s", plot_number(plot, fit ? fit->center_of_mass_m : (double)NAN));
     spring_data(plot, geometry);
 }
 
-void rotor_marks_labels(struct plot *plot, const struct geometry *geometry, const struct rotor_drawing *drawing, int layout)
+void rotor_marks_labels(struct plot *plot, const rotid_geometry *geometry, const struct rotor_drawing *drawing, int layout)
 {
     group_labels(plot, geometry, drawing);
     spring_labels(plot, geometry, drawing, layout);

@@ -3,9 +3,9 @@
 #ifndef ROTID_PAGE_ROTOR_MARKS_H
 #define ROTID_PAGE_ROTOR_MARKS_H
 
-#include "page/fitted.h"
 #include "page/geometry.h"
-#include "page/plot.h"
+#include "page/result.h"
+#include "page/series.h"
 
 struct rotor_label {
     const char *text;
@@ -21,11 +21,12 @@ struct rotor_drawing {           /* in one layout */
 };
 
 /* ROTID_OK or ROTID_ERROR_MEMORY. */
-int rotor_measure(struct pool *pool, const struct geometry *geometry, int layout, struct rotor_drawing *drawing);
+int rotor_measure(struct pool *pool, const rotid_geometry *geometry, int layout, struct rotor_drawing *drawing);
 
 /* $sensors, $disks, $causes, $nodes, $springs and `center`: before plot_begin. */
-void rotor_marks_data(struct plot *plot, const struct geometry *geometry, const struct fitted *fit);
+void rotor_marks_data(struct document *document, struct plot *plot, const rotid_geometry *geometry,
+                      const rotid_identification *fit);
 /* Names and stiffnesses in a layout. */
-void rotor_marks_labels(struct plot *plot, const struct geometry *geometry, const struct rotor_drawing *drawing, int layout);
+void rotor_marks_labels(struct plot *plot, const rotid_geometry *geometry, const struct rotor_drawing *drawing, int layout);
 
 #endif

@@ -11,25 +11,28 @@
 #include "page/tables_diagnosis.h"
 
 /* How to look for what was named, or for what cannot be told apart, each check once. */
-static void section_next(struct document *document, const struct diagnosis_outcome *d, const char *deck)
+static void section_next(struct document *document, const rotid_diagnosis *d, const char *deck)
 {
     struct pool *pool = document->pool;
-    int count = d->kind == TOLD_NONE ? 0 : d->ncause + d->nalternative, n = 0;
+    int count = d->verdict.kind == -1 ? 0 : d->verdict.ncauses + d->verdict.nalternative_causes, n = 0;
     const char **text = POOL_ARRAY(pool, const char *, count + 1);
     if (!text) {
         document->failed = 1;
         return;
     }
     for (int i = 0; i < count; i++) {
-        const struct told_cause *cause = i < d->ncause ? &d->cause[i] : &d->alternative[i - d->ncause];
+        const rotid_cause *cause =
+            i < d->verdict.ncauses ? &d->verdict.causes[i] : &d->verdict.alternative_causes[i - d->verdict.ncauses];
         const char *check = cause_check(cause->id);
         int seen = !*check;
         for (int j = 0; j < i; j++)
-            seen |= cause_check((j < d->ncause ? &d->cause[j] : &d->alternative[j - d->ncause])->id) == check;
+            seen |= cause_check(
+                        (j < d->verdict.ncauses ? &d->verdict.causes[j] : &d->verdict.alternative_causes[j - d->verdict.ncauses])
+                            ->id) == check;
         if (!seen)
             text[n++] = pool_format(pool, "%s: %s.", cause->id, check);
     }
-    if (count && d->ncause)
+    if (count && d->verdict.ncauses)
         text[n++] = pool_format(pool,
                                 "To go on with it in the model: rotid diagnose %s --extended better.inp writes the deck with the "
                                 "cause as a *CAUSE card, and rotid identify better.inp uses it.",
@@ -37,25 +40,25 @@ static void section_next(struct document *document, const struct diagnosis_outco
     if (!n)
         return;
     document_section(document, "look",
-                     d->ncause ? "Look at the rotor before you believe it" : "What would settle it at the rotor");
+                     d->verdict.ncauses ? "Look at the rotor before you believe it" : "What would settle it at the rotor");
     document_list(document, n, text);
 }
 
-static void section_findings(struct document *document, const struct diagnosis_outcome *d)
+static void section_findings(struct document *document, const rotid_diagnosis *d)
 {
     struct pool *pool = document->pool;
-    if (!d->ndata && !d->nnumerical)
+    if (!d->ndata_findings && !d->nnumerical_findings)
         return;
     document_section(document, "findings", "Measurement and numbers");
-    for (int i = 0; i < d->ndata; i++) {
-        const char *check = cause_check(d->data[i].id);
-        document_paragraph(document, "%s: %s. At the test: %s.", d->data[i].id, d->data[i].text ? d->data[i].text : "found",
-                           check);
+    for (int i = 0; i < d->ndata_findings; i++) {
+        const char *check = cause_check(d->data_findings[i].id);
+        document_paragraph(document, "%s: %s. At the test: %s.", d->data_findings[i].id,
+                           d->data_findings[i].text ? d->data_findings[i].text : "found", check);
     }
-    for (int i = 0; i < d->nnumerical; i++) {
-        const struct told_finding *finding = &d->numerical[i];
+    for (int i = 0; i < d->nnumerical_findings; i++) {
+        const rotid_numerical_finding *finding = &d->numerical_findings[i];
         document_paragraph(document, "%s: %s.", finding->id, finding->text ? finding->text : "found");
-        if (finding->nerror)
+        if (finding->nmodes)
             document_table(document, pool_format(pool, "%s: its error in each mode", finding->id),
                            tables_numerical(pool, finding));
     }
@@ -63,10 +66,10 @@ static void section_findings(struct document *document, const struct diagnosis_o
 
 static void section_misfit(struct document *document, const struct result *result)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
+    const rotid_diagnosis *d = result->diagnose;
     if (!d->base)
         return;
-    document_section(document, "misfit", d->kind == TOLD_ADEQUATE ? "Model and measurement" : "Where the model misses");
+    document_section(document, "misfit", d->verdict.kind == ROTID_ADEQUATE ? "Model and measurement" : "Where the model misses");
     figure_residuals(document, result);
     figure_places(document, result);
     document_table(document,
@@ -75,14 +78,14 @@ static void section_misfit(struct document *document, const struct result *resul
                    tables_fitted_modes(document->pool, result, d->base));
 }
 
-static const char *round_says(struct pool *pool, const struct evidence_round *round, int number, int fitted)
+static const char *round_says(struct pool *pool, const rotid_round *round, int number, int fitted)
 {
     static const char *const kinds[] = {"no verdict", "the model is adequate", "a cause is named", "the data cannot tell",
                                         "nothing explains it"};
     const char *text = pool_format(
         pool,
         "Round %d, %s: the misfit is %s for %d degrees of freedom. The largest drop that the linear scan expects is %s; %s.%s",
-        number + 1, kinds[round->kind], human_digits(pool, round->chi2, 4), round->dof, human_digits(pool, round->largest, 3),
+        number + 1, kinds[round->kind + 1], human_digits(pool, round->chi2, 4), round->dof, human_digits(pool, round->largest, 3),
         isfinite(round->threshold)
             ? pool_format(pool, "chance alone reaches %s in 3 of 100 tests", human_digits(pool, round->threshold, 3))
             : "what chance alone reaches was not found out",
@@ -92,33 +95,33 @@ static const char *round_says(struct pool *pool, const struct evidence_round *ro
 
 static void section_evidence(struct document *document, const struct result *result)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
+    const rotid_diagnosis *d = result->diagnose;
     struct pool *pool = document->pool;
-    if (!d->nround)
+    if (!d->nrounds)
         return;
-    document_section(document, "causes", d->kind == TOLD_ADEQUATE ? "What was looked for" : "What could cause it");
-    for (int i = 0; i < d->nround; i++) {
-        const struct evidence_round *round = &d->round[i];
-        int fitted = 0;
-        for (int k = 0; k < round->ncandidate; k++)
-            fitted += round->candidate[k].refitted;
-        document_paragraph(document, "%s", round_says(pool, round, i, fitted));
+    document_section(document, "causes", d->verdict.kind == ROTID_ADEQUATE ? "What was looked for" : "What could cause it");
+    for (int i = 0; i < d->nrounds; i++) {
+        int fitted = 0, count;
+        const rotid_candidate *candidate = diagnosis_candidates(d, i, &count);
+        for (int k = 0; k < count; k++)
+            fitted += candidate[k].refitted;
+        document_paragraph(document, "%s", round_says(pool, &d->rounds[i], i, fitted));
         figure_evidence(document, result, i);
         if (!fitted)
             continue;
         document_table(document, pool_format(pool, "Candidates of round %d, those that stay first", i + 1),
-                       tables_candidates(pool, round));
+                       tables_candidates(pool, d, i));
         document_table(document, pool_format(pool, "What the fitted ones of round %d predict, and what they look like", i + 1),
-                       tables_candidate_quality(pool, round));
+                       tables_candidate_quality(pool, d, i));
         document_table(document, pool_format(pool, "Sizes and places of the candidates of round %d", i + 1),
-                       tables_candidate_sizes(pool, round));
+                       tables_candidate_sizes(pool, d, i));
     }
 }
 
 static void section_gain(struct document *document, const struct result *result)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
-    if (!d->base || d->kind == TOLD_NONE)
+    const rotid_diagnosis *d = result->diagnose;
+    if (!d->base || d->verdict.kind == -1)
         return;
     document_section(document, "worth", d->extended ? "What it is worth" : "Quality and parameters of the model");
     figure_improvement(document, result);
@@ -131,9 +134,9 @@ static void section_gain(struct document *document, const struct result *result)
     figure_shapes(document, result, d->extended ? d->extended : d->base);
 }
 
-static void section_blind_spots(struct document *document, const struct diagnosis_outcome *d)
+static void section_blind_spots(struct document *document, const rotid_diagnosis *d)
 {
-    if (!d->nsize)
+    if (!d->ndetectable)
         return;
     document_section(document, "blind", "Blind spots");
     document_paragraph(
@@ -144,8 +147,8 @@ static void section_blind_spots(struct document *document, const struct diagnosi
 
 void section_diagnose(struct document *document, const struct result *result)
 {
-    const struct diagnosis_outcome *d = result->diagnosis;
-    section_next(document, d, result->deck ? result->deck : "DECK");
+    const rotid_diagnosis *d = result->diagnose;
+    section_next(document, d, result->head.deck ? result->head.deck : "DECK");
     section_findings(document, d);
     section_misfit(document, result);
     section_evidence(document, result);

@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "page/geometry.h"
 #include "page/human.h"
 #include "page/sections.h"
 
@@ -8,52 +9,53 @@
 
 static const char *noise_of(struct pool *pool, const struct result *result)
 {
-    const char *frequency = isfinite(result->noise_frequency) ? pool_format(pool, "frequencies %s\xc2\xa0%%%s",
-                                                                            human_digits(pool, 100 * result->noise_frequency, 2),
-                                                                            result->frequency_assumed ? " (assumed)" : "")
-                                                              : "frequencies: not stated",
-               *shape = isfinite(result->noise_shape) ? pool_format(pool, "shapes %s\xc2\xa0%% of the largest component%s",
-                                                                    human_digits(pool, 100 * result->noise_shape, 2),
-                                                                    result->shape_assumed ? " (assumed)" : "")
-                                                      : "shapes: not stated";
-    if (!result_fit(result) || !(result->intervals_from || result->diagnosis))
+    const rotid_noise *noise = noise_of_result(result);
+    if (!noise || !fit_of_result(result) || !(noise->intervals_from || result->diagnose))
         return NULL;
+    const char *frequency = isfinite(noise->frequency)
+                                ? pool_format(pool, "frequencies %s\xc2\xa0%%%s", human_digits(pool, 100 * noise->frequency, 2),
+                                              noise->frequency_assumed ? " (assumed)" : "")
+                                : "frequencies: not stated",
+               *shape = isfinite(noise->shape)
+                            ? pool_format(pool, "shapes %s\xc2\xa0%% of the largest component%s",
+                                          human_digits(pool, 100 * noise->shape, 2), noise->shape_assumed ? " (assumed)" : "")
+                            : "shapes: not stated";
     return pool_format(pool, "%s; %s", frequency ? frequency : "", shape ? shape : "");
 }
 
 static const char *data_of(struct pool *pool, const struct result *result)
 {
-    const struct fitted *fit = result_fit(result);
+    const rotid_identification *fit = fit_of_result(result);
     int shapes = 0;
-    if (!fit || !fit->nmode)
+    if (!fit || !fit->nmodes)
         return NULL;
-    for (int k = 0; fit->shapes && k < fit->shapes->nmode; k++)
-        shapes += fit->shapes->mode[k].measured != NULL;
+    for (int k = 0; fit->shapes && k < fit->shapes->nmodes; k++)
+        shapes += fit->shapes->modes[k].measured != NULL;
     double low = INFINITY, high = 0;
-    for (int k = 0; k < fit->nmode; k++) {
-        low = fmin(low, fit->mode[k].measured_hz);
-        high = fmax(high, fit->mode[k].measured_hz);
+    for (int k = 0; k < fit->nmodes; k++) {
+        low = fmin(low, fit->modes[k].measured_hz);
+        high = fmax(high, fit->modes[k].measured_hz);
     }
     const char *text =
-        pool_format(pool, "%d measured %s from %s to %s\xc2\xa0Hz", fit->nmode, human_plural(fit->nmode, "mode", "modes"),
+        pool_format(pool, "%d measured %s from %s to %s\xc2\xa0Hz", fit->nmodes, human_plural(fit->nmodes, "mode", "modes"),
                     human_trimmed(pool, low, 5), human_trimmed(pool, high, 5));
     if (!fit->shapes || !text)
         return text;
-    return shapes ? pool_format(pool, "%s, %d with a shape at %d sensors", text, shapes, fit->shapes->nsensor)
+    return shapes ? pool_format(pool, "%s, %d with a shape at %d sensors", text, shapes, fit->shapes->nsensor_id)
                   : pool_format(pool, "%s, without shapes", text);
 }
 
 static const char *model_of(struct pool *pool, const struct result *result)
 {
-    const struct fitted *fit = result_fit(result);
-    const struct geometry *geometry = result->geometry;
-    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length, 4),
+    const rotid_identification *fit = fit_of_result(result);
+    const rotid_geometry *geometry = geometry_of_result(result);
+    const char *size = geometry ? pool_format(pool, "%s\xc2\xa0m, %d %s", human_trimmed(pool, geometry->length_m, 4),
                                               geometry_elements(geometry),
                                               human_plural(geometry_elements(geometry), "element", "elements"))
                                 : "",
                *how = fit ? pool_format(pool, "%s%s\xc2\xa0kg, centre of mass at %s\xc2\xa0m; functional %s, reduction %s",
                                         *size ? ", " : "", human_trimmed(pool, fit->mass_kg, 4),
-                                        human_trimmed(pool, fit->center_m, 4), fit->functional, fit->reduction)
+                                        human_trimmed(pool, fit->center_of_mass_m, 4), fit->functional, fit->reduction)
                           : "";
     return geometry || fit ? pool_format(pool, "%s%s", size ? size : "", how ? how : "") : NULL;
 }
@@ -62,13 +64,13 @@ static const char *model_of(struct pool *pool, const struct result *result)
 
 static void facts_of(struct pool *pool, const struct result *result, const char *value[FACTS])
 {
-    value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->command);
-    value[1] = result->deck;
-    value[2] = pool_format(pool, "rotid %s, commit %s", result->version, result->commit);
-    value[3] = result->threads ? pool_format(pool, "seed %.0f, %d %s", result->seed, result->threads,
-                                             human_plural(result->threads, "thread", "threads"))
-                               : pool_format(pool, "seed %.0f", result->seed);
-    value[4] = result->blas;
+    value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->head.command);
+    value[1] = result->head.deck;
+    value[2] = pool_format(pool, "rotid %s, commit %s", result->head.rotid, result->head.commit);
+    value[3] = result->head.threads ? pool_format(pool, "seed %.0f, %d %s", result->head.seed, result->head.threads,
+                                                  human_plural(result->head.threads, "thread", "threads"))
+                                    : pool_format(pool, "seed %.0f", result->head.seed);
+    value[4] = result->head.blas;
     value[5] = data_of(pool, result);
     value[6] = noise_of(pool, result);
     value[7] = model_of(pool, result);
@@ -86,8 +88,8 @@ static void add_facts(struct document *document, const struct result *result, co
         if (value[i] && first[i] && (!strcmp(value[i], first[i]) || !strncmp(value[i], first[i], strlen(value[i]))))
             value[i] = NULL;
     document_facts(document, FACTS, name, value);
-    for (int i = 1; i < result->nheading && result == main_result; i++)
-        document_paragraph(document, "%s", result->heading[i]);
+    for (int i = 1; i < result->head.nheading && result == main_result; i++)
+        document_paragraph(document, "%s", result->head.heading[i]);
 }
 
 void section_rests_on(struct document *document, int count, const struct result *result)
@@ -96,16 +98,16 @@ void section_rests_on(struct document *document, int count, const struct result 
     for (int i = 0; i < count; i++)
         add_facts(document, &result[i], result);
     for (int i = 0; i < count; i++) {
-        if (result[i].nwarning) {
+        if (result[i].nwarnings) {
             document_heading(document, "What rotid notes");
-            document_list(document, result[i].nwarning, result[i].warning);
+            document_list(document, result[i].nwarnings, result[i].warnings);
         }
         for (int k = 0; k < result[i].nlacking; k++)
             document_paragraph(
                 document,
                 "Not shown: %s. %s was made by rotid %s and has no key \"%s\", which results have from rotid %s on. rotid "
                 "%s %s --json %s makes a new one.",
-                result[i].lacking[k].shows, result[i].file, result[i].version, result[i].lacking[k].key, KEYS_SINCE,
-                result[i].command, result[i].deck ? result[i].deck : "DECK", result[i].file);
+                result[i].lacking[k].shows, result[i].file, result[i].head.rotid, result[i].lacking[k].key, KEYS_SINCE,
+                result[i].head.command, result[i].head.deck ? result[i].head.deck : "DECK", result[i].file);
     }
 }

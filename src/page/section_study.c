@@ -6,6 +6,7 @@
 #include "page/figures_study.h"
 #include "page/human.h"
 #include "page/sections.h"
+#include "study/summary.h"
 
 #define MOST_FAILURES 8
 
@@ -22,22 +23,22 @@ struct shares {
 static struct shares add_up(const struct study_outcome *s)
 {
     struct shares sum = {0};
-    for (int i = 0; i < s->ncell; i++) {
+    for (int i = 0; i < s->is.ncells; i++) {
         const struct told_cell *cell = &s->cell[i];
-        for (int p = 0; p < cell->nparameter; p++)
-            if (isfinite(cell->parameter[p].coverage)) {
-                sum.intervals += cell->parameter[p].intervals;
-                sum.held += cell->parameter[p].intervals * cell->parameter[p].coverage;
+        for (int p = 0; p < cell->is.nparameters; p++)
+            if (isfinite(cell->is.parameters[p].coverage95)) {
+                sum.intervals += cell->is.parameters[p].intervals;
+                sum.held += cell->is.parameters[p].intervals * cell->is.parameters[p].coverage95;
             }
-        if (isfinite(cell->reached_best)) {
-            sum.starts += cell->runs;
-            sum.reached += cell->reached_best;
+        if (cell->is.reached_best != ROTID_NONE) {
+            sum.starts += cell->is.runs;
+            sum.reached += cell->is.reached_best;
         }
-        sum.judged += cell->judged;
-        for (int k = 0; k < TOLD_SCORES && cell->scored; k++) {
-            sum.scored += cell->score[k];
-            sum.good += k == 0 || k == 2 || k == 3 ? cell->score[k] : 0;
-            sum.false_alarm += k == 1 || k == 7 ? cell->score[k] : 0;
+        sum.judged += cell->is.diagnoses ? cell->is.diagnoses->count : 0;
+        for (int k = 0; k < STUDY_SCORES && summary_is_scored(&cell->is); k++) {
+            sum.scored += cell->is.diagnoses->scores[k];
+            sum.good += k == 0 || k == 2 || k == 3 ? cell->is.diagnoses->scores[k] : 0;
+            sum.false_alarm += k == 1 || k == 7 ? cell->is.diagnoses->scores[k] : 0;
         }
     }
     return sum;
@@ -46,14 +47,14 @@ static struct shares add_up(const struct study_outcome *s)
 static double not_converged(const struct study_outcome *s)
 {
     double count = 0;
-    for (int i = 0; i < s->ncell; i++)
-        count += s->cell[i].not_converged;
+    for (int i = 0; i < s->is.ncells; i++)
+        count += s->cell[i].is.not_converged;
     return count;
 }
 
 static const char *runs_of(const struct study_outcome *s, double count)
 {
-    if (!strcmp(s->studies, "diagnose"))
+    if (!strcmp(s->is.studies, "diagnose"))
         return count == 1 ? "diagnosis" : "diagnoses";
     return count == 1 ? "identification" : "identifications";
 }
@@ -61,12 +62,12 @@ static const char *runs_of(const struct study_outcome *s, double count)
 void answer_study(struct document *document, const struct result *result)
 {
     struct pool *pool = document->pool;
-    const struct study_outcome *s = result->study;
+    const struct study_outcome *s = result->studied;
     struct shares sum = add_up(s);
     double stuck = not_converged(s);
-    const char *text = pool_format(pool, "%.0f %s: %s.", s->done, runs_of(s, s->done),
-                                   or_nothing(s->failed > 0 || stuck > 0
-                                                  ? pool_format(pool, "%.0f failed, %.0f did not converge", s->failed, stuck)
+    const char *text = pool_format(pool, "%d %s: %s.", s->is.done, runs_of(s, s->is.done),
+                                   or_nothing(s->is.failed > 0 || stuck > 0
+                                                  ? pool_format(pool, "%d failed, %.0f did not converge", s->is.failed, stuck)
                                                   : "none failed, all converged"));
     if (sum.starts > 0 && text)
         text =
@@ -80,11 +81,11 @@ void answer_study(struct document *document, const struct result *result)
     if (sum.scored > 0 && text)
         text = pool_format(pool, "%s Of %.0f diagnoses %.0f are right, in the set, or rightly quiet; %.0f name something else.",
                            text, sum.scored, sum.good, sum.false_alarm);
-    if (s->plan)
-        document->title = or_nothing(pool_format(pool, "Study %s", strrchr(s->plan, '/') ? strrchr(s->plan, '/') + 1 : s->plan));
-    document->tone = s->done < s->wanted || s->failed > 0 || stuck > 0 ? TONE_CARE : TONE_NONE;
-    document->headline = s->done < s->wanted ? pool_format(pool, "%.0f of %.0f runs", s->done, s->wanted)
-                                             : pool_format(pool, "%.0f runs", s->done);
+    if (s->is.plan)
+        document->title = or_nothing(pool_format(pool, "Study %s", strrchr(s->is.plan, '/') ? strrchr(s->is.plan, '/') + 1 : s->is.plan));
+    document->tone = s->is.done < s->is.runs || s->is.failed > 0 || stuck > 0 ? TONE_CARE : TONE_NONE;
+    document->headline = s->is.done < s->is.runs ? pool_format(pool, "%d of %d runs", s->is.done, s->is.runs)
+                                             : pool_format(pool, "%d runs", s->is.done);
     document->answer = or_nothing(text);
 }
 
@@ -123,18 +124,19 @@ static struct number_table *cells_table(struct pool *pool, const struct study_ou
         "cell",       "runs", "failed", "at a bound", "not converged", "at the best", "error, fitted [%]", "error, held out [%]",
         "evaluations"};
     enum { COLUMNS = sizeof head / sizeof *head };
-    struct number_table *table = table_new(pool, s->ncell, COLUMNS);
+    struct number_table *table = table_new(pool, s->is.ncells, COLUMNS);
     for (int j = 0; j < COLUMNS; j++)
         table_head(table, j, head[j]);
-    for (int i = 0; i < s->ncell; i++) {
+    for (int i = 0; i < s->is.ncells; i++) {
         const struct told_cell *cell = &s->cell[i];
-        const double number[] = {cell->runs, cell->failed, cell->at_bound, cell->not_converged, cell->reached_best};
-        table_cell(table, i, 0, *cell->label ? cell->label : cell->deck);
+        const double number[] = {cell->is.runs, cell->is.failed, cell->is.at_bound, cell->is.not_converged,
+                                 cell->is.reached_best == ROTID_NONE ? (double)NAN : cell->is.reached_best};
+        table_cell(table, i, 0, *cell->label ? cell->label : cell->is.cell.deck);
         for (int j = 0; j < 5; j++)
             table_cell(table, i, 1 + j, human_fixed(pool, number[j], 0));
-        table_cell(table, i, 6, digits_above(pool, cell->rms_percent, 3, ROUNDING));
-        table_cell(table, i, 7, digits_above(pool, cell->held_percent, 3, ROUNDING));
-        table_cell(table, i, 8, human_digits(pool, cell->evaluations, 3));
+        table_cell(table, i, 6, digits_above(pool, cell->is.frequency_rms_percent, 3, ROUNDING));
+        table_cell(table, i, 7, digits_above(pool, cell->is.holdout_frequency_rms_percent, 3, ROUNDING));
+        table_cell(table, i, 8, human_digits(pool, cell->is.evaluations, 3));
     }
     return without_empty(pool, table);
 }
@@ -145,47 +147,47 @@ static struct number_table *parameters_table(struct pool *pool, const struct stu
         "cell", "parameter", "mean", "scatter", "stated deviation", "bias", "95 % hold the truth [%]"};
     enum { COLUMNS = sizeof head / sizeof *head };
     int rows = 0, row = 0;
-    for (int i = 0; i < s->ncell; i++)
-        rows += s->cell[i].nparameter;
+    for (int i = 0; i < s->is.ncells; i++)
+        rows += s->cell[i].is.nparameters;
     struct number_table *table = table_new(pool, rows, COLUMNS);
     for (int j = 0; j < COLUMNS; j++)
         table_head(table, j, head[j]);
-    for (int i = 0; i < s->ncell; i++)
-        for (int p = 0; p < s->cell[i].nparameter; p++, row++) {
-            const struct cell_parameter *q = &s->cell[i].parameter[p];
+    for (int i = 0; i < s->is.ncells; i++)
+        for (int p = 0; p < s->cell[i].is.nparameters; p++, row++) {
+            const struct cell_parameter *q = &s->cell[i].is.parameters[p];
             double scatter = isfinite(q->std_error) ? q->std_error : q->std;
             struct human_unit unit = human_unit(q->mean, q->unit);
-            table_cell(table, row, 0, *s->cell[i].label ? s->cell[i].label : s->cell[i].deck);
+            table_cell(table, row, 0, *s->cell[i].label ? s->cell[i].label : s->cell[i].is.cell.deck);
             table_cell(table, row, 1, *unit.text ? pool_format(pool, "%s [%s]", q->name, unit.text) : q->name);
             table_cell(table, row, 2, human_digits(pool, unit.factor * q->mean, 5));
             table_cell(table, row, 3, digits_above(pool, unit.factor * scatter, 2, 1e3 * ROUNDING * fabs(unit.factor * q->mean)));
-            table_cell(table, row, 4, human_digits(pool, unit.factor * q->stated, 2));
+            table_cell(table, row, 4, human_digits(pool, unit.factor * q->mean_stated_std, 2));
             table_cell(table, row, 5, human_digits(pool, unit.factor * q->bias, 2));
-            table_cell(table, row, 6, human_fixed(pool, 100 * q->coverage, 1));
+            table_cell(table, row, 6, human_fixed(pool, 100 * q->coverage95, 1));
         }
     return without_empty(pool, table);
 }
 
 void section_study(struct document *document, const struct result *result)
 {
-    const struct study_outcome *s = result->study;
+    const struct study_outcome *s = result->studied;
     struct pool *pool = document->pool;
     document_section(document, "study", "The study");
-    document_paragraph(document, "%s: %.0f of %.0f %s in %d %s%s.", s->plan ? s->plan : "Decks as they stand", s->done, s->wanted,
-                       runs_of(s, s->wanted), s->ncell, human_plural(s->ncell, "cell", "cells"),
-                       isfinite(s->seconds) && s->done > 0
-                           ? or_nothing(pool_format(pool, "; %s a run", human_seconds(pool, s->seconds / s->done)))
+    document_paragraph(document, "%s: %d of %d %s in %d %s%s.", s->is.plan ? s->is.plan : "Decks as they stand", s->is.done, s->is.runs,
+                       runs_of(s, s->is.runs), s->is.ncells, human_plural(s->is.ncells, "cell", "cells"),
+                       isfinite(s->is.seconds) && s->is.done > 0
+                           ? or_nothing(pool_format(pool, "; %s a run", human_seconds(pool, s->is.seconds / s->is.done)))
                            : "");
-    if (!s->nrun && s->done > 0)
+    if (!s->nrun && s->is.done > 0)
         document_paragraph(
             document,
             "%s is a summary. The file of results itself (.jsonl) holds the single runs, of which more figures are "
             "made: starts and ends, what depends on the number of modes, errors of the runs.",
             result->file);
-    for (int i = 0; i < s->nfailure && i < MOST_FAILURES; i++)
+    for (int i = 0; i < s->is.nerrors && i < MOST_FAILURES; i++)
         document_paragraph(document, "%s failed: %s",
-                           words_sentence(pool, human_count(pool, (int)fmin(fmax(s->failure[i].runs, 0), 1e9))),
-                           s->failure[i].text);
+                           words_sentence(pool, human_count(pool, s->is.errors[i].runs)),
+                           s->is.errors[i].error);
     figure_starts(document, result);
     figure_functional_by_modes(document, result);
     figure_parameters_by_modes(document, result);
@@ -193,7 +195,7 @@ void section_study(struct document *document, const struct result *result)
     figure_coverage(document, result);
     figure_verdicts(document, result);
     figure_decks(document, result);
-    if (!s->ncell)
+    if (!s->is.ncells)
         return;
     document_table(document, "Cells: runs that differ in replicate and start alone", cells_table(pool, s));
     document_table(document, "Parameters by cells", parameters_table(pool, s));

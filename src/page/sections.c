@@ -6,15 +6,15 @@
 #include "page/human.h"
 #include "page/tables.h"
 
-void section_rotor(struct document *document, const struct result *result, const struct fitted *fit)
+void section_rotor(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     document_section(document, "model", "The rotor");
-    figure_rotor(document, result, result->geometry, fit);
+    figure_rotor(document, result, geometry_of_result(result), fit);
 }
 
 void section_identify(struct document *document, const struct result *result)
 {
-    const struct fitted *fit = result->identify;
+    const rotid_identification *fit = result->identify;
     document_section(document, "agreement", "Model and measurement");
     figure_frequencies(document, result, fit);
     figure_shapes(document, result, fit);
@@ -42,12 +42,12 @@ void section_modes(struct document *document, const struct result *result)
 void section_sensitivity(struct document *document, const struct result *result)
 {
     struct pool *pool = document->pool;
-    const struct sensitivity_outcome *s = result->sensitivity;
+    const struct sensitivity *s = result->sensitivity;
     const char *at = "";
     document_section(document, "dependence", "Sensitivity");
-    for (int p = 0; p < s->nparameter && at; p++)
-        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameter[p].name,
-                         human_value(pool, s->parameter[p].reference, s->parameter[p].unit));
+    for (int p = 0; p < s->nparameters && at; p++)
+        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", s->parameters[p].name,
+                         human_value(pool, s->parameters[p].reference, s->parameters[p].unit));
     document_paragraph(document, "At %s, reduction %s.", at ? at : "", s->reduction);
     figure_sensitivity(document, result);
     figure_sensitivity_curves(document, result);
@@ -56,28 +56,28 @@ void section_sensitivity(struct document *document, const struct result *result)
 
 void section_transfer(struct document *document, const struct result *result)
 {
-    const struct transfer_outcome *out = result->transfer;
+    const struct transfer_result *out = result->frf;
     struct pool *pool = document->pool;
     const char *at = "";
     document_section(document, "transfer", "Transfer functions");
-    document_paragraph(document, "%d synthesised %s from modes up to %s\xc2\xa0Hz with the damping below; %s%s.", out->nfunction,
-                       human_plural(out->nfunction, "function", "functions"), human_trimmed(pool, out->up_to_hz, 4),
+    document_paragraph(document, "%d synthesised %s from modes up to %s\xc2\xa0Hz with the damping below; %s%s.", out->nfunctions,
+                       human_plural(out->nfunctions, "function", "functions"), human_trimmed(pool, out->modes_up_to_hz, 4),
                        out->measured_file ? "measured ones from " : "none was measured",
                        out->measured_file ? out->measured_file : "");
-    for (int p = 0; p < out->nparameter && at; p++)
-        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameter[p].name,
-                         human_value(pool, out->parameter[p].value, out->parameter[p].unit));
-    if (out->nparameter)
+    for (int p = 0; p < out->nparameters && at; p++)
+        at = pool_format(pool, "%s%s%s = %s", at, p ? ", " : "", out->parameters[p].name,
+                         human_value(pool, out->parameters[p].value, out->parameters[p].unit));
+    if (out->nparameters)
         document_paragraph(document, "The model is the identified one: %s.", at ? at : "");
-    if (isfinite(out->frac))
+    if (out->agreement && isfinite(out->agreement->frac))
         document_paragraph(document,
                            "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
-                           human_fixed(pool, out->frac, 3), human_fixed(pool, out->frac_moved, 3));
+                           human_fixed(pool, out->agreement->frac, 3), human_fixed(pool, out->agreement->frac_at_measured_frequencies, 3));
     if (!out->with_curves)
         document_paragraph(document, "The result has no curves, because there were too many lines: rotid frf -o writes them as a "
                                      "universal file.");
     if (!out->complete)
-        document_paragraph(document, "It was interrupted: %d functions were finished.", out->nfunction);
+        document_paragraph(document, "It was interrupted: %d functions were finished.", out->nfunctions);
     figure_transfer(document, result);
     document_table(document, "Modes within the lines", tables_transfer_modes(pool, out));
 }

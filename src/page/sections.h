@@ -7,7 +7,7 @@
 #include "page/result.h"
 
 /* What an identification says in a sentence, how far it is to be trusted, and why: the answer, and a section "trust". */
-void answer_identify(struct document *document, const struct result *result, const struct fitted *fit);
+void answer_identify(struct document *document, const struct result *result, const rotid_identification *fit);
 /* The verdict of a diagnosis, what to do next, and what it rests on: the answer, and a section "trust". */
 void answer_diagnose(struct document *document, const struct result *result);
 /* What a study says as a whole. */
@@ -18,7 +18,7 @@ void answer_plain(struct document *document, const struct result *result);
 /* Deck, version, commit, seed, noise and data of all results, what they note, and what older ones lack. */
 void section_rests_on(struct document *document, int count, const struct result *result);
 
-void section_rotor(struct document *document, const struct result *result, const struct fitted *fit);
+void section_rotor(struct document *document, const struct result *result, const rotid_identification *fit);
 void section_identify(struct document *document, const struct result *result);
 void section_diagnose(struct document *document, const struct result *result);
 void section_study(struct document *document, const struct result *result);

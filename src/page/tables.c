@@ -4,23 +4,23 @@
 
 #include "page/human.h"
 
-struct number_table *tables_parameters(struct pool *pool, const struct fitted *fit)
+struct number_table *tables_parameters(struct pool *pool, const rotid_identification *fit)
 {
     static const char *const head[] = {"parameter",          "unit",  "value",       "95 % from",   "to",
                                        "standard deviation", "start", "lower bound", "upper bound", "remark"};
-    struct number_table *table = table_new(pool, fit->nparameter, 10);
+    struct number_table *table = table_new(pool, fit->nparameters, 10);
     for (int j = 0; j < 10; j++)
         table_head(table, j, head[j]);
-    for (int p = 0; p < fit->nparameter; p++) {
-        const struct fitted_parameter *parameter = &fit->parameter[p];
+    for (int p = 0; p < fit->nparameters; p++) {
+        const rotid_fitted_parameter *parameter = &fit->parameters[p];
         struct human_unit unit = human_unit(parameter->value, parameter->unit);
-        double f = unit.factor, half = (parameter->ci[1] - parameter->ci[0]) / 2 * f;
+        double f = unit.factor, half = (parameter->ci95[1] - parameter->ci95[0]) / 2 * f;
         int decimals = human_decimals(parameter->value * f, half);
         table_cell(table, p, 0, parameter->name);
         table_cell(table, p, 1, *unit.text ? pool_copy_text(pool, unit.text) : "1");
         table_cell(table, p, 2, human_fixed(pool, parameter->value * f, decimals));
-        table_cell(table, p, 3, human_fixed(pool, parameter->ci[0] * f, decimals));
-        table_cell(table, p, 4, human_fixed(pool, parameter->ci[1] * f, decimals));
+        table_cell(table, p, 3, human_fixed(pool, parameter->ci95[0] * f, decimals));
+        table_cell(table, p, 4, human_fixed(pool, parameter->ci95[1] * f, decimals));
         table_cell(table, p, 5, human_fixed(pool, parameter->std * f, decimals));
         table_cell(table, p, 6, human_trimmed(pool, parameter->start * f, 5));
         table_cell(table, p, 7, human_trimmed(pool, parameter->lower * f, 5));
@@ -33,24 +33,24 @@ struct number_table *tables_parameters(struct pool *pool, const struct fitted *f
     return table;
 }
 
-static double reference_value(const struct reference_values *reference, int k)
+static double reference_value(const rotid_reference *reference, int k)
 {
-    return reference && k < reference->count ? reference->value[k] : (double)NAN;
+    return reference && k < reference->nvalues ? reference->values[k] : (double)NAN;
 }
 
-struct number_table *tables_fitted_modes(struct pool *pool, const struct result *result, const struct fitted *fit)
+struct number_table *tables_fitted_modes(struct pool *pool, const struct result *result, const rotid_identification *fit)
 {
     static const char *const head[] = {"mode",      "measured [Hz]",  "predicted [Hz]",     "error [%]", "noise [%]",
                                        "MAC [1]",   "NCO [1]",        "condensation [%]",   "mesh [%]",  "in the fit",
                                        "paired by", "reference [Hz]", "reference error [%]"};
-    const struct reference_values *hz = result_reference(result, "predicted_hz"),
-                                  *error = result_reference(result, "error_percent");
+    const rotid_reference *hz = head_reference(&result->head, "predicted_hz"),
+                          *error = head_reference(&result->head, "error_percent");
     int columns = hz || error ? 13 : 11;
-    struct number_table *table = table_new(pool, fit->nmode, columns);
+    struct number_table *table = table_new(pool, fit->nmodes, columns);
     for (int j = 0; j < columns; j++)
         table_head(table, j, head[j]);
-    for (int k = 0; k < fit->nmode; k++) {
-        const struct fitted_mode *mode = &fit->mode[k];
+    for (int k = 0; k < fit->nmodes; k++) {
+        const rotid_compared_mode *mode = &fit->modes[k];
         table_cell(table, k, 0, human_fixed(pool, mode->mode, 0));
         table_cell(table, k, 1, human_fixed(pool, mode->measured_hz, 3));
         table_cell(table, k, 2, human_fixed(pool, mode->predicted_hz, 3));
@@ -58,10 +58,10 @@ struct number_table *tables_fitted_modes(struct pool *pool, const struct result 
         table_cell(table, k, 4, human_fixed(pool, 100 * mode->frequency_std, 3));
         table_cell(table, k, 5, human_fixed(pool, mode->mac, 3));
         table_cell(table, k, 6, human_fixed(pool, mode->nco, 3));
-        table_cell(table, k, 7, human_signed(pool, mode->reduction_percent, 3));
-        table_cell(table, k, 8, human_signed(pool, mode->mesh_percent, 4));
+        table_cell(table, k, 7, human_signed(pool, fit->reduction_error_percent[k], 3));
+        table_cell(table, k, 8, human_signed(pool, fit->mesh_error_percent[k], 4));
         table_cell(table, k, 9, mode->holdout ? "held out" : "yes");
-        table_cell(table, k, 10, mode->by_shape ? "shape" : "number");
+        table_cell(table, k, 10, mode->paired_by);
         if (columns == 11)
             continue;
         table_cell(table, k, 11, human_fixed(pool, reference_value(hz, k), 2));
@@ -70,24 +70,24 @@ struct number_table *tables_fitted_modes(struct pool *pool, const struct result 
     return table;
 }
 
-struct number_table *tables_minimisers(struct pool *pool, const struct fitted *fit)
+struct number_table *tables_minimisers(struct pool *pool, const rotid_identification *fit)
 {
-    struct number_table *table = table_new(pool, fit->nbaseline + 1, 6 + fit->nparameter);
+    struct number_table *table = table_new(pool, fit->nbaseline + 1, 6 + fit->nparameters);
     static const char *const head[] = {"minimiser", "functional [1]", "gradient [1]", "evaluations", "time [ms]"};
     for (int j = 0; j < 5; j++)
         table_head(table, j, head[j]);
-    table_head(table, 5 + fit->nparameter, "result");
+    table_head(table, 5 + fit->nparameters, "result");
     for (int b = 0; b <= fit->nbaseline; b++) {
-        const struct fitted_baseline *other = b ? &fit->baseline[b - 1] : NULL;
+        const rotid_minimiser *other = b ? &fit->baseline[b - 1] : NULL;
         table_cell(table, b, 0, other ? pool_format(pool, "NLopt %s", other->algorithm) : "Levenberg-Marquardt");
         table_cell(table, b, 1, human_digits(pool, other ? other->objective : fit->objective, 9));
         table_cell(table, b, 2, human_digits(pool, other ? other->gradient : fit->gradient, 2));
         table_cell(table, b, 3, human_fixed(pool, other ? other->evaluations : fit->evaluations, 0));
         table_cell(table, b, 4, human_fixed(pool, 1e3 * (other ? other->seconds : fit->seconds), 1));
-        table_cell(table, b, 5 + fit->nparameter, other ? other->result : fit->stop_reason);
+        table_cell(table, b, 5 + fit->nparameters, other ? other->result : fit->stop_reason);
     }
-    for (int p = 0; p < fit->nparameter; p++) {
-        const struct fitted_parameter *parameter = &fit->parameter[p];
+    for (int p = 0; p < fit->nparameters; p++) {
+        const rotid_fitted_parameter *parameter = &fit->parameters[p];
         struct human_unit unit = human_unit(parameter->value, parameter->unit);
         table_head(table, 5 + p, pool_format(pool, "%s [%s]", parameter->name, *unit.text ? unit.text : "1"));
         for (int b = 0; b <= fit->nbaseline; b++)
@@ -96,40 +96,43 @@ struct number_table *tables_minimisers(struct pool *pool, const struct fitted *f
     return table;
 }
 
-struct number_table *tables_modes(struct pool *pool, const struct modes_outcome *modes)
+struct number_table *tables_modes(struct pool *pool, const rotid_spectrum *modes)
 {
     static const char *const head[] = {"mode",          "full model [Hz]", "condensed [Hz]", "condensation [%]", "mesh [%]",
                                        "measured [Hz]", "error [%]",       "MAC [1]",        "NCO [1]"};
-    struct number_table *table = table_new(pool, modes->nmode, 9);
+    struct number_table *table = table_new(pool, modes->nmodes, 9);
     for (int j = 0; j < 9; j++)
         table_head(table, j, head[j]);
-    for (int k = 0; k < modes->nmode; k++) {
-        const struct modes_entry *mode = &modes->mode[k];
+    for (int k = 0; k < modes->nmodes; k++) {
+        const rotid_model_mode *mode = &modes->modes[k];
         table_cell(table, k, 0, human_fixed(pool, mode->mode, 0));
         table_cell(table, k, 1, human_fixed(pool, mode->full_hz, 3));
         table_cell(table, k, 2, human_fixed(pool, mode->reduced_hz, 3));
-        table_cell(table, k, 3, human_signed(pool, mode->reduction_percent, 3));
-        table_cell(table, k, 4, human_signed(pool, mode->mesh_percent, 4));
-        table_cell(table, k, 5, human_fixed(pool, mode->measured_hz, 3));
-        table_cell(table, k, 6, human_signed(pool, mode->error_percent, 3));
-        table_cell(table, k, 7, human_fixed(pool, mode->mac, 3));
-        table_cell(table, k, 8, human_fixed(pool, mode->nco, 3));
+        table_cell(table, k, 3, human_signed(pool, mode->reduction_error_percent, 3));
+        table_cell(table, k, 4, human_signed(pool, mode->mesh_error_percent, 4));
+        const rotid_compared_mode *measured = mode->measured;
+        table_cell(table, k, 5, human_fixed(pool, measured ? measured->measured_hz : (double)NAN, 3));
+        table_cell(table, k, 6, human_signed(pool, measured ? measured->error_percent : (double)NAN, 3));
+        table_cell(table, k, 7, human_fixed(pool, measured ? measured->mac : (double)NAN, 3));
+        table_cell(table, k, 8, human_fixed(pool, measured ? measured->nco : (double)NAN, 3));
     }
     return table;
 }
 
-struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_outcome *out)
+struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_result *out)
 {
     static const char *const head[] = {"mode",         "model [Hz]", "measured [Hz]", "damping ratio [%]",
                                        "damping from", "FRAC [1]",   "level [dB]",    "phase [\xc2\xb0]"};
+    static const struct transfer_mode_agreement none = {.frac = NAN, .level_db = NAN, .phase_deg = NAN};
     int shown = 0, row = 0;
-    for (int m = 0; m < out->nmode; m++)
-        shown += out->mode[m].model_hz <= out->high_hz;
+    for (int m = 0; m < out->nmodes; m++)
+        shown += out->modes[m].model_hz <= out->high_hz;
     struct number_table *table = table_new(pool, shown, 8);
     for (int j = 0; j < 8; j++)
         table_head(table, j, head[j]);
-    for (int m = 0; m < out->nmode && row < shown; m++) {
-        const struct transfer_mode *mode = &out->mode[m];
+    for (int m = 0; m < out->nmodes && row < shown; m++) {
+        const struct transfer_mode *mode = &out->modes[m];
+        const struct transfer_mode_agreement *agreement = mode->agreement ? mode->agreement : &none;
         char from[40];
         if (!(mode->model_hz <= out->high_hz))
             continue;
@@ -137,14 +140,14 @@ struct number_table *tables_transfer_modes(struct pool *pool, const struct trans
         for (; mode->damping_from[i] && i + 1 < sizeof from; i++)
             from[i] = mode->damping_from[i] == '_' ? ' ' : mode->damping_from[i];
         from[i] = 0;
-        table_cell(table, row, 0, mode->mode ? human_fixed(pool, mode->mode, 0) : "rigid");
+        table_cell(table, row, 0, mode->rigid ? "rigid" : human_fixed(pool, mode->mode, 0));
         table_cell(table, row, 1, human_fixed(pool, mode->model_hz, 3));
         table_cell(table, row, 2, human_fixed(pool, mode->measured_hz, 3));
         table_cell(table, row, 3, human_digits(pool, 100 * mode->damping, 4));
         table_cell(table, row, 4, pool_copy_text(pool, from));
-        table_cell(table, row, 5, human_fixed(pool, mode->frac, 3));
-        table_cell(table, row, 6, human_signed(pool, mode->level_db, 2));
-        table_cell(table, row++, 7, human_signed(pool, mode->phase_deg, 1));
+        table_cell(table, row, 5, human_fixed(pool, agreement->frac, 3));
+        table_cell(table, row, 6, human_signed(pool, agreement->level_db, 2));
+        table_cell(table, row++, 7, human_signed(pool, agreement->phase_deg, 1));
     }
     return table;
 }

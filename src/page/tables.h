@@ -5,12 +5,12 @@
 #include "page/figure.h"
 #include "page/result.h"
 
-struct number_table *tables_parameters(struct pool *pool, const struct fitted *fit);
+struct number_table *tables_parameters(struct pool *pool, const rotid_identification *fit);
 /* Measured and predicted frequencies with all that is known of each mode. */
-struct number_table *tables_fitted_modes(struct pool *pool, const struct result *result, const struct fitted *fit);
+struct number_table *tables_fitted_modes(struct pool *pool, const struct result *result, const rotid_identification *fit);
 /* Levenberg-Marquardt and NLopt side by side. */
-struct number_table *tables_minimisers(struct pool *pool, const struct fitted *fit);
-struct number_table *tables_modes(struct pool *pool, const struct modes_outcome *modes);
-struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_outcome *out);
+struct number_table *tables_minimisers(struct pool *pool, const rotid_identification *fit);
+struct number_table *tables_modes(struct pool *pool, const rotid_spectrum *modes);
+struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_result *out);
 
 #endif

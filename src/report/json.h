@@ -13,9 +13,8 @@ struct provenance {
     int threads;
 };
 
-/* Returns a text to be freed with json_free, or NULL where memory is out. */
-char *json_sensitivity(const struct provenance *provenance, const struct job *job, const rotid_parameter *parameter,
-                       const struct sensitivity_options *options, const struct sensitivity *result);
+/* A text to be freed with json_free, or NULL where memory is out. */
+char *json_sensitivity(const struct provenance *provenance, const struct job *job, const struct sensitivity *sensitivity);
 void json_free(char *text);
 
 #endif

@@ -24,9 +24,4 @@ void table_ema(FILE *out, const struct ema_report *report, int all);
 /* To be freed with json_free, or NULL where memory is out. */
 char *json_ema(const struct provenance *provenance, const struct ema_report *report, const struct message_list *notes);
 
-/* The doubts of a mode or of a channel as words, the flags from the lowest: the text of flag number i (bit 1 << i), NULL beyond
- * the last. */
-const char *ema_mode_doubt(int i);
-const char *ema_channel_doubt(int i);
-
 #endif

@@ -16,8 +16,7 @@ void table_notes(FILE *out, const struct message_list *notes);
 void table_check(FILE *out, const struct result *result, const struct job *job);
 /* shapes: with the shape of every mode at every sensor. */
 void table_modes(FILE *out, const struct result *result, int shapes);
-void table_sensitivity(FILE *out, const struct job *job, const rotid_parameter *parameter,
-                       const struct sensitivity_options *options, const struct sensitivity *result);
+void table_sensitivity(FILE *out, const struct job *job, const struct sensitivity *result);
 /* baseline: NLopt was asked for; history: with the iterations. */
 void table_identify(FILE *out, const struct result *result, int baseline, int history);
 

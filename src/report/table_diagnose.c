@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "report/layout.h"
+#include "result/judgement.h"
 
 static void print_heading(const struct diagnosis_view *view)
 {
@@ -50,10 +51,8 @@ static void print_verdict(const struct diagnosis_view *view)
 
 static double value_of(const rotid_identification *fit, const char *name)
 {
-    for (int p = 0; fit && p < fit->nparameters; p++)
-        if (!strcmp(fit->parameters[p].name, name))
-            return fit->parameters[p].value;
-    return NAN;
+    const rotid_fitted_parameter *parameter = fit_parameter(fit, name);
+    return parameter ? parameter->value : NAN;
 }
 
 /* How well it reaches the frequencies, and what of that is the reduction. */

@@ -5,34 +5,13 @@
 #include "base/order.h"
 #include "report/layout.h"
 #include "report/report_ema.h"
+#include "result/ema.h"
 
 #define WIDTH    110
 #define COLUMNS  96 /* of the stabilisation picture */
 #define ROWS     16
 #define MOST_MAC 20
 #define WORST    5
-
-const char *ema_mode_doubt(int i)
-{
-    static const char *const text[] = {
-        "close to another mode",
-        "complex: its points do not move in phase",
-        "no stable pole in the table",
-        "its frequency differs from point to point (a moving mass, drift), or two peaks in place of one",
-        "weak: hardly above the noise",
-        "negative damping",
-        "at an end of the band",
-        "not refined",
-        "its modal mass is negative: sign or place of the drive point"};
-    return i < (int)(sizeof text / sizeof *text) ? text[i] : NULL;
-}
-
-const char *ema_channel_doubt(int i)
-{
-    static const char *const text[] = {
-        "dead", "duplicate", "noisy", "not explained by the modes", "values not finite, left out", "low coherence"};
-    return i < (int)(sizeof text / sizeof *text) ? text[i] : NULL;
-}
 
 static void print_source(FILE *out, const struct ema_report *r)
 {
@@ -97,10 +76,10 @@ static void print_doubts(FILE *out, const struct ema_report *r)
             (void)fprintf(out, "\nDoubtful\n");
         (void)snprintf(head, sizeof head, "  mode %d, %.6g Hz: ", k + 1, ema->mode[k].frequency_hz);
         wrap_open(&wrap, out, 6, WIDTH, head);
-        for (int i = 0, first = 1; ema_mode_doubt(i); i++)
+        for (int i = 0, first = 1; ema_mode_doubts[i]; i++)
             if (ema->mode[k].doubts & (1 << i)) {
                 wrap_words(&wrap, first ? "" : "; ");
-                wrap_words(&wrap, ema_mode_doubt(i));
+                wrap_words(&wrap, ema_mode_doubts[i]);
                 if ((1 << i) == EMA_CLOSE && isfinite(ema->mode[k].nearest_hz))
                     wrap_item(&wrap, "(%.6g Hz)", ema->mode[k].nearest_hz);
                 first = 0;
@@ -114,9 +93,9 @@ static void print_doubts(FILE *out, const struct ema_report *r)
         if (!any++)
             (void)fprintf(out, "\nDoubtful\n");
         (void)fprintf(out, "  node %d over node %d:", f->response_node, f->reference_node);
-        for (int i = 0; ema_channel_doubt(i); i++)
+        for (int i = 0; ema_channel_doubts[i]; i++)
             if (ema->channel[c].doubts & (1 << i)) {
-                (void)fprintf(out, " %s", ema_channel_doubt(i));
+                (void)fprintf(out, " %s", ema_channel_doubts[i]);
                 if ((1 << i) == EMA_DUPLICATE && ema->channel[c].twin >= 0)
                     (void)fprintf(out, " of node %d", r->measurement->set.frf[ema->channel[c].twin].response_node);
                 (void)fprintf(out, ";");

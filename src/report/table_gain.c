@@ -4,6 +4,7 @@
 #include "diagnose/causes/catalogue.h"
 #include "report/layout.h"
 #include "report/table_diagnose.h"
+#include "result/judgement.h"
 
 #define LEAST_DIGITS 4
 #define MOST_DIGITS  10
@@ -87,14 +88,6 @@ static void value_cell(FILE *out, int width, const rotid_fitted_parameter *p)
         (void)fputs(text, out);
 }
 
-static const rotid_fitted_parameter *parameter_of(const rotid_identification *fit, const char *name)
-{
-    for (int p = 0; fit && p < fit->nparameters; p++)
-        if (!strcmp(fit->parameters[p].name, name))
-            return &fit->parameters[p];
-    return NULL;
-}
-
 static void print_parameters(FILE *out, const rotid_diagnosis *d)
 {
     const rotid_identification *base = d->base, *extended = d->extended;
@@ -106,7 +99,7 @@ static void print_parameters(FILE *out, const rotid_diagnosis *d)
         (void)fprintf(out, "  %-*s value (95 %% interval)\n", NAME, "parameter");
     for (int i = 0; i < d->gain.nparameters; i++) {
         const char *name = d->gain.parameters[i].name;
-        const rotid_fitted_parameter *before = parameter_of(base, name), *after = parameter_of(extended, name);
+        const rotid_fitted_parameter *before = fit_parameter(base, name), *after = fit_parameter(extended, name);
         (void)fputs("  ", out);
         text_cell(out, NAME, name);
         (void)fputc(' ', out);

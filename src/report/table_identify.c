@@ -1,9 +1,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "fit/quantile.h"
 #include "report/layout.h"
 #include "report/table.h"
+#include "result/judgement.h"
 
 static double reference_value(const rotid_reference *reference, int i)
 {
@@ -12,19 +12,12 @@ static double reference_value(const rotid_reference *reference, int i)
 
 static void print_rms(FILE *out, const rotid_identification *fit)
 {
-    double sum[2] = {0, 0}; /* fitted, held out */
-    int count[2] = {0, 0};
-    for (int k = 0; k < fit->nmodes; k++) {
-        int is_held = fit->modes[k].holdout != 0;
-        sum[is_held] += fit->modes[k].error_percent * fit->modes[k].error_percent;
-        count[is_held]++;
-    }
     (void)fputs("rms error of the fitted modes ", out);
-    number_cell(out, 0, 2, sqrt(sum[0] / count[0]));
+    number_cell(out, 0, 2, fit_rms_percent(fit, 0));
     (void)fputs(" %", out);
-    if (count[1]) {
+    if (isfinite(fit_rms_percent(fit, 1))) {
         (void)fputs(", of the modes held out ", out);
-        number_cell(out, 0, 2, sqrt(sum[1] / count[1]));
+        number_cell(out, 0, 2, fit_rms_percent(fit, 1));
         (void)fputs(" %", out);
     }
     (void)fprintf(out, "\n");
@@ -85,13 +78,13 @@ static void print_intervals(FILE *out, const rotid_identification *fit)
                       fit->dof);
     if (!(fit->intervals_widened_by > 1))
         return;
-    double chance = chi_square_tail(fit->chi2, fit->dof); /* half of all adequate models have a misfit above the noise */
+    double p_value = fit_p_value(fit); /* half of all adequate models have a misfit above the noise */
     (void)fprintf(out, "the misfit is %s times the stated noise: the intervals are widened by that",
                   NUMBER(3, fit->intervals_widened_by));
-    if (chance < 0.01)
+    if (p_value < JUDGEMENT_CHANCE)
         (void)fprintf(out, ", and the model is not adequate for these data\n");
     else
-        (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests\n", 100 * chance);
+        (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests\n", 100 * p_value);
 }
 
 static void print_parameters(FILE *out, const rotid_identification *fit)

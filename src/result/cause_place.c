@@ -33,10 +33,10 @@ static int at_member(const rotid_geometry *geometry, const char *target, struct 
 {
     double z;
     for (int i = 0; i < geometry->ntierods; i++)
-        if (!strcmp(geometry->tierods[i].name, target))
+        if (geometry->tierods[i].name && !strcmp(geometry->tierods[i].name, target))
             return set(place, geometry->tierods[i].from_m, geometry->tierods[i].to_m);
     for (int i = 0; i < geometry->nbars; i++)
-        if (!strcmp(geometry->bars[i].name, target))
+        if (geometry->bars[i].name && !strcmp(geometry->bars[i].name, target))
             return set(place, geometry->bars[i].from_m, geometry->bars[i].to_m);
     for (int i = 0; i < geometry->nsprings; i++)
         if (geometry->springs[i].name && !strcmp(geometry->springs[i].name, target))

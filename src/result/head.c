@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "result/record.h"
 #include "result/records.h"
 
 static const struct field reference_fields[] = {
@@ -11,20 +12,25 @@ static const struct field reference_fields[] = {
 };
 static const struct record reference_record = RECORD(rotid_reference, reference_fields);
 
-static const struct field head_fields[] = {
+static const struct field provenance_fields[] = {
     INTEGER(struct result_head, schema, FROM_1),
     TEXT(struct result_head, rotid, 0),
     TEXT(struct result_head, commit, 0),
     TEXT(struct result_head, blas, 0),
-    NUMBER(struct result_head, seed, FROM_0),
+    NUMBER(struct result_head, seed, FROM_0 | WHOLE),
     INTEGER(struct result_head, threads, FROM_1),
     TEXT(struct result_head, command, 0),
-    TEXT(struct result_head, deck, IF_KNOWN),
+    {0},
+};
+const struct record provenance_record = RECORD(struct result_head, provenance_fields);
+
+static const struct field deck_fields[] = {
+    TEXT(struct result_head, deck, 0),
     TEXTS(struct result_head, heading, SINCE_LATER),
     STRUCTS(struct result_head, references, SINCE_LATER, reference_record),
     {0},
 };
-const struct record head_record = RECORD(struct result_head, head_fields);
+const struct record deck_record = RECORD(struct result_head, deck_fields);
 
 const rotid_reference *head_reference(const struct result_head *head, const char *quantity)
 {

@@ -12,9 +12,9 @@ struct result_head {
     const char *commit;  /* commit it was built from, or unknown */
     const char *blas;    /* what the BLAS library says of itself */
     double seed;         /* of random numbers, as given by --seed */
-    int threads;         /* of the computation */
+    int threads;         /* of the computation; of study: processes */
     const char *command; /* command that made the result */
-    const char *deck;    /* path of the deck as given; NULL where the command reads none */
+    const char *deck;    /* path of the deck as given */
     int nheading;
     const char **heading; /* lines of *HEADING without the references */
     int nreferences;

@@ -11,8 +11,7 @@
 #include <stdio.h>
 
 #include "base/pool.h"
-#include "result/json_tree.h"
-#include "result/place.h"
+#include "result/records.h"
 #include "rotid.h"
 
 enum field_kind {
@@ -23,7 +22,11 @@ enum field_kind {
     FIELD_WORD,    /* int, the index of one of the words; below 0: null */
     FIELD_RECORD,  /* a struct, in place or behind a pointer */
     FIELD_INLINE,  /* the same, its keys beside those of this struct; behind a pointer that is NULL they are left out */
-    FIELD_MAP,     /* lists of rotid_component, each an object that has the names as its keys */
+    FIELD_MAP,     /* an object that has the names of rotid_components as its keys, or a list of such objects */
+    FIELD_WORDS,   /* int, a bit for each of the words: the list of those whose bits are set */
+    FIELD_COUNTS,  /* int, one for each of the words in place: an object that has the words as its keys; null: the first is
+                      ROTID_NONE */
+    FIELD_COUNT,   /* no key: int, takes a count of the struct above while reading, for the lists that have to be as long */
 };
 
 enum field_shape {
@@ -37,11 +40,12 @@ enum field_shape {
 enum {
     MAY_BE_NULL = 1,    /* not known: null. Of a list: NULL; of its elements: ELEMENTS_MAY_BE_NULL */
     ELEMENTS_MAY_BE_NULL = 2,
-    IF_KNOWN = 4,       /* not known: the key is left out; of FIELD_INLINE all of them, which the first one tells */
+    IF_KNOWN = 4,       /* not known: the key is left out; of FIELD_INLINE all of them */
     SINCE_LATER = 8,    /* older results do not have the key */
     ROUNDED = 16,       /* nine significant digits: for what is drawn */
     BEHIND_POINTER = 32,
     NOT_EMPTY = 64,
+    WHOLE = 128,        /* a whole number in a double: what an int may not hold */
     ABOVE_0 = 256,      /* ranges, of the elements of a list too */
     FROM_0 = 512,
     FROM_1 = 1024,
@@ -56,7 +60,7 @@ struct field {
     enum field_kind kind;
     enum field_shape shape;
     unsigned bits;
-    size_t offset, count, columns; /* of members of the struct */
+    size_t offset, count, columns; /* of members of the struct; FIELD_COUNT: count of one of the struct above */
     int fixed;
     const char *counted_by;      /* SHAPE_LIST: key of the list whose length this one has, NULL: its own */
     const struct record *record; /* of FIELD_RECORD and FIELD_INLINE */
@@ -96,16 +100,16 @@ struct record {
 /* EACH: member with the number of components of each */
 #define MAPS(S, M, BITS, EACH)                                                                                                   \
     RECORD_ROW(S, M, FIELD_MAP, SHAPE_LIST, BITS, .count = offsetof(S, n##M), .columns = offsetof(S, EACH))
+/* Rows of the same struct in a table of their own, whose keys stand together or not at all: IF_KNOWN, told by the first one. */
+#define ROWS(BITS, RECORD)               {.key = "", .kind = FIELD_INLINE, .bits = (BITS), .record = &(RECORD)}
+/* One such object, with as many components as the member nM says. */
+#define MAP(S, M, BITS)                  RECORD_ROW(S, M, FIELD_MAP, SHAPE_ONE, BITS, .columns = offsetof(S, n##M))
+#define WORDS(S, M, BITS, WORDS)         RECORD_ROW(S, M, FIELD_WORDS, SHAPE_ONE, BITS, .words = (WORDS))
+#define COUNTS(S, M, BITS, WORDS)        RECORD_ROW(S, M, FIELD_COUNTS, SHAPE_ONE, (BITS) | FROM_0, .words = (WORDS))
+#define COUNT_OF(S, M, ABOVE, COUNT)     RECORD_ROW(S, M, FIELD_COUNT, SHAPE_ONE, 0, .count = offsetof(ABOVE, COUNT))
 #define RECORD(S, FIELDS) {.name = #S, .size = sizeof(S), .field = (FIELDS)}
 
 /* Bytes of one element of a list of this kind. */
 size_t record_element_size(const struct field *field);
-
-/* Writes the keys of `from`, a struct that `record` describes, into `object` of the tree. */
-void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from);
-
-/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with its
- * place, reader->status tells at the end. */
-void record_read(const struct json_place *at, const struct record *record, void *to);
 
 #endif

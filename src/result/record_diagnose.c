@@ -1,6 +1,7 @@
+#include "result/record.h"
 #include "result/records.h"
 
-static const char *const verdicts[] = {"adequate", "named", "ambiguous", "unexplained", NULL}; /* ROTID_ADEQUATE ... */
+const char *const verdict_words[] = {"adequate", "named", "ambiguous", "unexplained", NULL}; /* ROTID_ADEQUATE ... */
 static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};
 
 static const struct field value_fields[] = {
@@ -25,7 +26,7 @@ static const struct field cause_fields[] = {
 static const struct record cause_record = RECORD(rotid_cause, cause_fields);
 
 static const struct field verdict_fields[] = {
-    WORD(rotid_verdict, kind, MAY_BE_NULL, verdicts),
+    WORD(rotid_verdict, kind, MAY_BE_NULL, verdict_words),
     FLAG(rotid_verdict, adequate_after, 0),
     NUMBER(rotid_verdict, p_value, MAY_BE_NULL | PROBABILITY),
     STRUCTS(rotid_verdict, causes, 0, cause_record),
@@ -63,7 +64,7 @@ static const struct record numerical_finding_record = RECORD(rotid_numerical_fin
 
 static const struct field round_fields[] = {
     INTEGER(rotid_round, round, FROM_1),
-    WORD(rotid_round, kind, 0, verdicts),
+    WORD(rotid_round, kind, 0, verdict_words),
     NUMBER(rotid_round, chi2, MAY_BE_NULL),
     NUMBER(rotid_round, chi2_frequency, MAY_BE_NULL),
     INTEGER(rotid_round, dof, 0),

@@ -1,14 +1,11 @@
+#include "result/record.h"
 #include "result/records.h"
 
 static const char *const bundles[] = {"RODS", "TUBE", NULL};
 
 static const struct field material_fields[] = {
-    TEXT(rotid_material, name, MAY_BE_NULL),
-    NUMBER(rotid_material, e_pa, FROM_0),
-    NUMBER(rotid_material, g_pa, FROM_0),
-    NUMBER(rotid_material, nu, 0),
-    NUMBER(rotid_material, rho_kg_m3, FROM_0),
-    {0},
+    TEXT(rotid_material, name, MAY_BE_NULL), NUMBER(rotid_material, e_pa, FROM_0),      NUMBER(rotid_material, g_pa, FROM_0),
+    NUMBER(rotid_material, nu, 0),           NUMBER(rotid_material, rho_kg_m3, FROM_0), {0},
 };
 static const struct record material_record = RECORD(rotid_material, material_fields);
 
@@ -77,12 +74,8 @@ static const struct field bars_fields[] = {
 static const struct record bars_record = RECORD(rotid_bars, bars_fields);
 
 static const struct field disk_fields[] = {
-    TEXT(rotid_disk, name, MAY_BE_NULL),
-    NUMBER(rotid_disk, z_m, FROM_0 | ROUNDED),
-    NUMBER(rotid_disk, mass_kg, FROM_0),
-    NUMBER(rotid_disk, diametral_kg_m2, FROM_0),
-    NUMBER(rotid_disk, polar_kg_m2, FROM_0),
-    {0},
+    TEXT(rotid_disk, name, MAY_BE_NULL),         NUMBER(rotid_disk, z_m, FROM_0 | ROUNDED), NUMBER(rotid_disk, mass_kg, FROM_0),
+    NUMBER(rotid_disk, diametral_kg_m2, FROM_0), NUMBER(rotid_disk, polar_kg_m2, FROM_0),   {0},
 };
 static const struct record disk_record = RECORD(rotid_disk, disk_fields);
 

@@ -1,6 +1,7 @@
+#include "result/record.h"
 #include "result/records.h"
 
-static const char *const statuses[] = {"converged", "not_converged", "at_bound", NULL};
+const char *const fit_status_words[] = {"converged", "not_converged", "at_bound", NULL};
 const char *const functional_words[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL};
 const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
 static const char *const derivatives[] = {"NELSON", "MODAL", NULL};
@@ -97,8 +98,8 @@ static const struct field minimiser_fields[] = {
 static const struct record minimiser_record = RECORD(rotid_minimiser, minimiser_fields);
 
 static const struct field noise_fields[] = {
-    NUMBER(rotid_noise, frequency, MAY_BE_NULL | ABOVE_0),
-    NUMBER(rotid_noise, shape, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_noise, frequency, MAY_BE_NULL | FROM_0),
+    NUMBER(rotid_noise, shape, MAY_BE_NULL | FROM_0),
     FLAG(rotid_noise, frequency_assumed, 0),
     FLAG(rotid_noise, shape_assumed, 0),
     TEXT_OF(rotid_noise, intervals_from, IF_KNOWN, grounds),
@@ -107,7 +108,7 @@ static const struct field noise_fields[] = {
 const struct record noise_record = RECORD(rotid_noise, noise_fields);
 
 static const struct field identification_fields[] = {
-    TEXT_OF(rotid_identification, status, 0, statuses),
+    TEXT_OF(rotid_identification, status, 0, fit_status_words),
     TEXT_OF(rotid_identification, functional, 0, functional_words),
     TEXT_OF(rotid_identification, reduction, 0, reduction_words),
     TEXT_OF(rotid_identification, derivative, 0, derivatives),
@@ -120,7 +121,7 @@ static const struct field identification_fields[] = {
     INTEGER(rotid_identification, dof, 0),
     INTEGER(rotid_identification, iterations, FROM_0),
     INTEGER(rotid_identification, evaluations, FROM_1),
-    INTEGER(rotid_identification, jacobians, FROM_1),
+    INTEGER(rotid_identification, jacobians, FROM_0),
     TEXT(rotid_identification, stop_reason, 0),
     STRUCTS(rotid_identification, parameters, 0, parameter_record),
     MATRIX(rotid_identification, correlation, ELEMENTS_MAY_BE_NULL, nparameters, nparameters),
@@ -133,10 +134,10 @@ static const struct field identification_fields[] = {
     NUMBER(rotid_identification, mass_kg, ABOVE_0),
     NUMBER(rotid_identification, center_of_mass_m, 0),
     STRUCT(rotid_identification, shapes, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, shapes_record),
-    MATRIX(rotid_identification, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE_LATER, nmatrix_rows,
-           nmatrix_columns),
-    MATRIX(rotid_identification, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE_LATER, nmatrix_rows,
-           nmatrix_columns),
+    MATRIX(rotid_identification, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE_LATER,
+           nmatrix_rows, nmatrix_columns),
+    MATRIX(rotid_identification, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED | SINCE_LATER,
+           nmatrix_rows, nmatrix_columns),
     INTEGERS_BY(rotid_identification, matrix_rows, FROM_1 | SINCE_LATER, nmatrix_rows, "rows of mac_matrix"),
     INTEGERS_BY(rotid_identification, matrix_columns, FROM_1 | SINCE_LATER, nmatrix_columns, "columns of mac_matrix"),
     STRUCTS(rotid_identification, history, NOT_EMPTY, history_record),

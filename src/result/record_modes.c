@@ -1,7 +1,8 @@
+#include "result/record.h"
 #include "result/records.h"
 
 static const struct field measured_fields[] = {
-    INTEGER(rotid_compared_mode, measured_mode, FROM_1),
+    INTEGER(rotid_compared_mode, measured_mode, FROM_1 | SINCE_LATER),
     NUMBER(rotid_compared_mode, measured_hz, ABOVE_0),
     NUMBER(rotid_compared_mode, frequency_std, ABOVE_0 | MAY_BE_NULL | SINCE_LATER),
     NUMBER(rotid_compared_mode, predicted_hz, FROM_0),

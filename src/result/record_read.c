@@ -35,15 +35,21 @@ static void check_range(const struct json_place *at, unsigned bits, double value
             place_wrong(at, "is %g, expected %s", value, ranges[i].expected);
 }
 
+static int is_whole(const struct json_place *at, double value, double most)
+{
+    int whole = value == floor(value) && fabs(value) < most;
+    if (!whole)
+        place_wrong(at, "is %g, expected a whole number", value);
+    return whole;
+}
+
 static void read_integer(const struct json_place *at, const struct field *field, int *to)
 {
     double value = at->json->valuedouble;
-    if (value == floor(value) && fabs(value) < INT_MAX) {
+    if (is_whole(at, value, INT_MAX)) {
         check_range(at, field->bits, value);
         *to = (int)value;
-        return;
     }
-    place_wrong(at, "is %g, expected a whole number", value);
 }
 
 /* "a, b or c" */
@@ -88,6 +94,8 @@ static enum place_kind kind_of(const struct field *field)
     case FIELD_TEXT:
     case FIELD_WORD:
         return PLACE_TEXT;
+    case FIELD_WORDS:
+        return PLACE_LIST;
     default:
         return PLACE_OBJECT;
     }
@@ -98,7 +106,7 @@ static void set_unknown(const struct field *field, void *to)
 {
     if (field->kind == FIELD_NUMBER)
         *(double *)to = NAN;
-    else if (field->kind == FIELD_INTEGER)
+    else if (field->kind == FIELD_INTEGER || field->kind == FIELD_COUNTS)
         *(int *)to = field->bits & (MAY_BE_NULL | IF_KNOWN | SINCE_LATER) ? ROTID_NONE : 0;
     else if (field->kind == FIELD_WORD || (field->kind == FIELD_FLAG && field->bits & SINCE_LATER))
         *(int *)to = -1;
@@ -106,12 +114,31 @@ static void set_unknown(const struct field *field, void *to)
         *(const char **)to = field->bits & (MAY_BE_NULL | IF_KNOWN | SINCE_LATER) ? NULL : "";
 }
 
-/* at->json is of the kind, or NULL or null where there is none. */
-static void read_value(const struct json_place *at, const struct field *field, void *to)
+static void read_words(const struct json_place *list, const struct field *field, int *to)
+{
+    *to = 0;
+    for (struct json_place item = place_first(list, PLACE_TEXT); item.json; item = place_next(&item, PLACE_TEXT)) {
+        int word = read_word(&item, field->words);
+        *to |= word < 0 ? 0 : 1 << word;
+    }
+}
+
+static void read_counts(const struct json_place *map, const struct field *field, int *to)
+{
+    struct json_place at;
+    for (int i = 0; field->words[i]; i++)
+        if (place_need(map, field->words[i], PLACE_NUMBER, &at))
+            read_integer(&at, field, &to[i]);
+}
+
+static void read_record(const struct json_place *at, const struct record *record, const void *above, void *to);
+
+/* at->json is of the kind, or NULL or null where there is none. above: the struct that the value is of. */
+static void read_value(const struct json_place *at, const struct field *field, const void *above, void *to)
 {
     int is_there = at->json && !cJSON_IsNull(at->json);
     if (field->kind == FIELD_RECORD) {
-        record_read(at, field->record, to);
+        read_record(at, field->record, above, to);
         return;
     }
     set_unknown(field, to);
@@ -121,6 +148,8 @@ static void read_value(const struct json_place *at, const struct field *field, v
     case FIELD_NUMBER:
         *(double *)to = at->json->valuedouble;
         check_range(at, field->bits, at->json->valuedouble);
+        if (field->bits & WHOLE)
+            (void)is_whole(at, at->json->valuedouble, INFINITY);
         break;
     case FIELD_INTEGER:
         read_integer(at, field, to);
@@ -130,6 +159,12 @@ static void read_value(const struct json_place *at, const struct field *field, v
         break;
     case FIELD_TEXT:
         read_text(at, field, to);
+        break;
+    case FIELD_COUNTS:
+        read_counts(at, field, to);
+        break;
+    case FIELD_WORDS:
+        read_words(at, field, to);
         break;
     default:
         *(int *)to = read_word(at, field->words);
@@ -145,7 +180,7 @@ static int find(const struct json_place *above, const struct field *field, enum 
 }
 
 /* A value of another kind is told, and becomes an unknown one. */
-static void read_elements(const struct json_place *list, const struct field *field, int count, char *to)
+static void read_elements(const struct json_place *list, const struct field *field, int count, const void *above, char *to)
 {
     size_t size = record_element_size(field);
     struct json_place item = {.reader = list->reader, .above = list, .json = list->json->child};
@@ -156,19 +191,20 @@ static void read_elements(const struct json_place *list, const struct field *fie
                 place_wrong(&item, "is null, expected a value");
             value.json = NULL;
         }
-        read_value(&value, field, to + (size_t)i * size);
+        read_value(&value, field, above, to + (size_t)i * size);
     }
 }
 
-static void read_fixed(const struct json_place *above, const struct field *field, void *to)
+static void read_fixed(const struct json_place *above, const struct field *field, void *record)
 {
     struct json_place list;
+    void *to = member(record, field->offset);
     for (int i = 0; i < field->fixed; i++)
         set_unknown(field, (char *)to + (size_t)i * record_element_size(field));
     if (!find(above, field, PLACE_LIST, &list))
         return;
     if (place_count(&list) == field->fixed)
-        read_elements(&list, field, field->fixed, to);
+        read_elements(&list, field, field->fixed, record, to);
     else
         place_wrong(&list, "has %d values, expected %d", place_count(&list), field->fixed);
 }
@@ -193,7 +229,34 @@ static void read_list(const struct json_place *above, const struct field *field,
     if (!*to)
         return;
     *count = length;
-    read_elements(&list, field, length, *to);
+    read_elements(&list, field, length, record, *to);
+}
+
+/* The components of one map into `next`: 0 where memory is out. */
+static int read_components(const struct json_place *map, rotid_component *next)
+{
+    for (const cJSON *json = map->json->child; json; json = json->next, next++) {
+        struct json_place component = {.reader = map->reader, .above = map, .key = json->string, .json = json};
+        next->name = pool_copy_text(map->reader->pool, json->string);
+        next->value = place_is(&component, PLACE_NUMBER) ? json->valuedouble : (double)NAN;
+        if (!next->name) {
+            map->reader->status = ROTID_ERROR_MEMORY;
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void read_map(const struct json_place *above, const struct field *field, void *record)
+{
+    struct json_place map;
+    rotid_component **to = member(record, field->offset);
+    if (!find(above, field, PLACE_OBJECT, &map))
+        return;
+    int count = cJSON_GetArraySize(map.json);
+    *to = room_for(above, (size_t)count, sizeof **to);
+    if (*to && read_components(&map, *to))
+        *(int *)member(record, field->columns) = count;
 }
 
 static void read_maps(const struct json_place *above, const struct field *field, void *record)
@@ -210,13 +273,9 @@ static void read_maps(const struct json_place *above, const struct field *field,
             place_wrong(&map, "has %d components, expected %d", cJSON_GetArraySize(map.json), width);
             return;
         }
-        for (const cJSON *json = map.json->child; json; json = json->next, next++) {
-            struct json_place component = {.reader = map.reader, .above = &map, .key = json->string, .json = json};
-            next->name = pool_copy_text(map.reader->pool, json->string);
-            next->value = place_is(&component, PLACE_NUMBER) ? json->valuedouble : (double)NAN;
-            if (!next->name)
-                map.reader->status = ROTID_ERROR_MEMORY;
-        }
+        if (!read_components(&map, next))
+            return;
+        next += width;
     }
     *count = length;
 }
@@ -224,9 +283,10 @@ static void read_maps(const struct json_place *above, const struct field *field,
 static void read_matrix(const struct json_place *above, const struct field *field, void *record)
 {
     int *rows = member(record, field->count), *columns = member(record, field->columns), size[2] = {*rows, *columns}, found[2];
+    int is_square = rows == columns, known = is_square || size[0] || size[1]; /* of a square one the size stands before it */
     struct json_place list;
     if (find(above, field, PLACE_LIST, &list) &&
-        place_matrix(above, field->key, 0, size[0] || size[1] ? size : NULL, &found[0], &found[1], member(record, field->offset))) {
+        place_matrix(above, field->key, 0, known ? size : NULL, &found[0], &found[1], member(record, field->offset))) {
         *rows = found[0];
         *columns = found[1];
     }
@@ -237,29 +297,45 @@ static void read_one(const struct json_place *above, const struct field *field, 
     struct json_place at;
     void *to = member(record, field->offset);
     int is_there = find(above, field, kind_of(field), &at);
+    const cJSON *json = above->json ? cJSON_GetObjectItemCaseSensitive(above->json, field->key) : NULL;
+    if (cJSON_IsNull(json) && (field->kind == FIELD_INTEGER || field->kind == FIELD_WORD) && !(field->bits & MAY_BE_NULL))
+        place_wrong(&at, "is null, expected %s", field->kind == FIELD_WORD ? "a text" : "a number");
     if (field->bits & BEHIND_POINTER) {
         void *room = is_there ? room_for(above, 1, field->record->size) : NULL;
         *(void **)to = room;
         if (room)
-            record_read(&at, field->record, room);
+            read_record(&at, field->record, record, room);
         return;
     }
-    read_value(&at, field, to);
+    read_value(&at, field, record, to);
 }
 
-void record_read(const struct json_place *at, const struct record *record, void *to)
+/* Whether the keys of a struct stand here: the first one that results of all versions have tells. */
+static int stands_here(const struct json_place *at, const struct record *record)
+{
+    const struct field *field = record->field;
+    while (field->bits & SINCE_LATER)
+        field++;
+    return field->kind == FIELD_INLINE ? stands_here(at, field->record) : place_has(at, field->key);
+}
+
+static void read_record(const struct json_place *at, const struct record *record, const void *above, void *to)
 {
     for (const struct field *field = record->field; field->key; field++) {
         void *inside = member(to, field->offset);
-        if (field->kind == FIELD_INLINE) {
-            if (field->bits & IF_KNOWN && !place_has(at, field->record->field->key))
+        if (field->kind == FIELD_COUNT) {
+            *(int *)inside = above ? *(const int *)((const char *)above + field->count) : 0;
+        } else if (field->kind == FIELD_INLINE) {
+            if (field->bits & IF_KNOWN && !stands_here(at, field->record))
                 continue;
             if (field->bits & BEHIND_POINTER) { /* the keys of one struct may stand in two places */
                 void **pointer = inside;
                 inside = *pointer = *pointer ? *pointer : room_for(at, 1, field->record->size);
             }
             if (inside)
-                record_read(at, field->record, inside);
+                read_record(at, field->record, to, inside);
+        } else if (field->kind == FIELD_MAP && field->shape == SHAPE_ONE) {
+            read_map(at, field, to);
         } else if (field->kind == FIELD_MAP) {
             read_maps(at, field, to);
         } else if (field->shape == SHAPE_MATRIX) {
@@ -267,9 +343,14 @@ void record_read(const struct json_place *at, const struct record *record, void 
         } else if (field->shape == SHAPE_LIST) {
             read_list(at, field, to);
         } else if (field->shape == SHAPE_FIXED) {
-            read_fixed(at, field, inside);
+            read_fixed(at, field, to);
         } else {
             read_one(at, field, to);
         }
     }
+}
+
+void record_read(const struct json_place *at, const struct record *record, void *to)
+{
+    read_record(at, record, NULL, to);
 }

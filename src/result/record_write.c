@@ -16,7 +16,8 @@ static int integer_at(const void *from, size_t offset)
 static const void *target_of(const struct field *field, const void *from)
 {
     const char *place = at(from, field->offset);
-    int pointed = field->shape == SHAPE_LIST || field->shape == SHAPE_MATRIX || field->bits & BEHIND_POINTER;
+    int pointed = field->shape == SHAPE_LIST || field->shape == SHAPE_MATRIX || field->kind == FIELD_MAP ||
+                  field->bits & BEHIND_POINTER;
     return pointed ? *(const void *const *)place : place;
 }
 
@@ -31,6 +32,7 @@ static void write_number(struct json_tree *tree, cJSON *object, const char *key,
 /* One value; `key` NULL: an element of a list. */
 static void write_value(struct json_tree *tree, cJSON *object, const char *key, const struct field *field, const void *value)
 {
+    cJSON *array;
     int integer;
     switch (field->kind) {
     case FIELD_NUMBER:
@@ -45,6 +47,21 @@ static void write_value(struct json_tree *tree, cJSON *object, const char *key, 
         break;
     case FIELD_TEXT:
         json_text(tree, object, key, *(const char *const *)value);
+        break;
+    case FIELD_COUNTS:
+        if (*(const int *)value == ROTID_NONE) {
+            json_null(tree, object, key);
+            break;
+        }
+        array = json_object(tree, object, key);
+        for (int i = 0; field->words[i]; i++)
+            json_number(tree, array, field->words[i], ((const int *)value)[i]);
+        break;
+    case FIELD_WORDS:
+        array = json_array(tree, object, key);
+        for (int i = 0; field->words[i]; i++)
+            if (*(const int *)value & 1 << i)
+                json_text(tree, array, NULL, field->words[i]);
         break;
     case FIELD_WORD:
         integer = *(const int *)value;
@@ -86,16 +103,24 @@ static void write_list(struct json_tree *tree, cJSON *object, const struct field
         write_value(tree, array, NULL, field, list + (size_t)i * record_element_size(field));
 }
 
+static void write_map(struct json_tree *tree, cJSON *object, const char *key, int count, const rotid_component *component)
+{
+    cJSON *map = json_object(tree, object, key);
+    for (int i = 0; i < count; i++)
+        json_number(tree, map, component[i].name, component[i].value);
+}
+
 static void write_maps(struct json_tree *tree, cJSON *object, const struct field *field, const void *from)
 {
-    int count = integer_at(from, field->count), each = integer_at(from, field->columns);
+    int count = field->shape == SHAPE_ONE ? 1 : integer_at(from, field->count), each = integer_at(from, field->columns);
     const rotid_component *component = target_of(field, from);
-    cJSON *array = json_array(tree, object, field->key);
-    for (int i = 0; i < count; i++) {
-        cJSON *map = json_object(tree, array, NULL);
-        for (int k = 0; k < each; k++, component++)
-            json_number(tree, map, component->name, component->value);
+    if (field->shape == SHAPE_ONE) {
+        write_map(tree, object, field->key, each, component);
+        return;
     }
+    cJSON *array = json_array(tree, object, field->key);
+    for (int i = 0; i < count; i++)
+        write_map(tree, array, NULL, each, component + (ptrdiff_t)i * each);
 }
 
 static void write_matrix(struct json_tree *tree, cJSON *object, const struct field *field, const void *from)
@@ -113,7 +138,9 @@ static void write_matrix(struct json_tree *tree, cJSON *object, const struct fie
 static int is_known(const struct field *field, const void *from)
 {
     const void *value = target_of(field, from);
-    if (field->shape != SHAPE_ONE || field->kind == FIELD_RECORD || field->kind == FIELD_INLINE)
+    if (field->kind == FIELD_INLINE && !(field->bits & BEHIND_POINTER))
+        return is_known(field->record->field, value);
+    if (field->shape != SHAPE_ONE || field->kind == FIELD_RECORD || field->bits & BEHIND_POINTER)
         return value != NULL;
     if (field->kind == FIELD_NUMBER)
         return isfinite(*(const double *)value);
@@ -123,7 +150,7 @@ static int is_known(const struct field *field, const void *from)
 void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from)
 {
     for (const struct field *field = record->field; field->key; field++) {
-        if (field->bits & IF_KNOWN && !is_known(field, from))
+        if (field->kind == FIELD_COUNT || (field->bits & IF_KNOWN && !is_known(field, from)))
             continue;
         const void *value = target_of(field, from);
         if (field->kind == FIELD_INLINE) {
@@ -141,4 +168,9 @@ void record_write(struct json_tree *tree, cJSON *object, const struct record *re
             json_null(tree, object, field->key);
         }
     }
+}
+
+size_t record_size(const struct record *record)
+{
+    return record->size;
 }

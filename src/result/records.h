@@ -1,14 +1,30 @@
-/* The tables of the results of rotid.h. Their members, units and meaning stand there. */
+/* The tables of the results of rotid.h, where their members, units and meaning stand, of those of src/run, and of those of
+ * this room. */
 #ifndef ROTID_RESULT_RECORDS_H
 #define ROTID_RESULT_RECORDS_H
 
 #include "result/head.h"
-#include "result/record.h"
+#include "result/json_tree.h"
+#include "result/place.h"
+
+struct record;
+
+/* Writes the keys of `from`, a struct that `record` describes, into `object` of the tree. */
+void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from);
+
+/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with its
+ * place, reader->status tells at the end. */
+void record_read(const struct json_place *at, const struct record *record, void *to);
+
+/* Bytes of the struct that a table describes. */
+size_t record_size(const struct record *record);
 
 /* Words of several of them. */
-extern const char *const functional_words[], *const reduction_words[], *const pairing_words[];
+extern const char *const functional_words[], *const reduction_words[], *const pairing_words[], *const fit_status_words[],
+    *const verdict_words[];
 
-extern const struct record head_record;                 /* struct result_head */
+extern const struct record provenance_record;           /* struct result_head up to command */
+extern const struct record deck_record;                 /* the rest, where the command reads a deck */
 extern const struct record geometry_record;             /* rotid_geometry */
 extern const struct record sensor_record;               /* rotid_sensor */
 extern const struct record check_record;                /* rotid_check */
@@ -17,10 +33,22 @@ extern const struct record identification_record;       /* rotid_identification 
 extern const struct record identification_alone_record; /* these two */
 extern const struct record noise_record;                /* rotid_noise */
 extern const struct record diagnosis_record;            /* rotid_diagnosis */
+extern const struct record head_alone_record;           /* struct result of a study, whose reader does the rest */
 
-/* The i-th command whose results have a table; NULL behind the last. */
+extern const struct record sensitivity_record;          /* struct sensitivity */
+extern const struct record transfer_record;             /* struct transfer_result */
+extern const struct record ema_record;                  /* struct ema_result */
+extern const struct record export_record;               /* struct export_result */
+extern const struct record study_record;                /* struct study_result */
+extern const struct record study_header_record;         /* struct study_header */
+extern const struct record study_axes_record;           /* struct study_axes */
+extern const struct record study_run_record;            /* struct study_run */
+
+/* The i-th command that writes results; NULL behind the last. */
 const char *result_command(int i);
-/* The table of the results of a command, NULL where no result of the command has one. */
+/* The table of the results of a command, NULL where there is no such command. */
 const struct record *result_record(const char *command);
+/* Whether a page is made of its results. */
+int result_has_page(const char *command);
 
 #endif

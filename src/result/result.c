@@ -3,58 +3,68 @@
 #include <string.h>
 
 #include "result/records.h"
+#include "result/record.h"
 
-#define HEAD     INLINE(struct result, head, 0, head_record)
-#define WARNINGS TEXTS(struct result, warnings, SINCE_LATER)
+/* Rows of the parts that results are made of. */
+#define PROVENANCE INLINE(struct result, head, 0, provenance_record)
+#define HEAD       PROVENANCE, INLINE(struct result, head, 0, deck_record)
+#define WARNINGS   TEXTS(struct result, warnings, SINCE_LATER)
+#define OWN(M, R)  INLINE(struct result, M, BEHIND_POINTER, R)
 
-static const struct field check_fields[] = {
-    HEAD,
-    INLINE(struct result, check, BEHIND_POINTER, check_record),
-    WARNINGS,
-    {0},
-};
-static const struct field modes_fields[] = {
-    HEAD,
-    INLINE(struct result, modes, BEHIND_POINTER, spectrum_record),
-    WARNINGS,
-    {0},
-};
+static const struct field check_fields[] = {HEAD, OWN(check, check_record), WARNINGS, {0}};
+static const struct field modes_fields[] = {HEAD, OWN(modes, spectrum_record), WARNINGS, {0}};
 static const struct field identify_fields[] = {
-    HEAD,
-    INLINE(struct result, identify, BEHIND_POINTER, identification_record),
-    INLINE(struct result, identify, BEHIND_POINTER, identification_alone_record),
-    WARNINGS,
-    {0},
-};
-static const struct field diagnose_fields[] = {
-    HEAD,
-    INLINE(struct result, diagnose, BEHIND_POINTER, diagnosis_record),
-    WARNINGS,
-    {0},
-};
+    HEAD, OWN(identify, identification_record), OWN(identify, identification_alone_record), WARNINGS, {0}};
+static const struct field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
+static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), {0}};
+static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), WARNINGS, {0}};
+static const struct field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
+static const struct field export_fields[] = {HEAD, OWN(export, export_record), WARNINGS, {0}};
+static const struct field study_fields[] = {PROVENANCE, OWN(study, study_record), {0}};
+
+static const struct field head_alone_fields[] = {PROVENANCE, {0}};
+const struct record head_alone_record = RECORD(struct result, head_alone_fields);
 
 static const struct {
     const char *command;
     struct record record;
+    int has_page;
 } commands[] = {
-    {"check", RECORD(struct result, check_fields)},
-    {"modes", RECORD(struct result, modes_fields)},
-    {"identify", RECORD(struct result, identify_fields)},
-    {"diagnose", RECORD(struct result, diagnose_fields)},
+    {"check", RECORD(struct result, check_fields), 1},
+    {"modes", RECORD(struct result, modes_fields), 1},
+    {"identify", RECORD(struct result, identify_fields), 1},
+    {"diagnose", RECORD(struct result, diagnose_fields), 1},
+    {"sensitivity", RECORD(struct result, sensitivity_fields), 1},
+    {"frf", RECORD(struct result, frf_fields), 1},
+    {"ema", RECORD(struct result, ema_fields), 0},
+    {"export", RECORD(struct result, export_fields), 0},
+    {"study", RECORD(struct result, study_fields), 1},
 };
-#define COMMANDS (sizeof commands / sizeof *commands)
+#define COMMANDS (int)(sizeof commands / sizeof *commands)
+
+static int find(const char *command)
+{
+    int i = 0;
+    while (i < COMMANDS && strcmp(commands[i].command, command) != 0)
+        i++;
+    return i;
+}
 
 const char *result_command(int i)
 {
-    return (size_t)i < COMMANDS ? commands[i].command : NULL;
+    return i < COMMANDS ? commands[i].command : NULL;
 }
 
 const struct record *result_record(const char *command)
 {
-    for (size_t i = 0; i < COMMANDS; i++)
-        if (!strcmp(commands[i].command, command))
-            return &commands[i].record;
-    return NULL;
+    int i = find(command);
+    return i < COMMANDS ? &commands[i].record : NULL;
+}
+
+int result_has_page(const char *command)
+{
+    int i = find(command);
+    return i < COMMANDS && commands[i].has_page;
 }
 
 char *result_json(const struct result *result)
@@ -63,4 +73,23 @@ char *result_json(const struct result *result)
     json_open(&tree);
     record_write(&tree, tree.root, result_record(result->head.command), result);
     return json_close(&tree);
+}
+
+const rotid_geometry *geometry_of_result(const struct result *result)
+{
+    return result->identify   ? result->identify->geometry
+           : result->diagnose ? result->diagnose->geometry
+           : result->modes    ? result->modes->geometry
+           : result->check    ? result->check->geometry
+                              : NULL;
+}
+
+const rotid_identification *fit_of_result(const struct result *result)
+{
+    return result->diagnose ? result->diagnose->base : result->identify;
+}
+
+const rotid_noise *noise_of_result(const struct result *result)
+{
+    return result->diagnose ? &result->diagnose->noise : result->identify ? result->identify->noise : NULL;
 }

@@ -4,7 +4,14 @@
 
 #include "base/message.h"
 #include "result/head.h"
+#include "result/place.h"
 #include "rotid.h"
+
+/* What an older result does not hold, and what is left out for it. */
+struct lacking {
+    const char *key, *shows; /* "geometry", "the drawing of the rotor" */
+};
+#define LACKING_MOST 4
 
 struct result {
     struct result_head head;
@@ -13,11 +20,44 @@ struct result {
     rotid_spectrum *modes;
     rotid_identification *identify;
     rotid_diagnosis *diagnose;
+    const struct sensitivity *sensitivity;
+    const struct transfer_result *frf;
+    const struct ema_result *ema;
+    const struct uff_result *uff;
+    const struct export_result *export;
+    const struct study_result *study;
     int nwarnings;
     const char **warnings; /* what the reader of the deck, the pairing and the fit have to say; empty where there is nothing */
+    /* of a result that was read from a file */
+    const char *file; /* as given */
+    int nlacking;
+    struct lacking lacking[LACKING_MOST];
+    struct study_outcome *studied; /* of a study, as the reader of studies makes it */
+};
+
+/* Who reads a study: its summary, and its file of results, which has a value a line. */
+struct result_reader {
+    void (*summary)(const struct json_place *root, struct result *result);
+    void (*lines)(const struct json_place *lines, struct result *result);
 };
 
 /* The result as JSON: a text to be freed with json_free, or NULL where memory is out. */
 char *result_json(const struct result *result);
+
+/* Reads a file that a command wrote with --json, or a file of results of a study. The structs hang on the pool. ROTID_OK; ROTID_ERROR_IO: the file cannot be read;
+ * ROTID_ERROR_SYNTAX: no JSON, no such result, or one that contradicts itself; ROTID_ERROR_MEMORY. The messages say what and
+ * where. */
+int result_read(struct pool *pool, const char *file, struct message_list *messages, const struct result_reader *study,
+                struct result *result);
+
+/* What the lengths of its lists, the order of its candidates and the sizes of its rotor have to be for a result to be used: told
+ * as a mistake of `root` where they are not. */
+void result_check(const struct json_place *root, const struct result *result);
+
+/* The rotor of a result, the fit that it is about (its own, or the model that a diagnosis judged), the noise of its data; NULL
+ * where it has none. */
+const rotid_geometry *geometry_of_result(const struct result *result);
+const rotid_identification *fit_of_result(const struct result *result);
+const rotid_noise *noise_of_result(const struct result *result);
 
 #endif

@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "modal/functional.h"
 #include "model/model.h"
+#include "run/job.h"
 
 #define POINTS   17 /* four a decade */
 #define LOWEST   1e-6
@@ -119,8 +120,10 @@ int growth_run(struct pool *pool, const struct job *job, int n, const struct par
     int failed;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct search search = {.x0 = x0};
-    *out = (struct growth){.points = POINTS};
-    double **arrays[] = {&out->epsilon2, &out->f[GROWTH_E], &out->f[GROWTH_F], &out->shapes_alone};
+    *out = (struct growth){
+        .nepsilon_squared = POINTS, .hybrid.nepsilon_squared = POINTS, .hybrid_f.nepsilon_squared = POINTS};
+    struct growth_line *line[GROWTH_KINDS] = {[GROWTH_E] = &out->hybrid, [GROWTH_F] = &out->hybrid_f};
+    double **arrays[] = {&out->epsilon_squared, &out->hybrid.objective, &out->hybrid_f.objective, &out->shapes_alone};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, POINTS)))
             return ROTID_ERROR_MEMORY;
@@ -129,15 +132,15 @@ int growth_run(struct pool *pool, const struct job *job, int n, const struct par
         status = prepare(pool, job, &model->equations, modes, seed, &search);
     for (int i = 0; i < POINTS && !status; i++) {
         double f[GROWTH_KINDS], eps;
-        out->epsilon2[i] = LOWEST * pow(HIGHEST / LOWEST, (double)i / (POINTS - 1));
-        eps = sqrt(out->epsilon2[i]);
+        out->epsilon_squared[i] = LOWEST * pow(HIGHEST / LOWEST, (double)i / (POINTS - 1));
+        eps = sqrt(out->epsilon_squared[i]);
         evaluate(&search, 0, eps, f);
         out->shapes_alone[i] = f[GROWTH_E];
         evaluate(&search, eps, eps, f);
         for (int kind = 0; kind < GROWTH_KINDS; kind++)
-            out->f[kind][i] = f[kind];
+            line[kind]->objective[i] = f[kind];
     }
     for (int kind = 0; kind < GROWTH_KINDS && !status; kind++)
-        fit_line(POINTS, out->epsilon2, out->f[kind], &out->slope[kind], &out->intercept[kind]);
+        fit_line(POINTS, out->epsilon_squared, line[kind]->objective, &line[kind]->slope, &line[kind]->intercept);
     return status;
 }

@@ -2,17 +2,28 @@
 #ifndef ROTID_RUN_GROWTH_H
 #define ROTID_RUN_GROWTH_H
 
-#include "run/job.h"
+struct job;
+struct parameter;
+struct pool;
 
 enum { GROWTH_E, GROWTH_F, GROWTH_KINDS }; /* HYBRID with (15), HYBRID_F with (16) */
 
+/* one of the functionals */
+struct growth_line {
+    int nepsilon_squared; /* as in struct growth */
+    double *objective;    /* at each epsilon_squared, all parameters raised by epsilon [1]; NaN where the model has no modes */
+    double slope;         /* of ln objective over ln epsilon_squared by least squares, which theory says is 1 [1]; NaN where an
+                             objective is none, or rounding */
+    double intercept;     /* of the same line [1]; NaN as well */
+};
+
 struct growth {
-    int points;
-    double *epsilon2;        /* [points] 1e-6 ... 1e-2, evenly in the logarithm */
-    double *f[GROWTH_KINDS]; /* [points] at x0 (1 + eps); NaN where the model has no modes */
-    double slope[GROWTH_KINDS],
-        intercept[GROWTH_KINDS]; /* of ln f over ln eps^2, least squares; NaN where an f is none, or rounding */
-    double *shapes_alone;        /* [points] f(E) at x0: nothing but rounding (docs/errata.md) */
+    int nepsilon_squared;
+    double *epsilon_squared;   /* abscissa, evenly in the logarithm [1] */
+    struct growth_line hybrid; /* FUNCTIONAL=HYBRID, f with E of (15) */
+    struct growth_line hybrid_f; /* FUNCTIONAL=HYBRID_F, f with F of (16) */
+    double *shapes_alone; /* objective of HYBRID with the shapes perturbed and the parameters left [1]: nothing but rounding
+                             (docs/errata.md) */
 };
 
 /* Data: frequencies and shapes of modes 1 ... modes of the model itself at x0 [n] of the parameters, so that f(x0) = 0, by the

@@ -1,10 +1,10 @@
 #include "study/header.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "result/json_tree.h"
+#include "result/records.h"
+#include "result/study.h"
 
 struct header header_of(const struct study *study, const char *version, const char *commit, int shard, int shards)
 {
@@ -26,67 +26,56 @@ char *header_text(const struct header *header)
 {
     struct json_tree tree;
     char shard[32];
-    json_open(&tree);
-    json_number(&tree, tree.root, "schema", 1);
-    json_text(&tree, tree.root, "rotid", header->version);
-    json_text(&tree, tree.root, "commit", header->commit);
-    json_text(&tree, tree.root, "command", "study");
-    json_text(&tree, tree.root, "plan", header->plan);
-    json_text(&tree, tree.root, "studies", header->studies);
-    cJSON *digest = json_object(&tree, tree.root, "digest");
-    json_text(&tree, digest, "plan", header->plan_digest);
-    json_text(&tree, digest, "decks", header->decks_digest);
-    json_text(&tree, digest, "data", header->data_digest);
-    json_text(&tree, digest, "options", header->options_digest);
-    json_number(&tree, tree.root, "seed", (double)header->seed);
-    json_number(&tree, tree.root, "runs", (double)header->runs);
     (void)snprintf(shard, sizeof shard, "%d/%d", header->shard, header->shards);
-    json_text(&tree, tree.root, "shard", header->shards > 1 ? shard : NULL);
+    const struct study_header line = {.schema = 1,
+                                      .rotid = header->version,
+                                      .commit = header->commit,
+                                      .command = "study",
+                                      .plan = header->plan,
+                                      .studies = header->studies,
+                                      .digest = {.plan = header->plan_digest,
+                                                 .decks = header->decks_digest,
+                                                 .data = header->data_digest,
+                                                 .options = header->options_digest},
+                                      .seed = (double)header->seed,
+                                      .runs = (int)header->runs,
+                                      .shard = header->shards > 1 ? shard : NULL};
+    json_open(&tree);
+    record_write(&tree, tree.root, &study_header_record, &line);
     return json_close_line(&tree);
-}
-
-/* NULL where there is none, with *failed set unless it may be null. */
-static const char *text_of(struct pool *pool, const cJSON *object, const char *key, int may_be_null, int *failed)
-{
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, key);
-    const char *text = cJSON_GetStringValue(item);
-    char *copy = text ? pool_copy_text(pool, text) : NULL;
-    *failed |= !copy && !(may_be_null && cJSON_IsNull(item));
-    return copy;
-}
-
-static double number_of(const cJSON *object, const char *key, double least, double most, int *failed)
-{
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, key);
-    int good = cJSON_IsNumber(item) && item->valuedouble >= least && item->valuedouble <= most &&
-               item->valuedouble == floor(item->valuedouble);
-    *failed |= !good;
-    return good ? item->valuedouble : least;
 }
 
 int results_header_read(struct pool *pool, const cJSON *object, struct header *header)
 {
-    const cJSON *digest = cJSON_GetObjectItemCaseSensitive(object, "digest");
-    int failed = !cJSON_IsObject(object), end = 0;
-    const char *command = text_of(pool, object, "command", 0, &failed);
+    struct message_list unheard; /* the caller says what was expected */
+    struct reader reader = {.pool = pool, .messages = &unheard, .file = ""};
+    const struct json_place place = {.reader = &reader, .json = object};
+    struct study_header line = {0};
+    int shard = 1, shards = 1, end = 0;
+    message_open(&unheard, pool);
     *header = (struct header){.shard = 1, .shards = 1};
-    failed |= !command || strcmp(command, "study") != 0;
-    (void)number_of(object, "schema", 1, 1, &failed);
-    header->version = text_of(pool, object, "rotid", 0, &failed);
-    header->commit = text_of(pool, object, "commit", 0, &failed);
-    header->plan = text_of(pool, object, "plan", 1, &failed);
-    header->studies = text_of(pool, object, "studies", 0, &failed);
-    header->plan_digest = text_of(pool, digest, "plan", 0, &failed);
-    header->decks_digest = text_of(pool, digest, "decks", 0, &failed);
-    header->data_digest = text_of(pool, digest, "data", 0, &failed);
-    header->options_digest = text_of(pool, digest, "options", 0, &failed);
-    header->seed = (unsigned long)number_of(object, "seed", 0, 4294967295.0, &failed);
-    header->runs = (long)number_of(object, "runs", 1, STUDY_MOST_RUNS, &failed);
-    const char *shard = text_of(pool, object, "shard", 1, &failed);
-    if (shard && (sscanf(shard, "%9d/%9d%n", &header->shard, &header->shards, &end) != 2 || shard[end] || header->shard < 1 ||
-                  header->shard > header->shards))
-        failed = 1;
-    return failed ? ROTID_ERROR_SYNTAX : ROTID_OK;
+    if (!cJSON_IsObject(object))
+        return ROTID_ERROR_SYNTAX;
+    record_read(&place, &study_header_record, &line);
+    if (reader.status)
+        return reader.status;
+    if (line.schema != 1 || strcmp(line.command, "study") != 0 || line.seed > 4294967295.0 || line.runs > STUDY_MOST_RUNS ||
+        (line.shard && (sscanf(line.shard, "%9d/%9d%n", &shard, &shards, &end) != 2 || line.shard[end] || shard < 1 ||
+                        shard > shards)))
+        return ROTID_ERROR_SYNTAX;
+    *header = (struct header){.version = line.rotid,
+                              .commit = line.commit,
+                              .plan = line.plan,
+                              .studies = line.studies,
+                              .plan_digest = line.digest.plan,
+                              .decks_digest = line.digest.decks,
+                              .data_digest = line.digest.data,
+                              .options_digest = line.digest.options,
+                              .seed = (unsigned long)line.seed,
+                              .runs = line.runs,
+                              .shard = shard,
+                              .shards = shards};
+    return ROTID_OK;
 }
 
 int header_difference(struct pool *pool, const struct header *file, const struct header *here, const char **text)

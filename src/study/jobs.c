@@ -22,13 +22,13 @@ static struct override *overrides(struct pool *pool, const struct study *study, 
     for (int i = 0; variant && i < variant->noverride; i++)
         list[(*count)++] = variant->override[i];
     if (modes && modes->text)
-        list[(*count)++] = (struct override){"FIT", "MODES", modes->text, modes->text};
+        list[(*count)++] = (struct override){"FIT", "MODES", modes->text, modes->text, NULL};
     if (noise >= 0) {
         const struct plan_noise *stated = &plan->noise[noise];
         if (stated->frequency > 0)
-            list[(*count)++] = (struct override){"NOISE", "FREQUENCY", pool_format(pool, "%.17g", stated->frequency), "noise"};
+            list[(*count)++] = (struct override){"NOISE", "FREQUENCY", pool_format(pool, "%.17g", stated->frequency), "noise", NULL};
         if (stated->shape > 0)
-            list[(*count)++] = (struct override){"NOISE", "SHAPE", pool_format(pool, "%.17g", stated->shape), "noise"};
+            list[(*count)++] = (struct override){"NOISE", "SHAPE", pool_format(pool, "%.17g", stated->shape), "noise", NULL};
     }
     for (int i = 0; i < *count; i++)
         if (!list[i].value)
@@ -52,7 +52,7 @@ static int read_bare(struct pool *pool, const struct study *study, const struct 
     message_open(&unheard, pool);
     if (!list)
         return ROTID_ERROR_MEMORY;
-    list[count++] = (struct override){"FIT", "FUNCTIONAL", "HYBRID", ""};
+    list[count++] = (struct override){"FIT", "FUNCTIONAL", "HYBRID", "", NULL};
     return deck_read(pool, study->plan->deck[cell->deck].path, count, list, &unheard, bare);
 }
 

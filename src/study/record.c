@@ -169,7 +169,7 @@ static int read_lines(struct pool *pool, struct study_record *record, int retry_
             message_add(messages, SEVERITY_NOTE, record->path, results.number + 1, 1, "a line that was cut has been removed");
         }
     }
-    results_close(&results, &line);
+    results_close(&results);
     for (long run = 0; run < record->header.runs && !status; run++) {
         if (record->state[run] == RUN_FAILED && retry_failed)
             record->state[run] = RUN_MISSING;

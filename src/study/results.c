@@ -1,13 +1,12 @@
 #include "study/results.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "study/line_wrong.h"
+#include "result/records.h"
 
 #define BLOCK     ((size_t)1 << 18)
 #define MOST_LINE ((size_t)1 << 26) /* a line is a few thousand bytes; beyond this it is something else */
@@ -79,6 +78,7 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
     const char *text;
     size_t length;
     *r = (struct results){.descriptor = descriptor, .path = path, .messages = messages};
+    pool_open(&r->line, NULL);
     if (fstat(descriptor, &information))
         return cannot_read(r);
     r->size = information.st_size;
@@ -128,37 +128,50 @@ static int refuse_twice(struct results *r, const struct result_line *line)
     return ROTID_OK;
 }
 
+const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run)
+{
+    struct message_list messages;
+    struct reader reader = {.pool = pool, .messages = &messages, .file = "this line is no result"};
+    cJSON *json = cJSON_ParseWithLength(text, length);
+    const struct json_place place = {.reader = &reader, .json = json};
+    message_open(&messages, pool);
+    *run = (struct study_run){.status = -1};
+    if (!cJSON_IsObject(json))
+        place_wrong(&place, "it is no JSON, expected an object");
+    else
+        record_read(&place, &study_run_record, run);
+    if (!reader.status && run->status != STUDY_FAILED && !run->fit)
+        place_wrong(&place, "it has no functional, expected the result of a run that did not fail");
+    cJSON_Delete(json);
+    return !reader.status ? NULL : messages.count ? messages.item[0].text : "";
+}
+
 int results_next(struct results *r, struct result_line *line)
 {
-    cJSON_Delete(line->json);
+    struct study_run *said;
+    pool_close(&r->line);
+    pool_open(&r->line, NULL);
     *line = (struct result_line){.offset = r->next};
     int status = take_line(r, &line->text, &line->length);
     if (status)
         return status;
     if (refuse_stamp(r, line))
         return ROTID_ERROR_SYNTAX;
-    line->json = cJSON_ParseWithLength(line->text, line->length);
-    const char *wrong = line_wrong(line->json);
-    if (wrong) {
-        message_add(r->messages, SEVERITY_ERROR, r->path, r->number, 1, "this line is no result: %s", wrong);
-        return ROTID_ERROR_SYNTAX;
-    }
-    const cJSON *run = cJSON_GetObjectItemCaseSensitive(line->json, "run"),
-                *state = cJSON_GetObjectItemCaseSensitive(line->json, "status");
-    double number = run->valuedouble;
-    if (!(number >= 0 && number < (double)r->header.runs && number == floor(number)) ||
-        (long)number % r->header.shards != r->header.shard - 1)
+    line->said = said = POOL_NEW(&r->line, struct study_run);
+    const char *wrong = said ? results_line_read(&r->line, line->text, line->length, said) : "";
+    if (wrong)
+        return *wrong ? malformed(r, r->number, wrong) : ROTID_ERROR_MEMORY;
+    if (said->run >= r->header.runs || said->run % r->header.shards != r->header.shard - 1)
         return malformed(r, r->number,
                          "this line is of a run that the study, or this shard of it, does not have, expected one of its runs");
-    line->run = (long)number;
-    line->failed = !strcmp(state->valuestring, "failed");
+    line->run = said->run;
+    line->failed = said->status == STUDY_FAILED;
     return refuse_twice(r, line);
 }
 
-void results_close(struct results *r, struct result_line *line)
+void results_close(struct results *r)
 {
-    if (line)
-        cJSON_Delete(line->json);
+    pool_close(&r->line);
     free(r->buffer);
     r->buffer = NULL;
 }
@@ -177,7 +190,7 @@ int results_index(struct pool *pool, int descriptor, const char *path, struct me
         (*place)[line.run] = (struct result_place){line.offset, line.length};
         *most = line.length > *most ? line.length : *most;
     }
-    results_close(&results, &line);
+    results_close(&results);
     return status == 1 ? ROTID_OK : status;
 }
 

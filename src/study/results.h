@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include "base/message.h"
+#include "result/study.h"
 #include "study/header.h"
 #include "study/stamp.h"
 
@@ -18,6 +19,7 @@ struct results {
     int number;                     /* of the line read last, from 1 */
     off_t next;                     /* where the next line begins; at the end: where the last whole one ends */
     off_t size;                     /* of the file, beyond `next` where the last line is cut */
+    struct pool line; /* what the line read last says */
     char *buffer;
     size_t capacity, first, count; /* bytes of the buffer not yet given out */
 };
@@ -28,7 +30,7 @@ struct result_line {
     const char *text; /* [length] with the line feed; until the next line is read */
     size_t length;
     off_t offset;
-    cJSON *json; /* until the next line is read */
+    const struct study_run *said; /* until the next line is read */
 };
 
 /* Reads the header. ROTID_OK; ROTID_ERROR_SYNTAX where the file is something else, ROTID_ERROR_IO: the list says so;
@@ -38,7 +40,7 @@ int results_open(struct pool *pool, int descriptor, const char *path, struct mes
  * one before, or zeros. A line that was changed, is of another study or of a run that stands there already, unless that had
  * failed, is an error: which of the two counts, or what the line said, nobody knows here. */
 int results_next(struct results *results, struct result_line *line);
-void results_close(struct results *results, struct result_line *line);
+void results_close(struct results *results);
 
 struct result_place { /* of the line that counts for a run, the last one; length 0: there is none */
     off_t offset;
@@ -48,6 +50,9 @@ struct result_place { /* of the line that counts for a run, the last one; length
 /* Where the runs of a file stand: *place [header->runs]; *most: the length of the longest line. Statuses of results_next. */
 int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
                   struct result_place **place, size_t *most);
+
+/* What a line says, on the pool. NULL, or what is wrong with it; "" where memory is out. */
+const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);
 
 /* Whether the line is that of a run that failed. */
 int result_failed(const char *line);

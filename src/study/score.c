@@ -5,28 +5,6 @@
 
 #define PLACE_TOLERANCE 0.03 /* of the length of the rotor */
 
-static const char *const names[SCORE_COUNT] = {[SCORE_QUIET] = "quiet",
-                                               [SCORE_FALSE_ALARM] = "false_alarm",
-                                               [SCORE_RIGHT] = "right",
-                                               [SCORE_IN_SET] = "in_set",
-                                               [SCORE_OTHER_SET] = "other_set",
-                                               [SCORE_SILENT] = "silent",
-                                               [SCORE_UNEXPLAINED] = "unexplained",
-                                               [SCORE_WRONG] = "wrong"};
-
-const char *score_name(enum score score)
-{
-    return names[score];
-}
-
-enum score score_find(const char *name)
-{
-    int i = 0;
-    while (i < SCORE_COUNT && strcmp(names[i], name) != 0)
-        i++;
-    return (enum score)i;
-}
-
 /* Where a mass is that stays in one place; NaN for other effects, and where an accelerometer moves. */
 static double place_of_mass(const struct rotor *rotor, const struct cause_kind *cause, const struct effect *effect)
 {

@@ -5,7 +5,7 @@
 #include "diagnose/diagnose.h"
 #include "study/experiment.h"
 
-enum score {
+enum score { /* their words: score_words of result/study.h */
     SCORE_QUIET,       /* nothing was hidden and nothing was found */
     SCORE_FALSE_ALARM, /* nothing was hidden and something was found */
     SCORE_RIGHT,       /* named, and nothing else */
@@ -16,11 +16,6 @@ enum score {
     SCORE_WRONG, /* something else was named */
     SCORE_COUNT
 };
-
-/* "quiet", "false_alarm", "right", ... */
-const char *score_name(enum score score);
-/* The score of that name, SCORE_COUNT where there is none. */
-enum score score_find(const char *name);
 
 /* The experiment's data were made by a model. A cause is the hidden one by its id, its target, and where it has a place by that,
  * within its width or 3 % of the length; a mass is a mass, whether it is called added or that of an accelerometer there. A fault

@@ -7,146 +7,169 @@
 #include <unistd.h>
 
 #include "file/open.h"
+#include "report/json_result.h"
 #include "study/results.h"
 
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
 #define NO_OBJECTIVE   1e-10 /* exact data leave rounding, which has no relative accuracy */
 
-static double number_of(const cJSON *object, const char *key)
+struct parameter_sums {
+    struct cell_parameter said; /* count, mean, min, max and intervals grow with the runs, the rest follows at the end */
+    double square;              /* sum of squared deviations from the mean */
+    int stds;
+    double std_sum; /* of those stated by the fits */
+    int errors;
+    double error_sum, error_square; /* value less truth */
+    int covered;                    /* intervals that hold the truth */
+};
+
+struct objective { /* of one run */
+    int replicate;
+    double value; /* NaN where it did not converge */
+};
+
+struct cell_sums {
+    struct study_cell_result said; /* numbers of runs and seconds grow with the runs, the rest follows at the end */
+    struct cell_diagnoses diagnoses;
+    int last_start, nparameter, nobjective, scored;
+    size_t parameter_room, objective_room, named_room;
+    struct parameter_sums *parameter;
+    struct objective *objective;
+    int fitted, held_out;                  /* frequencies */
+    double fitted_square, held_out_square; /* [%^2] */
+    int chi2s;
+    double chi2_sum, evaluations;
+};
+
+struct sums {
+    struct pool *pool;
+    struct study_result *out;
+    int ncell;
+    size_t cell_room, error_room;
+    struct cell_sums *cell;
+    int failed; /* memory was out */
+};
+
+static int equal_texts(const char *a, const char *b)
 {
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, key);
-    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
+    return a == b || (a && b && !strcmp(a, b));
 }
 
-/* 0 where it is not from 0 to the number of runs there may be. */
-static long count_of(const cJSON *object, const char *key)
+static int equal_numbers(double a, double b)
 {
-    double value = number_of(object, key);
-    return value >= 0 && value <= STUDY_MOST_RUNS ? (long)value : 0;
+    return a == b || (isnan(a) && isnan(b));
 }
 
-static const char *text_of(const cJSON *object, const char *key)
+int summary_same_cell(const struct study_axes *a, const struct study_axes *b)
 {
-    return cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, key));
+    return equal_texts(a->deck, b->deck) && equal_texts(a->variant, b->variant) && equal_texts(a->modes, b->modes) &&
+           equal_texts(a->sensors, b->sensors) && equal_texts(a->hide, b->hide) &&
+           equal_numbers(a->noise_frequency, b->noise_frequency) && equal_numbers(a->noise_shape, b->noise_shape);
 }
 
-/* The text in the pool; NULL for NULL, and with *failed where memory is out. */
-static const char *keep(struct pool *pool, const char *text, int *failed)
+int summary_is_scored(const struct study_cell_result *cell)
 {
-    const char *copy = text ? pool_copy_text(pool, text) : NULL;
-    *failed |= text && !copy;
+    return cell->diagnoses && cell->diagnoses->scores[0] != ROTID_NONE;
+}
+
+/* The text in the pool of the summary; NULL for NULL. */
+static const char *keep(struct sums *s, const char *text)
+{
+    const char *copy = text ? pool_copy_text(s->pool, text) : NULL;
+    s->failed |= text && !copy;
     return copy;
 }
 
-static struct summary_cell *find_cell(struct pool *pool, struct summary *s, const cJSON *line)
+/* The array with room for one more element; NULL: memory is out. */
+static void *grow(struct sums *s, void *list, int count, size_t *room, size_t size)
 {
-    const cJSON *object = cJSON_GetObjectItemCaseSensitive(line, "cell");
-    char *key = cJSON_PrintUnformatted(object);
-    struct summary_cell *cell = NULL;
-    int failed = !key;
-    for (int i = s->ncell - 1; i >= 0 && key && !cell; i--) /* runs of a cell follow each other */
-        cell = strcmp(s->cell[i].key, key) ? NULL : &s->cell[i];
-    struct summary_cell *grown = cell || failed ? NULL : pool_grow(pool, s->cell, (size_t)s->ncell, &s->cell_room, sizeof *grown);
-    if (grown) {
-        s->cell = grown;
-        cell = &s->cell[s->ncell++];
-        *cell = (struct summary_cell){.key = keep(pool, key, &failed),
-                                      .deck = keep(pool, text_of(object, "deck"), &failed),
-                                      .variant = keep(pool, text_of(object, "variant"), &failed),
-                                      .modes = keep(pool, text_of(object, "modes"), &failed),
-                                      .sensors = keep(pool, text_of(object, "sensors"), &failed),
-                                      .hide = keep(pool, text_of(object, "hide"), &failed),
-                                      .noise_frequency = number_of(object, "noise_frequency"),
-                                      .noise_shape = number_of(object, "noise_shape"),
-                                      .first = count_of(line, "run")};
-    }
-    cJSON_free(key);
-    return failed ? NULL : cell;
+    void *grown = pool_grow(s->pool, list, (size_t)count, room, size);
+    s->failed |= !grown;
+    return grown;
 }
 
-static int add_error(struct pool *pool, struct summary *s, const cJSON *line)
+static struct cell_sums *find_cell(struct sums *s, const struct study_run *run)
 {
-    const char *text = text_of(line, "error");
-    int failed = 0;
-    for (int i = 0; i < s->nerror; i++)
-        if (!strcmp(s->error[i].text, text ? text : "")) {
-            s->error[i].runs++;
-            return ROTID_OK;
-        }
-    struct summary_error *grown = pool_grow(pool, s->error, (size_t)s->nerror, &s->error_room, sizeof *grown);
+    const struct study_axes *axes = &run->cell;
+    for (int i = s->ncell - 1; i >= 0; i--) /* runs of a cell follow each other */
+        if (summary_same_cell(&s->cell[i].said.cell, axes))
+            return &s->cell[i];
+    struct cell_sums *grown = grow(s, s->cell, s->ncell, &s->cell_room, sizeof *grown);
     if (!grown)
-        return ROTID_ERROR_MEMORY;
-    s->error = grown;
-    s->error[s->nerror++] = (struct summary_error){keep(pool, text ? text : "", &failed), 1, count_of(line, "run")};
-    return failed ? ROTID_ERROR_MEMORY : ROTID_OK;
+        return NULL;
+    s->cell = grown;
+    grown[s->ncell] = (struct cell_sums){.said = {.cell = {.deck = keep(s, axes->deck),
+                                                           .variant = keep(s, axes->variant),
+                                                           .modes = keep(s, axes->modes),
+                                                           .sensors = keep(s, axes->sensors),
+                                                           .noise_frequency = axes->noise_frequency,
+                                                           .noise_shape = axes->noise_shape,
+                                                           .hide = keep(s, axes->hide)},
+                                                  .first_run = run->run}};
+    return &s->cell[s->ncell++];
 }
 
-static struct summary_parameter *find_parameter(struct pool *pool, struct summary_cell *cell, const cJSON *item)
+static void add_error(struct sums *s, const struct study_run *run)
 {
-    const char *name = text_of(item, "name");
-    int failed = 0;
-    for (int p = 0; p < cell->nparameter && name; p++)
-        if (!strcmp(cell->parameter[p].name, name))
+    struct study_result *out = s->out;
+    const char *text = run->error ? run->error : "";
+    for (int i = 0; i < out->nerrors; i++)
+        if (!strcmp(out->errors[i].error, text)) {
+            out->errors[i].runs++;
+            return;
+        }
+    struct study_error *grown = grow(s, out->errors, out->nerrors, &s->error_room, sizeof *grown);
+    if (!grown)
+        return;
+    out->errors = grown;
+    out->errors[out->nerrors++] = (struct study_error){keep(s, text), 1, run->run};
+}
+
+static struct parameter_sums *find_parameter(struct sums *s, struct cell_sums *cell, const struct run_parameter *parameter)
+{
+    for (int p = 0; p < cell->nparameter; p++)
+        if (!strcmp(cell->parameter[p].said.name, parameter->name))
             return &cell->parameter[p];
-    struct summary_parameter *grown =
-        pool_grow(pool, cell->parameter, (size_t)cell->nparameter, &cell->parameter_room, sizeof *grown);
+    struct parameter_sums *grown = grow(s, cell->parameter, cell->nparameter, &cell->parameter_room, sizeof *grown);
     if (!grown)
         return NULL;
     cell->parameter = grown;
-    grown[cell->nparameter] = (struct summary_parameter){.name = keep(pool, name ? name : "", &failed),
-                                                         .unit = keep(pool, text_of(item, "unit"), &failed),
-                                                         .smallest = INFINITY,
-                                                         .largest = -INFINITY};
-    return failed ? NULL : &cell->parameter[cell->nparameter++];
+    grown[cell->nparameter] = (struct parameter_sums){
+        .said = {.name = keep(s, parameter->name), .unit = keep(s, parameter->unit), .min = INFINITY, .max = -INFINITY}};
+    return s->failed ? NULL : &cell->parameter[cell->nparameter++];
 }
 
-static void add_value(struct summary_parameter *p, const cJSON *item)
+static void add_value(struct parameter_sums *p, const struct run_parameter *parameter)
 {
-    double value = number_of(item, "value"), std = number_of(item, "std"), truth = number_of(item, "truth");
-    const cJSON *interval = cJSON_GetObjectItemCaseSensitive(item, "ci95"), *lower = cJSON_GetArrayItem(interval, 0),
-                *upper = cJSON_GetArrayItem(interval, 1);
+    struct cell_parameter *said = &p->said;
+    double value = parameter->value, truth = parameter->truth;
     if (!isfinite(value))
         return;
-    double from_mean = value - p->mean; /* Welford */
-    p->mean += from_mean / (double)++p->count;
-    p->square += from_mean * (value - p->mean);
-    p->smallest = fmin(p->smallest, value);
-    p->largest = fmax(p->largest, value);
-    if (isfinite(std)) {
+    double from_mean = value - said->mean; /* Welford */
+    said->mean += from_mean / (double)++said->count;
+    p->square += from_mean * (value - said->mean);
+    said->min = fmin(said->min, value);
+    said->max = fmax(said->max, value);
+    if (isfinite(parameter->std)) {
         p->stds++;
-        p->std_sum += std;
+        p->std_sum += parameter->std;
     }
     if (!isfinite(truth))
         return;
     p->errors++;
     p->error_sum += value - truth;
     p->error_square += (value - truth) * (value - truth);
-    if (cJSON_IsNumber(lower) && cJSON_IsNumber(upper)) {
-        p->intervals++;
-        p->covered += lower->valuedouble <= truth && truth <= upper->valuedouble;
+    if (isfinite(parameter->ci95[0]) && isfinite(parameter->ci95[1])) {
+        said->intervals++;
+        p->covered += parameter->ci95[0] <= truth && truth <= parameter->ci95[1];
     }
 }
 
-static int add_parameters(struct pool *pool, struct summary_cell *cell, const cJSON *line)
+static void add_modes(struct cell_sums *cell, const struct run_fit *fit)
 {
-    const cJSON *item;
-    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(line, "parameters"))
-    {
-        struct summary_parameter *parameter = find_parameter(pool, cell, item);
-        if (!parameter)
-            return ROTID_ERROR_MEMORY;
-        add_value(parameter, item);
-    }
-    return ROTID_OK;
-}
-
-static void add_modes(struct summary_cell *cell, const cJSON *line)
-{
-    const cJSON *item;
-    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(line, "modes"))
-    {
-        double error = number_of(item, "error_percent");
-        int held = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(item, "holdout"));
+    for (int k = 0; k < fit->nmodes; k++) {
+        double error = fit->modes[k].error_percent;
+        int held = fit->modes[k].holdout;
         if (!isfinite(error))
             continue;
         *(held ? &cell->held_out : &cell->fitted) += 1;
@@ -154,186 +177,216 @@ static void add_modes(struct summary_cell *cell, const cJSON *line)
     }
 }
 
-static int add_objective(struct pool *pool, struct summary_cell *cell, const cJSON *line, int usable)
+static void add_objective(struct sums *s, struct cell_sums *cell, const struct study_run *run, int usable)
 {
-    struct summary_objective *grown =
-        pool_grow(pool, cell->objective, (size_t)cell->nobjective, &cell->objective_room, sizeof *grown);
+    struct objective *grown = grow(s, cell->objective, cell->nobjective, &cell->objective_room, sizeof *grown);
     if (!grown)
-        return ROTID_ERROR_MEMORY;
+        return;
     cell->objective = grown;
-    grown[cell->nobjective++] =
-        (struct summary_objective){count_of(line, "replicate"), usable ? number_of(line, "objective") : NAN};
-    return ROTID_OK;
+    grown[cell->nobjective++] = (struct objective){run->replicate, usable ? run->fit->objective : NAN};
 }
 
-static int add_cause(struct pool *pool, struct summary_cell *cell, const char *id)
+static void add_named(struct sums *s, struct cell_sums *cell, const char *id)
 {
-    int failed = 0;
-    for (int i = 0; i < cell->ncause; i++)
-        if (!strcmp(cell->cause[i].id, id)) {
-            cell->cause[i].runs++;
-            return ROTID_OK;
+    struct cell_diagnoses *d = &cell->diagnoses;
+    for (int i = 0; i < d->nnamed; i++)
+        if (!strcmp(d->named[i].name, id)) {
+            d->named[i].value++;
+            return;
         }
-    struct summary_cause *grown = pool_grow(pool, cell->cause, (size_t)cell->ncause, &cell->cause_room, sizeof *grown);
+    rotid_component *grown = grow(s, d->named, d->nnamed, &cell->named_room, sizeof *grown);
     if (!grown)
-        return ROTID_ERROR_MEMORY;
-    cell->cause = grown;
-    grown[cell->ncause++] = (struct summary_cause){keep(pool, id, &failed), 1};
-    return failed ? ROTID_ERROR_MEMORY : ROTID_OK;
+        return;
+    d->named = grown;
+    grown[d->nnamed++] = (rotid_component){.name = keep(s, id), .value = 1};
 }
 
-static int add_diagnosis(struct pool *pool, struct summary_cell *cell, const cJSON *line)
+static void add_diagnosis(struct sums *s, struct cell_sums *cell, const struct run_diagnosis *diagnosis)
 {
-    const cJSON *verdict = cJSON_GetObjectItemCaseSensitive(line, "verdict"), *item;
-    const char *kind = text_of(verdict, "kind"), *score = text_of(line, "score");
-    int status = ROTID_OK;
-    if (!kind)
-        return ROTID_OK;
-    cell->judged++;
-    for (int k = VERDICT_ADEQUATE; k <= VERDICT_UNEXPLAINED; k++)
-        cell->verdict[k] += !strcmp(kind, verdict_name((enum verdict_kind)k));
-    cell->false_faults += count_of(line, "false_findings");
-    if (score && score_find(score) < SCORE_COUNT) {
+    struct cell_diagnoses *d = &cell->diagnoses;
+    d->count++;
+    d->verdicts[diagnosis->verdict.kind]++;
+    d->false_findings += diagnosis->false_findings != ROTID_NONE ? diagnosis->false_findings : 0;
+    if (diagnosis->score >= 0) {
         cell->scored++;
-        cell->score[score_find(score)]++;
+        d->scores[diagnosis->score]++;
     }
-    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(verdict, "causes"))
-    {
-        const char *id = text_of(item, "id");
-        status = id && !status ? add_cause(pool, cell, id) : status;
-    }
-    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(line, "data_findings"))
-    {
-        const char *id = text_of(item, "id");
-        status = id && !status ? add_cause(pool, cell, id) : status;
-    }
-    return status;
+    for (int i = 0; i < diagnosis->verdict.ncauses; i++)
+        add_named(s, cell, diagnosis->verdict.causes[i].id);
+    for (int i = 0; i < diagnosis->ndata_findings; i++)
+        add_named(s, cell, diagnosis->data_findings[i].id);
 }
 
-static int add_line(struct pool *pool, struct summary *s, const cJSON *line)
+static void add_run(struct sums *s, const struct study_run *run)
 {
-    struct summary_cell *cell = find_cell(pool, s, line);
-    const char *state = text_of(line, "status");
-    long start = count_of(line, "start");
-    double chi2 = number_of(line, "chi2_per_dof"), evaluations = number_of(line, "evaluations"),
-           seconds = number_of(line, "seconds");
-    if (!cell || !state)
-        return ROTID_ERROR_MEMORY;
-    int converged = !strcmp(state, "converged"), at_bound = !strcmp(state, "at_bound"), failed = !strcmp(state, "failed");
-    cell->runs++;
-    cell->converged += converged;
-    cell->at_bound += at_bound;
-    cell->failed += failed;
-    cell->not_converged += !converged && !at_bound && !failed;
-    cell->last_start = start > cell->last_start ? start : cell->last_start;
-    cell->seconds += isfinite(seconds) ? seconds : 0;
-    s->seconds += isfinite(seconds) ? seconds : 0;
-    s->there++;
-    s->failed += failed;
-    if (failed)
-        return add_error(pool, s, line);
-    cell->evaluations += isfinite(evaluations) ? evaluations : 0;
-    int status = add_objective(pool, cell, line, converged || at_bound);
-    if (status || !(converged || at_bound))
-        return status;
-    if (isfinite(chi2)) {
-        cell->chi2s++;
-        cell->chi2_sum += chi2;
+    struct cell_sums *cell = find_cell(s, run);
+    int usable = run->status == STUDY_CONVERGED || run->status == STUDY_AT_BOUND, failed = run->status == STUDY_FAILED;
+    double seconds = isfinite(run->seconds) ? run->seconds : 0;
+    if (!cell)
+        return;
+    cell->said.runs++;
+    cell->said.converged += run->status == STUDY_CONVERGED;
+    cell->said.at_bound += run->status == STUDY_AT_BOUND;
+    cell->said.not_converged += run->status == STUDY_NOT_CONVERGED;
+    cell->said.failed += failed;
+    cell->said.seconds += seconds;
+    cell->last_start = run->start > cell->last_start ? run->start : cell->last_start;
+    s->out->seconds += seconds;
+    s->out->done++;
+    s->out->failed += failed;
+    if (failed) {
+        add_error(s, run);
+        return;
     }
-    add_modes(cell, line);
-    status = add_parameters(pool, cell, line);
-    return status ? status : add_diagnosis(pool, cell, line);
+    const struct run_fit *fit = run->fit;
+    cell->evaluations += fit->evaluations;
+    add_objective(s, cell, run, usable);
+    if (!usable)
+        return;
+    if (isfinite(fit->chi2_per_dof)) {
+        cell->chi2s++;
+        cell->chi2_sum += fit->chi2_per_dof;
+    }
+    add_modes(cell, fit);
+    for (int p = 0; p < fit->nparameters; p++) {
+        struct parameter_sums *parameter = find_parameter(s, cell, &fit->parameters[p]);
+        if (parameter)
+            add_value(parameter, &fit->parameters[p]);
+    }
+    if (run->diagnosis)
+        add_diagnosis(s, cell, run->diagnosis);
 }
 
 static int compare(const void *left, const void *right)
 {
-    const struct summary_objective *a = left, *b = right;
+    const struct objective *a = left, *b = right;
     if (a->replicate != b->replicate)
         return a->replicate < b->replicate ? -1 : 1;
     return isnan(a->value) ? !isnan(b->value) : isnan(b->value) ? -1 : (a->value > b->value) - (a->value < b->value);
 }
 
 /* How many of the starts of a replicate came to the best objective that any of them found. */
-static void count_reached(struct summary_cell *cell)
+static int count_reached(struct cell_sums *cell)
 {
     double best = NAN;
+    int reached = 0;
     if (cell->nobjective > 1)
         qsort(cell->objective, (size_t)cell->nobjective, sizeof *cell->objective, compare);
-    for (long i = 0; i < cell->nobjective; i++) {
-        const struct summary_objective *now = &cell->objective[i];
+    for (int i = 0; i < cell->nobjective; i++) {
+        const struct objective *now = &cell->objective[i];
         if (!i || now->replicate != cell->objective[i - 1].replicate)
             best = now->value;
-        cell->reached += now->value <= best + SAME_OBJECTIVE * fabs(best) + NO_OBJECTIVE;
+        reached += now->value <= best + SAME_OBJECTIVE * fabs(best) + NO_OBJECTIVE;
     }
+    return reached;
 }
 
-static int read_all(struct pool *pool, int descriptor, struct message_list *messages, struct summary *s)
+static double share(double sum, int count)
+{
+    return count ? sum / (double)count : NAN;
+}
+
+static struct cell_parameter finish_parameter(const struct parameter_sums *p)
+{
+    struct cell_parameter said = p->said;
+    double n = p->errors;
+    said.mean = said.count ? said.mean : NAN;
+    said.std = said.count > 1 ? sqrt(p->square / (double)(said.count - 1)) : NAN;
+    said.mean_stated_std = share(p->std_sum, p->stds);
+    said.bias = share(p->error_sum, p->errors);
+    said.std_error = p->errors > 1 ? sqrt(fmax(0, p->error_square - n * said.bias * said.bias) / (n - 1)) : NAN;
+    said.rms_error = sqrt(share(p->error_square, p->errors));
+    said.coverage95 = share(p->covered, said.intervals);
+    return said;
+}
+
+static struct study_cell_result finish_cell(struct sums *s, struct cell_sums *cell)
+{
+    struct study_cell_result said = cell->said;
+    said.reached_best = cell->last_start ? count_reached(cell) : ROTID_NONE;
+    said.parameters = POOL_ARRAY(s->pool, struct cell_parameter, cell->nparameter);
+    s->failed |= !said.parameters;
+    for (int p = 0; p < cell->nparameter && said.parameters; p++)
+        said.parameters[said.nparameters++] = finish_parameter(&cell->parameter[p]);
+    said.frequency_rms_percent = sqrt(share(cell->fitted_square, cell->fitted));
+    said.holdout_frequency_rms_percent = sqrt(share(cell->held_out_square, cell->held_out));
+    said.chi2_per_dof = share(cell->chi2_sum, cell->chi2s);
+    said.evaluations = share(cell->evaluations, said.runs - said.failed);
+    if (cell->diagnoses.count) {
+        said.diagnoses = POOL_NEW(s->pool, struct cell_diagnoses);
+        s->failed |= !said.diagnoses;
+        if (!cell->scored)
+            cell->diagnoses.scores[0] = cell->diagnoses.false_findings = ROTID_NONE;
+        if (said.diagnoses)
+            *said.diagnoses = cell->diagnoses;
+    }
+    return said;
+}
+
+static void finish(struct sums *s)
+{
+    s->out->cells = POOL_ARRAY(s->pool, struct study_cell_result, s->ncell);
+    s->failed |= !s->out->cells;
+    for (int i = 0; i < s->ncell && s->out->cells; i++)
+        s->out->cells[s->out->ncells++] = finish_cell(s, &s->cell[i]);
+    s->out->missing = s->out->runs - s->out->done;
+}
+
+static int read_all(struct pool *pool, int descriptor, struct message_list *messages, struct header *header,
+                    struct study_result *out)
 {
     struct result_place *place;
+    struct sums sums = {.pool = pool, .out = out};
     size_t most;
-    int status = results_index(pool, descriptor, s->path, messages, &s->header, &place, &most);
+    int status = results_index(pool, descriptor, out->results, messages, header, &place, &most);
     char *text = status ? NULL : malloc(most + 1);
     if (!status && !text)
         status = ROTID_ERROR_MEMORY;
-    for (long run = 0; run < s->header.runs && !status; run++) { /* in their order: sums do not depend on who was faster */
-        s->wanted += run % s->header.shards == s->header.shard - 1;
+    for (long run = 0; run < header->runs && !status; run++) { /* in their order: sums do not depend on who was faster */
+        struct pool own;
+        struct study_run said;
+        out->runs += run % header->shards == header->shard - 1;
         if (!place[run].length)
             continue;
         status = results_fetch(descriptor, place[run], text);
         if (status)
-            message_add(messages, SEVERITY_ERROR, s->path, 1, 1, "reading failed: %s", strerror(errno));
-        cJSON *line = status ? NULL : cJSON_ParseWithLength(text, place[run].length);
+            message_add(messages, SEVERITY_ERROR, out->results, 1, 1, "reading failed: %s", strerror(errno));
+        pool_open(&own, NULL);
         if (!status)
-            status = line ? add_line(pool, s, line) : ROTID_ERROR_MEMORY;
-        cJSON_Delete(line);
+            status = results_line_read(&own, text, place[run].length, &said) ? ROTID_ERROR_MEMORY : ROTID_OK;
+        if (!status)
+            add_run(&sums, &said);
+        pool_close(&own);
+        status = sums.failed ? ROTID_ERROR_MEMORY : status;
     }
     free(text);
-    for (int i = 0; i < s->ncell; i++)
-        count_reached(&s->cell[i]);
-    return status;
+    finish(&sums);
+    return !status && sums.failed ? ROTID_ERROR_MEMORY : status;
 }
 
-int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct summary *summary)
+int summary_read(struct pool *pool, const char *path, struct message_list *messages, struct header *header,
+                 struct study_result *out)
 {
     struct stat about;
     int descriptor = file_descriptor(path, &about);
-    *summary = (struct summary){.path = path};
+    *out = (struct study_result){.results = path};
     if (descriptor < 0) {
         message_add(messages, SEVERITY_ERROR, path, 1, 1, "cannot be opened: %s, expected a file of results", strerror(errno));
         return ROTID_ERROR_IO;
     }
-    int status = read_all(pool, descriptor, messages, summary);
+    int status = read_all(pool, descriptor, messages, header, out);
     (void)close(descriptor);
+    out->plan = header->plan;
+    out->studies = header->studies;
+    out->shard = header->shard;
+    out->shards = header->shards;
     return status;
 }
 
-double summary_std(const struct summary_parameter *p)
+char *summary_json(const struct provenance *provenance, const struct study_result *summary)
 {
-    return p->count > 1 ? sqrt(p->square / (double)(p->count - 1)) : NAN;
-}
-
-double summary_mean_std(const struct summary_parameter *p)
-{
-    return p->stds ? p->std_sum / (double)p->stds : NAN;
-}
-
-double summary_bias(const struct summary_parameter *p)
-{
-    return p->errors ? p->error_sum / (double)p->errors : NAN;
-}
-
-double summary_std_error(const struct summary_parameter *p)
-{
-    double bias = summary_bias(p), n = (double)p->errors;
-    return p->errors > 1 ? sqrt(fmax(0, p->error_square - n * bias * bias) / (n - 1)) : NAN;
-}
-
-double summary_rms_error(const struct summary_parameter *p)
-{
-    return p->errors ? sqrt(p->error_square / (double)p->errors) : NAN;
-}
-
-double summary_coverage(const struct summary_parameter *p)
-{
-    return p->intervals ? (double)p->covered / (double)p->intervals : NAN;
+    struct pool pool;
+    struct result result = {.study = summary};
+    pool_open(&pool, NULL);
+    return json_result(&pool, provenance, NULL, NULL, &result);
 }

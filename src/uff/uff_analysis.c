@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "uff/uff_reader.h"
+#include "uff/uff_record.h"
 
 /* What grows, until it is copied to its length. */
 struct growing {
@@ -42,9 +43,6 @@ static int read_one(struct uff_lines *lines, const char *what, int *integer)
 /* Records 1 to 13. */
 static int read_records(struct uff_lines *lines, struct uff_analysis *analysis)
 {
-    static const char what[] = "record 9 (model, analysis, characteristic, result, data type, values)";
-    const struct uff_form form = {.integers = 6, .integer_width = 10};
-    int field[6];
     int status = read_one(lines, "record 1 (label)", &analysis->label);
     if (status == ROTID_OK)
         status = uff_read_text(lines, "record 2 (name)", analysis->name);
@@ -53,21 +51,14 @@ static int read_records(struct uff_lines *lines, struct uff_analysis *analysis)
     for (int i = 0; i < UFF_ID_LINES && status == ROTID_OK; ++i)
         status = uff_read_text(lines, "records 4 to 8 (five lines of text)", analysis->id[i]);
     if (status == ROTID_OK)
-        status = uff_expect_line(lines, what);
-    if (status == ROTID_OK)
-        status = uff_parse_line(lines, &form, what, field, NULL);
+        status = uff_read_record(lines, &uff_kind_2414, analysis);
     if (status != ROTID_OK)
         return status;
-    analysis->model_type = field[0];
-    analysis->analysis_type = field[1];
-    analysis->data_characteristic = field[2];
-    analysis->result_type = field[3];
-    analysis->data_type = field[4];
-    analysis->value_count = field[5];
-    if (field[4] != 1 && field[4] != 2 && field[4] != 4 && field[4] != 5 && field[4] != 6)
-        return uff_fail(lines, 41, "record 9: data type %d; expected 1, 2, 4, 5 or 6", field[4]);
-    if (field[5] < 1)
-        return uff_fail(lines, 51, "record 9: %d values; expected at least 1", field[5]);
+    int type = analysis->data_type;
+    if (type != 1 && type != 2 && type != 4 && type != 5 && type != 6)
+        return uff_fail(lines, 41, "record 9: data type %d; expected 1, 2, 4, 5 or 6", type);
+    if (analysis->value_count < 1)
+        return uff_fail(lines, 51, "record 9: %d values; expected at least 1", analysis->value_count);
     status = read_few(lines, 8, UFF_INTEGER, "record 10", analysis->integer, NULL);
     if (status == ROTID_OK)
         status = read_few(lines, 8, UFF_INTEGER, "record 11", analysis->integer + 8, NULL);

@@ -86,7 +86,7 @@ static enum uff_fault read_cell(const struct uff_lines *lines, enum uff_kind kin
     if (kind == UFF_WORDS)
         return UFF_FAULT_NONE;
     if (!field.length)
-        return kind == UFF_REQUIRED_INTEGER ? UFF_FAULT_MALFORMED : UFF_FAULT_NONE;
+        return kind == UFF_REQUIRED_INTEGER || kind == UFF_LONG ? UFF_FAULT_MALFORMED : UFF_FAULT_NONE;
     return kind == UFF_REAL ? uff_parse_real(text, field.length, &cell->real)
                             : uff_parse_integer(text, field.length, &cell->integer);
 }

@@ -4,6 +4,7 @@
 
 #include "uff/uff_fields.h"
 #include "uff/uff_reader.h"
+#include "uff/uff_record.h"
 
 struct numbers {
     int *item;
@@ -44,35 +45,18 @@ static int *keep_numbers(struct pool *pool, const struct numbers *list)
     return kept;
 }
 
-/* Rods and beams have a record for orientation and cross sections before their nodes. */
-static int is_beam(int descriptor)
-{
-    return descriptor == 11 || (descriptor >= 21 && descriptor <= 24);
-}
-
 /* One element, of which the first line is at hand. */
 static int read_element(struct uff_reader *reader, struct pool *scratch, struct uff_element *element, struct numbers *nodes)
 {
-    static const char what[] = "an element (label, descriptor, property, material, color, number of nodes)";
-    const struct uff_form form = {.integers = 6, .integer_width = 10}, beam = {.integers = 3, .integer_width = 10};
     struct uff_lines *lines = &reader->lines;
-    int field[6];
-    int status = uff_parse_line(lines, &form, what, field, NULL);
+    *element = (struct uff_element){0};
+    int status = uff_take_record(lines, &uff_element_2412, element);
     if (status != ROTID_OK)
         return status;
-    if (field[5] < 0)
-        return uff_fail(lines, 51, "%s: %d nodes; expected none or more", what, field[5]);
-    *element = (struct uff_element){.id = field[0],
-                                    .descriptor = field[1],
-                                    .property = field[2],
-                                    .material = field[3],
-                                    .color = field[4],
-                                    .node_count = field[5]};
-    if (is_beam(element->descriptor)) {
-        status = uff_expect_line(lines, "orientation node and cross sections of a beam");
-        if (status == ROTID_OK)
-            status = uff_parse_line(lines, &beam, "orientation node and cross sections of a beam", element->beam, NULL);
-    }
+    if (element->node_count < 0)
+        return uff_fail(lines, 51, "%s: %d nodes; expected none or more", uff_element_2412.what, element->node_count);
+    if (uff_is_beam(element->descriptor))
+        status = uff_read_record(lines, &uff_beam_2412, element);
     if (status == ROTID_OK)
         status = append_numbers(reader, scratch, element->node_count, "nodes of an element", nodes);
     return status;

@@ -1,48 +1,19 @@
 /* The records 1 to 11 of sets 58 and 58b. */
-#include <limits.h>
 #include <string.h>
 
 #include "uff/uff_reader.h"
-
-int uff_cut_data_form(const struct uff_lines *lines, struct uff_cell cell[6], struct uff_function *function)
-{
-    static const struct uff_column column[] = {{UFF_REQUIRED_INTEGER, 0, 10},
-                                               {UFF_REQUIRED_INTEGER, 10, 10},
-                                               {UFF_INTEGER, 20, 10},
-                                               {UFF_REAL, 30, 13},
-                                               {UFF_REAL, 43, 13},
-                                               {UFF_REAL, 56, 13}};
-    int bad = uff_cut_line(lines, 6, column, cell);
-    if (bad >= 0)
-        return bad;
-    long long ordinate = cell[0].integer;
-    if (ordinate != UFF_REAL_SINGLE && ordinate != UFF_REAL_DOUBLE && ordinate != UFF_COMPLEX_SINGLE &&
-        ordinate != UFF_COMPLEX_DOUBLE)
-        return 0;
-    if (cell[1].integer < 0 || cell[1].integer > LLONG_MAX / 32) /* a value has up to 24 bytes */
-        return 1;
-    if (cell[2].integer != 0 && cell[2].integer != 1)
-        return 2;
-    function->ordinate = (int)ordinate;
-    function->count = cell[1].integer;
-    function->is_even = cell[2].integer == 1;
-    function->start = cell[3].real;
-    function->step = cell[4].real;
-    function->z = cell[5].real;
-    return -1;
-}
+#include "uff/uff_record.h"
 
 static int read_data_form(struct uff_lines *lines, struct uff_function *function)
 {
-    static const char what[] = "record 7 (ordinate data type, number of values, spacing, minimum, increment, z)";
     static const char *const expected[] = {"an ordinate data type 2, 4, 5 or 6",
                                            "a number of values",
                                            "abscissa spacing 0 (uneven) or 1 (even)",
                                            "an abscissa minimum",
                                            "an abscissa increment",
                                            "a z-axis value"};
-    struct uff_cell cell[6];
-    int status = uff_expect_line(lines, what);
+    struct uff_cell cell[UFF_CELL_LIMIT];
+    int status = uff_expect_line(lines, uff_form_58.what);
     if (status != ROTID_OK)
         return status;
     int bad = uff_cut_data_form(lines, cell, function);
@@ -58,67 +29,18 @@ static int read_data_form(struct uff_lines *lines, struct uff_function *function
                     uff_excerpt(lines->text + cell[bad].start, cell[bad].length, excerpt), expected[bad]);
 }
 
-static int read_location(struct uff_lines *lines, struct uff_function *function)
-{
-    static const char what[] = "record 6 (function type, number, version, load case, response, reference)";
-    static const struct uff_column column[] = {
-        {UFF_INTEGER, 0, 5},   {UFF_INTEGER, 5, 10}, {UFF_INTEGER, 15, 5}, {UFF_INTEGER, 20, 10}, {UFF_WORDS, 31, 10},
-        {UFF_INTEGER, 41, 10}, {UFF_INTEGER, 51, 4}, {UFF_WORDS, 56, 10},  {UFF_INTEGER, 66, 10}, {UFF_INTEGER, 76, 4}};
-    struct uff_cell cell[10];
-    int status = uff_expect_line(lines, what);
-    if (status == ROTID_OK)
-        status = uff_cut_record(lines, 10, column, what, cell);
-    if (status != ROTID_OK)
-        return status;
-    function->type = (int)cell[0].integer;
-    function->number = (int)cell[1].integer;
-    function->version = (int)cell[2].integer;
-    function->load_case = (int)cell[3].integer;
-    uff_copy_text(lines->text + cell[4].start, cell[4].length, sizeof function->response_name, function->response_name);
-    function->response_node = (int)cell[5].integer;
-    function->response_direction = (int)cell[6].integer;
-    uff_copy_text(lines->text + cell[7].start, cell[7].length, sizeof function->reference_name, function->reference_name);
-    function->reference_node = (int)cell[8].integer;
-    function->reference_direction = (int)cell[9].integer;
-    return ROTID_OK;
-}
-
-static int read_axis(struct uff_lines *lines, const char *what, struct uff_axis *axis)
-{
-    static const struct uff_column column[] = {{UFF_INTEGER, 0, 10}, {UFF_INTEGER, 10, 5}, {UFF_INTEGER, 15, 5},
-                                               {UFF_INTEGER, 20, 5}, {UFF_WORDS, 26, 20},  {UFF_WORDS, 47, 20}};
-    struct uff_cell cell[6];
-    int status = uff_expect_line(lines, what);
-    if (status == ROTID_OK)
-        status = uff_cut_record(lines, 6, column, what, cell);
-    if (status != ROTID_OK)
-        return status;
-    axis->specific_type = (int)cell[0].integer;
-    axis->length = (int)cell[1].integer;
-    axis->force = (int)cell[2].integer;
-    axis->temperature = (int)cell[3].integer;
-    uff_copy_text(lines->text + cell[4].start, cell[4].length, sizeof axis->label, axis->label);
-    uff_copy_text(lines->text + cell[5].start, cell[5].length, sizeof axis->unit, axis->unit);
-    return ROTID_OK;
-}
-
 static int read_records(struct uff_lines *lines, struct uff_function *function)
 {
+    static const struct uff_record *const axis[] = {&uff_abscissa_58, &uff_ordinate_58, &uff_denominator_58, &uff_z_axis_58};
     int status = ROTID_OK;
     for (int i = 0; i < UFF_ID_LINES && status == ROTID_OK; ++i)
         status = uff_read_text(lines, "five lines of text", function->id[i]);
     if (status == ROTID_OK)
-        status = read_location(lines, function);
+        status = uff_read_record(lines, &uff_location_58, function);
     if (status == ROTID_OK)
         status = read_data_form(lines, function);
-    if (status == ROTID_OK)
-        status = read_axis(lines, "record 8 (abscissa)", &function->abscissa);
-    if (status == ROTID_OK)
-        status = read_axis(lines, "record 9 (ordinate)", &function->numerator);
-    if (status == ROTID_OK)
-        status = read_axis(lines, "record 10 (ordinate denominator)", &function->denominator);
-    if (status == ROTID_OK)
-        status = read_axis(lines, "record 11 (z axis)", &function->z_axis);
+    for (int i = 0; i < 4 && status == ROTID_OK; ++i)
+        status = uff_read_record(lines, axis[i], function);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* Header, set 151, and units, set 164. */
 
 #include "uff/uff_reader.h"
+#include "uff/uff_record.h"
 
 /* Record 4: date and time, then numbers, which no one needs: writers put other things there, or nothing. */
 static void cut_versions(const struct uff_lines *lines, struct uff_header *header)
@@ -44,22 +45,13 @@ int uff_read_header(struct uff_reader *reader, struct uff_header *header)
 
 static int read_units(struct uff_reader *reader, struct uff_units *units)
 {
-    static const struct uff_column column[] = {{UFF_REQUIRED_INTEGER, 0, 10}, {UFF_WORDS, 10, 20}, {UFF_INTEGER, 30, 10}};
-    static const char what[] = "record 1 (units code, description, temperature mode)";
     struct uff_lines *lines = &reader->lines;
-    struct uff_cell cell[3];
     double factor[4];
-    int is_end;
-    int status = uff_expect_line(lines, what);
-    if (status == ROTID_OK)
-        status = uff_cut_record(lines, 3, column, what, cell);
+    int is_end, status = uff_read_record(lines, &uff_units_164, units);
     if (status != ROTID_OK)
         return status;
-    if (cell[0].integer < 1 || cell[0].integer > 9)
-        return uff_fail(lines, 1, "%s: code %lld; expected 1 to 9", what, cell[0].integer);
-    units->code = (int)cell[0].integer;
-    units->temperature_mode = (int)cell[2].integer;
-    uff_copy_text(lines->text + cell[1].start, cell[1].length, sizeof units->description, units->description);
+    if (units->code < 1 || units->code > 9)
+        return uff_fail(lines, 1, "%s: code %d; expected 1 to 9", uff_units_164.what, units->code);
     status = uff_read_reals(lines, 4, 3, 25, "record 2 (factors of length, force, temperature; offset)", factor);
     if (status == ROTID_OK)
         status = uff_next_record(reader, "the '-1' that ends the set", &is_end);

@@ -97,7 +97,7 @@ int uff_find_integers(const struct uff_lines *lines, int count, const int *start
                       long long *value);
 
 /* A record of mixed contents in columns. A blank number is 0, as Fortran reads it, unless it is required. */
-enum uff_kind { UFF_INTEGER, UFF_REQUIRED_INTEGER, UFF_REAL, UFF_WORDS };
+enum uff_kind { UFF_INTEGER, UFF_REQUIRED_INTEGER, UFF_LONG, UFF_REAL, UFF_WORDS };
 struct uff_column {
     enum uff_kind kind;
     int start, width; /* start from 0 */

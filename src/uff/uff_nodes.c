@@ -2,9 +2,10 @@
 #include <limits.h>
 
 #include "uff/uff_reader.h"
+#include "uff/uff_record.h"
 
-static int add_node(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list, int line, const int *field,
-                    const double *x)
+static int add_node(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list, int line,
+                    const struct uff_node *node)
 {
     if (list->count >= INT_MAX)
         return uff_fail(&reader->lines, 0, "more than %d nodes", INT_MAX);
@@ -12,31 +13,18 @@ static int add_node(struct uff_reader *reader, struct pool *pool, struct uff_nod
     if (!grown)
         return ROTID_ERROR_MEMORY;
     list->item = grown;
-    list->item[list->count++] = (struct uff_placed_node){.node = {.id = field[0],
-                                                                  .definition_system = field[1],
-                                                                  .displacement_system = field[2],
-                                                                  .color = field[3],
-                                                                  .x = {x[0], x[1], x[2]}},
-                                                         .line = line,
-                                                         .set = reader->set.number,
-                                                         .set_line = reader->set.line};
+    list->item[list->count++] =
+        (struct uff_placed_node){.node = *node, .line = line, .set = reader->set.number, .set_line = reader->set.line};
     return ROTID_OK;
 }
 
 /* One node, of which the first line is at hand. */
-static int read_node(struct uff_lines *lines, int number, int *field, double *x)
+static int read_node(struct uff_lines *lines, int number, struct uff_node *node)
 {
-    const struct uff_form single = {.integers = 4, .integer_width = 10, .reals = 3, .real_width = 13};
-    const struct uff_form label = {.integers = 4, .integer_width = 10};
     if (number == 15)
-        return uff_parse_line(lines, &single, "a node", field, x);
-    int status = uff_parse_line(lines, &label, "a node, record 1", field, NULL);
-    if (status == ROTID_OK)
-        status = uff_expect_line(lines, "coordinates, record 2 of a node");
-    const struct uff_form place = {.reals = 3, .real_width = 25};
-    if (status == ROTID_OK)
-        status = uff_parse_line(lines, &place, "coordinates, record 2 of a node", NULL, x);
-    return status;
+        return uff_take_record(lines, &uff_node_15, node);
+    int status = uff_take_record(lines, &uff_node_2411, node);
+    return status == ROTID_OK ? uff_read_record(lines, &uff_place_2411, node) : status;
 }
 
 int uff_append_nodes(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list)
@@ -46,15 +34,15 @@ int uff_append_nodes(struct uff_reader *reader, struct pool *pool, struct uff_no
     if (status != ROTID_OK)
         return status;
     for (;;) {
-        int field[4], is_end;
-        double x[3];
+        struct uff_node node;
+        int is_end;
         status = uff_next_record(reader, "a node or '-1'", &is_end);
         if (status != ROTID_OK || is_end)
             return uff_end(reader, status, UFF_BETWEEN);
         int line = reader->lines.line;
-        status = read_node(&reader->lines, number, field, x);
+        status = read_node(&reader->lines, number, &node);
         if (status == ROTID_OK)
-            status = add_node(reader, pool, list, line, field, x);
+            status = add_node(reader, pool, list, line, &node);
         if (status != ROTID_OK)
             return uff_end(reader, status, UFF_BETWEEN);
     }

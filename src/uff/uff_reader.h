@@ -67,7 +67,7 @@ int uff_read_shape_rest(struct uff_reader *reader, struct pool *pool, struct uff
 int uff_measure_binary(struct uff_reader *reader, const struct uff_function *function, long long *bytes, int *x_size);
 
 /* Record 7 of sets 58: what the values are. Returns the cell that is wrong, or -1. */
-int uff_cut_data_form(const struct uff_lines *lines, struct uff_cell cell[6], struct uff_function *function);
+int uff_cut_data_form(const struct uff_lines *lines, struct uff_cell cell[UFF_CELL_LIMIT], struct uff_function *function);
 
 /* Reads over the rest of the set at hand. */
 int uff_skip_set(struct uff_reader *reader);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "uff/uff_reader.h"
+#include "uff/uff_record.h"
 
 enum { NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, FREQUENCY_RESPONSE = 5, COMPLEX_SECOND_ORDER = 7 }; /* analysis type */
 enum { REAL_DATA = 2, COMPLEX_DATA = 5 };                                                            /* data type */
@@ -25,24 +26,14 @@ struct growing {
 
 static int read_kind(struct uff_lines *lines, struct uff_shape *shape)
 {
-    static const char what[] = "record 6 (model, analysis, characteristic, quantity, data type, values per node)";
-    const struct uff_form form = {.integers = 6, .integer_width = 10};
-    int field[6], status = ROTID_OK;
+    int status = ROTID_OK;
     for (int i = 0; i < UFF_ID_LINES && status == ROTID_OK; ++i)
         status = uff_read_text(lines, "five lines of text", shape->id[i]);
     if (status == ROTID_OK)
-        status = uff_expect_line(lines, what);
-    if (status == ROTID_OK)
-        status = uff_parse_line(lines, &form, what, field, NULL);
+        status = uff_read_record(lines, &uff_kind_55, shape);
     if (status != ROTID_OK)
         return status;
-    shape->model_type = field[0];
-    shape->analysis_type = field[1];
-    shape->data_characteristic = field[2];
-    shape->specific_type = field[3];
-    shape->data_type = field[4];
-    shape->is_complex = field[4] == COMPLEX_DATA;
-    shape->component_count = field[5];
+    shape->is_complex = shape->data_type == COMPLEX_DATA;
     return ROTID_OK;
 }
 

@@ -15,20 +15,6 @@ static int skip_lines(struct uff_lines *lines, int texts)
     }
 }
 
-int uff_close_values(struct uff_lines *lines, long long left_over)
-{
-    int status = left_over ? uff_skip_bytes(lines, left_over) : ROTID_OK;
-    do {
-        if (status == ROTID_OK)
-            status = uff_expect_line(lines, "the '-1' that ends the set");
-        if (status != ROTID_OK)
-            return status;
-    } while (!lines->length);
-    if (!uff_is_delimiter(lines, 0))
-        return uff_fail(lines, 0, "expected a line '    -1' behind the last value");
-    return ROTID_OK;
-}
-
 /* The bytes of binary data may hold anything, also what looks like the end. */
 static int skip_binary(struct uff_reader *reader)
 {
@@ -43,7 +29,7 @@ static int skip_binary(struct uff_reader *reader)
                             reader->binary.text_lines);
         if (status != ROTID_OK)
             return status;
-        struct uff_cell cell[6];
+        struct uff_cell cell[UFF_CELL_LIMIT];
         if (i == 6 && reader->set.number == 58 && uff_cut_data_form(lines, cell, &function) >= 0)
             function = (struct uff_function){0};
     }
@@ -63,68 +49,4 @@ int uff_skip_set(struct uff_reader *reader)
         status = uff_close_values(&reader->lines, values->left_over + (values->function.count - values->done) *
                                                                           (values->x_size + (long long)values->y_size));
     return uff_end(reader, status, UFF_BETWEEN);
-}
-
-/* Whether an end stands behind so many bytes, which the file must have. */
-static int try_length(struct uff_lines *lines, long long length, long long *bytes, int *found)
-{
-    int status = uff_look_for_end(lines, length, found);
-    if (status == ROTID_OK && *found)
-        *bytes = length;
-    return status;
-}
-
-/* Says so once, however often the set is come back to: those seen before lie before it. */
-static void warn_of_length(struct uff_reader *reader, long long count, long long bytes)
-{
-    if (reader->set.offset < reader->warned_before)
-        return;
-    reader->warned_before = reader->set.offset + 1;
-    uff_warn(&reader->lines, "%lld bytes announced, but %lld values make %lld, behind which the set ends", reader->binary.bytes,
-             count, bytes);
-}
-
-int uff_measure_binary(struct uff_reader *reader, const struct uff_function *function, long long *bytes, int *x_size)
-{
-    struct uff_lines *lines = &reader->lines;
-    const struct uff_binary *binary = &reader->binary;
-    int is_double = function->ordinate == UFF_REAL_DOUBLE || function->ordinate == UFF_COMPLEX_DOUBLE;
-    int is_complex = function->ordinate == UFF_COMPLEX_SINGLE || function->ordinate == UFF_COMPLEX_DOUBLE;
-    int y_size = (is_double ? 8 : 4) * (is_complex ? 2 : 1);
-    int size[2] = {0, 0}, count = 0;
-    if (function->ordinate) {
-        size[count++] = function->is_even ? 0 : 4;
-        if (!function->is_even && is_double)
-            size[count++] = 8;
-    }
-    *bytes = binary->bytes;
-    *x_size = count ? size[0] : 0;
-    for (int i = 0; i < count; ++i)
-        if (function->count * (size[i] + y_size) == binary->bytes)
-            *x_size = size[i];
-    if (lines->size < 0) { /* no looking ahead */
-        if (!binary->bytes && count)
-            *bytes = function->count * (*x_size + y_size);
-        return ROTID_OK;
-    }
-
-    int found = 0, status = ROTID_OK;
-    for (int pass = 0; pass < 2; ++pass) /* first what agrees with the number of bytes announced */
-        for (int i = 0; i < count; ++i) {
-            long long length = function->count * (size[i] + y_size);
-            if (found || status != ROTID_OK || (length == binary->bytes) == pass)
-                continue;
-            status = try_length(lines, length, bytes, &found);
-            if (found)
-                *x_size = size[i];
-        }
-    if (found && *bytes != binary->bytes)
-        warn_of_length(reader, function->count, *bytes);
-    if (!found && status == ROTID_OK)
-        status = try_length(lines, binary->bytes, bytes, &found);
-    if (found || status != ROTID_OK)
-        return status;
-    if (binary->bytes > lines->size - lines->base - (long long)lines->at)
-        return uff_skip_bytes(lines, binary->bytes); /* which says how many are missing */
-    return uff_fail(lines, 0, "expected a line '    -1' behind %lld bytes of binary data", binary->bytes);
 }

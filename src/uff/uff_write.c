@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "rotid.h"
-#include "uff/uff_put.h"
+#include "uff/uff_record.h"
 
 /* A date and a time of ten columns each, kept as one text. */
 static void put_date(struct uff_put *put, const char *text)
@@ -37,10 +37,7 @@ int uff_write_units(FILE *stream, const struct uff_units *units)
     const double factor[] = {units->length, units->force, units->temperature, units->temperature_offset};
     struct uff_put put;
     uff_put_open(&put, stream, 164);
-    uff_put_integer(&put, 10, units->code);
-    uff_put_text(&put, 20, units->description, "NONE");
-    uff_put_integer(&put, 10, units->temperature_mode);
-    uff_put_line(&put);
+    uff_put_record(&put, &uff_units_164, units);
     uff_put_reals(&put, 25, 16, 3, 4, factor);
     return uff_put_close(&put);
 }
@@ -52,16 +49,9 @@ int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *nod
         return ROTID_ERROR_ARGUMENT;
     uff_put_open(&put, stream, set);
     for (int i = 0; i < count && put.status == ROTID_OK; ++i) {
-        uff_put_integer(&put, 10, node[i].id);
-        uff_put_integer(&put, 10, node[i].definition_system);
-        uff_put_integer(&put, 10, node[i].displacement_system);
-        uff_put_integer(&put, 10, node[i].color);
-        if (set == 15) {
-            uff_put_reals(&put, 13, 5, 3, 3, node[i].x);
-        } else {
-            uff_put_line(&put);
-            uff_put_reals(&put, 25, 16, 3, 3, node[i].x);
-        }
+        uff_put_record(&put, set == 15 ? &uff_node_15 : &uff_node_2411, &node[i]);
+        if (set == 2411)
+            uff_put_record(&put, &uff_place_2411, &node[i]);
     }
     return uff_put_close(&put);
 }
@@ -122,11 +112,6 @@ int uff_write_systems(FILE *stream, int set, int count, const struct uff_system 
     return uff_put_close(&put);
 }
 
-static int is_beam(int descriptor)
-{
-    return (descriptor >= 21 && descriptor <= 24) || descriptor == 11;
-}
-
 int uff_write_elements(FILE *stream, int count, const struct uff_element *element)
 {
     struct uff_put put;
@@ -135,12 +120,11 @@ int uff_write_elements(FILE *stream, int count, const struct uff_element *elemen
     uff_put_open(&put, stream, 2412);
     for (int i = 0; i < count && put.status == ROTID_OK; ++i) {
         const struct uff_element *e = &element[i];
-        const int record[] = {e->id, e->descriptor, e->property, e->material, e->color, e->node_count};
         if (e->node_count < 1)
             return ROTID_ERROR_ARGUMENT;
-        uff_put_integers(&put, 10, 6, 6, record);
-        if (is_beam(e->descriptor))
-            uff_put_integers(&put, 10, 3, 3, e->beam);
+        uff_put_record(&put, &uff_element_2412, e);
+        if (uff_is_beam(e->descriptor))
+            uff_put_record(&put, &uff_beam_2412, e);
         uff_put_integers(&put, 10, 8, e->node_count, e->node);
     }
     return uff_put_close(&put);

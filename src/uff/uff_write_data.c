@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "rotid.h"
-#include "uff/uff_put.h"
+#include "uff/uff_record.h"
 #include "uff/uff_write.h"
 
 enum { NORMAL_MODE = 2, COMPLEX_FIRST_ORDER = 3, COMPLEX_SECOND_ORDER = 7 }; /* analysis type */
@@ -43,12 +43,12 @@ int uff_write_shape(FILE *stream, const struct uff_shape *shape)
     if (is_eigenvalue && shape->frequency_hz > 0 && shape->eigenvalue[0] == 0 && shape->eigenvalue[1] == 0)
         return ROTID_ERROR_ARGUMENT; /* the frequency would be lost */
 
-    const int record[] = {shape->model_type,    shape->analysis_type, shape->data_characteristic,
-                          shape->specific_type, is_complex ? 5 : 2,   components};
+    struct uff_shape head = *shape;
+    head.data_type = is_complex ? 5 : 2;
     struct uff_put put;
     uff_put_open(&put, stream, 55);
     put_ids(&put, shape->id);
-    uff_put_integers(&put, 10, 6, 6, record);
+    uff_put_record(&put, &uff_kind_55, &head);
     put_mode(&put, shape);
     for (int i = 0; i < shape->node_count && put.status == ROTID_OK; ++i) {
         double value[12];
@@ -79,8 +79,6 @@ static void put_item(struct uff_put *put, const struct uff_analysis *analysis, i
 
 int uff_write_analysis(FILE *stream, const struct uff_analysis *analysis)
 {
-    const int kind[] = {analysis->model_type,  analysis->analysis_type, analysis->data_characteristic,
-                        analysis->result_type, analysis->data_type,     analysis->value_count};
     if ((analysis->location != 1 && analysis->location != 2) || analysis->item_count < 0)
         return ROTID_ERROR_ARGUMENT;
     struct uff_put put;
@@ -91,7 +89,7 @@ int uff_write_analysis(FILE *stream, const struct uff_analysis *analysis)
     uff_put_integer(&put, 10, analysis->location);
     uff_put_line(&put);
     put_ids(&put, analysis->id);
-    uff_put_integers(&put, 10, 6, 6, kind);
+    uff_put_record(&put, &uff_kind_2414, analysis);
     uff_put_integers(&put, 10, 8, 16, analysis->integer);
     uff_put_reals(&put, 13, 5, 6, 12, analysis->real);
     for (int i = 0; i < analysis->item_count && put.status == ROTID_OK; ++i)

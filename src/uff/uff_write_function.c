@@ -1,11 +1,10 @@
 /* Sets 58 and 58b. */
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "rotid.h"
-#include "uff/uff_put.h"
+#include "uff/uff_record.h"
 #include "uff/uff_write.h"
 
 #define TEXT_LINES 11         /* records 1 to 11 */
@@ -27,63 +26,20 @@ static int numbers_of(const struct uff_function *function)
     return (function->is_even ? 0 : 1) + (is_complex(function) ? 2 : 1);
 }
 
-/* Six digits as the format has it, or a seventh where the number has one and it leaves a blank before it: a step of a sixth digit
- * would move the end of 64000 lines by a third of a line. */
-static void put_step(struct uff_put *put, double value)
-{
-    char short_text[32], long_text[32];
-    if (!isfinite(value)) {
-        uff_put_real(put, 13, 5, value);
-        return;
-    }
-    (void)snprintf(short_text, sizeof short_text, "%.5E", value);
-    int length = snprintf(long_text, sizeof long_text, "%.6E", value);
-    uff_put_real(put, 13, length < 13 && strtod(long_text, NULL) != strtod(short_text, NULL) ? 6 : 5, value);
-}
-
-static void put_axis(struct uff_put *put, const struct uff_axis *axis)
-{
-    uff_put_integer(put, 10, axis->specific_type);
-    uff_put_integer(put, 5, axis->length);
-    uff_put_integer(put, 5, axis->force);
-    uff_put_integer(put, 5, axis->temperature);
-    uff_put_text(put, 1, "", " ");
-    uff_put_text(put, 20, axis->label, "NONE");
-    uff_put_text(put, 1, "", " ");
-    uff_put_text(put, 20, axis->unit, "NONE");
-    uff_put_line(put);
-}
-
-static void put_place(struct uff_put *put, const char *name, int node, int direction)
-{
-    uff_put_text(put, 1, "", " ");
-    uff_put_text(put, 10, name, "NONE");
-    uff_put_integer(put, 10, node);
-    uff_put_integer(put, 4, direction);
-}
-
 static void put_records(struct uff_put *put, const struct uff_function *function)
 {
     for (int i = 0; i < UFF_ID_LINES; ++i)
         uff_put_text_line(put, function->id[i]);
-    uff_put_integer(put, 5, function->type);
-    uff_put_integer(put, 10, function->number);
-    uff_put_integer(put, 5, function->version);
-    uff_put_integer(put, 10, function->load_case);
-    put_place(put, function->response_name, function->response_node, function->response_direction);
-    put_place(put, function->reference_name, function->reference_node, function->reference_direction);
-    uff_put_line(put);
-    uff_put_integer(put, 10, function->ordinate);
-    uff_put_integer(put, 10, function->count);
-    uff_put_integer(put, 10, function->is_even != 0);
-    put_step(put, function->is_even ? function->start : 0);
-    put_step(put, function->is_even ? function->step : 0);
-    uff_put_real(put, 13, 5, function->z);
-    uff_put_line(put);
-    put_axis(put, &function->abscissa);
-    put_axis(put, &function->numerator);
-    put_axis(put, &function->denominator);
-    put_axis(put, &function->z_axis);
+    struct uff_function form = *function;
+    form.is_even = function->is_even != 0;
+    form.start = form.is_even ? form.start : 0;
+    form.step = form.is_even ? form.step : 0;
+    uff_put_record(put, &uff_location_58, function);
+    uff_put_record(put, &uff_form_58, &form);
+    uff_put_record(put, &uff_abscissa_58, function);
+    uff_put_record(put, &uff_ordinate_58, function);
+    uff_put_record(put, &uff_denominator_58, function);
+    uff_put_record(put, &uff_z_axis_58, function);
 }
 
 int uff_write_function(FILE *stream, const struct uff_function *function, struct uff_function_writer *writer)

@@ -10,4 +10,7 @@
 /* Writes the schema of a result of `command`. Returns the number of keys that have no comment, each told on standard error. */
 int schema_write(FILE *out, const char *command, const struct record *record, const struct comments *comments);
 
+/* The same of a file that has a line of one table first, and then lines of another one. */
+int schema_write_lines(FILE *out, const struct record *first, const struct record *other, const struct comments *comments);
+
 #endif

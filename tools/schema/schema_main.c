@@ -1,7 +1,8 @@
-/* Writes docs/schema: schema DIR HEADER ... */
+/* Writes docs/schema: schema FOLDER HEADER ... */
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "result/records.h"
 #include "result/result.h"
 #include "schema.h"
 
@@ -21,10 +22,26 @@ static char *read_text(struct pool *pool, const char *path)
     return text;
 }
 
+static FILE *create(struct pool *pool, const char *folder, const char *name)
+{
+    char *path = pool_format(pool, "%s/%s.schema.json", folder, name);
+    FILE *out = path ? fopen(path, "wb") : NULL;
+    if (!out) {
+        (void)fprintf(stderr, "schema: cannot write %s\n", path ? path : folder);
+        exit(3);
+    }
+    return out;
+}
+
 int main(int argc, char **argv)
 {
     struct pool pool;
     int missing = 0;
+    FILE *out;
+    if (argc < 3) {
+        (void)fputs("usage: schema FOLDER HEADER ...\n", stderr);
+        return 2;
+    }
     pool_open(&pool, NULL);
     struct comments comments = {.pool = &pool};
     for (int i = 2; i < argc; i++) {
@@ -34,16 +51,15 @@ int main(int argc, char **argv)
             return 3;
         }
     }
-    for (int i = 0; argc > 1 && result_command(i); i++) {
-        char *path = pool_format(&pool, "%s/%s.schema.json", argv[1], result_command(i));
-        FILE *out = path ? fopen(path, "wb") : NULL;
-        if (out)
-            missing += schema_write(out, result_command(i), result_record(result_command(i)), &comments);
-        if (!out || fclose(out) != 0) {
-            (void)fprintf(stderr, "schema: cannot write %s\n", path ? path : argv[1]);
-            return 3;
-        }
+    int failed = 0;
+    for (int i = 0; result_command(i); i++) {
+        out = create(&pool, argv[1], result_command(i));
+        missing += schema_write(out, result_command(i), result_record(result_command(i)), &comments);
+        failed |= fclose(out);
     }
+    out = create(&pool, argv[1], "study_line");
+    missing += schema_write_lines(out, &study_header_record, &study_run_record, &comments);
+    failed |= fclose(out);
     pool_close(&pool);
-    return missing != 0;
+    return failed ? 3 : missing != 0;
 }

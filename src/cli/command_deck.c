@@ -1,0 +1,51 @@
+/* The deck of a command. */
+#include <string.h>
+
+#include "api/deck_handle.h"
+#include "cli/arguments.h"
+
+/* The place of a message as the user knows it: the library calls an override by its text alone. */
+static const char *place_of(const struct command *command, const char *file)
+{
+    for (int i = 0; i < command->noverride && file; i++)
+        if (!strcmp(command->override[i].given, file))
+            return command->override[i].text;
+    return file;
+}
+
+void command_take_messages(struct command *command, int count, const rotid_message *message)
+{
+    for (int i = 0; i < count; i++)
+        message_add(&command->messages, (enum severity)message[i].severity, place_of(command, message[i].file), message[i].line,
+                    message[i].column, "%s", message[i].text);
+}
+
+int command_read_deck(struct command *command)
+{
+    char failure[ROTID_FAILURE_LENGTH];
+    const char **override = POOL_ARRAY(&command->pool, const char *, command->noverride);
+    if (!override)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    for (int i = 0; i < command->noverride; i++)
+        override[i] = command->override[i].given;
+    int status = rotid_deck_read(command->deck, command->noverride, override, NULL, failure, &command->read);
+    if (command->read) {
+        command_take_messages(command, command->read->nmessage, command->read->message);
+        command->messages.errors = command->read->nerror;
+    }
+    if (status && (!command->read || !command->read->nerror)) /* no message says why */
+        return command_fail_with(command, status, failure);
+    if (status)
+        return command_fail(command, status);
+    command->job = deck_job_of(command->read);
+    int refused = arguments_refuse_read(command, command->job->nfile, command->job->file);
+    if (refused >= 0)
+        return refused;
+    command_print_messages(command);
+    for (size_t i = 0; i < command->messages.count; i++)
+        if (command->messages.item[i].severity == SEVERITY_WARNING)
+            return EXIT_DONE; /* kept: they belong to the result as well */
+    message_open(&command->messages, &command->pool);
+    command->printed = 0;
+    return EXIT_DONE;
+}

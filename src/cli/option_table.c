@@ -1,0 +1,138 @@
+#include "cli/options.h"
+
+#include <string.h>
+
+#include "cli/command.h"
+
+#define DECKS       "check modes sensitivity identify diagnose frf export"
+#define UNIVERSAL   "unv|uff|uf"
+#define AT(MEMBER)  .offset = offsetof(struct command, MEMBER)
+#define FROM(A, B)  .least = (A), .most = (B)
+#define OUTPUT(...) .name = "output", .letter = 'o', .kind = OPTION_WRITES, AT(output), __VA_ARGS__
+
+static const char *const formats[] = {"ascii", "binary", NULL}, *const models[] = {"matrix-market", "dmig", "ross", NULL},
+                         *const methods[] = {"lscf", "quadrature", NULL}, *const estimators[] = {"H1", "H2", "HV", NULL};
+
+/* clang-format off */
+const struct option_row option_table[] = {
+    {.name = "quiet", .kind = OPTION_SWITCH, AT(quiet),
+     .help = "no tables, no warnings and no progress; errors are always printed"},
+    {.name = "verbose", .kind = OPTION_SWITCH, AT(verbose),
+     .help = "more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)",
+     .more = "What was skipped in universal files is listed as well."},
+    {.name = "threads", .kind = OPTION_WHOLE, AT(threads), FROM(1, THREADS_MOST), .value = "N",
+     .help = "threads of diagnose and ema, processes of study (default: the processors); else of the BLAS (default: 1)",
+     .more = "The result does not depend on it."},
+    {.name = "seed", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0), .standard = 1, .value = "N",
+     .help = "of the random numbers", .more = "Without it a study takes that of its plan. It stands in every result."},
+    {.name = "version", .kind = OPTION_VERSION, .help = "version, commit and BLAS, and whether NLopt is missing"},
+    {.name = "help", .kind = OPTION_HELP, .help = "the commands; behind a command: its options"},
+
+    {.name = "json", .commands = DECKS " ema uff study", .kind = OPTION_WRITES, AT(json), .value = "FILE", .files = "json",
+     .help = "the result as JSON; - for standard output, which then carries nothing else"},
+    {.name = "set", .commands = DECKS " study", .kind = OPTION_OVERRIDE, .value = "CARD.OPTION=VALUE",
+     .help = "another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated"},
+
+    {.name = "at", .commands = "sensitivity", .kind = OPTION_TEXT, AT(at), .value = "NAME[=VALUE],...",
+     .help = "these parameters instead of those of *IDENTIFY, at these values or those of the deck"},
+    {.name = "step", .commands = "sensitivity", .kind = OPTION_REAL, AT(step), FROM(1e-9, 0.5), .standard = 0.01, .value = "S",
+     .help = "relative step of the differences"},
+    {.name = "range", .commands = "sensitivity", .kind = OPTION_REAL, AT(range), FROM(1e-6, 0.95), .standard = 0.5, .value = "R",
+     .help = "relative range of the curves"},
+    {.name = "points", .commands = "sensitivity", .kind = OPTION_WHOLE, AT(points), FROM(1, 1000), .standard = 11, .value = "N",
+     .help = "points of a curve"},
+
+    {.name = "no-baseline", .commands = "identify", .kind = OPTION_SWITCH, AT(no_baseline), .help = "without NLopt beside it",
+     .more = "A build without NLopt (make WITH_NLOPT=0) has no such baseline and says so in the table, in JSON and "
+             "by --version."},
+
+    {.name = "extended", .commands = "diagnose", .kind = OPTION_WRITES, AT(extended), .value = "FILE", .files = "inp",
+     .help = "a deck with what was found, as cards, and with the fitted values as starts"},
+    {.name = "replicates", .commands = "diagnose", .kind = OPTION_WHOLE, AT(replicates), FROM(100, 1000000), .value = "N",
+     .help = "of the bootstrap that tells a cause from chance (default: 1000)"},
+
+    {OUTPUT(.commands = "frf", .value = "FILE", .files = UNIVERSAL, .help = "the synthesised functions as a universal file")},
+
+    {OUTPUT(.commands = "ema", .value = "FILE", .files = UNIVERSAL, .help = "the modes as a universal file, for *MEASURED")},
+    {.name = "band", .commands = "ema", .kind = OPTION_BAND, AT(ema.options), FROM(0, 1e7), .value = "LOW,HIGH",
+     .help = "in hertz (default: all lines)"},
+    {.name = "method", .commands = "ema", .kind = OPTION_WORD, AT(ema.options.method), .words = methods,
+     .help = "how poles are found: least-squares complex frequency (default) or quadrature"},
+    {.name = "order", .commands = "ema", .kind = OPTION_WHOLE, AT(ema.options.order), FROM(2, 400), .value = "N",
+     .help = "highest order of the denominator (default: from the band)"},
+    {.name = "pick", .commands = "ema", .kind = OPTION_PICK, AT(ema.options), FROM(0, 1e7), .value = "F1,F2,...",
+     .help = "the modes nearest to these frequencies [Hz] instead of the stable ones"},
+    {.name = "per-point", .commands = "ema", .kind = OPTION_SWITCH, AT(ema.options.per_point),
+     .help = "a frequency for each point as well, by which a roving accelerometer is weighed"},
+    {.name = "no-refinement", .commands = "ema", .kind = OPTION_SWITCH, AT(ema.options.no_refinement),
+     .help = "poles as the least-squares complex frequency method leaves them"},
+    {.name = "reference", .commands = "ema", .kind = OPTION_WHOLE, AT(ema.measurement.reference), FROM(1, 2147483647),
+     .value = "NODE", .help = "only transfer functions over this node"},
+    {.name = "averages", .commands = "ema", .kind = OPTION_WHOLE, AT(ema.measurement.averages), FROM(2, 1000000), .value = "K",
+     .help = "impacts behind the coherences of the file", .more = "They give the variance of its lines."},
+    {.name = "estimator", .commands = "ema", .kind = OPTION_WORD, AT(ema.measurement.transfer.estimator), .words = estimators,
+     .help = "time records: noise is on the response (default), on the force, or on both"},
+    {.name = "exponential", .commands = "ema", .kind = OPTION_REAL, AT(ema.measurement.transfer.exponential), FROM(1e-12, 0.999),
+     .value = "P", .help = "time records: end value of an exponential window, such as 0.01 (default: none)",
+     .more = "Its decay is taken off the damping."},
+    {.name = "force-window", .commands = "ema", .kind = OPTION_REAL, AT(ema.measurement.transfer.force_window), FROM(-1, 1e6),
+     .value = "S", .help = "time records: length of the force window [s]; below zero: none"},
+    {.name = "block", .commands = "ema", .kind = OPTION_REAL, AT(ema.measurement.transfer.block), FROM(1e-6, 1e6), .value = "S",
+     .help = "time records: length of a block [s]"},
+    {.name = "pretrigger", .commands = "ema", .kind = OPTION_REAL, AT(ema.measurement.transfer.pretrigger), FROM(1e-9, 1e6),
+     .value = "S", .help = "time records: part of a block before the impact [s]"},
+    {.name = "trigger-level", .alias = "threshold", .commands = "ema", .kind = OPTION_REAL,
+     AT(ema.measurement.transfer.threshold), FROM(1e-6, 0.999), .value = "R",
+     .help = "time records: share of the largest force from which on a pulse is an impact (default: 0.1)"},
+    {.name = "keep-double-hits", .commands = "ema", .kind = OPTION_SWITCH, AT(ema.measurement.transfer.double_hits),
+     .help = "time records: uses double hits too"},
+
+    {OUTPUT(.commands = "export", .value = "FILE", .files = "mtx|dmig|bdf|py",
+            .help = "the model; of matrix-market the beginning of the names")},
+    {.name = "format", .commands = "export", .kind = OPTION_TEXT, AT(format), .words = models,
+     .help = "for SciPy and others, for Nastran, for ROSS"},
+    {.name = "start", .commands = "export", .kind = OPTION_SWITCH, AT(start),
+     .help = "the model as the deck states it, not at identified parameters"},
+    {.name = "condensed", .commands = "export", .kind = OPTION_SWITCH, AT(condensed),
+     .help = "dmig: the model condensed onto the sensors"},
+
+    {OUTPUT(.commands = "uff", .value = "FILE", .files = UNIVERSAL, .help = "the file anew, its functions in the other format")},
+    {.name = "format", .commands = "uff", .kind = OPTION_TEXT, AT(format), .words = formats,
+     .help = "with --output: of the functions in it"},
+
+    {OUTPUT(.commands = "report", .value = "FOLDER", .files = "/",
+            .help = "for the page, index.html, and for scripts and pictures of its figures",
+            .more = "A folder that holds another page is left alone. It may be a symbolic link; within it none is followed.")},
+
+    {OUTPUT(.commands = "study", .value = "FILE", .files = "jsonl",
+            .help = "the results, a line of JSON a run; where the file exists, what is missing in it is computed")},
+    {.name = "shard", .commands = "study", .kind = OPTION_SHARD, AT(study), .value = "I/N",
+     .help = "each N-th run from the I-th on, for an array of jobs"},
+    {.name = "timeout", .commands = "study", .kind = OPTION_REAL, AT(study.timeout), FROM(0.001, 1e9), .value = "SECONDS",
+     .help = "a run that takes longer has failed"},
+    {.name = "retry-failed", .commands = "study", .kind = OPTION_SWITCH, AT(study.retry_failed),
+     .help = "runs that have failed once again"},
+    {.name = "merge", .commands = "study", .kind = OPTION_SWITCH, AT(study.merge),
+     .help = "files of shards into the one of --output"},
+    {.name = "summary", .commands = "study", .kind = OPTION_SWITCH, AT(study.summary),
+     .help = "the table of a file of results, finished or not"},
+    {.name = NULL}};
+/* clang-format on */
+
+int option_of(const struct option_row *row, const char *command)
+{
+    size_t length = strlen(command);
+    const char *at = row->commands;
+    for (; at && (at = strstr(at, command)); at += length)
+        if ((at == row->commands || at[-1] == ' ') && (!at[length] || at[length] == ' '))
+            return 1;
+    return !row->commands;
+}
+
+const struct option_row *option_find(const char *name, const char *command)
+{
+    for (const struct option_row *row = option_table; row->name; row++)
+        if (!strcmp(row->name, name) && option_of(row, command))
+            return row;
+    return NULL;
+}

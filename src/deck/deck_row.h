@@ -1,0 +1,103 @@
+/* The cards of a deck, a row for each of their options and values. From the rows follow what is read and what is said where it is
+ * wrong (deck_row.c), what is written, and the tables of docs/deck.md (make tables). What no row says, such as an outer diameter
+ * above the inner one, is plain code in the reader of the card. */
+#ifndef ROTID_DECK_DECK_ROW_H
+#define ROTID_DECK_DECK_ROW_H
+
+#include "deck/deck_cards.h"
+#include "deck/deck_writer.h"
+
+enum row_kind {
+    ROW_OTHER,    /* read and written by the code of the card; what: its form, as docs/deck.md has it */
+    ROW_NAME,     /* const char * */
+    ROW_MATERIAL, /* struct material: of the *MATERIAL of that name; written with the name of the row before */
+    ROW_WORD,     /* int: which of the words */
+    ROW_NUMBER,   /* double */
+    ROW_WHOLE,    /* int */
+    ROW_POSITION  /* double */
+};
+
+enum row_bit {
+    ROW_MAY_LACK = 1,
+    ROW_ABOVE_0 = 2 /* written where the member is above zero: below, it was not stated */
+};
+
+struct deck_row {
+    const char *option; /* NULL: the next value of a data line */
+    enum row_kind kind;
+    size_t offset;            /* of its member; without it the member is left as it is */
+    const char *what;         /* of a value, in messages: "outer diameter [m]"; of an option what is expected behind the = */
+    enum range range;         /* ROW_NUMBER */
+    int least, most;          /* ROW_WHOLE */
+    const char *const *words; /* ROW_WORD, or ROW_OTHER for docs/deck.md; the first is the one without the option, but for */
+    int standard;             /* another one, from 0 */
+    size_t as;                /* of a value that may lack, not 0: the member that it equals then */
+    unsigned bits;            /* of enum row_bit */
+};
+
+/* For tables of rows. */
+#define IN(S, M)      .offset = offsetof(S, M)
+#define FROM_TO(A, B) .least = (A), .most = (B)
+#define NAME(S)                                                                                                                  \
+    {                                                                                                                            \
+        .option = "NAME", .kind = ROW_NAME, IN(S, name), .what = "name"                                                          \
+    }
+#define MATERIAL(S)                                                                                                              \
+    {                                                                                                                            \
+        .option = "MATERIAL", .kind = ROW_MATERIAL, IN(S, material), .what = "name of a material"                                \
+    }
+#define POSITION(S, M)   .kind = ROW_POSITION, IN(S, M), .what = "position"
+#define NUMBER(S, M, W)  .kind = ROW_NUMBER, IN(S, M), .what = (W)
+#define ABOVE_0(S, M, W) NUMBER(S, M, W), .range = POSITIVE
+#define FROM_0(S, M, W)  NUMBER(S, M, W), .range = NOT_NEGATIVE
+#define WHOLE(S, M, W)   .kind = ROW_WHOLE, IN(S, M), .what = (W)
+#define ELEMENTS(S)                                                                                                              \
+    {                                                                                                                            \
+        WHOLE(S, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS)                                                 \
+    }
+#define WORD(S, M, W) .kind = ROW_WORD, IN(S, M), .words = (W)
+#define OTHER(O, ...)                                                                                                            \
+    {                                                                                                                            \
+        .option = (O), .kind = ROW_OTHER, __VA_ARGS__                                                                            \
+    }
+#define OPTIONAL .bits = ROW_MAY_LACK
+#define LAST                                                                                                                     \
+    {                                                                                                                            \
+        .option = NULL, .what = NULL                                                                                             \
+    }
+
+enum card_section { CARD_MODEL, CARD_MEASURED, CARD_CAUSE, CARD_IDENTIFICATION, CARD_FRF };
+
+struct deck_card {
+    const char *name;
+    enum card_section section; /* of docs/deck.md */
+    int phase;                 /* cards are read by phases: what a later one refers to comes first, wherever it stands */
+    void (*read)(struct deck_reader *reader, const struct card *card); /* NULL: into a list of structs of the rotor */
+    const char *lines;          /* what a data line holds, in messages too; NULL: there is none */
+    const struct deck_row *row; /* ended by one without option and what */
+    size_t size, list, count;   /* of a list: a struct, and where in struct rotor pointer and number stand */
+};
+
+/* Rows of cards that have code of their own. */
+extern const struct deck_row deck_elastic_rows[], deck_shear_rows[], deck_density_rows[], deck_shaft_rows[], deck_beam_rows[],
+    deck_perforation_rows[], deck_tierod_rows[], deck_bars_rows[], deck_sling_rows[], deck_noise_rows[], deck_frf_rows[],
+    deck_fit_rows[];
+
+int deck_row_is_last(const struct deck_row *row);
+
+/* Takes the options of a card, or the values of a data line, that are rows other than ROW_OTHER into the struct `to`. 0, or 1
+ * after an error. */
+int deck_read_options(struct deck_reader *reader, const struct card *card, const struct deck_row *row, void *to);
+int deck_read_values(struct deck_reader *reader, const struct data_line *line, const struct deck_row *row, const char *layout,
+                     void *to);
+
+/* A card without code of its own: a struct for each data line, one where it has a name. room: of the list. */
+void deck_read_list(struct deck_reader *reader, const struct card *card, const struct deck_card *kind, size_t *room);
+
+/* The same the other way: options go on in the line of the card; values begin with `before`. */
+void deck_write_options(struct deck_writer *w, const struct deck_row *row, const void *from);
+void deck_write_values(struct deck_writer *w, const char *before, const struct deck_row *row, const void *from);
+/* The structs of a card without code of its own; those without a name share a card with those before. */
+void deck_write_list(struct deck_writer *w, const struct deck_card *kind);
+
+#endif

@@ -1,0 +1,111 @@
+#include "result/judgement.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/decide.h"
+#include "fit/quantile.h"
+
+#define SAME 1e-3 /* relative difference of parameters that is not worth a word */
+
+double fit_rms_percent(const rotid_identification *fit, int holdout)
+{
+    double sum = 0;
+    int count = 0;
+    for (int k = 0; k < fit->nmodes; k++)
+        if (!fit->modes[k].holdout == !holdout) {
+            sum += fit->modes[k].error_percent * fit->modes[k].error_percent;
+            count++;
+        }
+    return sqrt(sum / count); /* 0/0 of none */
+}
+
+int fit_worst_mode(const rotid_identification *fit)
+{
+    int worst = -1;
+    for (int k = 0; k < fit->nmodes; k++)
+        if (!fit->modes[k].holdout && (worst < 0 || fabs(fit->modes[k].error_percent) > fabs(fit->modes[worst].error_percent)))
+            worst = k;
+    return worst;
+}
+
+double fit_p_value(const rotid_identification *fit)
+{
+    return isfinite(fit->chi2) && fit->dof > 0 ? chi_square_tail(fit->chi2, fit->dof) : (double)NAN;
+}
+
+const rotid_fitted_parameter *fit_parameter(const rotid_identification *fit, const char *name)
+{
+    for (int p = 0; fit && p < fit->nparameters; p++)
+        if (!strcmp(fit->parameters[p].name, name))
+            return &fit->parameters[p];
+    return NULL;
+}
+
+const rotid_identification *diagnosis_today(const rotid_diagnosis *d)
+{
+    const rotid_identification *today = d->today, *base = d->base;
+    if (!today || !base)
+        return today;
+    int same = !strcmp(today->functional, base->functional) && !strcmp(today->reduction, base->reduction), near = 1;
+    for (int p = 0; p < today->nparameters && p < base->nparameters; p++)
+        near &= fabs(today->parameters[p].value - base->parameters[p].value) <= SAME * fabs(base->parameters[p].value);
+    return same || near ? NULL : today;
+}
+
+const rotid_candidate *diagnosis_candidates(const rotid_diagnosis *d, int round, int *count)
+{
+    int first = 0;
+    *count = 0;
+    while (first < d->ncandidates && d->candidates[first].round <= round)
+        first++;
+    while (first + *count < d->ncandidates && d->candidates[first + *count].round == round + 1)
+        ++*count;
+    return d->candidates + first;
+}
+
+int diagnosis_is_suspected(const rotid_diagnosis *d, const rotid_cause *cause)
+{
+    for (int i = 0; i < d->ncandidates && cause->name; i++) {
+        const rotid_candidate *tried = &d->candidates[i];
+        if (tried->suspect && tried->cause.name && !strcmp(tried->cause.name, cause->name))
+            return 1;
+    }
+    return 0;
+}
+
+static int searched(const rotid_cause *cause)
+{
+    int count = 0;
+    for (int p = 0; p < cause->nparameters; p++)
+        count += !cause->parameters[p].fixed;
+    return count;
+}
+
+double candidate_lead(const rotid_candidate *a, const rotid_candidate *b)
+{
+    return a->chi2_drop - b->chi2_drop - PARAMETER_PENALTY * (searched(&a->cause) - searched(&b->cause));
+}
+
+/* The result has the reasons as sentences alone. */
+int candidate_is_rival(const rotid_candidate *c)
+{
+    const char *why = c->rejected_because;
+    return c->refitted && isfinite(c->chi2_drop) &&
+           (!why || !strncmp(why, "loses to ", 9) || !strncmp(why, "gains no more ", 14));
+}
+
+void diagnosis_leaders(const rotid_diagnosis *d, int round, int *first, int *second)
+{
+    int count;
+    const rotid_candidate *candidate = diagnosis_candidates(d, round, &count);
+    *first = d->rounds[round].set ? 0 : -1; /* whatever fits better was refused, and says why */
+    *second = -1;
+    for (int i = 0; i < count; i++) {
+        const rotid_candidate *c = &candidate[i];
+        if (!candidate_is_rival(c) || i == *first)
+            continue;
+        if (*second < 0 || candidate_lead(c, &candidate[*second]) > 0)
+            *second = i;
+    }
+}

@@ -1,0 +1,32 @@
+/* What is judged of a result, made once for tables, pages and sentences. */
+#ifndef ROTID_RESULT_JUDGEMENT_H
+#define ROTID_RESULT_JUDGEMENT_H
+
+#include "rotid.h"
+
+#define JUDGEMENT_CHANCE 0.01 /* a misfit that noise exceeds less often is no noise */
+
+/* rms of error_percent over the modes that were fitted, or held out [%]; NaN of none. */
+double fit_rms_percent(const rotid_identification *fit, int holdout);
+/* The fitted mode whose frequency is worst, -1 of none. */
+int fit_worst_mode(const rotid_identification *fit);
+/* How often the stated noise alone leaves a misfit of chi2 or more; NaN without noise or degrees of freedom. */
+double fit_p_value(const rotid_identification *fit);
+/* The parameter of this name, or NULL; fit may be NULL. */
+const rotid_fitted_parameter *fit_parameter(const rotid_identification *fit, const char *name);
+
+/* The fit as the deck states it, where it gives other parameters than the base model by a different choice; else NULL. */
+const rotid_identification *diagnosis_today(const rotid_diagnosis *d);
+/* The candidates of a round, from 0: the set first, then the others, best first; their count. */
+const rotid_candidate *diagnosis_candidates(const rotid_diagnosis *d, int round, int *count);
+/* Whether a card of the deck asked for the cause, which has the name of that card then. */
+int diagnosis_is_suspected(const rotid_diagnosis *d, const rotid_cause *cause);
+/* By how much a candidate leads another one of its round: chi2 and a penalty for each parameter that was searched for, as the
+ * decision counts them. */
+double candidate_lead(const rotid_candidate *a, const rotid_candidate *b);
+/* Whether a candidate was not refused for a reason of its own, such as its size or what it does to modes held out. */
+int candidate_is_rival(const rotid_candidate *candidate);
+/* The best candidate of a round, and the best other one that is a rival, as indices of diagnosis_candidates; -1: none. */
+void diagnosis_leaders(const rotid_diagnosis *d, int round, int *first, int *second);
+
+#endif
