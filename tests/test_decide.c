@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "diagnose/causes/catalogue.h"
-#include "diagnose/engine.h"
+#include "diagnose/decide.h"
 #include "support.h"
 
 #define MODES 6

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "deck/deck_cards.h"
+#include "diagnose/causes/catalogue.h"
 #include "diagnose/causes/sensor.h"
 
 /* The places of the sensors in the deck, where a correction has changed their order. */

@@ -3,9 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "diagnose/accelerometer.h"
 #include "diagnose/causes/catalogue.h"
-#include "diagnose/engine.h"
+#include "diagnose/correct.h"
+#include "diagnose/data.h"
 #include "diagnose/loaded_shapes.h"
+#include "diagnose/refit.h"
+#include "diagnose/scan.h"
 #include "fit/quantile.h"
 #include "linalg/matrix.h"
 #include "linalg/product.h"
@@ -129,7 +133,7 @@ static int take_modes(struct pool *pool, const struct engine *engine, struct wei
 static int add_mass(struct engine *engine, const struct weighing *w)
 {
     static const int fixed[EFFECT_MOST_PARAMETERS] = {1, 1, 1, 1};
-    const struct moving_mass *moving = &engine->moving;
+    const struct roving_accelerometer *moving = &engine->moving;
     struct job *job = &engine->job;
     const struct cause_kind *cause = catalogue_find("accelerometer_mass");
     double half = quantile_student_95(moving->dof) * moving->std;
@@ -190,7 +194,7 @@ static double most_mass(const struct rotor *rotor)
 
 void data_note_readings(struct engine *engine)
 {
-    const struct moving_mass *moving = &engine->moving;
+    const struct roving_accelerometer *moving = &engine->moving;
     double most = most_mass(&engine->job.rotor);
     if (moving->dropped)
         message_add(
@@ -220,17 +224,17 @@ int data_weigh_accelerometer(struct engine *engine, int *changed)
     int status = open_weighing(&scratch, engine, &w);
     if (!status)
         status = take_modes(&scratch, engine, &w);
-    const struct moving_mass_data data = {.nmode = w.nmode,
-                                          .npoint = w.npoint,
-                                          .hz = w.hz,
-                                          .std = w.std,
-                                          .square = w.square,
-                                          .others = w.others,
-                                          .bend = w.bend,
-                                          .order = w.order,
-                                          .least_mass = LEAST_MASS};
+    const struct roving_data data = {.nmode = w.nmode,
+                                     .npoint = w.npoint,
+                                     .hz = w.hz,
+                                     .std = w.std,
+                                     .square = w.square,
+                                     .others = w.others,
+                                     .bend = w.bend,
+                                     .order = w.order,
+                                     .least_mass = LEAST_MASS};
     if (!status)
-        status = moving_mass(&scratch, &data, &engine->moving);
+        status = weigh_roving_accelerometer(&scratch, &data, &engine->moving);
     if (!status && engine->moving.found && engine->moving.mass <= most) {
         status = add_mass(engine, &w);
         *changed = 1;

@@ -3,8 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/engine.h"
+#include "diagnose/advice.h"
 #include "diagnose/leave_out.h"
+#include "diagnose/refit.h"
+#include "diagnose/round.h"
 #include "modal/prediction.h"
 #include "model/model.h"
 

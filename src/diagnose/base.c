@@ -2,8 +2,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "diagnose/accelerometer.h"
+#include "diagnose/base.h"
 #include "diagnose/causes/catalogue.h"
-#include "diagnose/engine.h"
+#include "diagnose/clean.h"
+#include "diagnose/data.h"
+#include "diagnose/refit.h"
+#include "diagnose/scan.h"
 
 #define MOST_DROPPED 2 /* modes that nobody's shape fits */
 #define LEAST_LEFT   3

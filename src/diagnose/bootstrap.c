@@ -1,4 +1,5 @@
 #include "diagnose/bootstrap.h"
+#include "diagnose/scan.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,10 +2,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "diagnose/accelerometer.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/causes/sensor.h"
-#include "diagnose/engine.h"
+#include "diagnose/clean.h"
+#include "diagnose/correct.h"
+#include "diagnose/data.h"
 #include "diagnose/noise_check.h"
+#include "diagnose/scan.h"
 #include "diagnose/sensor_check.h"
 #include "model/deflection.h"
 
@@ -73,26 +77,6 @@ static int shape_data(struct engine *engine, struct columns *columns, struct sha
     return ROTID_OK;
 }
 
-static int correct(struct engine *engine, const struct data_finding *finding, const struct correction *found)
-{
-    struct job *job = &engine->job;
-    struct correction *more = POOL_ARRAY(engine->pool, struct correction, job->ncorrection + 1), correction = *found;
-    correction.name = pool_format(engine->pool, "fault_%d", job->ncorrection + 1);
-    correction.id = finding->cause->id;
-    int status = more && correction.name ? data_add_finding(engine, finding) : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = corrections_keep_raw(engine->pool, job);
-    if (!status)
-        status = correction_apply(engine->pool, job, &correction);
-    if (status)
-        return status;
-    if (job->ncorrection)
-        memcpy(more, job->correction, (size_t)job->ncorrection * sizeof *more);
-    more[job->ncorrection++] = correction;
-    job->correction = more;
-    return ROTID_OK;
-}
-
 static int correct_fault(struct engine *engine, const struct sensor_fault *fault)
 {
     struct job *job = &engine->job;
@@ -114,7 +98,7 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
     struct correction correction = {.nsensor = 1 + two,
                                     .sensor = {finding.sensor[0], finding.sensor[1]},
                                     .value = isfinite(finding.value) ? finding.value : 1};
-    return correct(engine, &finding, &correction);
+    return data_correct(engine, &finding, &correction);
 }
 
 /* A cause that is an approximation, or an accelerometer that went from sensor to sensor, stands in the model already, and the
@@ -139,14 +123,6 @@ static int is_misstated(const struct engine *engine, const struct noise_estimate
     if (noise->factor < 1)
         return noise->factor < MUCH_LESS && !engine->job.has_noise_floor && !allows_for_more(&engine->job.rotor);
     return noise->factor > least && noise->factor < NOISIER;
-}
-
-int data_correct_noise(struct engine *engine, const char *block, double factor, double std, const char *text)
-{
-    const struct data_finding finding = {
-        .cause = catalogue_find("noise_level"), .block = block, .value = factor, .std = std, .chi2_drop = NAN, .text = text};
-    const struct correction correction = {.block = block, .value = factor};
-    return correct(engine, &finding, &correction);
 }
 
 /* The level of the noise by what no cause can produce. r [nrow of the scan] is the residual of any model. */

@@ -4,7 +4,7 @@
 
 #include "base/order.h"
 #include "diagnose/causes/catalogue.h"
-#include "diagnose/engine.h"
+#include "diagnose/data.h"
 
 #define ASSUMED_FREQUENCY_NOISE 0.003 /* of a hammer test with care, where the deck states none */
 #define LEAST_MODES             3     /* fewer cannot carry a name: with two moduli free nothing is left over */

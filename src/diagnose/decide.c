@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "diagnose/accelerometer.h"
 #include "diagnose/causes/catalogue.h"
-#include "diagnose/engine.h"
+#include "diagnose/decide.h"
+#include "diagnose/refit.h"
 #include "fit/quantile.h"
 
 #define NOISIER  3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */

@@ -4,7 +4,12 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "diagnose/engine.h"
+#include "diagnose/base.h"
+#include "diagnose/data.h"
+#include "diagnose/detectable.h"
+#include "diagnose/finalise.h"
+#include "diagnose/round.h"
+#include "diagnose/verdict.h"
 
 #define REPLICATES 1000
 
@@ -60,8 +65,8 @@ static int run(struct engine *engine, const struct job *job, struct round_result
     if (!status)
         status = run_rounds(engine, last);
     if (!status)
-        status = settle(engine, last);
-    return status ? status : conclude(engine, last);
+        status = reach_verdict(engine, last);
+    return status ? status : finalise(engine, last);
 }
 
 int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose_options *options,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "diagnose/causes/sensor.h"
-#include "diagnose/moving_mass.h"
+#include "diagnose/roving_accelerometer.h"
 
 #define ROOM   2.0
 #define UNSURE 0.02 /* of the change of a shape: by the moduli that the fit has not found yet, and by the mass */

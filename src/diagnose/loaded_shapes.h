@@ -9,7 +9,7 @@
 struct weighing {
     struct columns columns; /* of the base: its fitted modes */
     int nmode, npoint;
-    double *hz, *std, *square, *others, *order, *phi; /* as in struct moving_mass_data; phi [npoint * nmode] */
+    double *hz, *std, *square, *others, *order, *phi; /* as in struct roving_data; phi [npoint * nmode] */
     double *bend;                                     /* likewise */
     double *across, *across_bend; /* [npoint * nmode] like others and bend, but between the point and the hammer */
     double *spread; /* [npoint * nmode] d phi/dm with the mass spread over all sensors, but for a share of phi itself */

@@ -2,7 +2,12 @@
 #include <math.h>
 
 #include "base/parallel.h"
-#include "diagnose/engine.h"
+#include "diagnose/bootstrap.h"
+#include "diagnose/clean.h"
+#include "diagnose/evidence.h"
+#include "diagnose/refit.h"
+#include "diagnose/round.h"
+#include "diagnose/scan.h"
 
 #define MOST_REFITS 16
 #define WORTH       3.0  /* a promised drop below this is noise */

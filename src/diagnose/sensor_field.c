@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "diagnose/sensor_scale.h"
 #include "linalg/positive.h"
 
 /* Prior variance of an error that moves the whole shape like a rigid body: 0.3 of its largest component. */
@@ -82,7 +83,7 @@ static void parts(const struct sensor_field *field, double z, double other, cons
     part[2] = twice_integrated(z - field->origin, other - field->origin);
 }
 
-void field_covariance(struct sensor_field *field)
+static void fill_covariance(struct sensor_field *field)
 {
     int n = field->n;
     double shape[FIELD_MOST_MODES], part[3];
@@ -95,6 +96,14 @@ void field_covariance(struct sensor_field *field)
                 field->part[p][i + j * n] = part[p];
         }
     }
+}
+
+int field_new(struct pool *pool, const struct shape_data *data, struct sensor_field *field)
+{
+    int status = field_scale(pool, data, field);
+    if (!status)
+        fill_covariance(field);
+    return status;
 }
 
 int field_start(struct sensor_field *field, double noise_factor)

@@ -44,9 +44,6 @@ struct sensor_field {
  * few bad sensors do not move. ROTID_OK or ROTID_ERROR_MEMORY. */
 int field_new(struct pool *pool, const struct shape_data *data, struct sensor_field *field);
 
-/* Fills `part`; field_new does it. */
-void field_covariance(struct sensor_field *field);
-
 /* All sensors in, noise times `noise_factor`. Returns 0, or 1 where the covariance is singular to working precision. */
 int field_start(struct sensor_field *field, double noise_factor);
 
@@ -67,8 +64,5 @@ void field_predict(const struct sensor_field *field, int s, double z, const int 
 /* A [n * n] of a grid point and a class, w [n] of a grid point and a mode. */
 double *field_inverse(const struct sensor_field *field, int g, int c);
 double *field_weight(const struct sensor_field *field, int g, int k);
-
-/* The shape of the model in mode k at z, cubic between the nodes. */
-double field_model(const struct sensor_field *field, int k, double z);
 
 #endif

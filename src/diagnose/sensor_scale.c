@@ -1,4 +1,4 @@
-#include "diagnose/sensor_field.h"
+#include "diagnose/sensor_scale.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -154,7 +154,7 @@ static void find_classes(struct sensor_field *field)
     }
 }
 
-int field_new(struct pool *pool, const struct shape_data *data, struct sensor_field *field)
+int field_scale(struct pool *pool, const struct shape_data *data, struct sensor_field *field)
 {
     size_t n = (size_t)data->nsensor, modes = (size_t)data->nmode, all = n * modes;
     *field = (struct sensor_field){.data = data, .n = data->nsensor, .nmode = data->nmode, .noise_factor = 1};
@@ -183,7 +183,6 @@ int field_new(struct pool *pool, const struct shape_data *data, struct sensor_fi
         scale_mode(field, k, ratio);
     lay_grid(field);
     find_classes(field);
-    field_covariance(field);
     size_t grid = (size_t)field->ngrid;
     field->inverse = POOL_ARRAY(pool, double, n *n *grid *(size_t)field->nclass);
     field->weight = POOL_ARRAY(pool, double, all *grid);

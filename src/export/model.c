@@ -81,5 +81,5 @@ int export_master_id(const struct export_model *model, int i)
 
 double export_master_z(const struct export_model *model, int i)
 {
-    return model->discrete->z[model->discrete->master[i] / 2];
+    return model_master_z(model->discrete, i);
 }

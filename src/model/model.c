@@ -75,6 +75,16 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
     return status;
 }
 
+double model_master_z(const struct rotor_model *model, int i)
+{
+    return model->z[model->master[i] / 2];
+}
+
+int model_lateral_dof(const struct rotor_model *model, double z)
+{
+    return 2 * mesh_node_at(&model->beam.mesh, z);
+}
+
 void model_set(struct rotor_model *model, const double *x)
 {
     beam_set(&model->beam, x);

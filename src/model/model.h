@@ -25,6 +25,12 @@ struct rotor_model {
 int model_open(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                const struct parameter *parameter, int refine, struct rotor_model *model, int *failed);
 
+/* m: where master i is. */
+double model_master_z(const struct rotor_model *model, int i);
+
+/* The lateral degree of freedom nearest to z. */
+int model_lateral_dof(const struct rotor_model *model, double z);
+
 /* Sets the parameters to x without solving anything: for mass and deflections. */
 void model_set(struct rotor_model *model, const double *x);
 

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "rotor/rotor.h"
 #include "report/layout.h"
+#include "rotor/effect.h"
 
 /* What an effect acts on, as its hooks tell; "" where that is the whole rotor. */
 static void print_target(FILE *out, const struct rotor *rotor, const struct effect *effect)

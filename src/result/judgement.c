@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/engine.h"
+#include "diagnose/decide.h"
 #include "fit/quantile.h"
 
 #define SAME 1e-3 /* relative difference of parameters that is not worth a word */

@@ -44,6 +44,7 @@ struct effect_kind {
     const char *id; /* of method and deck: "stiffness_local" */
     int nparameter;
     struct effect_parameter_name parameter[EFFECT_MOST_PARAMETERS];
+    int at_sensor; /* nonzero: the target is a sensor */
     int (*field)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                  struct effect_field *field);
     int (*section)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,

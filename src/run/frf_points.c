@@ -229,7 +229,7 @@ int frf_place_points(struct pool *pool, const struct job *job, int parameters, c
     if (!status)
         status = model_open(pool, job->models, &rotor, parameters ? job->nparameter : 0, job->parameter, 1, model, &failed);
     for (int i = 0; i < *npoint && !status; i++)
-        dof[i] = 2 * mesh_node_at(&model->beam.mesh, point[i].z);
+        dof[i] = model_lateral_dof(model, point[i].z);
     for (int i = 0; i < out->nrow && !status; i++) {
         struct frf_row *row = &out->row[i];
         pair[i].response = find(point, *npoint, row->response);

@@ -25,7 +25,7 @@ static int full_model(struct pool *pool, struct models *models, const struct rot
 static void keep_shapes(const struct rotor_model *model, const struct prediction *p, struct spectrum *s)
 {
     for (int i = 0; i < s->nmaster; i++)
-        s->master_z[i] = model->z[model->master[i] / 2];
+        s->master_z[i] = model_master_z(model, i);
     for (int j = 0; j < s->count; j++) {
         double *shape = s->shape + (ptrdiff_t)j * s->nmaster, largest = 0;
         for (int i = 0; i < s->nmaster; i++) {

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/engine.h"
+#include "diagnose/data.h"
 #include "study/draw.h"
 
 /* The value of a parameter of the model that made the data, NaN where it has none of that name. */

@@ -12,7 +12,7 @@ struct experiment {
 };
 
 /* Everything hangs on the pool, or on *jobs until its next use. What is wrong goes to the list. Statuses of deck_read,
- * client_open and the prediction; ROTID_ERROR_ARGUMENT where the model has fewer modes than were measured. */
+ * model_open and the prediction; ROTID_ERROR_ARGUMENT where the model has fewer modes than were measured. */
 int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
                     struct experiment *experiment);
 

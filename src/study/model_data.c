@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/sensor.h"
+#include "diagnose/causes/catalogue.h"
 #include "modal/prediction.h"
 #include "model/model.h"
 #include "study/draw.h"

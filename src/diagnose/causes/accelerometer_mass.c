@@ -26,7 +26,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 }
 
 static const struct effect_kind kind = {
-    .id = "accelerometer_mass", .nparameter = 1, .parameter = {{"mass", "kg"}}, .point = point};
+    .id = "accelerometer_mass", .nparameter = 1, .parameter = {{"mass", "kg"}}, .at_sensor = 1, .point = point};
 
 const struct cause_kind cause_accelerometer_mass = {
     .id = "accelerometer_mass",

@@ -65,3 +65,11 @@ const struct cause_kind *catalogue_of(const struct effect *effect)
             return table[i];
     return NULL;
 }
+
+int correction_apply(struct pool *pool, struct job *job, const struct correction *correction)
+{
+    const struct cause_kind *cause = catalogue_find(correction->id);
+    if (!cause || !cause->correct)
+        return ROTID_ERROR_ARGUMENT;
+    return cause->correct(pool, job, correction);
+}

@@ -14,4 +14,8 @@ const struct cause_kind *catalogue_find(const char *id);
 /* The cause whose effect this is. */
 const struct cause_kind *catalogue_of(const struct effect *effect);
 
+/* Takes one fault out of the data of the job by the cause of that id. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_ARGUMENT where
+ * there is no such cause or sensor, or nothing that could be corrected. */
+int correction_apply(struct pool *pool, struct job *job, const struct correction *correction);
+
 #endif

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
-
 int sensor_find(const struct job *job, int id)
 {
     for (int s = 0; s < job->rotor.nsensor; s++)
@@ -102,12 +100,4 @@ int corrections_keep_raw(struct pool *pool, struct job *job)
         return ROTID_ERROR_MEMORY;
     job->raw = raw;
     return ROTID_OK;
-}
-
-int correction_apply(struct pool *pool, struct job *job, const struct correction *correction)
-{
-    const struct cause_kind *cause = catalogue_find(correction->id);
-    if (!cause || !cause->correct)
-        return ROTID_ERROR_ARGUMENT;
-    return cause->correct(pool, job, correction);
 }

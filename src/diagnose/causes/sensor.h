@@ -28,8 +28,4 @@ void shapes_exchange(struct job *job, int a, int b);
 /* Keeps the data as they were read in job->raw, unless they are kept already. ROTID_OK or ROTID_ERROR_MEMORY. */
 int corrections_keep_raw(struct pool *pool, struct job *job);
 
-/* Takes one fault out of the data of the job by the cause of that id. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_ARGUMENT where
- * there is no such cause or sensor, or nothing that could be corrected. */
-int correction_apply(struct pool *pool, struct job *job, const struct correction *correction);
-
 #endif

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/cause.h"
 #include "diagnose/causes/sensor.h"
 #include "model/model.h"
 
@@ -50,8 +50,7 @@ static int free_place(struct pool *pool, const struct rotor *rotor, int s, doubl
 
 static void exchange_target(struct effect *effect, int a, int b)
 {
-    const struct cause_kind *cause = catalogue_of(effect);
-    if (cause && cause->target == TARGET_SENSOR && (effect->target == a || effect->target == b))
+    if (effect->kind->at_sensor && (effect->target == a || effect->target == b))
         effect->target = effect->target == a ? b : a;
 }
 

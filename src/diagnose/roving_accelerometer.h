@@ -1,6 +1,6 @@
 /* The mass of an accelerometer that goes from point to point, by what it does to the frequencies measured there. */
-#ifndef ROTID_DIAGNOSE_MOVING_MASS_H
-#define ROTID_DIAGNOSE_MOVING_MASS_H
+#ifndef ROTID_DIAGNOSE_ROVING_ACCELEROMETER_H
+#define ROTID_DIAGNOSE_ROVING_ACCELEROMETER_H
 
 #include "base/pool.h"
 
@@ -9,7 +9,7 @@
  * s_kj = phi_kj^2 of the mass-normalised mode, q_kj = lambda_k sum over i != k of phi_ij^2/(lambda_i - lambda_k), the response of
  * the other modes there, and c_kj = lambda_k^2 sum of phi_ij^2/(lambda_i - lambda_k)^2, how it changes with the frequency: exact
  * but for its second derivative. To first order x = m s. */
-struct moving_mass_data {
+struct roving_data {
     int nmode, npoint;
     const double *hz, *std; /* [npoint * nmode] Hz, NaN: no reading */
     const double *square;   /* [npoint * nmode] s [1/kg] */
@@ -19,7 +19,7 @@ struct moving_mass_data {
     double least_mass;      /* kg: nothing lighter is an accelerometer */
 };
 
-struct moving_mass {
+struct roving_accelerometer {
     int usable; /* the readings can tell a mass from a drift, with three degrees of freedom left; otherwise all else is zero */
     int found, drifts;
     int readings, dropped, dof;
@@ -39,7 +39,7 @@ struct moving_mass {
  * alone explains more than the mass alone; still beyond noise (5 %) with any one point left out, so that no single accelerometer
  * that sat badly makes a mass; and no lighter than least_mass. drifts: the drift is beyond what noise makes 5 times in 1000.
  * ROTID_OK or ROTID_ERROR_MEMORY. */
-int moving_mass(struct pool *pool, const struct moving_mass_data *data, struct moving_mass *out);
+int weigh_roving_accelerometer(struct pool *pool, const struct roving_data *data, struct roving_accelerometer *out);
 
 /* x of a mass at a point. */
 double moving_mass_shift(double mass, double square, double others, double bend);

@@ -3,7 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/engine.h"
+#include "diagnose/advice.h"
+#include "diagnose/decide.h"
+#include "diagnose/refit.h"
+#include "diagnose/round.h"
+#include "diagnose/verdict.h"
 
 #define MANY 3 /* causes that together still leave something imitate what none of them is */
 
@@ -174,7 +178,7 @@ static void withdraw(struct diagnosis *out)
     out->kind = VERDICT_AMBIGUOUS;
 }
 
-int settle(struct engine *engine, struct round_result *last)
+int reach_verdict(struct engine *engine, struct round_result *last)
 {
     struct diagnosis *out = engine->out;
     const struct diagnosis_round *first = &out->round[0], *end = &out->round[out->nround - 1];

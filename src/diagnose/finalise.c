@@ -3,8 +3,14 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "diagnose/engine.h"
+#include "diagnose/base.h"
+#include "diagnose/decide.h"
+#include "diagnose/detectable.h"
+#include "diagnose/evidence.h"
+#include "diagnose/finalise.h"
 #include "diagnose/leave_out.h"
+#include "diagnose/refit.h"
+#include "diagnose/round.h"
 
 #define LISTED   4    /* causes in a sentence: more stand in the table */
 #define WIDE     0.15 /* of a parameter, half its interval: wider says little about a modulus */
@@ -226,7 +232,7 @@ static int keep_open_suspects(struct pool *pool, struct job *job)
     return ROTID_OK;
 }
 
-int conclude(struct engine *engine, const struct round_result *last)
+int finalise(struct engine *engine, const struct round_result *last)
 {
     struct diagnosis *out = engine->out;
     int status = engine_stage(engine, "final model, causes", out->ncause);

@@ -1,4 +1,4 @@
-#include "diagnose/moving_mass.h"
+#include "diagnose/roving_accelerometer.h"
 
 #include <math.h>
 
@@ -21,7 +21,7 @@
 enum { MASS, DRIFT };
 
 struct work {
-    const struct moving_mass_data *data;
+    const struct roving_data *data;
     double *log_hz, *std; /* [npoint * nmode] relative */
     double *linear;       /* ln f with the mass taken as linear about its present value */
     double *column[2];
@@ -35,7 +35,7 @@ static ptrdiff_t count_of(const struct work *w)
     return (ptrdiff_t)w->data->nmode * w->data->npoint;
 }
 
-static int open_work(struct pool *pool, const struct moving_mass_data *data, struct work *w)
+static int open_work(struct pool *pool, const struct roving_data *data, struct work *w)
 {
     size_t count = (size_t)data->nmode * (size_t)data->npoint;
     *w = (struct work){.data = data};
@@ -100,7 +100,7 @@ double moving_mass_residue(double mass, double square, double others, double ben
 /* Column and right-hand side about a mass: ln f = ln f_k + g(m), g = ln(1 - x)/2, its slope by central differences. */
 static void linearise(struct work *w, double mass)
 {
-    const struct moving_mass_data *data = w->data;
+    const struct roving_data *data = w->data;
     double step = 1e-4 * w->most;
     for (ptrdiff_t i = 0; i < count_of(w); i++) {
         double s = data->square[i], q = data->others[i], c = data->bend ? data->bend[i] : 0;
@@ -163,9 +163,9 @@ static double chi2_with(const struct work *w, const double *y, int ncolumn, int 
 }
 
 /* Behind solve(): the means of the fit give ln f_k; the drift is zero in the middle. */
-static int spread(struct pool *pool, const struct work *w, const struct point_fit *fit, struct moving_mass *out)
+static int spread(struct pool *pool, const struct work *w, const struct point_fit *fit, struct roving_accelerometer *out)
 {
-    const struct moving_mass_data *data = w->data;
+    const struct roving_data *data = w->data;
     out->spread_hz = POOL_ARRAY(pool, double, data->nmode);
     if (!out->spread_hz)
         return ROTID_ERROR_MEMORY;
@@ -180,12 +180,12 @@ static int spread(struct pool *pool, const struct work *w, const struct point_fi
     return ROTID_OK;
 }
 
-int moving_mass(struct pool *pool, const struct moving_mass_data *data, struct moving_mass *out)
+int weigh_roving_accelerometer(struct pool *pool, const struct roving_data *data, struct roving_accelerometer *out)
 {
     struct work w;
     struct point_fit fit;
     double mass = 0, z_left_out, std_left_out;
-    *out = (struct moving_mass){0};
+    *out = (struct roving_accelerometer){0};
     int status = open_work(pool, data, &w);
     if (status)
         return status;
@@ -203,18 +203,18 @@ int moving_mass(struct pool *pool, const struct moving_mass_data *data, struct m
     double std = fit.scale * sqrt(fit.variance[MASS]), drift_std = fit.scale * sqrt(fit.variance[DRIFT]),
            by_mass = chi2_with(&w, w.linear, 1, MASS), by_drift = chi2_with(&w, w.log_hz, 1, DRIFT),
            threshold = quantile_student(2 * FALSE_ALARM, fit.dof), left_out = quantile_student(2 * LEFT_OUT, fit.dof);
-    *out = (struct moving_mass){.usable = 1,
-                                .readings = fit.readings,
-                                .dropped = dropped,
-                                .dof = fit.dof,
-                                .mass = fit.slope[MASS],
-                                .std = std,
-                                .scale = fit.scale,
-                                .chi2_drop = by_drift - fit.chi2,
-                                .z = fit.slope[MASS] / std,
-                                .drift = fit.slope[DRIFT],
-                                .drift_std = drift_std,
-                                .spread_hz = spread_hz};
+    *out = (struct roving_accelerometer){.usable = 1,
+                                         .readings = fit.readings,
+                                         .dropped = dropped,
+                                         .dof = fit.dof,
+                                         .mass = fit.slope[MASS],
+                                         .std = std,
+                                         .scale = fit.scale,
+                                         .chi2_drop = by_drift - fit.chi2,
+                                         .z = fit.slope[MASS] / std,
+                                         .drift = fit.slope[DRIFT],
+                                         .drift_std = drift_std,
+                                         .spread_hz = spread_hz};
     out->threshold = by_drift < by_mass ? BEATEN * threshold : threshold;
     out->found = out->z > out->threshold && z_left_out > left_out && out->mass >= data->least_mass;
     out->drifts = fabs(out->drift) > quantile_student(FALSE_ALARM, fit.dof) * drift_std;

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/random.h"
-#include "diagnose/moving_mass.h"
+#include "diagnose/roving_accelerometer.h"
 #include "support.h"
 
 #define POINTS 21
@@ -40,18 +40,18 @@ static void fill_readings(struct table *t, double mass, double drift, double noi
         }
 }
 
-static struct moving_mass run(const struct table *t, int modes)
+static struct roving_accelerometer run(const struct table *t, int modes)
 {
-    struct moving_mass out;
-    const struct moving_mass_data data = {.nmode = modes,
-                                          .npoint = POINTS,
-                                          .hz = t->hz,
-                                          .std = t->std,
-                                          .square = t->square,
-                                          .others = t->others,
-                                          .order = t->order,
-                                          .least_mass = 2e-4};
-    assert_status(moving_mass(&test_pool, &data, &out), ROTID_OK);
+    struct roving_accelerometer out;
+    const struct roving_data data = {.nmode = modes,
+                                     .npoint = POINTS,
+                                     .hz = t->hz,
+                                     .std = t->std,
+                                     .square = t->square,
+                                     .others = t->others,
+                                     .order = t->order,
+                                     .least_mass = 2e-4};
+    assert_status(weigh_roving_accelerometer(&test_pool, &data, &out), ROTID_OK);
     return out;
 }
 
@@ -65,7 +65,7 @@ static void a_mass_comes_back_and_lies_within_its_interval(void **state)
     int found = 0;
     for (int i = 0; i < 500; i++) {
         fill_readings(&t, 0.03, 0, 1e-4, &stream);
-        struct moving_mass m = run(&t, MODES);
+        struct roving_accelerometer m = run(&t, MODES);
         double z = (m.mass - 0.03) / m.std;
         square += z * z / 500;
         mean += m.mass / 500;
@@ -84,7 +84,7 @@ static void a_mass_comes_back_and_lies_within_its_interval(void **state)
     assert_close(run(&t, MODES).mass, 0.03, 1e-8, 0);
     for (int i = 0; i < POINTS * MODES; i++)
         t.others[i] = 0;
-    struct moving_mass first = run(&t, MODES);
+    struct roving_accelerometer first = run(&t, MODES);
     print_message("without the other modes it is off by %.1f std\n", (first.mass - 0.03) / first.std);
     assert_true(fabs(first.mass - 0.03) > 2 * first.std);
 }
@@ -112,7 +112,7 @@ static void no_mass_is_found_where_there_is_none(void **state)
             fill_readings(&t, 0, variant[v].drift, 1e-4, &stream);
             for (int j = 0; j < POINTS * MODES; j++)
                 t.std[j] *= variant[v].understated;
-            struct moving_mass m = run(&t, variant[v].modes);
+            struct roving_accelerometer m = run(&t, variant[v].modes);
             found += m.found;
             drifts += m.drifts;
         }
@@ -146,7 +146,7 @@ static void a_negative_mass_is_none(void **state)
     struct table t;
     fill_table(&t);
     fill_readings(&t, -0.03, 0, 1e-4, &stream);
-    struct moving_mass m = run(&t, MODES);
+    struct roving_accelerometer m = run(&t, MODES);
     assert_true(m.usable && !m.found && m.mass < -0.02);
     fill_readings(&t, 1e-4, 0, 1e-7, &stream); /* 0.1 g, clear, and no accelerometer */
     m = run(&t, MODES);
@@ -169,7 +169,7 @@ static void one_bad_point_makes_no_mass_and_hides_none(void **state)
             fill_readings(&t, real ? 0.03 : 0, 0, 1e-4, &stream);
             for (int k = 0; k < (all ? MODES : 1); k++)
                 t.hz[point + POINTS * k] *= 1 - off[i % 7 % 3];
-            struct moving_mass m = run(&t, MODES);
+            struct roving_accelerometer m = run(&t, MODES);
             found += !real && m.found;
             lost += real && !m.found;
             if (real && !all)
@@ -192,7 +192,7 @@ static void too_little_says_nothing(void **state)
     for (int i = 0; i < POINTS * MODES; i++) /* one point */
         if (i % POINTS != 4)
             t.hz[i] = NAN;
-    struct moving_mass m = run(&t, MODES);
+    struct roving_accelerometer m = run(&t, MODES);
     assert_true(!m.usable && !m.found && !m.drifts);
     fill_readings(&t, 0.03, 0, 1e-4, &stream);
     for (int i = 0; i < POINTS * MODES; i++) /* two points: a drift is as good as a mass */
@@ -220,16 +220,16 @@ static void without_memory_there_is_an_error_and_no_leak(void **state)
     int status;
     fill_table(&t);
     fill_readings(&t, 0.03, 0, 1e-4, &stream);
-    const struct moving_mass_data data = {
+    const struct roving_data data = {
         .nmode = MODES, .npoint = POINTS, .hz = t.hz, .std = t.std, .square = t.square, .others = t.others, .order = t.order};
     long fail_at = 0;
     do {
         struct failing_allocator failing;
         struct pool pool;
-        struct moving_mass out;
+        struct roving_accelerometer out;
         failing_allocator_open(&failing, ++fail_at);
         pool_open(&pool, &failing.allocator);
-        status = moving_mass(&pool, &data, &out);
+        status = weigh_roving_accelerometer(&pool, &data, &out);
         pool_close(&pool);
         assert_int_equal(failing.in_use, 0);
         assert_true(status == ROTID_OK || status == ROTID_ERROR_MEMORY);

@@ -1,0 +1,36 @@
+#include "diagnose/correct.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/causes/sensor.h"
+#include "diagnose/data.h"
+
+int data_correct(struct engine *engine, const struct data_finding *finding, const struct correction *found)
+{
+    struct job *job = &engine->job;
+    struct correction *more = POOL_ARRAY(engine->pool, struct correction, job->ncorrection + 1), correction = *found;
+    correction.name = pool_format(engine->pool, "fault_%d", job->ncorrection + 1);
+    correction.id = finding->cause->id;
+    int status = more && correction.name ? data_add_finding(engine, finding) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = corrections_keep_raw(engine->pool, job);
+    if (!status)
+        status = correction_apply(engine->pool, job, &correction);
+    if (status)
+        return status;
+    if (job->ncorrection)
+        memcpy(more, job->correction, (size_t)job->ncorrection * sizeof *more);
+    more[job->ncorrection++] = correction;
+    job->correction = more;
+    return ROTID_OK;
+}
+
+int data_correct_noise(struct engine *engine, const char *block, double factor, double std, const char *text)
+{
+    const struct data_finding finding = {
+        .cause = catalogue_find("noise_level"), .block = block, .value = factor, .std = std, .chi2_drop = NAN, .text = text};
+    const struct correction correction = {.block = block, .value = factor};
+    return data_correct(engine, &finding, &correction);
+}

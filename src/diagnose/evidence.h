@@ -1,0 +1,13 @@
+/* What each fit says about its candidate, and how well it predicts what was left out. */
+#ifndef ROTID_DIAGNOSE_EVIDENCE_H
+#define ROTID_DIAGNOSE_EVIDENCE_H
+
+#include "diagnose/engine.h"
+#include "diagnose/round.h"
+
+/* Fills the round's candidates from the refits and lets decide() judge them. */
+int evidence_collect(struct engine *engine, struct round_result *result, struct diagnosis_round *round);
+/* Prediction of modes left out in turn, for several jobs at once: error [models] in percent, shape [models]. */
+int modes_in_turn(const struct engine *engine, int models, const struct job *const *job, double *error, double *shape);
+
+#endif

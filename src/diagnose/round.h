@@ -1,0 +1,21 @@
+/* One round of scan, refit, comparison and decision. */
+#ifndef ROTID_DIAGNOSE_ROUND_H
+#define ROTID_DIAGNOSE_ROUND_H
+
+#include "diagnose/bootstrap.h"
+#include "diagnose/engine.h"
+#include "diagnose/refit.h"
+#include "diagnose/scan.h"
+
+struct round_result {
+    struct scan scan;
+    struct bootstrap bootstrap;
+    int nrefit;
+    struct refit *refit; /* [nrefit] */
+    int *candidate;      /* [nrefit] of the scan */
+};
+
+int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
+void round_free(struct round_result *result);
+
+#endif
