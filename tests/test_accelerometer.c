@@ -304,9 +304,9 @@ static void a_suspect_and_a_fault_of_a_channel_stand_beside_it(void **state)
     assert_status(deck_write(&test_pool, &d.job, &options, &written), ROTID_OK);
     read_deck(written, &again);
     for (int i = 0; i < POINTS * MODES; i++)
-        assert_close(again.shape_std[i], d.job.shape_std[i], 1e-12, 0);
+        assert_close(again.measurement.shape_std[i], d.job.measurement.shape_std[i], 1e-12, 0);
     for (int k = 0; k < MODES; k++)
-        assert_close(again.frequency_std[k], d.job.frequency_std[k], 1e-12, 0);
+        assert_close(again.measurement.frequency_std[k], d.job.measurement.frequency_std[k], 1e-12, 0);
     diagnose_free(&d);
 }
 
@@ -322,7 +322,7 @@ static void on_a_ton_it_is_below_the_noise_and_listed(void **state)
     struct exact exact;
     message_open(&messages, &test_pool);
     assert_status(deck_read(&test_pool, ROTID_SOURCE_DIR "/input/paper_rotor.inp", 0, NULL, &messages, &job), ROTID_OK);
-    int n = job.rotor.nsensor, count = n * job.nmode;
+    int n = job.rotor.nsensor, count = n * job.measurement.nmode;
     exact_open(&job.rotor, &exact);
     struct oracle_system system = exact.system;
     struct oracle_point *point = POOL_ARRAY(&test_pool, struct oracle_point, system.points + 1);
@@ -334,22 +334,22 @@ static void on_a_ton_it_is_below_the_noise_and_listed(void **state)
         double all[6];
         point[exact.system.points] = (struct oracle_point){.z = job.rotor.sensor[s].position, .mass = 0.03};
         system.points = exact.system.points + 1;
-        assert_int_equal(oracle_frequencies(&system, 3, job.nmode, all), ORACLE_OK);
-        for (int k = 0; k < job.nmode; k++)
+        assert_int_equal(oracle_frequencies(&system, 3, job.measurement.nmode, all), ORACLE_OK);
+        for (int k = 0; k < job.measurement.nmode; k++)
             clean[s + n * k] = all[k];
     }
-    job.point_frequency_hz = hz;
-    job.point_frequency_std = std;
+    job.measurement.point_frequency_hz = hz;
+    job.measurement.point_frequency_std = std;
     for (int i = 0; i < 4; i++) {
-        for (int k = 0; k < job.nmode; k++) {
+        for (int k = 0; k < job.measurement.nmode; k++) {
             double mean = 0;
             for (int s = 0; s < n; s++) {
                 hz[s + n * k] = clean[s + n * k] * (1 + noise[i] * random_normal(&stream));
                 std[s + n * k] = clean[s + n * k] * noise[i];
                 mean += hz[s + n * k] / n;
             }
-            job.frequency_hz[k] = mean;
-            job.frequency_std[k] = noise[i] / sqrt(n);
+            job.measurement.frequency_hz[k] = mean;
+            job.measurement.frequency_std[k] = noise[i] / sqrt(n);
         }
         struct diagnosis d;
         diagnose(&job, &messages, &d);

@@ -54,19 +54,20 @@ static void a_deck_shows_what_was_read(void **state)
         assert_int_equal(deck->sensor_id[s], job.rotor.sensor[s].id);
         assert_true(deck->sensor_z[s] == job.rotor.sensor[s].position);
     }
-    size_t modes = (size_t)job.nmode, components = modes * (size_t)job.rotor.nsensor;
-    assert_int_equal(deck->nmode, job.nmode);
+    size_t modes = (size_t)job.measurement.nmode, components = modes * (size_t)job.rotor.nsensor;
+    assert_int_equal(deck->nmode, job.measurement.nmode);
     assert_true(modes > 3 && components > 60);
-    assert_memory_equal(deck->number, job.number, modes * sizeof(int));
-    assert_memory_equal(deck->frequency_hz, job.frequency_hz, modes * sizeof(double));
-    assert_memory_equal(deck->frequency_std, job.frequency_std, modes * sizeof(double));
-    assert_memory_equal(deck->shape, job.shape, components * sizeof(double));
-    assert_memory_equal(deck->shape_std, job.shape_std, components * sizeof(double));
-    assert_memory_equal(deck->holdout, job.holdout, modes * sizeof(int));
-    assert_int_equal(deck->nparameter, job.nparameter);
+    assert_memory_equal(deck->number, job.measurement.number, modes * sizeof(int));
+    assert_memory_equal(deck->frequency_hz, job.measurement.frequency_hz, modes * sizeof(double));
+    assert_memory_equal(deck->frequency_std, job.measurement.frequency_std, modes * sizeof(double));
+    assert_memory_equal(deck->shape, job.measurement.shape, components * sizeof(double));
+    assert_memory_equal(deck->shape_std, job.measurement.shape_std, components * sizeof(double));
+    assert_memory_equal(deck->holdout, job.measurement.holdout, modes * sizeof(int));
+    assert_int_equal(deck->nparameter, job.unknowns.nparameter);
     for (int p = 0; p < deck->nparameter; p++) {
-        assert_string_equal(deck->parameter[p].name, job.bounds[p].name);
-        assert_true(deck->parameter[p].start == job.bounds[p].start && deck->parameter[p].upper == job.bounds[p].upper);
+        assert_string_equal(deck->parameter[p].name, job.unknowns.bounds[p].name);
+        assert_true(deck->parameter[p].start == job.unknowns.bounds[p].start &&
+                    deck->parameter[p].upper == job.unknowns.bounds[p].upper);
     }
     rotid_deck_free(deck);
     pool_close(&pool);

@@ -106,7 +106,7 @@ static void modes_of_the_records_are_those_of_the_rotor(void **state)
     open_test("paper", NULL, &bench, &test);
     assert_int_equal(pass(&c, &test, 1, &paper_band), 0);
     assert_int_equal(c.ema.nmode, 6);
-    assert_int_equal(c.job.nmode, 6);
+    assert_int_equal(c.job.measurement.nmode, 6);
     assert_int_equal(c.job.rotor.nsensor, 68);
     double chi2 = 0;
     int components = 0;
@@ -131,9 +131,9 @@ static void modes_of_the_records_are_those_of_the_rotor(void **state)
             chi2 += pow((mode->shape[p] - ab / aa * exact[p]) / mode->shape_std[p], 2);
         print_message("        shape: chi2 per component %.2f, std %.1e\n", (chi2 - before) / test.points, mode->shape_std[0]);
         /* what the deck read is what was written */
-        assert_close(c.job.frequency_hz[k], mode->frequency_hz, 1e-5, 0);
-        assert_close(c.job.frequency_std[k], mode->frequency_std / mode->frequency_hz, 1e-3, 0);
-        assert_close(c.job.shape_std[5 + (ptrdiff_t)k * 68], mode->shape_std[5], 1e-3, 0);
+        assert_close(c.job.measurement.frequency_hz[k], mode->frequency_hz, 1e-5, 0);
+        assert_close(c.job.measurement.frequency_std[k], mode->frequency_std / mode->frequency_hz, 1e-3, 0);
+        assert_close(c.job.measurement.shape_std[5 + (ptrdiff_t)k * 68], mode->shape_std[5], 1e-3, 0);
     }
     print_message("shapes: chi2 per component %.3f\n", chi2 / components);
     assert_in_range((int)(1000 * chi2 / components), 700, 1500);
@@ -160,7 +160,7 @@ static int cover(void *context, int index, int worker)
     if (!status)
         status = identify_run(&c.pool, &c.job, 0, NULL, &c.messages, &result);
     for (int p = 0; p < 2 && !status; p++) {
-        double truth = truth_of(coverage->test, c.job.bounds[p].name);
+        double truth = truth_of(coverage->test, c.job.unknowns.bounds[p].name);
         coverage->inside[2 * index + p] = truth >= result.fit->ci_lower[p] && truth <= result.fit->ci_upper[p];
         coverage->off[2 * index + p] = (result.fit->x[p] - truth) / result.fit->std[p];
         coverage->chi2[index] = result.fit->chi2_per_dof;
@@ -257,7 +257,7 @@ static void an_accelerometer_of_30_g_on_a_beam_of_6_kg_is_weighed(void **state)
     assert_int_equal(d.kind, VERDICT_ADEQUATE);
     assert_int_equal(d.ncause, 0);
     for (int p = 0; p < 2; p++) {
-        assert_close(d.base.fit->x[p], truth_of(&test, c.job.bounds[p].name), 0, 4 * d.base.fit->std[p]);
+        assert_close(d.base.fit->x[p], truth_of(&test, c.job.unknowns.bounds[p].name), 0, 4 * d.base.fit->std[p]);
         assert_true(d.base.fit->std[p] < 0.01 * d.base.fit->x[p]);
     }
     diagnose_free(&d);
@@ -323,7 +323,7 @@ static void faults_of_channels_are_seen_on_the_way(void **state)
         twice += c.measurement.transfer.impact[i].is_double;
     assert_in_range(twice, 5, 45); /* of 204, one in ten */
     for (int k = 0; k < c.ema.nfrf; k++)
-        if (c.ema.channel[k].doubts & (EMA_DEAD | EMA_NOISY | EMA_MISFIT))
+        if (c.ema.channel[k].quality_flags & (EMA_DEAD | EMA_NOISY | EMA_MISFIT))
             seen += c.measurement.set.frf[k].response_node == 40;
     assert_int_equal(seen, 1);
     judge(&c, &d);

@@ -62,21 +62,21 @@ static struct job *open_job(enum bundle_model model)
     bench.shape[4 + 1 * SENSORS] = NAN;
     bench.shape[9 + 3 * SENSORS] = NAN;
     bench.job = (struct job){.rotor = *rotor,
-                             .nmode = MODES,
-                             .number = bench.number,
-                             .frequency_hz = bench.frequency_hz,
-                             .frequency_std = bench.frequency_std,
-                             .shape = bench.shape,
-                             .shape_std = bench.shape_std,
-                             .holdout = bench.holdout,
-                             .nparameter = 2,
-                             .parameter = bench.parameter};
+                             .measurement.nmode = MODES,
+                             .measurement.number = bench.number,
+                             .measurement.frequency_hz = bench.frequency_hz,
+                             .measurement.frequency_std = bench.frequency_std,
+                             .measurement.shape = bench.shape,
+                             .measurement.shape_std = bench.shape_std,
+                             .measurement.holdout = bench.holdout,
+                             .unknowns.nparameter = 2,
+                             .unknowns.parameter = bench.parameter};
     return &bench.job;
 }
 
 static void open_columns(const struct job *job, const struct effect *extra, struct columns *c)
 {
-    assert_status(columns_open(&test_pool, job, job->number, job->holdout, extra, NULL, c), ROTID_OK);
+    assert_status(columns_open(&test_pool, job, job->measurement.number, job->measurement.holdout, extra, NULL, c), ROTID_OK);
     assert_status(columns_prepare(c), ROTID_OK);
 }
 
@@ -104,17 +104,17 @@ static void check_own(const struct job *job)
     double jacobian[MOST * 8], column[MOST], moved[MOST];
     open_columns(job, NULL, &c);
     assert_status(functional_jacobian(&c.functional, c.x, jacobian), ROTID_OK);
-    for (int p = 0; p < job->nparameter; p++) {
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
         assert_status(columns_parameter(&c, p, column), ROTID_OK);
         double apart = relative_difference((size_t)c.nrow, column, jacobian + (ptrdiff_t)p * c.nrow);
         if (!(apart < 1e-8))
             print_error("parameter %d: %g off its Jacobian\n", p, apart);
         assert_true(apart < 1e-8);
     }
-    for (int p = 0; p < job->nparameter; p++) {
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
         assert_status(columns_parameter(&c, p, column), ROTID_OK);
         /* a place has to stay in its element, and the end of a cone between two points of the quadrature */
-        double step = job->parameter[p].kind == PARAMETER_EFFECT ? 2e-4 : 2e-3;
+        double step = job->unknowns.parameter[p].kind == PARAMETER_EFFECT ? 2e-4 : 2e-3;
         difference(&c, p, step * fabs(c.x[p]), 0, moved);
         double apart = relative_difference((size_t)c.nrow, moved, column);
         if (!(apart < 5e-5))
@@ -144,7 +144,7 @@ static void frequencies_alone_have_one_row_each(void **state)
 {
     (void)state;
     struct job *job = open_job(BUNDLE_RODS);
-    job->shape = NULL;
+    job->measurement.shape = NULL;
     check_own(job);
     struct columns c;
     open_columns(job, NULL, &c);
@@ -171,7 +171,7 @@ static void columns_with_effects_in_the_model(void **state)
     for (int p = 0; p < 3; p++)
         bench.parameter[4 + p] = (struct parameter){PARAMETER_EFFECT, 1, p};
     bench.parameter[7] = (struct parameter){PARAMETER_EFFECT, 2, 0};
-    job->nparameter = 8;
+    job->unknowns.nparameter = 8;
     check_own(job);
     job = open_job(BUNDLE_TUBE);
     bench_add(&job->rotor, cause_joint.effect, 1, 0, joint);
@@ -179,7 +179,7 @@ static void columns_with_effects_in_the_model(void **state)
     bench.parameter[2] = (struct parameter){PARAMETER_EFFECT, 0, 0};
     for (int p = 0; p < 4; p++)
         bench.parameter[3 + p] = (struct parameter){PARAMETER_EFFECT, 1, p};
-    job->nparameter = 7;
+    job->unknowns.nparameter = 7;
     check_own(job);
 }
 
@@ -213,9 +213,9 @@ static int check_probe(const struct job *job, struct effect *effect, const struc
         double column[MOST], moved[MOST];
         open_columns(job, &none, &c);
         assert_status(columns_probe(&c, effect), ROTID_OK);
-        assert_status(columns_parameter(&c, job->nparameter + p, column), ROTID_OK);
-        difference(&c, job->nparameter + p, 0.05 * (size->typical != size->neutral ? fabs(size->typical - size->neutral) : 1),
-                   size->one_sided, moved);
+        assert_status(columns_parameter(&c, job->unknowns.nparameter + p, column), ROTID_OK);
+        difference(&c, job->unknowns.nparameter + p,
+                   0.05 * (size->typical != size->neutral ? fabs(size->typical - size->neutral) : 1), size->one_sided, moved);
         double apart = relative_difference((size_t)c.nrow, moved, column);
         if (!(apart < 4e-5))
             print_error("%s, target %d, variant %d, parameter %d: %g off\n", cause->id, effect->target, effect->variant, p,
@@ -269,7 +269,7 @@ static void columns_of_causes_beside_an_accepted_one(void **state)
     bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);
     bench.parameter[2] = (struct parameter){PARAMETER_EFFECT, 0, 0};
     bench.parameter[3] = (struct parameter){PARAMETER_EFFECT, 1, 0};
-    job->nparameter = 4;
+    job->unknowns.nparameter = 4;
     bench.holdout[3] = 1;
     assert_true(check_all_causes(job) >= 20);
 }
@@ -286,16 +286,16 @@ static void probes_leave_no_trace(void **state)
     double expected[MOST], column[MOST], own[MOST], r[MOST];
     open_columns(job, &none, &alone);
     assert_status(columns_probe(&alone, &mass), ROTID_OK);
-    assert_status(columns_parameter(&alone, job->nparameter, expected), ROTID_OK);
+    assert_status(columns_parameter(&alone, job->unknowns.nparameter, expected), ROTID_OK);
     open_columns(job, NULL, &alone);
     assert_status(columns_parameter(&alone, 0, own), ROTID_OK);
     memcpy(r, alone.r, sizeof *r * (size_t)alone.nrow);
     open_columns(job, &none, &in_turn);
     assert_memory_equal(r, in_turn.r, sizeof *r * (size_t)alone.nrow);
     assert_status(columns_probe(&in_turn, &joint), ROTID_OK);
-    assert_status(columns_parameter(&in_turn, job->nparameter, column), ROTID_OK);
+    assert_status(columns_parameter(&in_turn, job->unknowns.nparameter, column), ROTID_OK);
     assert_status(columns_probe(&in_turn, &mass), ROTID_OK);
-    assert_status(columns_parameter(&in_turn, job->nparameter, column), ROTID_OK);
+    assert_status(columns_parameter(&in_turn, job->unknowns.nparameter, column), ROTID_OK);
     assert_true(relative_difference((size_t)in_turn.nrow, column, expected) < 1e-12);
     assert_status(columns_parameter(&in_turn, 0, column), ROTID_OK);
     assert_true(relative_difference((size_t)in_turn.nrow, column, own) < 1e-12);

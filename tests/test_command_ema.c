@@ -114,17 +114,18 @@ static void a_deck_reads_the_modes_back(void **state)
     cJSON *json = json_of("bar.json");
     message_open(&messages, &test_pool);
     assert_status(deck_read(&test_pool, path_of("bar.inp"), 0, NULL, &messages, &job), ROTID_OK);
-    assert_int_equal(job.nmode, MODES);
+    assert_int_equal(job.measurement.nmode, MODES);
     assert_int_equal(job.rotor.nsensor, POINTS);
     for (int k = 0; k < MODES; k++) {
         const cJSON *mode = cJSON_GetArrayItem(get(json, "modes"), k);
-        assert_close(job.frequency_hz[k], number_of(mode, "frequency_hz"), 1e-5, 0); /* six digits of a set 55 */
-        assert_close(job.frequency_std[k] * job.frequency_hz[k], number_of(mode, "frequency_std_hz"), 1e-5, 0);
+        assert_close(job.measurement.frequency_hz[k], number_of(mode, "frequency_hz"), 1e-5, 0); /* six digits of a set 55 */
+        assert_close(job.measurement.frequency_std[k] * job.measurement.frequency_hz[k], number_of(mode, "frequency_std_hz"),
+                     1e-5, 0);
         for (int p = 0; p < POINTS; p++) {
             const cJSON *point = cJSON_GetArrayItem(get(mode, "shape"), p);
             assert_int_equal(job.rotor.sensor[p].id, (int)number_of(point, "node"));
-            assert_close(job.shape[p + POINTS * k], number_of(point, "value"), 1e-5, 1e-6);
-            assert_close(job.shape_std[p + POINTS * k], number_of(point, "std"), 1e-5, 1e-6);
+            assert_close(job.measurement.shape[p + POINTS * k], number_of(point, "value"), 1e-5, 1e-6);
+            assert_close(job.measurement.shape_std[p + POINTS * k], number_of(point, "std"), 1e-5, 1e-6);
         }
     }
     cJSON_Delete(json);

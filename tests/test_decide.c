@@ -21,8 +21,8 @@ static void open_round(void)
     for (int k = 0; k < MODES; k++)
         noise[k] = 0.001;
     engine = (struct engine){.pool = &test_pool, .confident = 1};
-    engine.job.nmode = MODES;
-    engine.job.frequency_std = noise;
+    engine.job.measurement.nmode = MODES;
+    engine.job.measurement.frequency_std = noise;
     memset(candidates, 0, sizeof candidates);
     decided = (struct diagnosis_round){.candidate = candidates, .threshold = 13};
     before = (struct before){.dof = 400,

@@ -143,7 +143,7 @@ static void sensors_are_sorted_and_shapes_follow_them(void **state)
     (void)state;
     static const int id[] = {10, 40, 20, 30};
     static const double z[] = {0, 0.4, 1.2, 1.25};
-    const double *shape = every.job.shape, *std = every.job.shape_std;
+    const double *shape = every.job.measurement.shape, *std = every.job.measurement.shape_std;
     assert_int_equal(every.job.rotor.nsensor, 4);
     for (int s = 0; s < 4; s++) {
         assert_int_equal(every.job.rotor.sensor[s].id, id[s]);
@@ -158,7 +158,7 @@ static void sensors_are_sorted_and_shapes_follow_them(void **state)
 static void transfer_functions_are_as_the_card_says(void **state)
 {
     (void)state;
-    const struct frf_request *frf = &every.job.frf;
+    const struct frf_request *frf = &every.job.options.frf;
     assert_true(frf->given && !frf->file && frf->low_hz == 100 && frf->high_hz == 1800 && frf->step_hz == 0.5 && !frf->nline);
     assert_true(frf->has_quantity && frf->quantity == FRF_VELOCITY && frf->damping == 0.008 && frf->npair == 2);
     assert_true(frf->pair[1].response == 40 && frf->pair[1].reference == 10);
@@ -169,12 +169,13 @@ static void modes_carry_damping_and_noise_where_there_is_any(void **state)
     (void)state;
     static const int number[] = {1, 2, 4};
     static const double hz[] = {300, 700, 1500}, std[] = {0.6 / 300, 0.004, 3.0 / 1500};
-    assert_int_equal(every.job.nmode, 3);
+    assert_int_equal(every.job.measurement.nmode, 3);
     for (int k = 0; k < 3; k++) {
-        assert_true(every.job.number[k] == number[k] && every.job.frequency_hz[k] == hz[k]);
-        assert_number(every.job.frequency_std[k], std[k]);
+        assert_true(every.job.measurement.number[k] == number[k] && every.job.measurement.frequency_hz[k] == hz[k]);
+        assert_number(every.job.measurement.frequency_std[k], std[k]);
     }
-    assert_true(every.job.damping[0] == 0.01 && isnan(every.job.damping[1]) && isnan(every.job.damping[2]));
+    assert_true(every.job.measurement.damping[0] == 0.01 && isnan(every.job.measurement.damping[1]) &&
+                isnan(every.job.measurement.damping[2]));
 }
 
 static void every_kind_of_parameter_is_identified_by_its_name(void **state)
@@ -189,10 +190,10 @@ static void every_kind_of_parameter_is_identified_by_its_name(void **state)
                     {{PARAMETER_TIEROD_E, 0, 0}, "Pa", 1e10, 3e11, 2e11}, {{PARAMETER_TENSION, 0, 0}, "N", -1e5, 1e6, 5e4},
                     {{PARAMETER_SPRING_K, 0, 0}, "N/m", 0, 1e5, 9790},    {{PARAMETER_SPRING_K_ROT, 0, 0}, "N.m/rad", 0, 1e3, 1},
                     {{PARAMETER_DISK_MASS, 0, 0}, "kg", 1, 20, 12},       {{PARAMETER_DISK_INERTIA, 0, 0}, "kg.m2", 0.1, 1, 0.3}};
-    assert_int_equal(every.job.nparameter, sizeof expected / sizeof *expected);
-    for (int p = 0; p < every.job.nparameter; p++) {
-        const rotid_parameter *bounds = &every.job.bounds[p];
-        assert_memory_equal(&every.job.parameter[p], &expected[p].parameter, sizeof(struct parameter));
+    assert_int_equal(every.job.unknowns.nparameter, sizeof expected / sizeof *expected);
+    for (int p = 0; p < every.job.unknowns.nparameter; p++) {
+        const rotid_parameter *bounds = &every.job.unknowns.bounds[p];
+        assert_memory_equal(&every.job.unknowns.parameter[p], &expected[p].parameter, sizeof(struct parameter));
         assert_string_equal(bounds->unit, expected[p].unit);
         assert_memory_equal(&bounds->lower, &expected[p].lower, 3 * sizeof(double)); /* lower, upper, start */
     }
@@ -228,11 +229,11 @@ static void without_a_word_of_the_user_the_fit_is_what_can_be_trusted(void **sta
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         struct reading r;
         read_text(&r, expected[i].text);
-        assert_int_equal(r.job.fit.functional, expected[i].functional);
-        assert_int_equal(r.job.fit.reduction, expected[i].reduction);
-        assert_int_equal(r.job.fit.derivative, expected[i].derivative);
-        for (int k = 0; k < r.job.nmode; k++)
-            assert_int_equal(r.job.holdout[k], 0);
+        assert_int_equal(r.job.options.fit.functional, expected[i].functional);
+        assert_int_equal(r.job.options.fit.reduction, expected[i].reduction);
+        assert_int_equal(r.job.options.fit.derivative, expected[i].derivative);
+        for (int k = 0; k < r.job.measurement.nmode; k++)
+            assert_int_equal(r.job.measurement.holdout[k], 0);
         pool_close(&r.pool);
     }
 }
@@ -249,7 +250,7 @@ static void lists_of_modes_choose_what_is_fitted_and_what_is_held_out(void **sta
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         struct reading r;
         read_text(&r, expected[i].text);
-        assert_memory_equal(r.job.holdout, expected[i].holdout, sizeof expected[i].holdout);
+        assert_memory_equal(r.job.measurement.holdout, expected[i].holdout, sizeof expected[i].holdout);
         pool_close(&r.pool);
     }
 }
@@ -263,8 +264,9 @@ static void a_tie_makes_the_group_isotropic_and_drops_its_shear_modulus(void **s
     for (int i = 0; i < 2; i++) {
         struct reading r;
         read_text(&r, texts[i]);
-        assert_true(r.job.nparameter == 2 && r.job.parameter[0].kind == PARAMETER_E && r.job.parameter[1].kind == PARAMETER_RHO);
-        assert_true(!strcmp(r.job.bounds[0].name, "core.E") && !strcmp(r.job.bounds[1].name, "core.rho"));
+        assert_true(r.job.unknowns.nparameter == 2 && r.job.unknowns.parameter[0].kind == PARAMETER_E &&
+                    r.job.unknowns.parameter[1].kind == PARAMETER_RHO);
+        assert_true(!strcmp(r.job.unknowns.bounds[0].name, "core.E") && !strcmp(r.job.unknowns.bounds[1].name, "core.rho"));
         assert_true(r.job.rotor.group[0].material.isotropic && warns(&r, "core.G follows core.E"));
         pool_close(&r.pool);
     }
@@ -303,8 +305,10 @@ static void form_does_not_change_what_a_deck_says(void **state)
         const struct material *m = &r.job.rotor.group[0].material;
         assert_true(r.job.rotor.nsegment == 1 && s->length == 1 && s->outer == 0.1 && s->inner == 0 && s->elements == 20);
         assert_true(m->e == 2.1e11 && m->nu == 0.3 && m->rho == 7850);
-        assert_true(r.job.nmode == 4 && r.job.number[3] == 5 && r.job.frequency_hz[3] == 5400);
-        assert_true(r.job.nparameter == 1 && r.job.parameter[0].kind == PARAMETER_E && r.job.bounds[0].start == 2e11);
+        assert_true(r.job.measurement.nmode == 4 && r.job.measurement.number[3] == 5 &&
+                    r.job.measurement.frequency_hz[3] == 5400);
+        assert_true(r.job.unknowns.nparameter == 1 && r.job.unknowns.parameter[0].kind == PARAMETER_E &&
+                    r.job.unknowns.bounds[0].start == 2e11);
         pool_close(&r.pool);
     }
 }

@@ -120,9 +120,9 @@ static void every_fault_of_the_measurement_chain_becomes_a_correction(void **sta
         {"quiet", "noise_level", 0, {0}, "FREQUENCY", 0.5},
     };
     int seen[64] = {0};
-    assert_int_equal(every.job.ncorrection, sizeof expected / sizeof *expected);
-    for (int i = 0; i < every.job.ncorrection; i++) {
-        const struct correction *c = &every.job.correction[i];
+    assert_int_equal(every.job.measurement.ncorrection, sizeof expected / sizeof *expected);
+    for (int i = 0; i < every.job.measurement.ncorrection; i++) {
+        const struct correction *c = &every.job.measurement.correction[i];
         assert_string_equal(c->name, expected[i].name);
         assert_string_equal(c->id, expected[i].id);
         assert_true(c->value == expected[i].value && c->nsensor == expected[i].nsensor);
@@ -138,10 +138,10 @@ static void every_fault_of_the_measurement_chain_becomes_a_correction(void **sta
 static void a_suspect_is_no_part_of_the_model(void **state)
 {
     (void)state;
-    const struct suspect *suspect = every.job.suspect;
+    const struct suspect *suspect = every.job.unknowns.suspect;
     struct parameter parameter;
     const char *unit;
-    assert_int_equal(every.job.nsuspect, 3);
+    assert_int_equal(every.job.unknowns.nsuspect, 3);
     assert_string_equal(suspect[0].effect.name, "maybe");
     assert_true(catalogue_of(&suspect[0].effect) == catalogue_find("stiffness_local") && suspect[0].effect.variant == 0);
     assert_true(!suspect[0].fixed[0] && suspect[0].fixed[1] && !suspect[0].fixed[2]);
@@ -165,10 +165,10 @@ static void an_interface_is_named_by_its_groups_or_its_position(void **state)
         pool_close(&r.pool);
     }
     read_text(&r, MODEL "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core, SUSPECT\n", "CAUSE.BETWEEN=core,right");
-    assert_true(r.job.nsuspect == 1 && r.job.suspect[0].effect.target == 1);
+    assert_true(r.job.unknowns.nsuspect == 1 && r.job.unknowns.suspect[0].effect.target == 1);
     pool_close(&r.pool);
     read_text(&r, MODEL "*CAUSE, NAME=j, TYPE=joint, BETWEEN=left,core, SUSPECT\nflexibility, 1e-9\n", "CAUSE.SUSPECT=NO");
-    assert_true(r.job.nsuspect == 0 && r.job.rotor.neffect == 1 && r.job.rotor.effect[0].target == 0);
+    assert_true(r.job.unknowns.nsuspect == 0 && r.job.rotor.neffect == 1 && r.job.rotor.effect[0].target == 0);
     pool_close(&r.pool);
 }
 
@@ -180,7 +180,7 @@ static void groups_called_by_numbers_are_an_interface_too(void **state)
               "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=1, MATERIAL=steel\n0.5, 0.1, 0, 10\n"
               "*SHAFT, NAME=2, MATERIAL=steel\n0.5, 0.1, 0, 10\n*CAUSE, NAME=j, TYPE=joint, BETWEEN=1,2, SUSPECT\n",
               NULL);
-    assert_true(r.job.nsuspect == 1 && r.job.suspect[0].effect.target == 0);
+    assert_true(r.job.unknowns.nsuspect == 1 && r.job.unknowns.suspect[0].effect.target == 0);
     pool_close(&r.pool);
 }
 
@@ -237,8 +237,14 @@ static int residuals(struct reading *r, double *residual, double predicted[MODES
     int failed;
     assert_status(model_open(&r->pool, NULL, &job->rotor, 0, NULL, 1, client, &failed), ROTID_OK);
     rotid_measured *measured = POOL_NEW(&r->pool, rotid_measured);
-    *measured = (rotid_measured){sizeof *measured,   MODES,      job->number,    job->frequency_hz,
-                                 job->frequency_std, job->shape, job->shape_std, NULL};
+    *measured = (rotid_measured){sizeof *measured,
+                                 MODES,
+                                 job->measurement.number,
+                                 job->measurement.frequency_hz,
+                                 job->measurement.frequency_std,
+                                 job->measurement.shape,
+                                 job->measurement.shape_std,
+                                 NULL};
     assert_status(
         functional_new(&r->pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &client->equations, measured, &f),
         ROTID_OK);
@@ -283,11 +289,11 @@ static void assert_same_likelihood(const char *cards, const double *gain, const 
     for (int k = 0; k < MODES; k++) {
         double sum = 0;
         for (int s = 0; s < SENSORS; s++)
-            if (isfinite(r.job.shape[s + k * SENSORS])) {
+            if (isfinite(r.job.measurement.shape[s + k * SENSORS])) {
                 sum += residual[row] * residual[row];
                 row++;
             }
-        assert_close(sum, chi2_of_faulty_prediction(r.job.raw, k, predicted[k], gain, from), 1e-11, 0);
+        assert_close(sum, chi2_of_faulty_prediction(r.job.measurement.raw, k, predicted[k], gain, from), 1e-11, 0);
     }
     assert_int_equal(row, count);
     pool_close(&r.pool);
@@ -339,7 +345,7 @@ static void a_level_of_noise_scales_the_residuals_of_its_block(void **state)
         assert_close(b[i], i < MODES ? a[i] : a[i] / 2, 1e-12, 1e-12);
         assert_close(c[i], i < MODES ? 2 * a[i] : a[i], 1e-12, 1e-12);
     }
-    assert_null(plain.job.raw);
+    assert_null(plain.job.measurement.raw);
     pool_close(&plain.pool);
     pool_close(&shape.pool);
     pool_close(&frequency.pool);
@@ -396,16 +402,17 @@ static void what_was_read_is_kept_and_effects_follow_their_sensors(void **state)
               "*CAUSE, NAME=b, TYPE=accelerometer_mass, MOUNT=FIXED, SENSOR=4, SUSPECT\n"
               "*CAUSE, NAME=p, TYPE=sensor_position, SENSOR=3\nshift, 0.3\n"
               "*CAUSE, NAME=g, TYPE=sensor_gain, SENSOR=1\ngain, 3\n");
-    const struct job_raw *raw = faulty.job.raw;
+    const struct job_raw *raw = faulty.job.measurement.raw;
     assert_true(raw && raw->nsensor == SENSORS);
     assert_memory_equal(raw->sensor, plain.job.rotor.sensor, SENSORS * sizeof *raw->sensor);
-    assert_memory_equal(raw->shape_std, plain.job.shape_std, MODES * SENSORS * sizeof *raw->shape_std);
-    assert_memory_equal(raw->frequency_std, plain.job.frequency_std, MODES * sizeof *raw->frequency_std);
+    assert_memory_equal(raw->shape_std, plain.job.measurement.shape_std, MODES * SENSORS * sizeof *raw->shape_std);
+    assert_memory_equal(raw->frequency_std, plain.job.measurement.frequency_std, MODES * sizeof *raw->frequency_std);
     for (int i = 0; i < MODES * SENSORS; i++)
-        assert_true(raw->shape[i] == plain.job.shape[i] || (isnan(raw->shape[i]) && isnan(plain.job.shape[i])));
+        assert_true(raw->shape[i] == plain.job.measurement.shape[i] ||
+                    (isnan(raw->shape[i]) && isnan(plain.job.measurement.shape[i])));
     const struct rotor *rotor = &faulty.job.rotor;
     assert_int_equal(rotor->sensor[rotor->effect[0].target].id, 3);
-    assert_int_equal(rotor->sensor[faulty.job.suspect[0].effect.target].id, 4);
+    assert_int_equal(rotor->sensor[faulty.job.unknowns.suspect[0].effect.target].id, 4);
     pool_close(&plain.pool);
     pool_close(&faulty.pool);
 }
@@ -445,7 +452,7 @@ static void assert_found(const char *truth, const char *deck, const double *expe
     read_text(&r, text, NULL);
     assert_status(identify_run(&r.pool, &r.job, 0, NULL, &r.messages, &result), ROTID_OK);
     assert_true(result.fit->converged && !result.fit->any_at_bound && !result.fit->any_undetermined);
-    for (int p = 0; p < r.job.nparameter; p++)
+    for (int p = 0; p < r.job.unknowns.nparameter; p++)
         assert_close(result.fit->x[p], expected[p], rtol, 0);
     rotid_fit_free(result.fit);
     pool_close(&r.pool);

@@ -146,26 +146,30 @@ static void assert_frequency_std(int count, const double *a, const double *b)
 
 static void assert_data(const struct job *a, const struct job *b)
 {
-    ptrdiff_t components = (ptrdiff_t)a->rotor.nsensor * a->nmode;
-    assert_true(a->nmode == b->nmode && a->ncorrection == b->ncorrection && (a->raw == NULL) == (b->raw == NULL));
-    for (int k = 0; k < a->nmode; k++)
-        assert_true(a->number[k] == b->number[k] && a->holdout[k] == b->holdout[k]);
-    assert_doubles(a->nmode, a->frequency_hz, b->frequency_hz);
-    assert_doubles(a->nmode, a->damping, b->damping);
-    assert_frequency_std(a->nmode, a->frequency_std, b->frequency_std);
-    assert_shapes(components, a->shape, b->shape, a->shape_std, b->shape_std);
-    for (int i = 0; i < a->ncorrection; i++) {
-        const struct correction *s = &a->correction[i], *t = &b->correction[i];
+    ptrdiff_t components = (ptrdiff_t)a->rotor.nsensor * a->measurement.nmode;
+    assert_true(a->measurement.nmode == b->measurement.nmode && a->measurement.ncorrection == b->measurement.ncorrection &&
+                (a->measurement.raw == NULL) == (b->measurement.raw == NULL));
+    for (int k = 0; k < a->measurement.nmode; k++)
+        assert_true(a->measurement.number[k] == b->measurement.number[k] &&
+                    a->measurement.holdout[k] == b->measurement.holdout[k]);
+    assert_doubles(a->measurement.nmode, a->measurement.frequency_hz, b->measurement.frequency_hz);
+    assert_doubles(a->measurement.nmode, a->measurement.damping, b->measurement.damping);
+    assert_frequency_std(a->measurement.nmode, a->measurement.frequency_std, b->measurement.frequency_std);
+    assert_shapes(components, a->measurement.shape, b->measurement.shape, a->measurement.shape_std, b->measurement.shape_std);
+    for (int i = 0; i < a->measurement.ncorrection; i++) {
+        const struct correction *s = &a->measurement.correction[i], *t = &b->measurement.correction[i];
         assert_text(s->name, t->name);
         assert_text(s->id, t->id);
         assert_text(s->block, t->block);
         assert_true(s->nsensor == t->nsensor && s->value == t->value && !memcmp(s->sensor, t->sensor, sizeof s->sensor));
     }
-    if (a->raw) {
-        assert_int_equal(a->raw->nsensor, b->raw->nsensor);
-        assert_memory_equal(a->raw->sensor, b->raw->sensor, (size_t)a->raw->nsensor * sizeof *a->raw->sensor);
-        assert_shapes(components, a->raw->shape, b->raw->shape, a->raw->shape_std, b->raw->shape_std);
-        assert_frequency_std(a->nmode, a->raw->frequency_std, b->raw->frequency_std);
+    if (a->measurement.raw) {
+        assert_int_equal(a->measurement.raw->nsensor, b->measurement.raw->nsensor);
+        assert_memory_equal(a->measurement.raw->sensor, b->measurement.raw->sensor,
+                            (size_t)a->measurement.raw->nsensor * sizeof *a->measurement.raw->sensor);
+        assert_shapes(components, a->measurement.raw->shape, b->measurement.raw->shape, a->measurement.raw->shape_std,
+                      b->measurement.raw->shape_std);
+        assert_frequency_std(a->measurement.nmode, a->measurement.raw->frequency_std, b->measurement.raw->frequency_std);
     }
 }
 
@@ -193,21 +197,22 @@ static void assert_job(const struct job *a, const struct job *b)
     }
     assert_rotor(&a->rotor, &b->rotor);
     assert_data(a, b);
-    assert_int_equal(a->nsuspect, b->nsuspect);
-    for (int i = 0; i < a->nsuspect; i++) {
-        assert_effect(&a->suspect[i].effect, &b->suspect[i].effect);
-        assert_memory_equal(a->suspect[i].fixed, b->suspect[i].fixed, sizeof a->suspect[i].fixed);
+    assert_int_equal(a->unknowns.nsuspect, b->unknowns.nsuspect);
+    for (int i = 0; i < a->unknowns.nsuspect; i++) {
+        assert_effect(&a->unknowns.suspect[i].effect, &b->unknowns.suspect[i].effect);
+        assert_memory_equal(a->unknowns.suspect[i].fixed, b->unknowns.suspect[i].fixed, sizeof a->unknowns.suspect[i].fixed);
     }
-    assert_int_equal(a->nparameter, b->nparameter);
-    for (int p = 0; p < a->nparameter; p++) {
-        assert_text(a->bounds[p].name, b->bounds[p].name);
-        assert_text(a->bounds[p].unit, b->bounds[p].unit);
-        assert_doubles(3, &a->bounds[p].lower, &b->bounds[p].lower);
-        assert_memory_equal(&a->parameter[p], &b->parameter[p], sizeof a->parameter[p]);
+    assert_int_equal(a->unknowns.nparameter, b->unknowns.nparameter);
+    for (int p = 0; p < a->unknowns.nparameter; p++) {
+        assert_text(a->unknowns.bounds[p].name, b->unknowns.bounds[p].name);
+        assert_text(a->unknowns.bounds[p].unit, b->unknowns.bounds[p].unit);
+        assert_doubles(3, &a->unknowns.bounds[p].lower, &b->unknowns.bounds[p].lower);
+        assert_memory_equal(&a->unknowns.parameter[p], &b->unknowns.parameter[p], sizeof a->unknowns.parameter[p]);
     }
-    assert_frf(&a->frf, &b->frf);
-    assert_true(a->has_fit == b->has_fit && a->fit.functional == b->fit.functional && a->fit.reduction == b->fit.reduction);
-    assert_true(a->fit.derivative == b->fit.derivative);
+    assert_frf(&a->options.frf, &b->options.frf);
+    assert_true(a->options.has_fit == b->options.has_fit && a->options.fit.functional == b->options.fit.functional &&
+                a->options.fit.reduction == b->options.fit.reduction);
+    assert_true(a->options.fit.derivative == b->options.fit.derivative);
 }
 
 static const char *written(struct reading *r, const struct deck_write_options *options)
@@ -317,10 +322,11 @@ static void two_modes_of_one_frequency_stay_two(void **state)
     (void)state;
     struct reading first, second;
     read_text(&first, MODEL "*MODES\n1, 500\n2, 1300\n3, 1400\n");
-    first.job.frequency_hz[2] = 1300; /* as a universal file may have it */
+    first.job.measurement.frequency_hz[2] = 1300; /* as a universal file may have it */
     (void)folder_write("again.inp", written(&first, NULL));
     read_path(&second, folder_path("again.inp"), NULL);
-    assert_true(second.job.frequency_hz[1] == 1300 && second.job.frequency_hz[2] == nextafter(1300, INFINITY));
+    assert_true(second.job.measurement.frequency_hz[1] == 1300 &&
+                second.job.measurement.frequency_hz[2] == nextafter(1300, INFINITY));
     pool_close(&first.pool);
     pool_close(&second.pool);
 }
@@ -365,7 +371,8 @@ static void written_at_x_the_model_and_the_starts_are_those_of_x(void **state)
     assert_true(second.job.rotor.group[1].material.e == 1.9e11 && second.job.rotor.group[0].material.e == 2.1e11);
     assert_true(second.job.rotor.effect[0].value[0] == 3e-8 && second.job.rotor.effect[1].value[0] == -0.07);
     for (int p = 0; p < 3; p++)
-        assert_true(second.job.bounds[p].start == x[p] && second.job.bounds[p].lower == first.job.bounds[p].lower);
+        assert_true(second.job.unknowns.bounds[p].start == x[p] &&
+                    second.job.unknowns.bounds[p].lower == first.job.unknowns.bounds[p].lower);
     assert_true(first.job.rotor.group[1].material.e == 2.1e11 && first.job.rotor.effect[0].value[0] == 0); /* untouched */
     pool_close(&first.pool);
     pool_close(&second.pool);
@@ -383,21 +390,21 @@ static void what_lies_on_a_bound_is_still_a_deck(void **state)
     /* bounds of the joint at the E of before, which are wider than those at the E that was found */
     const struct effect *joint = first.job.rotor.effect;
     catalogue_of(joint)->bounds(&first.job.rotor, joint, 0, &lower, &upper);
-    first.job.bounds[1].upper = upper;
+    first.job.unknowns.bounds[1].upper = upper;
     first.job.rotor.effect[0].value[0] = x[1] = upper;
     first.job.rotor.group[0].material.e = 4e11;
     (void)folder_write("again.inp", written(&first, &options));
     read_path(&second, folder_path("again.inp"), NULL);
-    assert_true(second.job.bounds[1].upper < 0.6 * upper);
-    assert_close(second.job.rotor.effect[0].value[0], second.job.bounds[1].upper, 1e-15, 0);
+    assert_true(second.job.unknowns.bounds[1].upper < 0.6 * upper);
+    assert_close(second.job.rotor.effect[0].value[0], second.job.unknowns.bounds[1].upper, 1e-15, 0);
     for (int p = 0; p < 3; p++)
-        assert_true(second.job.bounds[p].start > second.job.bounds[p].lower &&
-                    second.job.bounds[p].start < second.job.bounds[p].upper);
+        assert_true(second.job.unknowns.bounds[p].start > second.job.unknowns.bounds[p].lower &&
+                    second.job.unknowns.bounds[p].start < second.job.unknowns.bounds[p].upper);
     x[2] = 0; /* is no scale */
     (void)folder_write("again.inp", written(&first, &options));
     pool_close(&second.pool);
     read_path(&second, folder_path("again.inp"), NULL);
-    assert_true(second.job.bounds[2].start == 0.1);
+    assert_true(second.job.unknowns.bounds[2].start == 0.1);
     pool_close(&first.pool);
     pool_close(&second.pool);
 }
@@ -408,7 +415,7 @@ static void a_fit_runs_from_the_written_deck_to_where_it_stood(void **state)
     struct reading first, second;
     struct identification before, after;
     read_path(&first, DECKS "every_cause.inp", NULL);
-    first.job.nparameter = 1; /* E alone: this deck is no rotor that was ever measured */
+    first.job.unknowns.nparameter = 1; /* E alone: this deck is no rotor that was ever measured */
     assert_status(identify_run(&first.pool, &first.job, 0, NULL, &first.messages, &before), ROTID_OK);
     const struct deck_write_options options = {.x = before.fit->x};
     (void)folder_write("again.inp", written(&first, &options));
@@ -446,10 +453,10 @@ static void what_no_deck_can_say_is_refused(void **state)
     r.job.rotor.sensor[0].id = 0;
     assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_ERROR_ARGUMENT);
     r.job.rotor.sensor[0].id = 1;
-    r.job.frequency_hz[0] = NAN;
+    r.job.measurement.frequency_hz[0] = NAN;
     assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_ERROR_ARGUMENT);
-    r.job.frequency_hz[0] = 500;
-    r.job.number[0] = 1001;
+    r.job.measurement.frequency_hz[0] = 500;
+    r.job.measurement.number[0] = 1001;
     assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_ERROR_ARGUMENT);
     pool_close(&r.pool);
 }

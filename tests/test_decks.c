@@ -74,7 +74,7 @@ static void an_override_replaces_or_adds_an_option_on_every_such_card(void **sta
     (void)state;
     struct reading r;
     read_path(&r, DECKS "every_card.inp", "fit.functional=likelihood");
-    assert_int_equal(r.job.fit.functional, ROTID_LIKELIHOOD);
+    assert_int_equal(r.job.options.fit.functional, ROTID_LIKELIHOOD);
     pool_close(&r.pool);
     read_path(&r, DECKS "every_card.inp", "TIEROD.MODEL=TUBE");
     assert_true(r.job.rotor.tierod[0].model == BUNDLE_TUBE && r.job.rotor.tierod[1].model == BUNDLE_TUBE);
@@ -84,10 +84,10 @@ static void an_override_replaces_or_adds_an_option_on_every_such_card(void **sta
     pool_close(&r.pool);
     (void)folder_write("deck.inp", MODEL "*MODES\n1, 500\n2, 1300\n3, 2400\n");
     read_path(&r, folder_path("deck.inp"), "FIT.HOLDOUT=2-3"); /* a card of which there can only be one is added */
-    assert_true(r.job.holdout[1] && r.job.holdout[2] && !r.job.holdout[0]);
+    assert_true(r.job.measurement.holdout[1] && r.job.measurement.holdout[2] && !r.job.measurement.holdout[0]);
     pool_close(&r.pool);
     read_path(&r, folder_path("deck.inp"), "NOISE.FREQUENCY=0.002");
-    assert_true(r.job.fit.functional == ROTID_LIKELIHOOD && r.job.frequency_std[2] == 0.002);
+    assert_true(r.job.options.fit.functional == ROTID_LIKELIHOOD && r.job.measurement.frequency_std[2] == 0.002);
     pool_close(&r.pool);
 }
 
@@ -117,15 +117,17 @@ static void nodes_that_carry_shapes_become_sensors(void **state)
                   ALONG_Z REAL("4", "1300.", "0.", "1. 0. 0.", "-2. 0. 0.", "3. 0. 0.")
                       REAL("2", "500.", "0.02", ".1 0. 0.", ".2 0. 0.", ".3 0. 0."));
     const struct sensor *sensor = r.job.rotor.sensor;
-    assert_true(r.job.rotor.nsensor == 3 && r.job.nmode == 2);
+    assert_true(r.job.rotor.nsensor == 3 && r.job.measurement.nmode == 2);
     assert_true(sensor[0].id == 7 && sensor[0].position == 0.1 && sensor[1].id == 5 && sensor[1].position == 0.4);
     assert_true(sensor[2].id == 3 && sensor[2].position == 0.9);
     /* modes by rising frequency, with the numbers of the file where those rise too */
-    assert_true(r.job.frequency_hz[0] == 500 && r.job.number[0] == 2 && r.job.damping[0] == 0.02);
-    assert_true(r.job.frequency_hz[1] == 1300 && r.job.number[1] == 4 && isnan(r.job.damping[1]));
+    assert_true(r.job.measurement.frequency_hz[0] == 500 && r.job.measurement.number[0] == 2 &&
+                r.job.measurement.damping[0] == 0.02);
+    assert_true(r.job.measurement.frequency_hz[1] == 1300 && r.job.measurement.number[1] == 4 &&
+                isnan(r.job.measurement.damping[1]));
     static const double shape[] = {.1, .3, .2, 1, 3, -2};
-    assert_memory_equal(r.job.shape, shape, sizeof shape);
-    assert_true(isnan(r.job.frequency_std[0]) && isnan(r.job.shape_std[0]));
+    assert_memory_equal(r.job.measurement.shape, shape, sizeof shape);
+    assert_true(isnan(r.job.measurement.frequency_std[0]) && isnan(r.job.measurement.shape_std[0]));
     pool_close(&r.pool);
 }
 
@@ -136,7 +138,7 @@ static void mode_numbers_that_do_not_rise_are_counted_anew(void **state)
     read_measured(&r, "",
                   ALONG_Z REAL("4", "500.", "0.", "1. 0. 0.", "2. 0. 0.", "3. 0. 0.")
                       REAL("1", "1300.", "0.", "1. 0. 0.", "-2. 0. 0.", "3. 0. 0."));
-    assert_true(r.job.nmode == 2 && r.job.number[0] == 1 && r.job.number[1] == 2);
+    assert_true(r.job.measurement.nmode == 2 && r.job.measurement.number[0] == 1 && r.job.measurement.number[1] == 2);
     pool_close(&r.pool);
 }
 
@@ -173,7 +175,7 @@ static void direction_chooses_the_component_of_a_shape(void **state)
     for (int i = 0; i < 4; i++) {
         struct reading r;
         read_measured(&r, options[i], ALONG_Z REAL("1", "500.", "0.", "1. 2. 3.", "4. 5. 6.", "7. 8. 9."));
-        assert_memory_equal(r.job.shape, shape[i], sizeof shape[i]);
+        assert_memory_equal(r.job.measurement.shape, shape[i], sizeof shape[i]);
         pool_close(&r.pool);
     }
 }
@@ -185,12 +187,12 @@ static void complex_shapes_are_turned_real_and_conjugates_dropped(void **state)
     read_measured(&r, ", DIRECTION=Y",
                   ALONG_Z COMPLEX("1", "-30. 3000.", "3. 4.", "-3. -4.", "6. 8.")
                       COMPLEX("2", "-30. -3000.", "3. -4.", "-3. 4.", "6. -8."));
-    assert_int_equal(r.job.nmode, 1);
-    assert_close(r.job.frequency_hz[0], hypot(30, 3000) / 6.283185307179586, 1e-14, 0);
-    assert_close(r.job.damping[0], 30 / hypot(30, 3000), 1e-14, 0);
-    assert_close(fabs(r.job.shape[0]), 5, 1e-14, 0);
-    assert_close(r.job.shape[1] / r.job.shape[0], 2, 1e-14, 0); /* its sign is free */
-    assert_close(r.job.shape[2] / r.job.shape[0], -1, 1e-14, 0);
+    assert_int_equal(r.job.measurement.nmode, 1);
+    assert_close(r.job.measurement.frequency_hz[0], hypot(30, 3000) / 6.283185307179586, 1e-14, 0);
+    assert_close(r.job.measurement.damping[0], 30 / hypot(30, 3000), 1e-14, 0);
+    assert_close(fabs(r.job.measurement.shape[0]), 5, 1e-14, 0);
+    assert_close(r.job.measurement.shape[1] / r.job.measurement.shape[0], 2, 1e-14, 0); /* its sign is free */
+    assert_close(r.job.measurement.shape[2] / r.job.measurement.shape[0], -1, 1e-14, 0);
     assert_true(warns(&r, "1 shapes repeat the frequency of another and are left out, as conjugates of it"));
     assert_false(warns(&r, "out of phase"));
     pool_close(&r.pool);
@@ -201,7 +203,7 @@ static void motion_out_of_phase_is_left_out_and_said(void **state)
     (void)state;
     struct reading r;
     read_measured(&r, "", ALONG_Z COMPLEX("1", "-30. 3000.", "2. 0.", "0. 1.", "2. 0."));
-    assert_true(fabs(fabs(r.job.shape[0]) - 2) < 1e-14 && fabs(r.job.shape[2]) < 1e-14);
+    assert_true(fabs(fabs(r.job.measurement.shape[0]) - 2) < 1e-14 && fabs(r.job.measurement.shape[2]) < 1e-14);
     assert_true(warns(&r, "11 % of the motion of the shape at 477.489 Hz is out of phase and left out"));
     pool_close(&r.pool);
 }
@@ -212,7 +214,8 @@ static void sensors_of_the_deck_place_a_file_without_nodes(void **state)
     struct reading r;
     read_measured(&r, "\n*SENSORS\n3, 0.2\n5, 0.5\n7, end\n8, 0", REAL("1", "500.", "0.", "1. 0. 0.", "2. 0. 0.", "3. 0. 0."));
     assert_int_equal(r.job.rotor.nsensor, 4);
-    assert_true(isnan(r.job.shape[0]) && r.job.shape[1] == 2 && r.job.shape[2] == 3 && r.job.shape[3] == 1);
+    assert_true(isnan(r.job.measurement.shape[0]) && r.job.measurement.shape[1] == 2 && r.job.measurement.shape[2] == 3 &&
+                r.job.measurement.shape[3] == 1);
     pool_close(&r.pool);
 }
 
@@ -227,7 +230,7 @@ struct run {
 
 static double error_percent(const struct run *run, int k)
 {
-    return 100 * (run->fit->predicted_hz[k] / run->reading.job.frequency_hz[k] - 1);
+    return 100 * (run->fit->predicted_hz[k] / run->reading.job.measurement.frequency_hz[k] - 1);
 }
 
 static void open_run(struct run *run, const char *path, const char *set)
@@ -239,9 +242,9 @@ static void open_run(struct run *run, const char *path, const char *set)
     assert_status(identify_run(&run->reading.pool, job, 0, NULL, &run->reading.messages, &run->result), ROTID_OK);
     run->fit = run->result.fit;
     assert_true(run->fit->converged && !run->fit->any_at_bound && !run->fit->any_undetermined);
-    for (int k = 0; k < job->nmode; k++) {
-        sum[job->holdout[k]] += error_percent(run, k) * error_percent(run, k);
-        count[job->holdout[k]]++;
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        sum[job->measurement.holdout[k]] += error_percent(run, k) * error_percent(run, k);
+        count[job->measurement.holdout[k]]++;
     }
     run->fitted_rms = sqrt(sum[0] / count[0]);
     run->held_rms = sqrt(sum[1] / count[1]);
@@ -314,7 +317,8 @@ static void solid_rotor_widens_its_intervals_and_pairs_by_shape(void **state)
     open_run(&run, INPUT "solid_rotor.inp", NULL);
     assert_close(run.fit->x[0], 8.48e10, 0.01, 0);
     assert_close(run.fit->x[1], 3.98e10, 0.01, 0);
-    assert_true(run.reading.job.fit.functional == ROTID_LIKELIHOOD && run.fit->widened_by > 1 && run.result.shapes_fitted);
+    assert_true(run.reading.job.options.fit.functional == ROTID_LIKELIHOOD && run.fit->widened_by > 1 &&
+                run.result.shapes_fitted);
     for (int k = 0; k < 6; k++)
         assert_int_equal(run.result.compared.basis[k], PAIRED_BY_SHAPE);
     close_run(&run);
@@ -328,11 +332,11 @@ static double model_errors(const char *path, double *error)
     struct comparison compared;
     double sum = 0;
     read_path(&r, path, NULL);
-    assert_int_equal(r.job.nmode, 6);
+    assert_int_equal(r.job.measurement.nmode, 6);
     assert_status(spectrum_compute(&r.pool, NULL, &r.job.rotor, 0, NULL, NULL, ROTID_GUYAN, 6 + 3, &spectrum), ROTID_OK);
     assert_status(comparison_make(&r.pool, &r.job, &spectrum, &r.messages, &compared), ROTID_OK);
     for (int k = 0; k < 6; k++) {
-        error[k] = 100 * (spectrum.full_hz[compared.number[k] - 1] / r.job.frequency_hz[k] - 1);
+        error[k] = 100 * (spectrum.full_hz[compared.number[k] - 1] / r.job.measurement.frequency_hz[k] - 1);
         sum += error[k] * error[k];
     }
     pool_close(&r.pool);

@@ -245,7 +245,7 @@ static void what_is_hidden_is_named_and_measured(void **state)
     assert_true(r.d.after.mode_out_frequency_rms_percent < r.d.before.mode_out_frequency_rms_percent);
     assert_true(r.d.after.sensor_out_shape_rms < r.d.before.sensor_out_shape_rms);
     assert_int_equal(r.d.extended_job.rotor.neffect, 1);
-    assert_int_equal(r.d.extended_job.nparameter, 3);
+    assert_int_equal(r.d.extended_job.unknowns.nparameter, 3);
     assert_close(r.d.extended_job.rotor.effect[0].value[0], r.d.extended.fit->x[2], 0, 0);
     close_run(&r);
 }
@@ -324,7 +324,7 @@ static void same_diagnosis(const struct diagnosis *a, const struct diagnosis *b)
     same_fit(a->extended.fit, b->extended.fit);
     same((const double *)&a->before, (const double *)&b->before, sizeof a->before / sizeof(double), "before");
     same((const double *)&a->after, (const double *)&b->after, sizeof a->after / sizeof(double), "after");
-    SAME_ARRAY(mode_z, a->job.nmode);
+    SAME_ARRAY(mode_z, a->job.measurement.nmode);
     SAME_ARRAY(sensor_rms, a->job.rotor.nsensor);
     SAME_ARRAY(local, a->nlocal);
     SAME_ARRAY(local_z, a->nlocal);
@@ -726,7 +726,7 @@ static void a_mode_measured_twice(void **state)
     run_with(&r, 1, 1);
     assert_honest(&r, NULL);
     assert_non_null(found(&r, "mode_pairing"));
-    assert_int_equal(r.d.job.nmode, MODES);
+    assert_int_equal(r.d.job.measurement.nmode, MODES);
     if (r.d.kind != VERDICT_ADEQUATE)
         print_verdict(&r);
     assert_int_equal(r.d.kind, VERDICT_ADEQUATE);

@@ -79,7 +79,7 @@ static void two_modes_half_a_percent_apart(void **state)
         assert_close(ema.mode[r].frequency_hz, truth.frequency_hz[r], 1e-5, 0);
         assert_close(ema.mode[r].damping, truth.damping[r], 1e-2, 0);
     }
-    assert_true(!(ema.mode[0].doubts & EMA_CLOSE));
+    assert_true(!(ema.mode[0].quality_flags & EMA_CLOSE));
     assert_int_equal(ema.std_from_impacts, 1);
 }
 
@@ -116,7 +116,7 @@ static void a_moving_mass(int with_variance)
     compute(&set, &options, &ema);
     assert_int_equal(ema.nmode, 3);
     for (int r = 0; r < 3; r++) {
-        assert_true(ema.mode[r].doubts & EMA_DOUBLE_PEAK);
+        assert_true(ema.mode[r].quality_flags & EMA_DOUBLE_PEAK);
         assert_non_null(ema.mode[r].local_pole);
         double known[13], median;
         size_t count = 0;

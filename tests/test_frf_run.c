@@ -47,14 +47,14 @@ static void open_bench(struct bench *b, struct pool *pool, double factor)
     b->job = (struct job){
         .deck = "memory",
         .rotor = {.ngroup = 3, .group = b->group, .nsegment = 3, .segment = b->segment, .nsensor = POINTS, .sensor = b->sensor},
-        .number = b->number,
-        .frequency_hz = b->hz,
-        .damping = b->damping,
-        .frequency_std = b->std,
-        .holdout = b->holdout,
-        .frf = {.given = 1, .axis = 2, .quantity = FRF_ACCELERATION, .low_hz = 100, .high_hz = 1900, .nline = LINES}};
-    rotid_fit_defaults(sizeof b->job.fit, &b->job.fit);
-    b->job.fit.functional = ROTID_HYBRID;
+        .measurement.number = b->number,
+        .measurement.frequency_hz = b->hz,
+        .measurement.damping = b->damping,
+        .measurement.frequency_std = b->std,
+        .measurement.holdout = b->holdout,
+        .options.frf = {.given = 1, .axis = 2, .quantity = FRF_ACCELERATION, .low_hz = 100, .high_hz = 1900, .nline = LINES}};
+    rotid_fit_defaults(sizeof b->job.options.fit, &b->job.options.fit);
+    b->job.options.fit.functional = ROTID_HYBRID;
     for (int l = 0; l < LINES; l++)
         b->line[l] = 100 + 2.0 * l;
     message_open(&b->notes, pool);
@@ -71,7 +71,7 @@ static void measure_modes(struct bench *b, struct pool *pool)
         b->damping[k] = 0.004 + 0.002 * k;
         b->std[k] = NAN;
     }
-    b->job.nmode = MODES;
+    b->job.measurement.nmode = MODES;
 }
 
 /* Measured functions from the bench itself: every point over the third. */
@@ -82,9 +82,9 @@ static void measure_functions(struct bench *b, struct pool *pool)
     struct frf_pair pair[POINTS];
     for (int i = 0; i < POINTS; i++)
         pair[i] = (struct frf_pair){10 * (i + 1), 30};
-    b->job.frf.npair = POINTS;
-    b->job.frf.pair = pair;
-    b->job.fit.reduction = ROTID_REDUCTION_NONE;
+    b->job.options.frf.npair = POINTS;
+    b->job.options.frf.pair = pair;
+    b->job.options.fit.reduction = ROTID_REDUCTION_NONE;
     assert_status(identify_run(pool, &b->job, 0, NULL, &b->notes, &b->identified), ROTID_OK);
     assert_status(frf_run(pool, &b->job, &b->identified, NULL, NULL, &b->notes, &own), ROTID_OK);
     assert_int_equal(own.nline, LINES);
@@ -98,14 +98,14 @@ static void measure_functions(struct bench *b, struct pool *pool)
     b->set =
         (struct frf_set){.nline = LINES, .frequency_hz = b->line, .quantity = FRF_ACCELERATION, .nfrf = POINTS, .frf = b->frf};
     b->measured = (struct frf_measured){.set = &b->set, .path = "memory.uff"};
-    b->job.frf = (struct frf_request){.given = 1, .axis = 2, .quantity = FRF_ACCELERATION};
+    b->job.options.frf = (struct frf_request){.given = 1, .axis = 2, .quantity = FRF_ACCELERATION};
 }
 
 static int run(struct bench *b, struct pool *pool)
 {
     rotid_fit_free(b->identified.fit);
     b->identified.fit = NULL;
-    int status = b->job.nmode ? identify_run(pool, &b->job, 0, NULL, &b->notes, &b->identified) : ROTID_OK;
+    int status = b->job.measurement.nmode ? identify_run(pool, &b->job, 0, NULL, &b->notes, &b->identified) : ROTID_OK;
     if (!status)
         status = frf_run(pool, &b->job, b->identified.fit ? &b->identified : NULL, b->set.nfrf ? &b->measured : NULL, NULL,
                          &b->notes, &b->result);
@@ -237,13 +237,13 @@ static void directions_and_reciprocity_are_respected(void **state)
     assert_close(frf_sums_scale(&bench.result.row[0].sums), 1, 1e-9, 0);
     assert_close(frf_sums_scale(&bench.result.row[1].sums), -1, 1e-9, 0);
     assert_int_equal(bench.result.row[2].response, 50);
-    bench.job.frf.npair = 2; /* the first is measured the other way round */
-    bench.job.frf.pair = pairs;
+    bench.job.options.frf.npair = 2; /* the first is measured the other way round */
+    bench.job.options.frf.pair = pairs;
     assert_status(run(&bench, &test_pool), ROTID_OK);
     assert_int_equal(bench.result.nrow, 2);
     assert_true(bench.result.row[0].is_reciprocal && !bench.result.row[1].is_reciprocal);
     assert_close(frf_sums_scale(&bench.result.row[0].sums), 1, 1e-7, 0);
-    bench.job.frf.axis = 0;
+    bench.job.options.frf.axis = 0;
     assert_status(run(&bench, &test_pool), ROTID_ERROR_ARGUMENT);
     assert_true(says(&bench, "there is no lateral transfer function between 30 and 50"));
     close_bench();
@@ -254,19 +254,19 @@ static void quantity_and_lines_are_those_of_card_and_file(void **state)
 {
     (void)state;
     open_measured(1);
-    bench.job.frf.has_quantity = 1;
-    bench.job.frf.quantity = FRF_VELOCITY;
-    bench.job.frf.low_hz = bench.line[10];
-    bench.job.frf.high_hz = bench.line[400];
+    bench.job.options.frf.has_quantity = 1;
+    bench.job.options.frf.quantity = FRF_VELOCITY;
+    bench.job.options.frf.low_hz = bench.line[10];
+    bench.job.options.frf.high_hz = bench.line[400];
     assert_status(run(&bench, &test_pool), ROTID_OK);
     assert_int_equal(bench.result.nline, 391);
     assert_close(frf_sums_frac(&bench.result.sums), 1, 1e-9, 0);
     assert_close(frf_sums_scale(&bench.result.sums), 1, 1e-9, 0);
-    bench.job.frf.low_hz = bench.job.frf.high_hz = 0;
+    bench.job.options.frf.low_hz = bench.job.options.frf.high_hz = 0;
     bench.line[0] = 0;
     assert_status(run(&bench, &test_pool), ROTID_OK);
     assert_int_equal(bench.result.nline, LINES - 1);
-    bench.job.frf.low_hz = 5000;
+    bench.job.options.frf.low_hz = 5000;
     assert_status(run(&bench, &test_pool), ROTID_ERROR_ARGUMENT);
     assert_true(says(&bench, "no measured line lies between LOW and HIGH"));
     close_bench();
@@ -279,9 +279,9 @@ static void nodes_of_the_file_are_placed_in_the_model(void **state)
     (void)state;
     static const struct frf_node nodes[] = {{777, {0.25, 0, 0}}, {778, {1.5, 0, 0}}};
     open_measured(1);
-    bench.job.frf.axis = 0;
-    bench.job.frf.flip = 1;
-    bench.job.frf.origin = 0.6;
+    bench.job.options.frf.axis = 0;
+    bench.job.options.frf.flip = 1;
+    bench.job.options.frf.origin = 0.6;
     bench.measured.nnode = 2;
     bench.measured.node = nodes;
     for (int i = 0; i < POINTS; i++)
@@ -303,7 +303,7 @@ static void without_a_card_every_sensor_over_the_first(void **state)
     (void)state;
     open_bench(&bench, &test_pool, 1);
     measure_modes(&bench, &test_pool);
-    bench.job.frf = (struct frf_request){.axis = 2, .quantity = FRF_ACCELERATION};
+    bench.job.options.frf = (struct frf_request){.axis = 2, .quantity = FRF_ACCELERATION};
     assert_status(run(&bench, &test_pool), ROTID_OK);
     assert_int_equal(bench.result.nrow, POINTS);
     for (int i = 0; i < POINTS; i++)
@@ -338,22 +338,22 @@ static void damping_is_measured_stated_or_refused(void **state)
         assert_int_equal(r->damping[m], expected[m].from);
         assert_close(r->zeta[m], expected[m].zeta, 1e-12, 0);
     }
-    bench.job.frf.damping = 0.02;
+    bench.job.options.frf.damping = 0.02;
     assert_status(run(&bench, &test_pool), ROTID_OK);
     assert_true(bench.result.damping[0] == FRF_DAMPING_STATED && bench.result.zeta[0] == 0.02 && bench.result.zeta[2] == 0.004);
-    bench.job.frf.damping = 0;
+    bench.job.options.frf.damping = 0;
     bench.damping[0] = bench.damping[3] = NAN;
     assert_status(run(&bench, &test_pool), ROTID_ERROR_ARGUMENT);
     assert_true(says(&bench, "no mode has a damping ratio, expected one as third value of *MODES"));
-    bench.job.nmode = 0; /* nothing measured: as the deck states it */
+    bench.job.measurement.nmode = 0; /* nothing measured: as the deck states it */
     rotid_fit_free(bench.identified.fit);
     bench.identified.fit = NULL;
-    bench.job.frf.damping = 0.02;
+    bench.job.options.frf.damping = 0.02;
     assert_status(run(&bench, &test_pool), ROTID_OK);
-    bench.job.frf.high_hz = 0;
+    bench.job.options.frf.high_hz = 0;
     assert_status(run(&bench, &test_pool), ROTID_ERROR_ARGUMENT);
     assert_true(says(&bench, "expected LOW and HIGH"));
-    bench.job.frf.high_hz = 1e7;
+    bench.job.options.frf.high_hz = 1e7;
     assert_status(run(&bench, &test_pool), ROTID_OK); /* all modes of a small model */
     close_bench();
 }

@@ -16,7 +16,7 @@ static void make_bar(struct job *job, struct group *group, struct segment *segme
         sensor[i] = (struct sensor){i + 1, (double)i / (nsensor - 1)};
     *job = (struct job){
         .rotor = {.ngroup = 1, .nsegment = 1, .nsensor = nsensor, .group = group, .segment = segment, .sensor = sensor}};
-    rotid_fit_defaults(sizeof job->fit, &job->fit);
+    rotid_fit_defaults(sizeof job->options.fit, &job->options.fit);
 }
 
 static void of_a_bar_it_is_that_of_its_modulus(void **state)
@@ -31,7 +31,7 @@ static void of_a_bar_it_is_that_of_its_modulus(void **state)
         struct job job;
         struct growth growth;
         make_bar(&job, &group, &segment, sensor, 21);
-        job.fit.reduction = reduction;
+        job.options.fit.reduction = reduction;
         assert_status(growth_run(&test_pool, &job, 1, &young, &x0, 3, 7, &growth), ROTID_OK);
         assert_close(growth.epsilon_squared[0], 1e-6, 1e-12, 0);
         assert_close(growth.epsilon_squared[growth.nepsilon_squared - 1], 1e-2, 1e-12, 0);
@@ -61,13 +61,14 @@ static void the_slope_tends_to_one_at_the_optimum(void **state)
     static const rotid_parameter named[2] = {{.name = "core.E", .unit = "Pa"}, {.name = "core.G", .unit = "Pa"}};
     const struct sensitivity_options options = {
         .step = 0.01, .range = 0.5, .points = 3, .modes = PAPER_MODES, .with_growth = 1, .seed = 3};
-    rotid_fit_defaults(sizeof job.fit, &job.fit);
-    job.fit.reduction = ROTID_GUYAN;
+    rotid_fit_defaults(sizeof job.options.fit, &job.options.fit);
+    job.options.fit.reduction = ROTID_GUYAN;
     assert_status(sensitivity_run(&test_pool, &job, 2, paper_parameters, named, paper_start, &options, &result), ROTID_OK);
     const struct growth *growth = result.functional_growth;
     for (int kind = 0; kind < GROWTH_KINDS; kind++) {
         const struct growth_line *line = kind == GROWTH_E ? &growth->hybrid : &growth->hybrid_f;
-        double near = fabs(local_slope(growth, line, 0) - 1), far = fabs(local_slope(growth, line, growth->nepsilon_squared - 2) - 1);
+        double near = fabs(local_slope(growth, line, 0) - 1),
+               far = fabs(local_slope(growth, line, growth->nepsilon_squared - 2) - 1);
         print_message("ln f(%c) = %.4f ln(eps^2) %+.4f; slope off by %.1e at eps 0.001, %.1e at 0.1\n", kind ? 'F' : 'E',
                       line->slope, line->intercept, near, far);
         assert_close(near, 0, 0, 1e-3);

@@ -70,27 +70,27 @@ static struct job make_job(double noise)
     }
     shape[2 + 1 * SENSORS] = NAN;
     return (struct job){.rotor = rotor,
-                        .nmode = MODES,
-                        .number = number,
-                        .frequency_hz = hz,
-                        .frequency_std = hz_std,
-                        .shape = shape,
-                        .shape_std = shape_std,
-                        .holdout = holdout,
-                        .nparameter = 2,
-                        .parameter = parameters,
-                        .bounds = bounds,
-                        .fit = {.size = sizeof(rotid_fit_options),
-                                .functional = ROTID_LIKELIHOOD,
-                                .reduction = ROTID_REDUCTION_NONE,
-                                .derivative = ROTID_NELSON}};
+                        .measurement.nmode = MODES,
+                        .measurement.number = number,
+                        .measurement.frequency_hz = hz,
+                        .measurement.frequency_std = hz_std,
+                        .measurement.shape = shape,
+                        .measurement.shape_std = shape_std,
+                        .measurement.holdout = holdout,
+                        .unknowns.nparameter = 2,
+                        .unknowns.parameter = parameters,
+                        .unknowns.bounds = bounds,
+                        .options.fit = {.size = sizeof(rotid_fit_options),
+                                        .functional = ROTID_LIKELIHOOD,
+                                        .reduction = ROTID_REDUCTION_NONE,
+                                        .derivative = ROTID_NELSON}};
 }
 
 static rotid_fit_result *fit_job(const struct job *job, const int *held)
 {
     rotid_fit_result *fit;
     struct job copy = *job;
-    assert_status(identify_fit(&test_pool, &copy, number, held, &job->fit, NULL, NULL, &fit), ROTID_OK);
+    assert_status(identify_fit(&test_pool, &copy, number, held, &job->options.fit, NULL, NULL, &fit), ROTID_OK);
     assert_true(fit->converged);
     return fit;
 }
@@ -117,9 +117,9 @@ static void leave_sensor_out(const struct job *job, int s, double *sums)
         for (int i = 0; i < SENSORS; i++)
             std[i + k * SENSORS] *= ratio;
     }
-    without.shape = less;
-    without.shape_std = std;
-    rotid_fit_result *fit = fit_job(&without, job->holdout);
+    without.measurement.shape = less;
+    without.measurement.shape_std = std;
+    rotid_fit_result *fit = fit_job(&without, job->measurement.holdout);
     x[0] = fit->n ? fit->x[0] : soft.e;
     x[1] = fit->n ? fit->x[1] : soft.g;
     rotid_fit_free(fit);
@@ -132,7 +132,7 @@ static void leave_sensor_out(const struct job *job, int s, double *sums)
     assert_status(prediction_compute(&p, x), ROTID_OK);
     for (int k = 0; k < MODES; k++) {
         double ab = 0, aa = 0, largest = largest_of(shape + k * SENSORS);
-        if (job->holdout[k] || !isfinite(shape[s + k * SENSORS]))
+        if (job->measurement.holdout[k] || !isfinite(shape[s + k * SENSORS]))
             continue;
         for (int i = 0; i < SENSORS; i++) {
             if (i == s || !isfinite(shape[i + k * SENSORS]))
@@ -151,8 +151,8 @@ static void leave_sensor_out(const struct job *job, int s, double *sums)
 static void compare_with_refits(const struct job *job, double tolerance)
 {
     double sums[3] = {0}, standardised, rms;
-    rotid_fit_result *fit = fit_job(job, job->holdout);
-    assert_status(sensor_out(&test_pool, job, job->holdout, fit, &standardised, &rms), ROTID_OK);
+    rotid_fit_result *fit = fit_job(job, job->measurement.holdout);
+    assert_status(sensor_out(&test_pool, job, job->measurement.holdout, fit, &standardised, &rms), ROTID_OK);
     rotid_fit_free(fit);
     for (int s = 0; s < SENSORS; s++)
         leave_sensor_out(job, s, sums);
@@ -175,7 +175,7 @@ static void sensors_out_with_nothing_identified(void **state)
 {
     (void)state;
     struct job job = make_job(0.01);
-    job.nparameter = 0; /* the scales are left */
+    job.unknowns.nparameter = 0; /* the scales are left */
     compare_with_refits(&job, 1e-9);
 }
 
@@ -185,7 +185,7 @@ static void sensors_out_need_shapes(void **state)
     struct job job = make_job(1e-3);
     double standardised = 0, rms = 0;
     rotid_fit_result *fit = fit_job(&job, holdout);
-    job.shape = NULL;
+    job.measurement.shape = NULL;
     assert_status(sensor_out(&test_pool, &job, holdout, fit, &standardised, &rms), ROTID_OK);
     assert_true(isnan(standardised) && isnan(rms));
     rotid_fit_free(fit);
@@ -247,7 +247,7 @@ static void errors_are_as_defined(void **state)
     fitted_errors(&job, holdout, fit, 1, &rms, &most, &shapes);
     assert_true(isnan(rms) && isnan(most) && isnan(shapes));
     assert_true(isnan(shape_difference(&job, 0, NAN)));
-    job.shape = NULL;
+    job.measurement.shape = NULL;
     assert_true(isnan(shape_difference(&job, 0, 0.9)));
     fitted_errors(&job, holdout, fit, 0, &rms, &most, &shapes);
     assert_true(isfinite(rms) && isnan(shapes));
@@ -284,7 +284,7 @@ static void a_mode_out_leaves_enough_or_nothing_is_said(void **state)
     (void)state;
     struct job job = make_job(0.02);
     double error = 0, difference = 0;
-    job.shape = NULL;
+    job.measurement.shape = NULL;
     holdout[2] = holdout[3] = holdout[4] = 1; /* two frequencies for two moduli; one of them left out is too few */
     assert_status(mode_out_fit(&job, number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
     assert_true(isnan(error) && isnan(difference));

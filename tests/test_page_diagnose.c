@@ -8,10 +8,10 @@
 
 #include "fit/quantile.h"
 #include "json_value.h"
-#include "result/cause_place.h"
 #include "page/figures_diagnosis.h"
 #include "page/result.h"
 #include "page_bench.h"
+#include "result/cause_place.h"
 #include "support.h"
 
 #define PAPER  ROTID_SOURCE_DIR "/input/paper_rotor.inp"
@@ -157,7 +157,7 @@ static void what_cannot_be_told_apart_is_listed_with_what_would_settle_it(void *
     assert_null(strstr(html, "<figure id=\"improvement\">"));
     assert_null(strstr(html, "<figure id=\"gain\">"));
     page_says(html, "<figure id=\"change\">");
-    page_says(html, "looks like"); /* of the table */
+    page_says(html, "most similar"); /* of the table */
     cJSON_Delete(json);
 }
 

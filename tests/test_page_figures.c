@@ -154,9 +154,9 @@ static void a_diagnosis_is_plotted_as_it_is(void **state)
     (void)state;
     static const struct expected expected[] = {
         {"residuals", "modes", "measured [Hz]", "base.modes[].measured_hz", 1},
-        {"residuals", "modes", "residual over noise [1]", "modes_standardised[]", 1},
+        {"residuals", "modes", "residual/sigma [1]", "modes_standardised[]", 1},
         {"residuals", "sensors", "z [m]", "sensors[].z_m", 1},
-        {"residuals", "sensors", "residual over noise [1]", "sensors[].rms", 1},
+        {"residuals", "sensors", "residual/sigma [1]", "sensors[].rms", 1},
         {"places", "indicator", "z [m]", "localisation[].z_m", 1},
         {"places", "indicator", "indicator [1]", "localisation[].indicator", 1},
         {"improvement", "errors", "mode [1]", "base.modes[].mode", 1},

@@ -211,7 +211,8 @@ static void a_deck_without_them_has_none(void **state)
     (void)state;
     struct reading r;
     read_text(&r, MODEL DATA END);
-    assert_true(!r.job.point_frequency_hz && !r.job.point_frequency_std && r.job.frequency_hz[0] == 450);
+    assert_true(!r.job.measurement.point_frequency_hz && !r.job.measurement.point_frequency_std &&
+                r.job.measurement.frequency_hz[0] == 450);
 }
 
 static void the_card_sets_the_frequency_of_its_mode(void **state)
@@ -220,20 +221,20 @@ static void the_card_sets_the_frequency_of_its_mode(void **state)
     struct reading r;
     struct point_mean mean;
     read_text(&r, MODEL DATA POINTS_1 POINTS_2 "*NOISE, FREQUENCY=0.001\n" END);
-    const double *hz = r.job.point_frequency_hz, *std = r.job.point_frequency_std;
+    const double *hz = r.job.measurement.point_frequency_hz, *std = r.job.measurement.point_frequency_std;
     assert_non_null(hz);
     assert_true(hz[0] == 447 && hz[3] == 449 && isnan(hz[4]) && hz[6] == 1228 && isnan(hz[7]));
     assert_close(std[2], 0.3, 1e-15, 0);
     assert_close(std[3], 0.449, 1e-15, 0); /* NOISE counts for the reading that has no deviation of its own */
-    assert_status(point_mean(&test_pool, 6, hz, std, r.job.shape, &mean), ROTID_OK);
+    assert_status(point_mean(&test_pool, 6, hz, std, r.job.measurement.shape, &mean), ROTID_OK);
     assert_true(mean.regressed && mean.hz != 450);
-    assert_close(r.job.frequency_hz[0], mean.hz, 1e-15, 0);
-    assert_close(r.job.frequency_std[0], mean.std / mean.hz, 1e-15, 0);
-    assert_true(r.job.frequency_hz[1] == 1228 && has_note(&r, "mode 2 has 1 frequencies at single sensors"));
-    assert_close(r.job.frequency_std[1], 0.001, 1e-15, 0);
+    assert_close(r.job.measurement.frequency_hz[0], mean.hz, 1e-15, 0);
+    assert_close(r.job.measurement.frequency_std[0], mean.std / mean.hz, 1e-15, 0);
+    assert_true(r.job.measurement.frequency_hz[1] == 1228 && has_note(&r, "mode 2 has 1 frequencies at single sensors"));
+    assert_close(r.job.measurement.frequency_std[1], 0.001, 1e-15, 0);
     read_text(&r, MODEL DATA "*FREQUENCIES, MODE=2, MEAN=NO\n1, 1228\n" END);
-    assert_true(r.job.frequency_hz[1] == 1230 && r.job.point_frequency_hz[6] == 1228);
-    assert_close(r.job.frequency_std[1], 0.7 / 1230, 1e-14, 0);
+    assert_true(r.job.measurement.frequency_hz[1] == 1230 && r.job.measurement.point_frequency_hz[6] == 1228);
+    assert_close(r.job.measurement.frequency_std[1], 0.7 / 1230, 1e-14, 0);
 }
 
 static void floors_are_added_to_what_the_data_state_and_to_nothing_else(void **state)
@@ -241,9 +242,9 @@ static void floors_are_added_to_what_the_data_state_and_to_nothing_else(void **s
     (void)state;
     struct reading r;
     read_text(&r, MODEL DATA "*NOISE, FREQUENCY=0.001, FLOOR_FREQUENCY=0.002, SHAPE=0.02, FLOOR_SHAPE=0.01\n" END);
-    assert_close(r.job.frequency_std[0], 0.001, 1e-15, 0);
-    assert_close(r.job.frequency_std[1], hypot(0.7 / 1230, 0.002), 1e-14, 0);
-    assert_close(r.job.shape_std[0], 0.02, 1e-15, 0);
+    assert_close(r.job.measurement.frequency_std[0], 0.001, 1e-15, 0);
+    assert_close(r.job.measurement.frequency_std[1], hypot(0.7 / 1230, 0.002), 1e-14, 0);
+    assert_close(r.job.measurement.shape_std[0], 0.02, 1e-15, 0);
 }
 
 static void assert_same(ptrdiff_t count, const double *a, const double *b)
@@ -268,10 +269,10 @@ static void the_deck_comes_back(void **state)
         read_text(&r, text[i]);
         assert_status(deck_write(&test_pool, &r.job, NULL, &written), ROTID_OK);
         read_text(&back, written);
-        assert_same(12, r.job.point_frequency_hz, back.job.point_frequency_hz);
-        assert_same(12, r.job.point_frequency_std, back.job.point_frequency_std);
-        assert_close(back.job.frequency_hz[0], r.job.frequency_hz[0], 1e-15, 0);
-        assert_close(back.job.frequency_std[0], r.job.frequency_std[0], 1e-14, 0);
+        assert_same(12, r.job.measurement.point_frequency_hz, back.job.measurement.point_frequency_hz);
+        assert_same(12, r.job.measurement.point_frequency_std, back.job.measurement.point_frequency_std);
+        assert_close(back.job.measurement.frequency_hz[0], r.job.measurement.frequency_hz[0], 1e-15, 0);
+        assert_close(back.job.measurement.frequency_std[0], r.job.measurement.frequency_std[0], 1e-14, 0);
     }
 }
 
@@ -282,8 +283,8 @@ static void frequencies_follow_their_sensor(void **state)
     read_text(&r, MODEL DATA POINTS_1 "*CAUSE, NAME=a, TYPE=sensor_position, SENSOR=2\nshift, 0.3\n"
                                       "*CAUSE, NAME=b, TYPE=sensor_swap, SENSOR=1,6\n" END);
     assert_int_equal(r.job.rotor.sensor[2].id, 2); /* now behind sensor 3 */
-    assert_true(r.job.point_frequency_hz[2] == 450 && r.job.point_frequency_hz[1] == 449);
-    assert_true(r.job.point_frequency_hz[0] == 447.1 && r.job.point_frequency_hz[5] == 447);
+    assert_true(r.job.measurement.point_frequency_hz[2] == 450 && r.job.measurement.point_frequency_hz[1] == 449);
+    assert_true(r.job.measurement.point_frequency_hz[0] == 447.1 && r.job.measurement.point_frequency_hz[5] == 447);
 }
 
 /* ------------------------------------------------------------------------------------------------ universal files */
@@ -334,13 +335,16 @@ static void sets_of_deviations_become_those_of_the_job(void **state)
     const double std[6] = {0.01, 0, 0.02, 0.03, 0.01, 0.01}, hz[6] = {1200, 0, 1228, 1230, 1229, 1201},
                  of[6] = {1, 0, 2, 3, 4, 5};
     assert_string_equal(read_one(&r, "ROTID STANDARD DEVIATION OF MODE 7", "FREQUENCY_HZ 0.615 DAMPING 1e-4", std), "");
-    assert_close(r.job.frequency_std[1], 0.615 / 1230, 1e-14, 0);
-    assert_true(isnan(r.job.frequency_std[0]) && isnan(r.job.shape_std[0]) && isnan(r.job.shape_std[7]));
-    assert_close(r.job.shape_std[8], 0.02, 1e-15, 0); /* the largest component is 1 */
+    assert_close(r.job.measurement.frequency_std[1], 0.615 / 1230, 1e-14, 0);
+    assert_true(isnan(r.job.measurement.frequency_std[0]) && isnan(r.job.measurement.shape_std[0]) &&
+                isnan(r.job.measurement.shape_std[7]));
+    assert_close(r.job.measurement.shape_std[8], 0.02, 1e-15, 0); /* the largest component is 1 */
     assert_string_equal(read_one(&r, "ROTID FREQUENCY AT POINT OF MODE 7", "", hz), "");
-    assert_true(r.job.point_frequency_hz[6] == 1200 && isnan(r.job.point_frequency_hz[7]) && isnan(r.job.point_frequency_hz[0]));
+    assert_true(r.job.measurement.point_frequency_hz[6] == 1200 && isnan(r.job.measurement.point_frequency_hz[7]) &&
+                isnan(r.job.measurement.point_frequency_hz[0]));
     assert_string_equal(read_one(&r, "ROTID STANDARD DEVIATION OF FREQUENCY AT POINT OF MODE 3", "", of), "");
-    assert_true(r.job.point_frequency_std[0] == 1 && isnan(r.job.point_frequency_std[1]) && isnan(r.job.point_frequency_hz[0]));
+    assert_true(r.job.measurement.point_frequency_std[0] == 1 && isnan(r.job.measurement.point_frequency_std[1]) &&
+                isnan(r.job.measurement.point_frequency_hz[0]));
     assert_string_equal(read_one(&r, "SOMEBODY ELSE'S SET OF MODE 99", "", of), "");
 }
 

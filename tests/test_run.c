@@ -18,29 +18,29 @@ static void make_job(struct pool *pool, int nmode, struct job *job)
     static const rotid_parameter bounds[2] = {{"core.E", "Pa", 1e6, 2.3e11, 0.9e11}, {"core.G", "Pa", 1e6, 0.898e11, 0.28e11}};
     struct rotor *rotor = paper_rotor(BUNDLE_RODS, 1);
     struct spectrum spectrum;
-    *job = (struct job){.deck = "memory", .rotor = *rotor, .nmode = nmode, .nparameter = 2};
+    *job = (struct job){.deck = "memory", .rotor = *rotor, .measurement.nmode = nmode, .unknowns.nparameter = 2};
     assert_int_equal(spectrum_compute(pool, NULL, rotor, 2, paper_parameters, truth, ROTID_GUYAN, nmode, &spectrum), ROTID_OK);
     ptrdiff_t components = (ptrdiff_t)rotor->nsensor * nmode;
-    job->number = POOL_ARRAY(pool, int, nmode);
-    job->frequency_hz = spectrum.full_hz;
-    job->damping = POOL_ARRAY(pool, double, nmode);
-    job->frequency_std = POOL_ARRAY(pool, double, nmode);
-    job->shape = POOL_ARRAY(pool, double, components);
-    job->shape_std = POOL_ARRAY(pool, double, components);
-    job->holdout = POOL_ARRAY(pool, int, nmode);
-    job->parameter = POOL_ARRAY(pool, struct parameter, 2);
-    job->bounds = POOL_ARRAY(pool, rotid_parameter, 2);
-    memcpy(job->parameter, paper_parameters, 2 * sizeof *job->parameter);
-    memcpy(job->bounds, bounds, sizeof bounds);
-    memcpy(job->shape, spectrum.shape, (size_t)components * sizeof *job->shape);
+    job->measurement.number = POOL_ARRAY(pool, int, nmode);
+    job->measurement.frequency_hz = spectrum.full_hz;
+    job->measurement.damping = POOL_ARRAY(pool, double, nmode);
+    job->measurement.frequency_std = POOL_ARRAY(pool, double, nmode);
+    job->measurement.shape = POOL_ARRAY(pool, double, components);
+    job->measurement.shape_std = POOL_ARRAY(pool, double, components);
+    job->measurement.holdout = POOL_ARRAY(pool, int, nmode);
+    job->unknowns.parameter = POOL_ARRAY(pool, struct parameter, 2);
+    job->unknowns.bounds = POOL_ARRAY(pool, rotid_parameter, 2);
+    memcpy(job->unknowns.parameter, paper_parameters, 2 * sizeof *job->unknowns.parameter);
+    memcpy(job->unknowns.bounds, bounds, sizeof bounds);
+    memcpy(job->measurement.shape, spectrum.shape, (size_t)components * sizeof *job->measurement.shape);
     for (int k = 0; k < nmode; k++) {
-        job->number[k] = k + 1;
-        job->damping[k] = NAN;
-        job->frequency_std[k] = 0.001;
+        job->measurement.number[k] = k + 1;
+        job->measurement.damping[k] = NAN;
+        job->measurement.frequency_std[k] = 0.001;
     }
     for (ptrdiff_t i = 0; i < components; i++)
-        job->shape_std[i] = 0.015;
-    rotid_fit_defaults(sizeof job->fit, &job->fit);
+        job->measurement.shape_std[i] = 0.015;
+    rotid_fit_defaults(sizeof job->options.fit, &job->options.fit);
 }
 
 static int says(const struct message_list *notes, const char *text)
@@ -69,7 +69,7 @@ static void identification_recovers_what_made_the_data(void **state)
         assert_int_equal(result.compared.basis[k], PAIRED_BY_SHAPE);
         assert_close(result.compared.nco[k], 1, 1e-9, 0);
         assert_close(result.compared.mac[k], 1, 1e-9, 0);
-        assert_close(result.fit->predicted_hz[k], job.frequency_hz[k], 1e-8, 0);
+        assert_close(result.fit->predicted_hz[k], job.measurement.frequency_hz[k], 1e-8, 0);
     }
     assert_close(result.mass.mass, 998.2755, 1e-6, 0);
     assert_int_equal(notes.count, 0);
@@ -89,10 +89,11 @@ static void a_mode_that_was_not_measured_is_said_and_the_rest_keep_their_partner
     make_job(&pool, 6, &job);
     int nsensor = job.rotor.nsensor;
     for (int k = 2; k < 5; k++) { /* mode 3 was missed, and the analyser numbered the others through */
-        job.frequency_hz[k] = job.frequency_hz[k + 1];
-        memcpy(job.shape + (ptrdiff_t)k * nsensor, job.shape + (ptrdiff_t)(k + 1) * nsensor, (size_t)nsensor * sizeof *job.shape);
+        job.measurement.frequency_hz[k] = job.measurement.frequency_hz[k + 1];
+        memcpy(job.measurement.shape + (ptrdiff_t)k * nsensor, job.measurement.shape + (ptrdiff_t)(k + 1) * nsensor,
+               (size_t)nsensor * sizeof *job.measurement.shape);
     }
-    job.nmode = 5;
+    job.measurement.nmode = 5;
     assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_OK);
     const int expected[] = {1, 2, 4, 5, 6};
     for (int k = 0; k < 5; k++)
@@ -116,8 +117,8 @@ static void a_mode_that_is_no_mode_of_the_model_is_said(void **state)
     message_open(&notes, &pool);
     make_job(&pool, 6, &job);
     for (int s = 0; s < job.rotor.nsensor; s++) /* a shape of pure noise under number 4 */
-        job.shape[s + (ptrdiff_t)3 * job.rotor.nsensor] = random_normal(&stream);
-    job.holdout[3] = 1; /* so that it does not decide the fit */
+        job.measurement.shape[s + (ptrdiff_t)3 * job.rotor.nsensor] = random_normal(&stream);
+    job.measurement.holdout[3] = 1; /* so that it does not decide the fit */
     assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_OK);
     assert_true(says(&notes, "has no partner in the model by its shape"));
     assert_close(result.fit->x[0], truth[0], 1e-6, 0);
@@ -135,15 +136,15 @@ static void jobs_without_data_are_refused_and_without_parameters_compared(void *
     pool_open(&pool, NULL);
     message_open(&notes, &pool);
     make_job(&pool, 2, &job);
-    job.nparameter = 0;
+    job.unknowns.nparameter = 0;
     assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_OK);
     assert_int_equal(result.fit->n, 0);
     assert_int_equal(result.fit->iterations, 0);
-    for (int k = 0; k < job.nmode; k++)
-        assert_close(result.fit->predicted_hz[k], result.spectrum.full_hz[job.number[k] - 1], 1e-9, 0);
+    for (int k = 0; k < job.measurement.nmode; k++)
+        assert_close(result.fit->predicted_hz[k], result.spectrum.full_hz[job.measurement.number[k] - 1], 1e-9, 0);
     rotid_fit_free(result.fit);
-    job.nparameter = 2;
-    job.nmode = 0;
+    job.unknowns.nparameter = 2;
+    job.measurement.nmode = 0;
     assert_int_equal(identify_run(&pool, &job, 0, NULL, &notes, &result), ROTID_ERROR_ARGUMENT);
     assert_true(says(&notes, "MODES"));
     assert_null(result.fit);
@@ -170,7 +171,7 @@ static void a_cancelled_identification_keeps_the_best_point(void **state)
     assert_int_equal(identify_run(&pool, &job, 1, &environment, &notes, &result), ROTID_OK);
     assert_int_equal(result.fit->status, ROTID_STOP_CANCELLED);
     assert_false(result.fit->converged);
-    assert_close(result.fit->x[0], job.bounds[0].start, 1e-12, 0);
+    assert_close(result.fit->x[0], job.unknowns.bounds[0].start, 1e-12, 0);
     rotid_fit_free(result.fit);
     pool_close(&pool);
 }
@@ -187,7 +188,7 @@ static void sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivativ
     const struct parameter parameter[3] = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}, {PARAMETER_NU, 1, 0}};
     pool_open(&pool, NULL);
     make_job(&pool, 6, &job);
-    job.fit.reduction = ROTID_GUYAN;
+    job.options.fit.reduction = ROTID_GUYAN;
     assert_int_equal(sensitivity_run(&pool, &job, 3, parameter, named, x, &options, &coarse), ROTID_OK);
     options.step = 1e-5;
     assert_int_equal(sensitivity_run(&pool, &job, 3, parameter, named, x, &options, &fine), ROTID_OK);

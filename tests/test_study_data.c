@@ -99,11 +99,11 @@ static void hidden_effects_do_what_exact_dynamics_says(void **state)
         const int data = table[i].spec && strstr(table[i].spec, "sensor_") == table[i].spec,
                   twice = table[i].spec && strstr(table[i].spec, "duplicate") == table[i].spec;
         double sum = 0;
-        for (int k = 0; k < e.job.nmode; k++) {
+        for (int k = 0; k < e.job.measurement.nmode; k++) {
             double hz = cJSON_GetArrayItem(get(with, "frequency_hz"), k)->valuedouble, across = 0;
             const cJSON *shape = cJSON_GetArrayItem(get(with, "shape"), k);
-            const double *mine = e.job.shape + (ptrdiff_t)k * e.job.rotor.nsensor;
-            assert_close(e.job.frequency_hz[k], hz, 6e-4, 0); /* the mesh of the deck: 0.043 % of mode 6 */
+            const double *mine = e.job.measurement.shape + (ptrdiff_t)k * e.job.rotor.nsensor;
+            assert_close(e.job.measurement.frequency_hz[k], hz, 6e-4, 0); /* the mesh of the deck: 0.043 % of mode 6 */
             for (int s = 0; s < e.job.rotor.nsensor; s++)
                 across += mine[s] * cJSON_GetArrayItem(shape, s)->valuedouble;
             /* faults of the data are not in the truth of tools/hide, but in its deck: they are seen below */
@@ -124,10 +124,10 @@ static void hidden_effects_do_what_exact_dynamics_says(void **state)
             jobs_open(&other, &others);
             const struct study_point point = study_locate(&other, 0);
             assert_status(jobs_fitted(&others, &point.cell, &job), ROTID_OK);
-            for (int k = 0; k < job->nmode; k++) {
+            for (int k = 0; k < job->measurement.nmode; k++) {
                 double across = 0, square = 0;
-                const double *a = e.job.shape + (ptrdiff_t)k * job->rotor.nsensor,
-                             *b = job->shape + (ptrdiff_t)k * job->rotor.nsensor;
+                const double *a = e.job.measurement.shape + (ptrdiff_t)k * job->rotor.nsensor,
+                             *b = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor;
                 for (int s = 0; s < job->rotor.nsensor; s++) {
                     across += a[s] * b[s];
                     square += a[s] * a[s];
@@ -156,11 +156,11 @@ static void cells_see_the_same_noise(void **state)
     for (long c = 1; c < study.runs / cell; c++) {
         struct experiment e = make(c * cell + 7), other = make(c * cell + 8);
         for (int k = 0; k < 6; k++) {
-            assert_true(e.job.frequency_hz[k] == first.job.frequency_hz[k]);
-            assert_true(other.job.frequency_hz[k] != first.job.frequency_hz[k]);
+            assert_true(e.job.measurement.frequency_hz[k] == first.job.measurement.frequency_hz[k]);
+            assert_true(other.job.measurement.frequency_hz[k] != first.job.measurement.frequency_hz[k]);
             for (int s = 0; s < 12; s++) /* EVERY rescales, which costs a bit */
-                assert_close(e.job.shape[s + 12 * k] / e.job.shape[12 * k], first.job.shape[s + 12 * k] / first.job.shape[12 * k],
-                             1e-12, 1e-12);
+                assert_close(e.job.measurement.shape[s + 12 * k] / e.job.measurement.shape[12 * k],
+                             first.job.measurement.shape[s + 12 * k] / first.job.measurement.shape[12 * k], 1e-12, 1e-12);
         }
     }
     jobs_close(&jobs);
@@ -175,15 +175,15 @@ static void noise_is_what_it_is_said_to_be(void **state)
     double f1 = 0, f2 = 0, f12 = 0, s1 = 0, s2 = 0;
     for (long run = 0; run < 2000; run++) {
         struct experiment e = make(run);
-        double a = (e.job.frequency_hz[0] / clean.job.frequency_hz[0] - 1) / 0.002,
-               b = (e.job.frequency_hz[5] / clean.job.frequency_hz[5] - 1) / 0.002,
-               c = (e.job.shape[4] - clean.job.shape[4]) / 0.03;
+        double a = (e.job.measurement.frequency_hz[0] / clean.job.measurement.frequency_hz[0] - 1) / 0.002,
+               b = (e.job.measurement.frequency_hz[5] / clean.job.measurement.frequency_hz[5] - 1) / 0.002,
+               c = (e.job.measurement.shape[4] - clean.job.measurement.shape[4]) / 0.03;
         f1 += a;
         f2 += a * a;
         f12 += a * b;
         s1 += c;
         s2 += c * c;
-        assert_true(e.job.frequency_std[3] == 0.002 && e.job.shape_std[17] == 0.03);
+        assert_true(e.job.measurement.frequency_std[3] == 0.002 && e.job.measurement.shape_std[17] == 0.03);
     }
     /* of 2000: means within 4/sqrt(2000), variances within 4 sqrt(2/2000) */
     assert_close(f1 / 2000, 0, 0, 0.09);
@@ -200,17 +200,18 @@ static void noise_adds_to_that_of_measured_data(void **state)
     (void)bench_write("noisy.inp", BENCH_DECK "*NOISE, FREQUENCY=0.003\n");
     open_study("*STUDY, REPLICATES=3\n*DECKS\nnoisy.inp\n*NOISE\n0.004\n");
     struct experiment e = make(1);
-    assert_close(e.job.frequency_std[0], 0.005, 1e-12, 0);
-    assert_true(fabs(e.job.frequency_hz[0] / 398.9 - 1) < 0.02 && e.job.frequency_hz[0] != 398.9 && !e.truth);
+    assert_close(e.job.measurement.frequency_std[0], 0.005, 1e-12, 0);
+    assert_true(fabs(e.job.measurement.frequency_hz[0] / 398.9 - 1) < 0.02 && e.job.measurement.frequency_hz[0] != 398.9 &&
+                !e.truth);
     jobs_close(&jobs);
     open_study("*STUDY\n*DECKS\ndeck.inp\n*NOISE\n0.004\n"); /* a deck without noise: known now, and so a likelihood */
     e = make(0);
-    assert_close(e.job.frequency_std[0], 0.004, 1e-12, 0);
-    assert_int_equal(e.job.fit.functional, ROTID_LIKELIHOOD);
+    assert_close(e.job.measurement.frequency_std[0], 0.004, 1e-12, 0);
+    assert_int_equal(e.job.options.fit.functional, ROTID_LIKELIHOOD);
     jobs_close(&jobs);
     open_study("*STUDY\n*DECKS\ndeck.inp\n");
     e = make(0);
-    assert_true(e.job.frequency_hz[0] == 398.9 && e.job.fit.functional == ROTID_HYBRID);
+    assert_true(e.job.measurement.frequency_hz[0] == 398.9 && e.job.options.fit.functional == ROTID_HYBRID);
     jobs_close(&jobs);
 }
 
@@ -241,7 +242,8 @@ static void sensors_are_drawn_from_all(void **state)
         differ += !has(&three.job, make(0).job.rotor.sensor[0].id);
         /* the noise stays what it is in absolute terms, also where the largest component went */
         int s = sensor_find(&nine.job, three.job.rotor.sensor[0].id);
-        assert_close(three.job.shape_std[0] / three.job.shape[0], nine.job.shape_std[s] / nine.job.shape[s], 1e-10, 0);
+        assert_close(three.job.measurement.shape_std[0] / three.job.measurement.shape[0],
+                     nine.job.measurement.shape_std[s] / nine.job.measurement.shape[s], 1e-10, 0);
     }
     assert_true(differ > 10);
     for (int id = 1; id <= 12; id++) /* 10 on average */
@@ -293,19 +295,19 @@ static void starts_lie_around_that_of_the_deck(void **state)
     assert_int_equal(study.runs, 25);
     for (long run = 0; run < 25; run++) {
         struct experiment e = make(run);
-        assert_close(e.job.bounds[0].start, 1.5e11 + 1.5e11 * (double)(run % 5) / 4, 1e-5, 0); /* up to the bound */
-        assert_close(e.job.bounds[1].start, 1e11 + 2e11 * (double)(run / 5) / 4, 1e-5, 0);
-        assert_true(e.job.bounds[0].start > e.job.bounds[0].lower);
+        assert_close(e.job.unknowns.bounds[0].start, 1.5e11 + 1.5e11 * (double)(run % 5) / 4, 1e-5, 0); /* up to the bound */
+        assert_close(e.job.unknowns.bounds[1].start, 1e11 + 2e11 * (double)(run / 5) / 4, 1e-5, 0);
+        assert_true(e.job.unknowns.bounds[0].start > e.job.unknowns.bounds[0].lower);
     }
     jobs_close(&jobs);
     open_study("*STUDY, REPLICATES=2\n*DECKS\nbounded.inp\n*STARTS, SPREAD=0.5, COUNT=500\n");
     double least = INFINITY, most = 0, sum = 0;
     for (long run = 0; run < 500; run++) {
-        double start = make(run).job.bounds[1].start;
+        double start = make(run).job.unknowns.bounds[1].start;
         least = fmin(least, start);
         most = fmax(most, start);
         sum += start;
-        assert_true(start != make(run + 500).job.bounds[1].start);
+        assert_true(start != make(run + 500).job.unknowns.bounds[1].start);
     }
     assert_true(least > 1e11 && least < 1.02e11 && most < 3e11 && most > 2.98e11);
     assert_close(sum / 500, 2e11, 0, 4 * 2e11 / sqrt(12 * 500));

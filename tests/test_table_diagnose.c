@@ -76,7 +76,6 @@ static struct store {
     struct diagnosis_step step[2];
 } s;
 
-
 static const double measured_hz[MODES] = {435.55, 735.16, 1159.4, 1802, 2425.8, 2918.4};
 
 static void fill_fit(struct fit_store *f, int n, double e, double g, double error_percent)
@@ -194,13 +193,13 @@ static void fill_named(void)
         .nheading = 1,
         .heading = lines,
         .rotor = {.ngroup = 3, .nsegment = 3, .nsensor = SENSORS, .group = s.group, .segment = s.segment, .sensor = s.sensor},
-        .nmode = MODES,
-        .number = s.number,
-        .frequency_hz = s.hz,
-        .holdout = s.holdout,
-        .nparameter = 2,
-        .bounds = s.bounds,
-        .fit = {.size = sizeof(rotid_fit_options), .functional = ROTID_HYBRID, .reduction = ROTID_GUYAN}};
+        .measurement.nmode = MODES,
+        .measurement.number = s.number,
+        .measurement.frequency_hz = s.hz,
+        .measurement.holdout = s.holdout,
+        .unknowns.nparameter = 2,
+        .unknowns.bounds = s.bounds,
+        .options.fit = {.size = sizeof(rotid_fit_options), .functional = ROTID_HYBRID, .reduction = ROTID_GUYAN}};
     s.data =
         (struct data_finding){.cause = &gain,
                               .nsensor = 1,
@@ -290,9 +289,9 @@ static void fill_named(void)
         .nstep = 2,
         .step = s.step,
     };
-    s.d.job.fit = (rotid_fit_options){.size = sizeof(rotid_fit_options), .functional = ROTID_LIKELIHOOD};
-    s.d.extended_job.fit = s.d.job.fit;
-    s.d.extended_job.nparameter = 3;
+    s.d.job.options.fit = (rotid_fit_options){.size = sizeof(rotid_fit_options), .functional = ROTID_LIKELIHOOD};
+    s.d.extended_job.options.fit = s.d.job.options.fit;
+    s.d.extended_job.unknowns.nparameter = 3;
 }
 
 static void fill_adequate(void)
@@ -358,7 +357,7 @@ static void nothing_to_identify(void)
 {
     fill_adequate();
     s.d.base.fit->n = 0;
-    s.d.job.nparameter = s.deck.nparameter = 0;
+    s.d.job.unknowns.nparameter = s.deck.unknowns.nparameter = 0;
     s.d.base.fit->correlation = s.d.base.fit->x = NULL;
 }
 
@@ -486,13 +485,13 @@ static void a_named_cause_is_read_from_top_to_bottom(void **state)
     (void)state;
     static const char *const parts[] = {"A rotor of three groups",
                                         "VERDICT  NAMED",
-                                        "YOUR FIT TODAY  HYBRID, reduction GUYAN",
+                                        "FIT AS SPECIFIED  HYBRID, reduction GUYAN",
                                         "NUMBERS",
                                         "DATA",
                                         "WHAT IS WRONG",
                                         "EVIDENCE",
                                         "GAIN  base model -> extended model",
-                                        "BLIND SPOTS",
+                                        "DETECTION LIMITS",
                                         "seed 7, 4 threads"};
     fill_named();
     show(0, 100);
@@ -500,7 +499,7 @@ static void a_named_cause_is_read_from_top_to_bottom(void **state)
         assert_order(parts[i - 1], parts[i]);
     assert_says("core.E 1.178e+11 Pa: +0.9 % off the full model by the likelihood, +2.8 % off the extended one");
     assert_says("sensor_gain sensor 23: 1.4 +- 0.03, chi2 less by 180; sensor 23 reads");
-    assert_says("misfits so: below 0.001; with what is named it is adequate");
+    assert_says("adequate model): below 0.001; with what is named it is adequate");
     assert_says("flexibility 2.13e-10 rad/(N.m) (1.92e-10 ... 2.34e-10)");
     assert_says("      NAMED: flexibility");
     assert_says("; rejected: it leaves 31 of chi2");
@@ -522,7 +521,7 @@ static void what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause(
     (void)state;
     fill_named();
     show(0, 100);
-    const char *sensors = strstr(screen, "\n  sensors"), *acts = strstr(screen, "\n  misfit acts "),
+    const char *sensors = strstr(screen, "\n  sensors"), *acts = strstr(screen, "\n  force resid. "),
                *mark = strstr(screen, "^ joint");
     assert_true(sensors && acts && mark);
     const char *begin = mark;
@@ -554,11 +553,11 @@ static void each_verdict_says_its_own(void **state)
     fill_adequate();
     show(0, 100);
     assert_says("VERDICT  ADEQUATE");
-    assert_says("misfits so: 0.37\n");
+    assert_says("adequate model): 0.37\n");
     assert_says("QUALITY  of the base model; nothing is added to it");
-    assert_silent("YOUR FIT TODAY");
+    assert_silent("FIT AS SPECIFIED");
     assert_silent("->");
-    assert_silent("misfit acts"); /* it is noise */
+    assert_silent("force resid"); /* it is noise */
     assert_silent("size and place");
     fill_ambiguous();
     show(0, 100);
@@ -589,7 +588,7 @@ static void what_is_absent_is_left_away(void **state)
     everything_nan();
     show(1, 100);
     assert_silent("smallest NCO");
-    assert_says("no chance can be stated");
+    assert_says("no p-value can be stated");
     assert_says("(no interval)");
     interrupted_at_once();
     show(1, 100);

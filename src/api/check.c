@@ -19,17 +19,17 @@ static int make_result(struct result_memory *memory, const struct job *job, cons
                        .rigid_modes = s->nrigid,
                        .nrigid_hz = s->nrigid,
                        .rigid_hz = RESULT_COPY(memory, s->rigid_hz, s->nrigid),
-                       .measured_modes = job->nmode,
-                       .functional = functional_name(job->fit.functional),
-                       .reduction = reduction_name(job->fit.reduction),
+                       .measured_modes = job->measurement.nmode,
+                       .functional = functional_name(job->options.fit.functional),
+                       .reduction = reduction_name(job->options.fit.reduction),
                        .geometry = result_geometry(memory, &job->rotor, s->model),
                        .memory = memory};
     r->nsensors = RESULT_LIST(memory, r->sensors, job->rotor.nsensor);
     for (int i = 0; i < r->nsensors; i++)
         r->sensors[i] = (rotid_sensor){job->rotor.sensor[i].id, job->rotor.sensor[i].position};
-    r->nparameters = RESULT_LIST(memory, r->parameters, job->nparameter);
+    r->nparameters = RESULT_LIST(memory, r->parameters, job->unknowns.nparameter);
     for (int p = 0; p < r->nparameters; p++)
-        r->parameters[p] = result_text(memory, job->bounds[p].name);
+        r->parameters[p] = result_text(memory, job->unknowns.bounds[p].name);
     *result = r;
     return memory->missing ? ROTID_ERROR_MEMORY : ROTID_OK;
 }

@@ -35,11 +35,12 @@ static int weigh(const struct job *job, const rotid_environment *environment, ro
     struct pool scratch;
     struct mass_properties properties;
     pool_open(&scratch, environment ? environment->allocator : NULL);
-    double *x = POOL_ARRAY(&scratch, double, job->nparameter);
-    for (int p = 0; p < job->nparameter && x; p++)
-        x[p] = job->bounds[p].start;
+    double *x = POOL_ARRAY(&scratch, double, job->unknowns.nparameter);
+    for (int p = 0; p < job->unknowns.nparameter && x; p++)
+        x[p] = job->unknowns.bounds[p].start;
     int status =
-        x ? model_weigh(&scratch, job->models, &job->rotor, job->nparameter, job->parameter, x, &properties) : ROTID_ERROR_MEMORY;
+        x ? model_weigh(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x, &properties)
+          : ROTID_ERROR_MEMORY;
     if (!status) {
         deck->length = rotor_length(&job->rotor);
         deck->mass = properties.mass;
@@ -53,28 +54,28 @@ static int weigh(const struct job *job, const rotid_environment *environment, ro
 static void show(const struct job *job, struct result_memory *own, rotid_deck *deck)
 {
     int nsensor = job->rotor.nsensor, *id = result_room(own, nsensor, sizeof *id);
-    double *z = result_room(own, nsensor, sizeof *z), *stated = result_room(own, job->nparameter, sizeof *stated);
+    double *z = result_room(own, nsensor, sizeof *z), *stated = result_room(own, job->unknowns.nparameter, sizeof *stated);
     for (int s = 0; s < nsensor && id && z; s++) {
         id[s] = job->rotor.sensor[s].id;
         z[s] = job->rotor.sensor[s].position;
     }
-    for (int p = 0; p < job->nparameter && stated; p++)
-        stated[p] = *parameter_value(&job->rotor, job->parameter[p]);
+    for (int p = 0; p < job->unknowns.nparameter && stated; p++)
+        stated[p] = *parameter_value(&job->rotor, job->unknowns.parameter[p]);
     deck->nreferences = RESULT_LIST(own, deck->references, job->nreference);
     for (int i = 0; i < deck->nreferences; i++)
         deck->references[i] = (rotid_reference){job->reference[i].quantity, job->reference[i].count, job->reference[i].value};
     deck->nsensor = nsensor;
     deck->sensor_id = id;
     deck->sensor_z = z;
-    deck->nmode = job->nmode;
-    deck->number = job->number;
-    deck->frequency_hz = job->frequency_hz;
-    deck->frequency_std = job->frequency_std;
-    deck->shape = job->shape;
-    deck->shape_std = job->shape ? job->shape_std : NULL;
-    deck->holdout = job->holdout;
-    deck->nparameter = job->nparameter;
-    deck->parameter = job->bounds;
+    deck->nmode = job->measurement.nmode;
+    deck->number = job->measurement.number;
+    deck->frequency_hz = job->measurement.frequency_hz;
+    deck->frequency_std = job->measurement.frequency_std;
+    deck->shape = job->measurement.shape;
+    deck->shape_std = job->measurement.shape ? job->measurement.shape_std : NULL;
+    deck->holdout = job->measurement.holdout;
+    deck->nparameter = job->unknowns.nparameter;
+    deck->parameter = job->unknowns.bounds;
     deck->stated = stated;
     deck->nheading = job->nheading;
     deck->heading = job->heading;

@@ -157,11 +157,13 @@ static void fill_changes(struct result_memory *memory, const struct diagnosis *d
     int nbase = base ? base->n : 0, nextended = extended ? extended->n : 0,
         room = RESULT_LIST(memory, out->parameters, nbase + nextended);
     for (int p = 0; p < nbase && room; p++)
-        out->parameters[out->nparameters++] = changed_parameter(
-            memory, &d->job.bounds[p], base, p, extended, fitted_parameter(&d->extended_job, extended, d->job.bounds[p].name));
+        out->parameters[out->nparameters++] =
+            changed_parameter(memory, &d->job.unknowns.bounds[p], base, p, extended,
+                              fitted_parameter(&d->extended_job, extended, d->job.unknowns.bounds[p].name));
     for (int p = 0; p < nextended && room; p++)
-        if (fitted_parameter(&d->job, base, d->extended_job.bounds[p].name) < 0)
-            out->parameters[out->nparameters++] = changed_parameter(memory, &d->extended_job.bounds[p], base, -1, extended, p);
+        if (fitted_parameter(&d->job, base, d->extended_job.unknowns.bounds[p].name) < 0)
+            out->parameters[out->nparameters++] =
+                changed_parameter(memory, &d->extended_job.unknowns.bounds[p], base, -1, extended, p);
 }
 
 static void fill_gain(struct result_memory *memory, const struct diagnosis *d, rotid_gain *out)
@@ -187,8 +189,8 @@ static void fill_gain(struct result_memory *memory, const struct diagnosis *d, r
 static void fill_misfit(struct result_memory *memory, const struct diagnosis *d, rotid_diagnosis *out)
 {
     const struct rotor *rotor = &d->job.rotor;
-    out->modes_standardised = RESULT_COPY(memory, d->mode_z, d->job.nmode);
-    out->nmodes_standardised = out->modes_standardised ? d->job.nmode : 0;
+    out->modes_standardised = RESULT_COPY(memory, d->mode_z, d->job.measurement.nmode);
+    out->nmodes_standardised = out->modes_standardised ? d->job.measurement.nmode : 0;
     out->nsensors = RESULT_LIST(memory, out->sensors, rotor->nsensor);
     for (int s = 0; s < out->nsensors; s++)
         out->sensors[s] = (rotid_sensor_residual){rotor->sensor[s].id, rotor->sensor[s].position,

@@ -12,7 +12,7 @@ static void fill_parameters(struct result_memory *memory, const struct job *job,
     int undetermined = 0;
     out->nparameters = RESULT_LIST(memory, out->parameters, fit->n);
     for (int p = 0; p < out->nparameters; p++) {
-        const rotid_parameter *bounds = &job->bounds[p];
+        const rotid_parameter *bounds = &job->unknowns.bounds[p];
         out->parameters[p] = (rotid_fitted_parameter){.name = result_text(memory, bounds->name),
                                                       .unit = result_text(memory, bounds->unit),
                                                       .value = fit->x[p],
@@ -39,15 +39,16 @@ static void fill_parameters(struct result_memory *memory, const struct job *job,
 rotid_compared_mode result_compared_mode(const struct job *job, const struct comparison *compared, int k, double predicted_hz)
 {
     return (rotid_compared_mode){.mode = compared->number[k],
-                                 .measured_mode = job->number[k],
-                                 .measured_hz = job->frequency_hz[k],
-                                 .frequency_std = job->frequency_std ? job->frequency_std[k] : (double)NAN,
+                                 .measured_mode = job->measurement.number[k],
+                                 .measured_hz = job->measurement.frequency_hz[k],
+                                 .frequency_std =
+                                     job->measurement.frequency_std ? job->measurement.frequency_std[k] : (double)NAN,
                                  .predicted_hz = predicted_hz,
-                                 .error_percent = 100 * (predicted_hz / job->frequency_hz[k] - 1),
+                                 .error_percent = 100 * (predicted_hz / job->measurement.frequency_hz[k] - 1),
                                  .mac = compared->mac[k],
                                  .nco = compared->nco[k],
                                  .paired_by = pairing_basis_name(compared->basis[k]),
-                                 .holdout = job->holdout && job->holdout[k],
+                                 .holdout = job->measurement.holdout && job->measurement.holdout[k],
                                  .residual = NAN};
 }
 
@@ -107,8 +108,8 @@ static void fill_history(struct result_memory *memory, const struct identificati
 static int knows_noise(const struct job *job, int nsensor, int k)
 {
     int known = 0;
-    for (int i = 0; i < nsensor && job->shape_std && !known; i++)
-        known = isfinite(job->shape_std[i + (ptrdiff_t)k * nsensor]);
+    for (int i = 0; i < nsensor && job->measurement.shape_std && !known; i++)
+        known = isfinite(job->measurement.shape_std[i + (ptrdiff_t)k * nsensor]);
     return known;
 }
 
@@ -139,7 +140,7 @@ static void fill_mode_shapes(struct result_memory *memory, const struct job *job
     }
     if (shapes->has_shape[k] && knows_noise(job, shapes->nsensor, k)) {
         out->nmeasured_std = shapes->nsensor;
-        out->measured_std = RESULT_COPY(memory, job->shape_std + at, shapes->nsensor);
+        out->measured_std = RESULT_COPY(memory, job->measurement.shape_std + at, shapes->nsensor);
     }
     out->npredicted = shapes->nsensor;
     out->predicted = shapes->predicted + at;
@@ -171,14 +172,14 @@ static void fill_shapes(struct result_memory *memory, const struct job *job, con
     to->axis_z_m = shapes.axis_z;
     to->nmodes = RESULT_LIST(memory, to->modes, shapes.nmode);
     for (int k = 0; k < to->nmodes; k++) {
-        to->modes[k] = (rotid_mode_shapes){.mode = found->compared.number[k], .measured_mode = job->number[k]};
+        to->modes[k] = (rotid_mode_shapes){.mode = found->compared.number[k], .measured_mode = job->measurement.number[k]};
         fill_mode_shapes(memory, job, &shapes, k, &to->modes[k]);
     }
     if (!shapes.mac)
         return;
     out->nco_matrix = shapes.nco;
     out->mac_matrix = shapes.mac;
-    out->matrix_rows = RESULT_COPY(memory, job->number, shapes.nmode);
+    out->matrix_rows = RESULT_COPY(memory, job->measurement.number, shapes.nmode);
     out->nmatrix_rows = out->matrix_rows ? shapes.nmode : 0;
     out->nmatrix_columns = RESULT_LIST(memory, out->matrix_columns, shapes.ncolumn);
     for (int j = 0; j < out->nmatrix_columns; j++)
@@ -190,7 +191,7 @@ static double bijection_chi(const struct job *job)
 {
     rotid_fit_options standard;
     rotid_fit_defaults(sizeof standard, &standard);
-    return job->fit.bijection_chi > 0 ? job->fit.bijection_chi : standard.bijection_chi;
+    return job->options.fit.bijection_chi > 0 ? job->options.fit.bijection_chi : standard.bijection_chi;
 }
 
 rotid_identification *result_identification(struct result_memory *memory, const struct job *job, struct identification *found)
@@ -204,9 +205,9 @@ rotid_identification *result_identification(struct result_memory *memory, const 
         *out = (rotid_identification){.status = !fit->converged     ? "not_converged"
                                                 : fit->any_at_bound ? "at_bound"
                                                                     : "converged",
-                                      .functional = functional_name(job->fit.functional),
-                                      .reduction = reduction_name(job->fit.reduction),
-                                      .derivative = derivative_name(job->fit.derivative),
+                                      .functional = functional_name(job->options.fit.functional),
+                                      .reduction = reduction_name(job->options.fit.reduction),
+                                      .derivative = derivative_name(job->options.fit.derivative),
                                       .shapes_fitted = found->shapes_fitted,
                                       .bijection_chi = bijection_chi(job),
                                       .objective = fit->objective,
@@ -245,12 +246,14 @@ static double typical(ptrdiff_t count, const double *measured, const double *std
 
 rotid_noise *result_noise(struct result_memory *memory, const struct job *job, const rotid_fit_result *fit)
 {
-    ptrdiff_t components = job->shape && job->shape_std ? (ptrdiff_t)job->rotor.nsensor * job->nmode : 0;
-    double *work = result_room(memory, components + job->nmode, sizeof *work);
+    ptrdiff_t components =
+        job->measurement.shape && job->measurement.shape_std ? (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode : 0;
+    double *work = result_room(memory, components + job->measurement.nmode, sizeof *work);
     rotid_noise *out = work ? RESULT_NEW(memory, rotid_noise) : NULL;
     if (out)
-        *out = (rotid_noise){.frequency = typical(job->nmode, job->frequency_hz, job->frequency_std, work),
-                             .shape = typical(components, job->shape, job->shape_std, work),
-                             .intervals_from = fit->variance_from_residuals ? "residuals" : "noise"};
+        *out = (rotid_noise){
+            .frequency = typical(job->measurement.nmode, job->measurement.frequency_hz, job->measurement.frequency_std, work),
+            .shape = typical(components, job->measurement.shape, job->measurement.shape_std, work),
+            .intervals_from = fit->variance_from_residuals ? "residuals" : "noise"};
     return out;
 }

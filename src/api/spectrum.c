@@ -11,16 +11,18 @@
 static int compute(const struct job *job, const double *x, int nmode, struct entry *entry, struct spectrum *spectrum)
 {
     struct pool *scratch = &entry->scratch;
-    int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
-    double *at = POOL_ARRAY(scratch, double, job->nparameter);
+    int reduction = job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
+    double *at = POOL_ARRAY(scratch, double, job->unknowns.nparameter);
     if (!at)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->nparameter; p++) {
-        at[p] = x ? x[p] : job->bounds[p].start;
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
+        at[p] = x ? x[p] : job->unknowns.bounds[p].start;
         if (!isfinite(at[p]))
-            return refuse(entry->failure, "x[%d], the value of %s, is %g, expected a number", p, job->bounds[p].name, at[p]);
+            return refuse(entry->failure, "x[%d], the value of %s, is %g, expected a number", p, job->unknowns.bounds[p].name,
+                          at[p]);
     }
-    return spectrum_compute(scratch, job->models, &job->rotor, job->nparameter, job->parameter, at, reduction, nmode, spectrum);
+    return spectrum_compute(scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, at, reduction,
+                            nmode, spectrum);
 }
 
 /* compared NULL: the measured modes could not be paired */
@@ -50,7 +52,7 @@ static int make_result(struct result_memory *memory, struct call *call, const st
     if (!r)
         return ROTID_ERROR_MEMORY;
     ptrdiff_t masters = s->nmaster;
-    *r = (rotid_spectrum){.reduction = job->fit.reduction == ROTID_IRS ? "IRS" : "GUYAN",
+    *r = (rotid_spectrum){.reduction = job->options.fit.reduction == ROTID_IRS ? "IRS" : "GUYAN",
                           .nrigid_hz = s->nrigid,
                           .rigid_hz = RESULT_COPY(memory, s->rigid_hz, s->nrigid),
                           .nsensor_z_m = s->nmaster,

@@ -30,7 +30,7 @@ static int is_doubtful(const struct ema *ema)
 {
     int doubtful = !ema->nmode;
     for (int k = 0; k < ema->nmode; k++)
-        doubtful |= (ema->mode[k].doubts & (EMA_UNSTABLE | EMA_WEAK | EMA_NEGATIVE_DAMPING | EMA_NOT_REFINED)) != 0;
+        doubtful |= (ema->mode[k].quality_flags & (EMA_UNSTABLE | EMA_WEAK | EMA_NEGATIVE_DAMPING | EMA_NOT_REFINED)) != 0;
     return doubtful;
 }
 

@@ -22,9 +22,9 @@ static int identify(struct command *command, struct identification *identified)
     const struct job *job = command->job;
     double last = 0;
     const rotid_environment environment = command_environment(command, &last);
-    if (!job->nparameter || command->start)
+    if (!job->unknowns.nparameter || command->start)
         return ROTID_OK;
-    if (!job->nmode) {
+    if (!job->measurement.nmode) {
         warn(command, "no mode was measured: the model is taken as the deck states it, not at identified parameters");
         return ROTID_OK;
     }

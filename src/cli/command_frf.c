@@ -10,7 +10,7 @@
 /* The measured functions of *FRF, FILE. */
 static int read_measured(struct command *command, struct measurement *measurement, struct frf_measured *measured)
 {
-    const struct frf_request *request = &command->job->frf;
+    const struct frf_request *request = &command->job->options.frf;
     const struct measurement_options options = {
         .low_hz = request->low_hz, .high_hz = request->high_hz, .threads = command->threads};
     int status = measurement_read(&command->pool, request->file, &options, &command->messages, measurement);
@@ -76,16 +76,16 @@ int command_frf(struct command *command)
     struct measurement measurement;
     struct frf_measured measured;
     struct frf_result result;
-    if (job->frf.file)
+    if (job->options.frf.file)
         status = read_measured(command, &measurement, &measured);
-    if (!status && job->nmode)
+    if (!status && job->measurement.nmode)
         status = identify_run(&command->pool, job, 0, &environment, &command->messages, &identified);
-    else if (!status && job->nparameter)
+    else if (!status && job->unknowns.nparameter)
         message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
                     "no mode was measured: the model is taken as the deck states it, not at identified parameters");
     const rotid_fit_result *fit = identified.fit;
     if (!status)
-        status = frf_run(&command->pool, job, fit ? &identified : NULL, job->frf.file ? &measured : NULL, &environment,
+        status = frf_run(&command->pool, job, fit ? &identified : NULL, job->options.frf.file ? &measured : NULL, &environment,
                          &command->messages, &result);
     if (environment.progress)
         terminal_progress_end();
@@ -107,7 +107,7 @@ int command_frf(struct command *command)
     const struct frf_view view = {.pool = &command->pool,
                                   .job = job,
                                   .identified = fit ? &identified : NULL,
-                                  .set = job->frf.file ? &measurement.set : NULL,
+                                  .set = job->options.frf.file ? &measurement.set : NULL,
                                   .result = &result,
                                   .verbose = command->verbose};
     code = report(command, &view, code);

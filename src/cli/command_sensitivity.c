@@ -54,7 +54,7 @@ static int select_listed(struct command *command, struct selection *s)
 static int select_parameters(struct command *command, struct selection *s)
 {
     const struct job *job = command->job;
-    size_t room = (size_t)job->nparameter + 1;
+    size_t room = (size_t)job->unknowns.nparameter + 1;
     for (const char *c = command->at; c && *c; c++)
         room += *c == ',';
     *s = (struct selection){0, POOL_ARRAY(&command->pool, struct parameter, room),
@@ -63,12 +63,12 @@ static int select_parameters(struct command *command, struct selection *s)
         return ROTID_ERROR_MEMORY;
     if (command->at)
         return select_listed(command, s);
-    for (int p = 0; p < job->nparameter; p++) {
-        s->parameter[p] = job->parameter[p];
-        s->named[p] = job->bounds[p];
-        s->x[p] = job->bounds[p].start;
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
+        s->parameter[p] = job->unknowns.parameter[p];
+        s->named[p] = job->unknowns.bounds[p];
+        s->x[p] = job->unknowns.bounds[p].start;
     }
-    s->n = job->nparameter;
+    s->n = job->unknowns.nparameter;
     if (!s->n) {
         message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
                     "nothing to vary, expected *IDENTIFY in the deck or --at NAME=VALUE,...");
@@ -87,13 +87,14 @@ int command_sensitivity(struct command *command)
                                           .points = command->points,
                                           .with_growth = command->json != NULL,
                                           .seed = command->seed};
-    for (int k = 0; k < job->nmode; k++)
-        options.modes = job->number[k] > options.modes ? job->number[k] : options.modes;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        options.modes = job->measurement.number[k] > options.modes ? job->measurement.number[k] : options.modes;
     if (!options.modes)
         options.modes = MODES_WITHOUT_DATA;
     int status = select_parameters(command, &selection);
     if (!status)
-        status = sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.named, selection.x, &options, &result);
+        status = sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.named, selection.x, &options,
+                                 &result);
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command))

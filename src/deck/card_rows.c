@@ -1,8 +1,8 @@
 /* Options and values of the cards that have code of their own. */
+#include "deck/deck_cards.h"
 #include "deck/deck_row.h"
 
-static const char *const answers[] = {"NO", "YES", NULL}, *const models[] = {"RODS", "TUBE", NULL},
-                         *const axes[] = {"X", "Y", "Z", NULL},
+static const char *const models[] = {"RODS", "TUBE", NULL}, *const axes[] = {"X", "Y", "Z", NULL},
                          *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL},
                          *const functionals[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL},
                          *const reductions[] = {"NONE", "GUYAN", "IRS", NULL}, *const derivatives[] = {"NELSON", "MODAL", NULL},
@@ -49,7 +49,7 @@ const struct deck_row deck_tierod_rows[] = {
     {.option = "FROM", POSITION(struct tierod, from)},
     {.option = "TO", POSITION(struct tierod, to)},
     {.option = "MODEL", WORD(struct tierod, model, models)},
-    {.option = "SELF_EQUILIBRATED", WORD(struct tierod, self_equilibrated, answers), .standard = 1},
+    {.option = "SELF_EQUILIBRATED", WORD(struct tierod, self_equilibrated, deck_answers), .standard = 1},
     {WHOLE(struct tierod, number, "number of rods"), FROM_TO(3, 10000)},
     {ABOVE_0(struct tierod, diameter, "diameter [m]")},
     {ABOVE_0(struct tierod, pitch, "pitch radius [m]")},
@@ -98,6 +98,6 @@ const struct deck_row deck_frf_rows[] = {
     OTHER("DAMPING", .what = ""),
     OTHER("AXIS", .words = axes, .standard = 2),
     OTHER("ORIGIN", .what = "[m]"),
-    OTHER("FLIP", .words = answers),
+    OTHER("FLIP", .words = deck_answers),
     LAST};
 /* clang-format on */

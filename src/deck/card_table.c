@@ -1,9 +1,9 @@
 #include "deck/card_table.h"
+#include "deck/deck_cards.h"
 
 #include <string.h>
 
-static const char *const answers[] = {"NO", "YES", NULL}, *const types[] = {"ISOTROPIC", "SHEAR", NULL},
-                         *const axes[] = {"X", "Y", "Z", NULL};
+static const char *const types[] = {"ISOTROPIC", "SHEAR", NULL}, *const axes[] = {"X", "Y", "Z", NULL};
 
 /* clang-format off */
 
@@ -26,13 +26,13 @@ static const struct deck_row spring[] = {
     LAST};
 
 static const struct deck_row mode[] = {OTHER("MODE", .what = ""), LAST},
-    frequencies[] = {OTHER("MODE", .what = ""), OTHER("MEAN", .words = answers, .standard = 1), LAST};
+    frequencies[] = {OTHER("MODE", .what = ""), OTHER("MEAN", .words = deck_answers, .standard = 1), LAST};
 static const struct deck_row measured[] = {
     OTHER("FILE", .what = ""),
     OTHER("AXIS", .words = axes, .standard = 2),
     OTHER("DIRECTION", .words = axes),
     OTHER("ORIGIN", .what = "[m]"),
-    OTHER("FLIP", .words = answers),
+    OTHER("FLIP", .words = deck_answers),
     OTHER("SCALE", .what = "(1)"),
     OTHER("HAMMER", .what = ""),
     LAST};
@@ -45,7 +45,7 @@ static const struct deck_row cause[] = {
     OTHER("BETWEEN", .what = ""),
     OTHER("SHAPE", .what = ""),
     OTHER("MOUNT", .what = ""),
-    OTHER("SUSPECT", .words = answers),
+    OTHER("SUSPECT", .words = deck_answers),
     LAST};
 
 #define BY_CODE    .size = 0

@@ -67,28 +67,32 @@ static void check_unique(struct deck_reader *reader)
 static void settle_moduli(struct deck_reader *reader)
 {
     struct job *job = reader->job;
-    for (int p = 0; p < job->nparameter && reader->tie; p++) {
-        if (job->parameter[p].kind != PARAMETER_E)
+    for (int p = 0; p < job->unknowns.nparameter && reader->tie; p++) {
+        if (job->unknowns.parameter[p].kind != PARAMETER_E)
             continue;
-        job->rotor.group[job->parameter[p].index].material.isotropic = 1;
-        for (int q = 0; q < job->nparameter; q++)
-            if (job->parameter[q].kind == PARAMETER_G && job->parameter[q].index == job->parameter[p].index) {
+        job->rotor.group[job->unknowns.parameter[p].index].material.isotropic = 1;
+        for (int q = 0; q < job->unknowns.nparameter; q++)
+            if (job->unknowns.parameter[q].kind == PARAMETER_G &&
+                job->unknowns.parameter[q].index == job->unknowns.parameter[p].index) {
                 deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)",
-                          job->bounds[q].name, job->bounds[p].name);
-                memmove(job->parameter + q, job->parameter + q + 1, (size_t)(job->nparameter - q - 1) * sizeof *job->parameter);
-                memmove(job->bounds + q, job->bounds + q + 1, (size_t)(job->nparameter - q - 1) * sizeof *job->bounds);
-                job->nparameter--;
+                          job->unknowns.bounds[q].name, job->unknowns.bounds[p].name);
+                memmove(job->unknowns.parameter + q, job->unknowns.parameter + q + 1,
+                        (size_t)(job->unknowns.nparameter - q - 1) * sizeof *job->unknowns.parameter);
+                memmove(job->unknowns.bounds + q, job->unknowns.bounds + q + 1,
+                        (size_t)(job->unknowns.nparameter - q - 1) * sizeof *job->unknowns.bounds);
+                job->unknowns.nparameter--;
                 p -= q < p;
                 break;
             }
     }
-    for (int p = 0; p < job->nparameter; p++) {
-        if (job->parameter[p].kind != PARAMETER_G)
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
+        if (job->unknowns.parameter[p].kind != PARAMETER_G)
             continue;
         if (reader->tie)
             deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
-                       "TIE=E:G, but %s is identified without E of that group, expected E in its place", job->bounds[p].name);
-        struct material *material = &job->rotor.group[job->parameter[p].index].material;
+                       "TIE=E:G, but %s is identified without E of that group, expected E in its place",
+                       job->unknowns.bounds[p].name);
+        struct material *material = &job->rotor.group[job->unknowns.parameter[p].index].material;
         material->g = material_shear_modulus(material);
         material->isotropic = 0;
     }
@@ -100,13 +104,13 @@ static void choose_functional(struct deck_reader *reader)
     struct job *job = reader->job;
     struct place place = reader->fit_card ? reader->fit_card->place : reader->text.end;
     int known = job_knows_frequency_noise(job);
-    if (!job->has_fit)
-        job->fit.functional = known ? ROTID_LIKELIHOOD : ROTID_HYBRID;
-    if (job->nmode && job->fit.functional == ROTID_LIKELIHOOD && !known)
+    if (!job->options.has_fit)
+        job->options.fit.functional = known ? ROTID_LIKELIHOOD : ROTID_HYBRID;
+    if (job->measurement.nmode && job->options.fit.functional == ROTID_LIKELIHOOD && !known)
         deck_error(reader, place,
                    "FUNCTIONAL=LIKELIHOOD weighs by the noise of the frequencies, expected *NOISE, FREQUENCY=relative standard "
                    "deviation");
-    if (job->fit.functional == ROTID_LIKELIHOOD && job->shape && !job_knows_shape_noise(job)) {
+    if (job->options.fit.functional == ROTID_LIKELIHOOD && job->measurement.shape && !job_knows_shape_noise(job)) {
         deck_note(
             reader, place,
             "the shapes pair the modes and are not fitted: their noise is not known (*NOISE, SHAPE=relative standard deviation)");
@@ -118,9 +122,9 @@ static void check_masters(struct deck_reader *reader)
     struct job *job = reader->job;
     struct place place = reader->fit_card ? reader->fit_card->place : reader->text.end;
     int highest = 0;
-    for (int k = 0; k < job->nmode; k++)
-        highest = job->number[k] > highest ? job->number[k] : highest;
-    if (job->fit.reduction != ROTID_REDUCTION_NONE && job->rotor.nsensor && job->rotor.nsensor < 2 * highest)
+    for (int k = 0; k < job->measurement.nmode; k++)
+        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
+    if (job->options.fit.reduction != ROTID_REDUCTION_NONE && job->rotor.nsensor && job->rotor.nsensor < 2 * highest)
         deck_error(
             reader, place,
             "%d sensors are too few to condense onto for mode %d, expected at least twice as many as modes, or REDUCTION=NONE",
@@ -151,11 +155,11 @@ static void check_model(struct deck_reader *reader)
             deck_error(reader, reader->sensor_place[s], "sensors %d and %d lie at the same node, expected one sensor a position",
                        job->rotor.sensor[s - 1].id, job->rotor.sensor[s].id);
     int modes = status ? 0 : size.ndof - 2; /* elastic ones, where two motions are free */
-    for (int k = 0; k < job->nmode && !status; k++)
-        if (job->number[k] > modes)
+    for (int k = 0; k < job->measurement.nmode && !status; k++)
+        if (job->measurement.number[k] > modes)
             deck_error(reader, (reader->modes_card ? reader->modes_card : reader->measured_card)->place,
                        "mode %d is measured and the mesh has %d, expected more elements, or mode numbers that count from 1",
-                       job->number[k], modes);
+                       job->measurement.number[k], modes);
 }
 
 static void check_elements(struct deck_reader *reader)
@@ -203,8 +207,8 @@ static void read_cards(struct deck_reader *reader)
             return; /* every position would be outside */
         }
         if (phase == LAST_PHASE) {
-            job->holdout = POOL_ARRAY(reader->pool, int, job->nmode);
-            reader->out_of_memory |= !job->holdout;
+            job->measurement.holdout = POOL_ARRAY(reader->pool, int, job->measurement.nmode);
+            reader->out_of_memory |= !job->measurement.holdout;
         }
         for (int c = 0; c < reader->text.ncard && !reader->out_of_memory; c++)
             read_card(reader, &reader->text.card[c], phase);
@@ -247,8 +251,8 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
                      struct job *job)
 {
     struct deck_reader reader = {.pool = pool, .messages = messages, .job = job};
-    *job = (struct job){.deck = pool_copy_text(pool, path), .frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
-    rotid_fit_defaults(sizeof job->fit, &job->fit);
+    *job = (struct job){.deck = pool_copy_text(pool, path), .options.frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
+    rotid_fit_defaults(sizeof job->options.fit, &job->options.fit);
     int status =
         memory ? deck_text_read_memory(pool, memory, messages, &reader.text) : deck_text_read(pool, path, messages, &reader.text);
     if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !reader.text.ncard) {

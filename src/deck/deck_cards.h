@@ -63,6 +63,8 @@ int deck_position(struct deck_reader *reader, const char *text, struct place pla
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected);
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value);
 int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value);
+extern const char *const deck_answers[]; /* NO, YES */
+
 /* Index of the option's value in a list of words that ends with NULL; -1 after an error. */
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words);
 /* From `least` to `most` data lines; otherwise an error that says what is expected. Returns how many to read, never more than

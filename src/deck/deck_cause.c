@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "deck/deck_cards.h"
 #include "deck/deck_cause.h"
 
 /* Why a finding of the diagnosis has no card. */
@@ -170,12 +171,12 @@ static void read_physical(struct cause_card *c)
         }
         return;
     }
-    struct suspect *added = DECK_APPEND(c->reader, job->suspect, job->nsuspect, c->reader->suspect_room);
+    struct suspect *added = DECK_APPEND(c->reader, job->unknowns.suspect, job->unknowns.nsuspect, c->reader->suspect_room);
     if (!added)
         return;
     added->effect = c->effect;
     memcpy(added->fixed, given, sizeof given);
-    job->nsuspect++;
+    job->unknowns.nsuspect++;
 }
 
 /* A fault of the measurement chain: applied when everything has been read. */
@@ -194,28 +195,29 @@ static void read_correction(struct cause_card *c)
     }
     if (read_values(c, c->kind->value.name != NULL, &c->kind->value, &c->correction.value, given))
         return;
-    if (!job->shape && c->kind->target != TARGET_BLOCK) {
+    if (!job->measurement.shape && c->kind->target != TARGET_BLOCK) {
         deck_error(c->reader, c->card->place, "TYPE=%s corrects measured shapes and there are none, expected *SHAPE or *MEASURED",
                    c->kind->id);
         return;
     }
-    struct correction *added = DECK_APPEND(c->reader, job->correction, job->ncorrection, c->reader->correction_room);
-    struct place *place = DECK_APPEND(c->reader, c->reader->correction_place, job->ncorrection, c->reader->correction_place_room);
+    struct correction *added =
+        DECK_APPEND(c->reader, job->measurement.correction, job->measurement.ncorrection, c->reader->correction_room);
+    struct place *place =
+        DECK_APPEND(c->reader, c->reader->correction_place, job->measurement.ncorrection, c->reader->correction_place_room);
     if (!added || !place)
         return;
     *added = c->correction;
     *place = c->card->place;
-    job->ncorrection++;
+    job->measurement.ncorrection++;
 }
 
 void deck_cause(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const answers[] = {"NO", "YES", NULL};
     struct cause_card c = {.reader = reader, .card = card, .name = deck_option(reader, card, "NAME", "name")};
     const struct card_option *suspect = card_option(card, "SUSPECT");
     c.kind = find_kind(reader, card);
     if (suspect && !deck_cause_list_item(card, suspect))
-        c.suspect = !*suspect->value ? 1 : deck_option_word(reader, suspect, answers);
+        c.suspect = !*suspect->value ? 1 : deck_option_word(reader, suspect, deck_answers);
     if (!c.kind || c.suspect < 0 || check_options(&c) || read_variant(&c) || cause_read_target(&c) || !c.name)
         return;
     if (c.kind->class == CAUSE_PHYSICAL)

@@ -30,17 +30,19 @@ static int knows_any(ptrdiff_t count, const double *std)
 void deck_apply_corrections(struct deck_reader *reader)
 {
     struct job *job = reader->job;
-    if (!job->ncorrection)
+    if (!job->measurement.ncorrection)
         return;
     if (corrections_keep_raw(reader->pool, job)) {
         reader->out_of_memory = 1;
         return;
     }
-    for (int i = 0; i < job->ncorrection; i++) {
-        const struct correction *correction = &job->correction[i];
+    for (int i = 0; i < job->measurement.ncorrection; i++) {
+        const struct correction *correction = &job->measurement.correction[i];
         int shape = correction->block && same_text(correction->block, "SHAPE");
-        if (correction->block && !(shape ? job->shape && knows_any((ptrdiff_t)job->rotor.nsensor * job->nmode, job->shape_std)
-                                         : knows_any(job->nmode, job->frequency_std))) {
+        if (correction->block &&
+            !(shape ? job->measurement.shape &&
+                          knows_any((ptrdiff_t)job->rotor.nsensor * job->measurement.nmode, job->measurement.shape_std)
+                    : knows_any(job->measurement.nmode, job->measurement.frequency_std))) {
             deck_error(reader, reader->correction_place[i], "the noise of AT=%s is not stated, expected *NOISE, %s=value",
                        correction->block, correction->block);
             continue;
@@ -55,7 +57,7 @@ void deck_apply_corrections(struct deck_reader *reader)
         if (status)
             return;
     }
-    follow_sensors(reader, job->raw);
+    follow_sensors(reader, job->measurement.raw);
 }
 
 int deck_cause_explains(struct deck_reader *reader, const char *parameter, struct place place)
@@ -64,14 +66,14 @@ int deck_cause_explains(struct deck_reader *reader, const char *parameter, struc
     const char *dot = strrchr(parameter, '.');
     char *name = dot ? pool_format(reader->pool, "%.*s", (int)(dot - parameter), parameter) : NULL;
     reader->out_of_memory |= dot && !name;
-    for (int i = 0; i < job->nsuspect && name; i++)
-        if (same_text(job->suspect[i].effect.name, name)) {
+    for (int i = 0; i < job->unknowns.nsuspect && name; i++)
+        if (same_text(job->unknowns.suspect[i].effect.name, name)) {
             deck_error(reader, place, "%s is of a suspect, expected a *CAUSE that is part of the model, without SUSPECT",
                        parameter);
             return 1;
         }
-    for (int i = 0; i < job->ncorrection && name; i++)
-        if (same_text(job->correction[i].name, name)) {
+    for (int i = 0; i < job->measurement.ncorrection && name; i++)
+        if (same_text(job->measurement.correction[i].name, name)) {
             deck_error(reader, place,
                        "%s is of a fault of the measured data, which is stated and not identified, expected a cause in the rotor",
                        parameter);

@@ -7,7 +7,7 @@ static const struct job *extended_job(const struct diagnosis *d, const double **
 {
     const struct job *job = d->extended_job.deck ? &d->extended_job : &d->job;
     const rotid_fit_result *fit = d->extended.fit ? d->extended.fit : d->base.fit;
-    *x = fit && fit->n == job->nparameter ? fit->x : NULL;
+    *x = fit && fit->n == job->unknowns.nparameter ? fit->x : NULL;
     return job;
 }
 

@@ -191,6 +191,8 @@ int deck_option_integer(struct deck_reader *reader, const struct card_option *op
     return 0;
 }
 
+const char *const deck_answers[] = {"NO", "YES", NULL};
+
 int deck_option_word(struct deck_reader *reader, const struct card_option *option, const char *const *words)
 {
     char list[256] = "";

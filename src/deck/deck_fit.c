@@ -66,17 +66,17 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         else if (parameter.kind == PARAMETER_NU && (bounds.lower < -1 || bounds.upper > 0.5))
             deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected them inside -1 to 0.5",
                        bounds.name, line->field[1].text, line->field[2].text);
-        for (int p = 0; p < job->nparameter; p++)
-            if (job->parameter[p].kind == parameter.kind && job->parameter[p].index == parameter.index &&
-                job->parameter[p].component == parameter.component)
+        for (int p = 0; p < job->unknowns.nparameter; p++)
+            if (job->unknowns.parameter[p].kind == parameter.kind && job->unknowns.parameter[p].index == parameter.index &&
+                job->unknowns.parameter[p].component == parameter.component)
                 deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
-        struct parameter *added = DECK_APPEND(reader, job->parameter, job->nparameter, reader->parameter_room);
-        rotid_parameter *limits = DECK_APPEND(reader, job->bounds, job->nparameter, reader->bounds_room);
+        struct parameter *added = DECK_APPEND(reader, job->unknowns.parameter, job->unknowns.nparameter, reader->parameter_room);
+        rotid_parameter *limits = DECK_APPEND(reader, job->unknowns.bounds, job->unknowns.nparameter, reader->bounds_room);
         if (!added || !limits)
             return;
         *added = parameter;
         *limits = bounds;
-        job->nparameter++;
+        job->unknowns.nparameter++;
     }
 }
 
@@ -104,8 +104,8 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
         }
         for (long number = first; number <= last; number++) {
             int found = 0;
-            for (int k = 0; k < job->nmode; k++)
-                if (job->number[k] == number)
+            for (int k = 0; k < job->measurement.nmode; k++)
+                if (job->measurement.number[k] == number)
                     found = flag[k] = 1;
             missing |= !found;
             if (!found)
@@ -121,18 +121,18 @@ static void choose_modes(struct deck_reader *reader, const struct card *card)
 {
     struct job *job = reader->job;
     const struct card_option *modes = card_option(card, "MODES"), *holdout = card_option(card, "HOLDOUT");
-    int *fitted = POOL_ARRAY(reader->pool, int, job->nmode), left = 0;
+    int *fitted = POOL_ARRAY(reader->pool, int, job->measurement.nmode), left = 0;
     if (!fitted) {
         reader->out_of_memory = 1;
         return;
     }
     int bad = modes && mark_modes(reader, modes, fitted);
-    bad |= holdout && mark_modes(reader, holdout, job->holdout);
-    for (int k = 0; k < job->nmode; k++) {
-        job->holdout[k] |= modes && !fitted[k];
-        left += !job->holdout[k];
+    bad |= holdout && mark_modes(reader, holdout, job->measurement.holdout);
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        job->measurement.holdout[k] |= modes && !fitted[k];
+        left += !job->measurement.holdout[k];
     }
-    if (job->nmode && !left && !bad)
+    if (job->measurement.nmode && !left && !bad)
         deck_error(reader, card->place, "no mode is left to fit, expected fewer in HOLDOUT or more in MODES");
 }
 
@@ -148,13 +148,13 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
     reader->fit_card = card;
     for (int i = 0; i < card->nline; i++)
         deck_error(reader, card->line[i].place, "*FIT has no data lines, expected options on the card");
-    job->fit.functional = -1;
-    (void)deck_read_options(reader, card, deck_fit_rows, &job->fit);
-    job->has_fit = job->fit.functional >= 0;
+    job->options.fit.functional = -1;
+    (void)deck_read_options(reader, card, deck_fit_rows, &job->options.fit);
+    job->options.has_fit = job->options.fit.functional >= 0;
     if ((option = card_option(card, "TIE")) && deck_option_word(reader, option, ties) >= 0)
         reader->tie = option->value;
     option = card_option(card, "DERIVATIVE"); /* missing where a second *FIT takes the first one's */
-    if (job->fit.derivative == ROTID_MODAL && job->fit.reduction == ROTID_REDUCTION_NONE)
+    if (job->options.fit.derivative == ROTID_MODAL && job->options.fit.reduction == ROTID_REDUCTION_NONE)
         deck_error(reader, option ? option->value_place : card->place,
                    "DERIVATIVE=MODAL needs every vector of the model, expected REDUCTION=GUYAN or IRS with it, or NELSON");
     choose_modes(reader, card);

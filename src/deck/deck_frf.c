@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/host.h"
+#include "deck/deck_cards.h"
 #include "deck/deck_row.h"
 
 /* Absolute, since an extended deck may be written elsewhere; that it is there is known before anything is computed. */
@@ -30,7 +31,7 @@ static const char *measured_file(struct deck_reader *reader, const struct card *
 
 static void read_lines(struct deck_reader *reader, const struct card *card)
 {
-    struct frf_request *frf = &reader->job->frf;
+    struct frf_request *frf = &reader->job->options.frf;
     const struct card_option *low = card_option(card, "LOW"), *high = card_option(card, "HIGH"),
                              *step = card_option(card, "STEP"), *lines = card_option(card, "LINES");
     if (deck_read_options(reader, card, deck_frf_rows, frf))
@@ -50,15 +51,15 @@ static void read_lines(struct deck_reader *reader, const struct card *card)
 
 static void read_nodes_of_file(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const axes[] = {"X", "Y", "Z", NULL}, *const answers[] = {"NO", "YES", NULL};
-    struct frf_request *frf = &reader->job->frf;
+    static const char *const axes[] = {"X", "Y", "Z", NULL};
+    struct frf_request *frf = &reader->job->options.frf;
     const struct card_option *axis = card_option(card, "AXIS"), *flip = card_option(card, "FLIP"),
                              *origin = card_option(card, "ORIGIN"),
                              *any = axis   ? axis
                                     : flip ? flip
                                            : origin;
     frf->axis = axis ? deck_option_word(reader, axis, axes) : 2;
-    frf->flip = flip ? deck_option_word(reader, flip, answers) : 0;
+    frf->flip = flip ? deck_option_word(reader, flip, deck_answers) : 0;
     frf->origin = frf->flip > 0 ? reader->length : 0;
     if (origin)
         (void)deck_option_number(reader, origin, ANY, &frf->origin);
@@ -78,7 +79,7 @@ static int is_sensor(const struct rotor *rotor, int id)
 static void read_pairs(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
-    struct frf_request *frf = &reader->job->frf;
+    struct frf_request *frf = &reader->job->options.frf;
     for (int i = 0, count = deck_lines(reader, card, 0, DECK_MOST_LINES, layout); i < count; i++) {
         const struct data_line *line = &card->line[i];
         struct frf_pair pair;
@@ -104,7 +105,7 @@ static void read_pairs(struct deck_reader *reader, const struct card *card)
 void deck_frf(struct deck_reader *reader, const struct card *card)
 {
     static const char *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL};
-    struct frf_request *frf = &reader->job->frf;
+    struct frf_request *frf = &reader->job->options.frf;
     const struct card_option *option;
     int word;
     if (reader->frf_card) {

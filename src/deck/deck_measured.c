@@ -102,11 +102,12 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
     }
     reader->modes_card = card;
     int count = deck_lines(reader, card, 1, 1000, layout);
-    job->number = POOL_ARRAY(reader->pool, int, card->nline);
-    job->frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
-    job->damping = POOL_ARRAY(reader->pool, double, card->nline);
-    job->frequency_std = POOL_ARRAY(reader->pool, double, card->nline);
-    if (!job->number || !job->frequency_hz || !job->damping || !job->frequency_std) {
+    job->measurement.number = POOL_ARRAY(reader->pool, int, card->nline);
+    job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, card->nline);
+    job->measurement.damping = POOL_ARRAY(reader->pool, double, card->nline);
+    job->measurement.frequency_std = POOL_ARRAY(reader->pool, double, card->nline);
+    if (!job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
+        !job->measurement.frequency_std) {
         reader->out_of_memory = 1;
         return;
     }
@@ -126,20 +127,21 @@ void deck_modes(struct deck_reader *reader, const struct card *card)
         if (bad)
             continue;
         int k = 0;
-        while (k < job->nmode && number != job->number[k] && (number > job->number[k]) == (hz > job->frequency_hz[k]) &&
-               hz != job->frequency_hz[k])
+        while (k < job->measurement.nmode && number != job->measurement.number[k] &&
+               (number > job->measurement.number[k]) == (hz > job->measurement.frequency_hz[k]) &&
+               hz != job->measurement.frequency_hz[k])
             k++;
-        if (k < job->nmode && job->number[k] == number)
+        if (k < job->measurement.nmode && job->measurement.number[k] == number)
             deck_error(reader, line->field[0].place, "mode %d is given twice, expected once", number);
-        else if (k < job->nmode)
+        else if (k < job->measurement.nmode)
             deck_error(reader, line->field[1].place,
                        "mode %d lies at %s Hz and mode %d at %.9g Hz, expected frequencies that rise with the number", number,
-                       line->field[1].text, job->number[k], job->frequency_hz[k]);
-        k = job->nmode++;
-        job->number[k] = number;
-        job->frequency_hz[k] = hz;
-        job->damping[k] = damping;
-        job->frequency_std[k] = std / hz;
+                       line->field[1].text, job->measurement.number[k], job->measurement.frequency_hz[k]);
+        k = job->measurement.nmode++;
+        job->measurement.number[k] = number;
+        job->measurement.frequency_hz[k] = hz;
+        job->measurement.damping[k] = damping;
+        job->measurement.frequency_std[k] = std / hz;
     }
 }
 
@@ -154,16 +156,16 @@ static int find_sensor(const struct rotor *rotor, int id)
 static void new_shapes(struct deck_reader *reader)
 {
     struct job *job = reader->job;
-    size_t components = (size_t)job->rotor.nsensor * (size_t)job->nmode;
-    job->shape = POOL_ARRAY(reader->pool, double, components);
-    job->shape_std = POOL_ARRAY(reader->pool, double, components);
-    if (!job->shape || !job->shape_std) {
-        job->shape = NULL;
+    size_t components = (size_t)job->rotor.nsensor * (size_t)job->measurement.nmode;
+    job->measurement.shape = POOL_ARRAY(reader->pool, double, components);
+    job->measurement.shape_std = POOL_ARRAY(reader->pool, double, components);
+    if (!job->measurement.shape || !job->measurement.shape_std) {
+        job->measurement.shape = NULL;
         reader->out_of_memory = 1;
         return;
     }
     for (size_t i = 0; i < components; i++)
-        job->shape[i] = job->shape_std[i] = NAN;
+        job->measurement.shape[i] = job->measurement.shape_std[i] = NAN;
 }
 
 void deck_shape(struct deck_reader *reader, const struct card *card)
@@ -175,20 +177,20 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
     int mode = -1;
     if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") || deck_option_number(reader, option, POSITIVE, &number))
         return;
-    for (int k = 0; k < job->nmode; k++)
-        if (job->number[k] == number)
+    for (int k = 0; k < job->measurement.nmode; k++)
+        if (job->measurement.number[k] == number)
             mode = k;
     if (mode < 0 || !reader->modes_card) {
         deck_error(reader, option->value_place, "mode %s is not among *MODES, expected one that is", option->value);
         return;
     }
     int count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
-    if (!job->shape)
+    if (!job->measurement.shape)
         new_shapes(reader);
-    if (!job->shape)
+    if (!job->measurement.shape)
         return;
-    double *shape = job->shape + (ptrdiff_t)mode * job->rotor.nsensor,
-           *std = job->shape_std + (ptrdiff_t)mode * job->rotor.nsensor;
+    double *shape = job->measurement.shape + (ptrdiff_t)mode * job->rotor.nsensor,
+           *std = job->measurement.shape_std + (ptrdiff_t)mode * job->rotor.nsensor;
     int any = 0;
     for (int i = 0; i < count; i++) {
         const struct data_line *line = &card->line[i];

@@ -27,7 +27,7 @@ static struct place in_file(const struct import *import, int line)
 
 static int read_options(struct import *import)
 {
-    static const char *const axes[] = {"X", "Y", "Z", NULL}, *const answers[] = {"NO", "YES", NULL};
+    static const char *const axes[] = {"X", "Y", "Z", NULL};
     struct deck_reader *reader = import->reader;
     const struct card_option *option;
     int bad = 0;
@@ -37,7 +37,7 @@ static int read_options(struct import *import)
     if ((option = card_option(import->card, "DIRECTION")))
         bad |= (import->component = deck_option_word(reader, option, axes)) < 0;
     if ((option = card_option(import->card, "FLIP")))
-        bad |= (import->flip = deck_option_word(reader, option, answers)) < 0;
+        bad |= (import->flip = deck_option_word(reader, option, deck_answers)) < 0;
     import->scale = 1;
     if ((option = card_option(import->card, "SCALE")))
         bad |= deck_option_number(reader, option, POSITIVE, &import->scale);
@@ -273,13 +273,13 @@ static int import_hammer(struct import *import, const struct uff_shape *mode)
     char *end;
     for (int i = 0; mode && i < UFF_ID_LINES && !option; i++)
         if (!strncmp(mode->id[i], line, sizeof line - 1))
-            job->hammer = (int)strtol(mode->id[i] + sizeof line - 1, NULL, 10);
+            job->measurement.hammer = (int)strtol(mode->id[i] + sizeof line - 1, NULL, 10);
     if (!option)
         return 0;
     long id = strtol(option->value, &end, 10);
     for (int s = 0; s < job->rotor.nsensor && end != option->value && !*end; s++)
         if (job->rotor.sensor[s].id == id) {
-            job->hammer = (int)id;
+            job->measurement.hammer = (int)id;
             return 0;
         }
     deck_error(import->reader, option->value_place, "HAMMER is %s, expected the id of a sensor of %s", option->value,
@@ -298,29 +298,30 @@ static int import_modes(struct import *import)
         return 1;
     }
     size_t components = (size_t)job->rotor.nsensor * (size_t)count;
-    job->number = POOL_ARRAY(reader->pool, int, count);
-    job->frequency_hz = POOL_ARRAY(reader->pool, double, count);
-    job->damping = POOL_ARRAY(reader->pool, double, count);
-    job->frequency_std = POOL_ARRAY(reader->pool, double, count);
-    job->shape = POOL_ARRAY(reader->pool, double, components);
-    job->shape_std = POOL_ARRAY(reader->pool, double, components);
-    if (!chosen || !job->number || !job->frequency_hz || !job->damping || !job->frequency_std || !job->shape || !job->shape_std) {
+    job->measurement.number = POOL_ARRAY(reader->pool, int, count);
+    job->measurement.frequency_hz = POOL_ARRAY(reader->pool, double, count);
+    job->measurement.damping = POOL_ARRAY(reader->pool, double, count);
+    job->measurement.frequency_std = POOL_ARRAY(reader->pool, double, count);
+    job->measurement.shape = POOL_ARRAY(reader->pool, double, components);
+    job->measurement.shape_std = POOL_ARRAY(reader->pool, double, components);
+    if (!chosen || !job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
+        !job->measurement.frequency_std || !job->measurement.shape || !job->measurement.shape_std) {
         reader->out_of_memory = 1;
         return 1;
     }
     for (size_t i = 0; i < components; i++)
-        job->shape[i] = job->shape_std[i] = NAN;
+        job->measurement.shape[i] = job->measurement.shape_std[i] = NAN;
     int distinct = 1, bad = 0;
     for (int k = 0; k < count; k++)
         distinct &= chosen[k]->number > 0 && (!k || chosen[k]->number > chosen[k - 1]->number);
     for (int k = 0; k < count; k++) {
-        job->number[k] = distinct ? chosen[k]->number : k + 1;
-        job->frequency_hz[k] = precise_frequency(chosen[k]);
-        job->damping[k] = chosen[k]->damping > 0 ? chosen[k]->damping : NAN;
-        job->frequency_std[k] = NAN;
-        bad |= import_shape(import, chosen[k], job->shape + (ptrdiff_t)k * job->rotor.nsensor);
+        job->measurement.number[k] = distinct ? chosen[k]->number : k + 1;
+        job->measurement.frequency_hz[k] = precise_frequency(chosen[k]);
+        job->measurement.damping[k] = chosen[k]->damping > 0 ? chosen[k]->damping : NAN;
+        job->measurement.frequency_std[k] = NAN;
+        bad |= import_shape(import, chosen[k], job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor);
     }
-    job->nmode = count;
+    job->measurement.nmode = count;
     bad |= import_hammer(import, count ? chosen[0] : NULL);
     if (!bad)
         deck_uff_std(reader, import->path, &import->file, count, chosen, import->component);

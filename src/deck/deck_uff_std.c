@@ -96,7 +96,7 @@ static void read_frequency(const struct extra *extra)
         return;
     }
     if (hz > 0)
-        job->frequency_std[extra->mode] = hz / job->frequency_hz[extra->mode];
+        job->measurement.frequency_std[extra->mode] = hz / job->measurement.frequency_hz[extra->mode];
 }
 
 /* Six digits of a frequency are too few, so the values may count from one that stands in the second line of text. */
@@ -120,13 +120,13 @@ static void read_values(const struct extra *extra)
     struct job *job = extra->reader->job;
     const struct uff_shape *set = extra->set;
     ptrdiff_t first = (ptrdiff_t)extra->mode * job->rotor.nsensor;
-    double *target = extra->kind == OF_SHAPE   ? job->shape_std
-                     : extra->kind == AT_POINT ? job->point_frequency_hz
-                                               : job->point_frequency_std,
+    double *target = extra->kind == OF_SHAPE   ? job->measurement.shape_std
+                     : extra->kind == AT_POINT ? job->measurement.point_frequency_hz
+                                               : job->measurement.point_frequency_std,
            largest = 0;
     for (int s = 0; s < job->rotor.nsensor; s++)
-        if (isfinite(job->shape[first + s]))
-            largest = fmax(largest, fabs(job->shape[first + s]));
+        if (isfinite(job->measurement.shape[first + s]))
+            largest = fmax(largest, fabs(job->measurement.shape[first + s]));
     double offset = extra->kind == AT_POINT ? read_offset(extra) : 0;
     for (int i = 0; i < set->node_count; i++) {
         int sensor = sensor_find(job, set->node[i]);

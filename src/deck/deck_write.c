@@ -70,8 +70,8 @@ static void set_parameters(struct deck_writer *w)
     rotor->disk = copy(w, rotor->disk, rotor->ndisk, sizeof *rotor->disk);
     rotor->spring = copy(w, rotor->spring, rotor->nspring, sizeof *rotor->spring);
     rotor->effect = copy(w, rotor->effect, rotor->neffect, sizeof *rotor->effect);
-    for (int p = 0; p < w->job->nparameter && !w->status; p++)
-        *parameter_value(rotor, w->job->parameter[p]) = w->x[p];
+    for (int p = 0; p < w->job->unknowns.nparameter && !w->status; p++)
+        *parameter_value(rotor, w->job->unknowns.parameter[p]) = w->x[p];
 }
 
 /* Lines and cards within the limits of a reader. */

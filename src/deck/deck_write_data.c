@@ -22,7 +22,7 @@ struct data {
 
 static struct data data_of(const struct job *job)
 {
-    const struct job_raw *raw = job->raw;
+    const struct job_raw *raw = job->measurement.raw;
     return raw ? (struct data){.nsensor = raw->nsensor,
                                .sensor = raw->sensor,
                                .shape = raw->shape,
@@ -32,11 +32,11 @@ static struct data data_of(const struct job *job)
                                .point_std = raw->point_frequency_std}
                : (struct data){.nsensor = job->rotor.nsensor,
                                .sensor = job->rotor.sensor,
-                               .shape = job->shape,
-                               .shape_std = job->shape_std,
-                               .frequency_std = job->frequency_std,
-                               .point_hz = job->point_frequency_hz,
-                               .point_std = job->point_frequency_std};
+                               .shape = job->measurement.shape,
+                               .shape_std = job->measurement.shape_std,
+                               .frequency_std = job->measurement.frequency_std,
+                               .point_hz = job->measurement.point_frequency_hz,
+                               .point_std = job->measurement.point_frequency_std};
 }
 
 /* The one value of all components that are there (of `there`, or all), NaN where they differ or one has none. */
@@ -81,22 +81,22 @@ static void write_modes(struct deck_writer *w, const struct data *data, int with
 {
     const struct job *job = w->job;
     double last = 0;
-    if (job->nmode > 1000)
+    if (job->measurement.nmode > 1000)
         refuse(w);
-    if (job->nmode)
+    if (job->measurement.nmode)
         deck_put(w, "*MODES\n");
-    for (int k = 0; k < job->nmode; k++) {
-        double hz = job->frequency_hz[k], std = with_std ? data->frequency_std[k] : NAN;
-        int damped = job->damping[k] >= 0 && job->damping[k] < 1;
-        if (job->number[k] > 1000)
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        double hz = job->measurement.frequency_hz[k], std = with_std ? data->frequency_std[k] : NAN;
+        int damped = job->measurement.damping[k] >= 0 && job->measurement.damping[k] < 1;
+        if (job->measurement.number[k] > 1000)
             refuse(w);
         if (k && hz == last) /* two modes of a universal file may have one frequency, those of a deck may not */
             hz = nextafter(hz, INFINITY);
         last = hz;
-        deck_put(w, "%d", job->number[k]);
+        deck_put(w, "%d", job->measurement.number[k]);
         deck_put_number(w, ", ", hz);
         if (damped)
-            deck_put_number(w, ", ", job->damping[k]);
+            deck_put_number(w, ", ", job->measurement.damping[k]);
         else if (isfinite(std))
             deck_put(w, ", ");
         if (isfinite(std))
@@ -112,7 +112,7 @@ static void write_shape(struct deck_writer *w, const struct data *data, int k, i
         if (!isfinite(shape[s]))
             continue;
         if (lines++ % DECK_MOST_LINES == 0)
-            deck_put(w, "*SHAPE, MODE=%d\n", w->job->number[k]);
+            deck_put(w, "*SHAPE, MODE=%d\n", w->job->measurement.number[k]);
         deck_put(w, "%d", data->sensor[s].id);
         deck_put_number(w, ", ", shape[s]);
         if (with_std && isfinite(std[s]))
@@ -129,7 +129,7 @@ static void write_frequencies(struct deck_writer *w, const struct data *data, in
         if (!isfinite(hz[s]))
             continue;
         if (lines++ % DECK_MOST_LINES == 0)
-            deck_put(w, "*FREQUENCIES, MODE=%d, MEAN=NO\n", w->job->number[k]);
+            deck_put(w, "*FREQUENCIES, MODE=%d, MEAN=NO\n", w->job->measurement.number[k]);
         deck_put(w, "%d", data->sensor[s].id);
         deck_put_number(w, ", ", hz[s]);
         if (isfinite(std[s]))
@@ -141,7 +141,7 @@ static void write_frequencies(struct deck_writer *w, const struct data *data, in
 void deck_write_measured(struct deck_writer *w)
 {
     const struct data data = data_of(w->job);
-    int nmode = w->job->nmode;
+    int nmode = w->job->measurement.nmode;
     double frequency =
                data.point_hz ? NAN : uniform(nmode, NULL, data.frequency_std), /* *MODES states it: it is not settled anew */
         shape = data.shape ? uniform((ptrdiff_t)data.nsensor * nmode, data.shape, data.shape_std) : NAN;
@@ -275,12 +275,12 @@ static void write_correction(struct deck_writer *w, const struct correction *cor
 
 void deck_write_causes(struct deck_writer *w)
 {
-    for (int i = 0; i < w->job->ncorrection; i++)
-        write_correction(w, &w->job->correction[i]);
+    for (int i = 0; i < w->job->measurement.ncorrection; i++)
+        write_correction(w, &w->job->measurement.correction[i]);
     for (int i = 0; i < w->rotor.neffect; i++)
         write_effect(w, &w->rotor.effect[i], NULL);
-    for (int i = 0; i < w->job->nsuspect; i++)
-        write_effect(w, &w->job->suspect[i].effect, w->job->suspect[i].fixed);
+    for (int i = 0; i < w->job->unknowns.nsuspect; i++)
+        write_effect(w, &w->job->unknowns.suspect[i].effect, w->job->unknowns.suspect[i].fixed);
 }
 
 /* ------------------------------------------------------------------------------------------------ identification */
@@ -299,9 +299,9 @@ static double start_of(const rotid_parameter *bounds, double x)
 static void write_holdout(struct deck_writer *w)
 {
     const char *separator = ", HOLDOUT=";
-    for (int k = 0, count = 0; k < w->job->nmode; k++)
-        if (w->job->holdout[k]) {
-            deck_put(w, "%s%d", separator, w->job->number[k]);
+    for (int k = 0, count = 0; k < w->job->measurement.nmode; k++)
+        if (w->job->measurement.holdout[k]) {
+            deck_put(w, "%s%d", separator, w->job->measurement.number[k]);
             separator = ++count % 20 ? "," : ",\n    ";
         }
 }
@@ -310,13 +310,13 @@ void deck_write_identify(struct deck_writer *w)
 {
     const struct job *job = w->job;
     int any_held_out = 0;
-    for (int k = 0; k < job->nmode && job->holdout; k++)
-        any_held_out |= job->holdout[k];
-    if (job->nparameter)
+    for (int k = 0; k < job->measurement.nmode && job->measurement.holdout; k++)
+        any_held_out |= job->measurement.holdout[k];
+    if (job->unknowns.nparameter)
         deck_put(w, "*IDENTIFY\n");
-    for (int p = 0; p < job->nparameter; p++) {
-        rotid_parameter bounds = job->bounds[p];
-        struct parameter parameter = job->parameter[p];
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
+        rotid_parameter bounds = job->unknowns.bounds[p];
+        struct parameter parameter = job->unknowns.parameter[p];
         if (!bounds.name || *bounds.name == '*' || strchr(bounds.name, ','))
             refuse(w);
         if (parameter.kind == PARAMETER_EFFECT) {
@@ -330,10 +330,12 @@ void deck_write_identify(struct deck_writer *w)
         deck_put_number(w, ", ", start_of(&bounds, w->x ? w->x[p] : bounds.start));
         deck_put(w, "\n");
     }
-    if (!job->has_fit && !any_held_out && job->fit.reduction == ROTID_REDUCTION_NONE && job->fit.derivative == ROTID_NELSON)
+    if (!job->options.has_fit && !any_held_out && job->options.fit.reduction == ROTID_REDUCTION_NONE &&
+        job->options.fit.derivative == ROTID_NELSON)
         return;
     deck_put_card(w, "FIT");
-    deck_write_options(w, job->has_fit ? deck_fit_rows : deck_fit_rows + 1, &job->fit); /* the first one: FUNCTIONAL */
+    deck_write_options(w, job->options.has_fit ? deck_fit_rows : deck_fit_rows + 1,
+                       &job->options.fit); /* the first one: FUNCTIONAL */
     if (any_held_out)
         write_holdout(w);
     deck_put(w, "\n");

@@ -4,7 +4,7 @@
 void deck_write_frf(struct deck_writer *w)
 {
     static const char *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION"}, *const axes[] = {"X", "Y", "Z"};
-    const struct frf_request *frf = &w->job->frf;
+    const struct frf_request *frf = &w->job->options.frf;
     if (!frf->given)
         return;
     if (frf->npair > DECK_MOST_LINES)

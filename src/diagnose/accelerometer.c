@@ -41,7 +41,7 @@ static int open_weighing(struct pool *pool, const struct engine *engine, struct 
     w->order = POOL_ARRAY(pool, double, w->npoint);
     w->hammer = -1;
     for (int s = 0; s < w->npoint; s++)
-        if (engine->job.hammer && engine->job.rotor.sensor[s].id == engine->job.hammer)
+        if (engine->job.measurement.hammer && engine->job.rotor.sensor[s].id == engine->job.measurement.hammer)
             w->hammer = s;
     return w->order ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
@@ -119,8 +119,8 @@ static int take_modes(struct pool *pool, const struct engine *engine, struct wei
     for (int m = 0; m < w->nmode && !status; m++) {
         const struct columns_mode *mode = &w->columns.mode[m];
         ptrdiff_t from = (ptrdiff_t)mode->k * w->npoint, to = (ptrdiff_t)m * w->npoint;
-        memcpy(w->hz + to, job->point_frequency_hz + from, (size_t)w->npoint * sizeof *w->hz);
-        memcpy(w->std + to, job->point_frequency_std + from, (size_t)w->npoint * sizeof *w->std);
+        memcpy(w->hz + to, job->measurement.point_frequency_hz + from, (size_t)w->npoint * sizeof *w->hz);
+        memcpy(w->std + to, job->measurement.point_frequency_std + from, (size_t)w->npoint * sizeof *w->std);
         status = nelson_band_prepare(&nelson, &p->k, &p->m, p->lambda[mode->pair], mode->members,
                                      p->phi + (ptrdiff_t)mode->first * p->size);
         if (!status)
@@ -163,7 +163,7 @@ static int add_mass(struct engine *engine, const struct weighing *w)
         return status;
     for (int m = 0; m < w->nmode; m++) /* the mean of the readings has a second order that MOVING does not */
         if (isfinite(moving->spread_hz[m]))
-            job->frequency_hz[w->columns.mode[m].k] = moving->spread_hz[m];
+            job->measurement.frequency_hz[w->columns.mode[m].k] = moving->spread_hz[m];
     return job_with_effect(engine->pool, job, NULL, &effect, cause, fixed, job);
 }
 
@@ -172,8 +172,8 @@ static int add_drift(struct engine *engine)
 {
     const struct job *job = &engine->job;
     double square = 0, spread = fabs(engine->moving.drift) / sqrt(12);
-    for (int k = 0; k < job->nmode; k++)
-        square += job->frequency_std[k] * job->frequency_std[k] / job->nmode;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        square += job->measurement.frequency_std[k] * job->measurement.frequency_std[k] / job->measurement.nmode;
     double factor = fmin(sqrt(1 + spread * spread / square), MOST_FACTOR);
     return data_correct_noise(
         engine, "FREQUENCY", factor, NAN,
@@ -215,7 +215,7 @@ int data_weigh_accelerometer(struct engine *engine, int *changed)
     struct weighing w = {0};
     double most = most_mass(&job->rotor);
     *changed = 0;
-    if (!job->point_frequency_hz)
+    if (!job->measurement.point_frequency_hz)
         return ROTID_OK;
     for (int e = 0; e < job->rotor.neffect; e++)
         if (is_moving_accelerometer(&job->rotor.effect[e])) /* the deck knows it */

@@ -23,7 +23,8 @@ static int foresee(struct pool *pool, const struct job *job, const double *x, in
 {
     struct rotor_model model;
     struct prediction p;
-    int failed, status = model_open(pool, job->models, &job->rotor, job->nparameter, job->parameter, 1, &model, &failed);
+    int failed, status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1, &model,
+                                    &failed);
     future->count = count;
     if (!status)
         status =
@@ -38,9 +39,9 @@ static int foresee(struct pool *pool, const struct job *job, const double *x, in
 static double typical_noise(const struct job *job)
 {
     double sum = 0;
-    for (int k = 0; k < job->nmode; k++)
-        sum += job->frequency_std[k] * job->frequency_std[k];
-    return sqrt(sum / job->nmode);
+    for (int k = 0; k < job->measurement.nmode; k++)
+        sum += job->measurement.frequency_std[k] * job->measurement.frequency_std[k];
+    return sqrt(sum / job->measurement.nmode);
 }
 
 /* What the shapes lack, as the beginning of a sentence; "" where they are fitted. */
@@ -48,8 +49,8 @@ static const char *shapes_missing(const struct job *job)
 {
     if (job_fits_shapes(job))
         return "";
-    return job->shape ? "state the noise of the shapes (*NOISE, SHAPE=), so that they count; "
-                      : "measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); ";
+    return job->measurement.shape ? "state the noise of the shapes (*NOISE, SHAPE=), so that they count; "
+                                  : "measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); ";
 }
 
 static const char *sentence(struct engine *engine, const struct candidate *first, const struct candidate *second, int mode,
@@ -74,7 +75,7 @@ const char *advise(struct engine *engine, const struct diagnosis_round *round, c
     struct future future[MOST_SET];
     const struct candidate *member[MOST_SET];
     int count = 0, highest = 0, set = round->nset > 1 ? round->nset : 2;
-    for (int k = 0; k < job->nmode; k++)
+    for (int k = 0; k < job->measurement.nmode; k++)
         highest = engine->number[k] > highest ? engine->number[k] : highest;
     int modes = highest + MORE_MODES < 32 ? highest + MORE_MODES : 32;
     for (int i = 0; last && i < round->ncandidate && i < set && count < MOST_SET; i++) {
@@ -94,7 +95,7 @@ const char *advise(struct engine *engine, const struct diagnosis_round *round, c
     double best = 0, noise = typical_noise(job);
     for (int k = 0; k < modes; k++) {
         int measured = 0;
-        for (int m = 0; m < job->nmode; m++)
+        for (int m = 0; m < job->measurement.nmode; m++)
             measured |= engine->number[m] == k + 1 && !engine->holdout[m];
         double apart = fabs(future[0].hz[k] - future[1].hz[k]) / (noise * future[0].hz[k]);
         if (!measured && apart > best) {

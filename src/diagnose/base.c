@@ -38,11 +38,11 @@ static double against_noise(const struct engine *engine, const double *error, in
 {
     double largest = 0;
     *at = 0;
-    for (int k = 0; k < engine->job.nmode; k++) {
+    for (int k = 0; k < engine->job.measurement.nmode; k++) {
         int mode = engine->number[k] - 1;
         if (mode >= count || !isfinite(error[mode]))
             continue;
-        double ratio = fabs(error[mode]) / (100 * engine->job.frequency_std[k]);
+        double ratio = fabs(error[mode]) / (100 * engine->job.measurement.frequency_std[k]);
         if (ratio > largest) {
             largest = ratio;
             *at = mode;
@@ -88,11 +88,11 @@ static int drop_clash(struct engine *engine)
     struct job *job = &engine->job;
     int k = engine->out->base.compared.clash;
     int status =
-        data_add_pairing(engine, job->number[k], 0,
+        data_add_pairing(engine, job->measurement.number[k], 0,
                          pool_format(engine->pool,
                                      "measured mode %d (%.6g Hz) looks like no mode of the model, and another one has the "
                                      "shape that belongs to its number; it is left out",
-                                     job->number[k], job->frequency_hz[k]));
+                                     job->measurement.number[k], job->measurement.frequency_hz[k]));
     if (!status)
         data_remove_mode(job, k);
     return status;
@@ -123,7 +123,7 @@ static void note_bounds(struct engine *engine)
 {
     for (int p = 0; p < engine->nown; p++)
         if (engine->fit->at_bound[p]) {
-            const rotid_parameter *bounds = &engine->out->job.bounds[p];
+            const rotid_parameter *bounds = &engine->out->job.unknowns.bounds[p];
             message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
                         "without a cause %s ends at its %s bound %.4g %s: the bound itself may be what is wrong; widen it where "
                         "physics allows",
@@ -133,7 +133,7 @@ static void note_bounds(struct engine *engine)
 
 const char *base_bound_side(const struct engine *engine, int p)
 {
-    const rotid_parameter *bounds = &engine->out->job.bounds[p];
+    const rotid_parameter *bounds = &engine->out->job.unknowns.bounds[p];
     double x = engine->out->base.fit->x[p];
     return x - bounds->lower < bounds->upper - x ? "lower" : "upper";
 }
@@ -146,8 +146,9 @@ static int fit_base(struct engine *engine, int say)
     rotid_fit_free(out->base.fit);
     out->base.fit = engine->fit = NULL;
     int status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
-    for (int pass = 0;
-         status == ROTID_ERROR_UNPAIRED && pass < MOST_DROPPED && engine->job.nmode > LEAST_LEFT && !engine->job.raw; pass++) {
+    for (int pass = 0; status == ROTID_ERROR_UNPAIRED && pass < MOST_DROPPED && engine->job.measurement.nmode > LEAST_LEFT &&
+                       !engine->job.measurement.raw;
+         pass++) {
         status = drop_clash(engine);
         message_open(&quiet, engine->pool);
         if (!status)
@@ -165,7 +166,7 @@ static int fit_base(struct engine *engine, int say)
     if (out->base.fit->status == ROTID_STOP_CANCELLED)
         return ROTID_STOP_CANCELLED;
     engine->number = out->base.compared.number;
-    engine->holdout = engine->job.holdout;
+    engine->holdout = engine->job.measurement.holdout;
     out->job = engine->job;
     return job_started_at(engine->pool, &engine->job, engine->fit->x, &engine->job);
 }
@@ -173,13 +174,13 @@ static int fit_base(struct engine *engine, int say)
 static int note_pairing(struct engine *engine)
 {
     const struct job *job = &engine->job;
-    for (int k = 0; k < job->nmode; k++) {
-        if (engine->number[k] == job->number[k])
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        if (engine->number[k] == job->measurement.number[k])
             continue;
         int status = data_add_pairing(
-            engine, job->number[k], engine->number[k],
+            engine, job->measurement.number[k], engine->number[k],
             pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model; it is taken as that",
-                        job->number[k], job->frequency_hz[k], engine->number[k]));
+                        job->measurement.number[k], job->measurement.frequency_hz[k], engine->number[k]));
         if (status)
             return status;
     }
@@ -270,18 +271,18 @@ int base_residuals(struct engine *engine)
     const struct job *job = &engine->job;
     const rotid_fit_result *fit = engine->fit;
     int nsensor = job->rotor.nsensor, row = 0, shapes = job_fits_shapes(job);
-    out->mode_z = POOL_ARRAY(engine->pool, double, job->nmode);
+    out->mode_z = POOL_ARRAY(engine->pool, double, job->measurement.nmode);
     out->sensor_rms = POOL_ARRAY(engine->pool, double, nsensor);
     int *count = POOL_ARRAY(engine->pool, int, nsensor);
     if (!out->mode_z || !out->sensor_rms || !count)
         return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < job->nmode; k++) {
+    for (int k = 0; k < job->measurement.nmode; k++) {
         out->mode_z[k] = fit->residual[k];
         row += !engine->holdout[k];
     }
-    for (int k = 0; k < job->nmode && shapes; k++)
+    for (int k = 0; k < job->measurement.nmode && shapes; k++)
         for (int s = 0; s < nsensor && !engine->holdout[k]; s++)
-            if (isfinite(job->shape[s + (ptrdiff_t)k * nsensor])) {
+            if (isfinite(job->measurement.shape[s + (ptrdiff_t)k * nsensor])) {
                 out->sensor_rms[s] += fit->r[row] * fit->r[row];
                 count[s]++;
                 row++;
@@ -290,10 +291,10 @@ int base_residuals(struct engine *engine)
         out->sensor_rms[s] = count[s] ? sqrt(out->sensor_rms[s] / count[s]) : NAN;
     out->frequency_noise = NAN;
     out->shape_noise = NAN;
-    if (job->nmode)
-        out->frequency_noise = job->frequency_std[0];
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)nsensor * job->nmode && shapes && !isfinite(out->shape_noise); i++)
-        out->shape_noise = job->shape_std[i];
+    if (job->measurement.nmode)
+        out->frequency_noise = job->measurement.frequency_std[0];
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)nsensor * job->measurement.nmode && shapes && !isfinite(out->shape_noise); i++)
+        out->shape_noise = job->measurement.shape_std[i];
     return ROTID_OK;
 }
 

@@ -68,7 +68,7 @@ static int shape_data(struct engine *engine, struct columns *columns, struct sha
         const struct columns_mode *mode = &columns->mode[m];
         ptrdiff_t from = (ptrdiff_t)mode->k * nsensor, to = (ptrdiff_t)m * nsensor;
         memcpy(shape + to, columns->functional.shape + from, (size_t)nsensor * sizeof *shape);
-        memcpy(std + to, job->shape_std + from, (size_t)nsensor * sizeof *std);
+        memcpy(std + to, job->measurement.shape_std + from, (size_t)nsensor * sizeof *std);
         for (int i = 0; i < model->naxis; i++)
             axis[i + (ptrdiff_t)m * model->naxis] =
                 mode->scale * model_deflection(model, i, p->phi + (ptrdiff_t)mode->pair * p->size);
@@ -91,8 +91,8 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
     finding.sensor[1] = two ? job->rotor.sensor[fault->other].id : 0;
     finding.text = describe(engine->pool, kind, fault->value, finding.sensor);
     if (kind == FAULT_DEAD) { /* nothing to put right: as if it had not been there */
-        for (int k = 0; k < job->nmode; k++)
-            job->shape[fault->sensor + (ptrdiff_t)k * nsensor] = NAN;
+        for (int k = 0; k < job->measurement.nmode; k++)
+            job->measurement.shape[fault->sensor + (ptrdiff_t)k * nsensor] = NAN;
         return data_add_finding(engine, &finding);
     }
     struct correction correction = {.nsensor = 1 + two,
@@ -121,7 +121,7 @@ static int is_misstated(const struct engine *engine, const struct noise_estimate
     if (!noise->usable || !noise->misstated)
         return 0;
     if (noise->factor < 1)
-        return noise->factor < MUCH_LESS && !engine->job.has_noise_floor && !allows_for_more(&engine->job.rotor);
+        return noise->factor < MUCH_LESS && !engine->job.measurement.has_noise_floor && !allows_for_more(&engine->job.rotor);
     return noise->factor > least && noise->factor < NOISIER;
 }
 
@@ -148,12 +148,12 @@ static void neighbours(const struct engine *engine, const double *r, double *rho
     const struct job *job = &engine->job;
     double first = 0, second = 0;
     int nsensor = job->rotor.nsensor, row = 0, nfirst = 0, nsecond = 0;
-    for (int k = 0; k < job->nmode; k++)
+    for (int k = 0; k < job->measurement.nmode; k++)
         row += !engine->holdout[k];
-    for (int k = 0; k < job->nmode; k++) {
+    for (int k = 0; k < job->measurement.nmode; k++) {
         int run = 0; /* neighbours in a row that were measured */
         for (int s = 0; s < nsensor && !engine->holdout[k]; s++) {
-            if (!isfinite(job->shape[s + (ptrdiff_t)k * nsensor])) {
+            if (!isfinite(job->measurement.shape[s + (ptrdiff_t)k * nsensor])) {
                 run = 0;
                 continue;
             }
@@ -209,12 +209,13 @@ int data_colour(struct engine *engine, const struct scan *scan, const double *r,
         factor);
     engine->coloured |= coloured;
     *changed = 1;
-    double *base = engine->out->job.shape_std; /* another array where a cause has added its discrepancy to the judged one */
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)job->rotor.nsensor * job->nmode && base != job->shape_std; i++)
+    double *base =
+        engine->out->job.measurement.shape_std; /* another array where a cause has added its discrepancy to the judged one */
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode && base != job->measurement.shape_std; i++)
         base[i] *= factor;
     status = data_correct_noise(engine, "SHAPE", factor, coloured ? NAN : noise.std, text);
-    engine->out->job.correction = job->correction;
-    engine->out->job.ncorrection = job->ncorrection;
+    engine->out->job.measurement.correction = job->measurement.correction;
+    engine->out->job.measurement.ncorrection = job->measurement.ncorrection;
     return status;
 }
 

@@ -58,7 +58,7 @@ static int open_mode(struct pool *pool, struct columns *c, int k, struct columns
 static int open_model(struct pool *pool, const struct job *job, const struct effect *extra, struct columns *c)
 {
     struct rotor rotor = job->rotor;
-    int effects = rotor.neffect, nparameter = job->nparameter, failed;
+    int effects = rotor.neffect, nparameter = job->unknowns.nparameter, failed;
     int added = extra ? EFFECT_MOST_PARAMETERS : 0;
     struct effect *effect = POOL_ARRAY(pool, struct effect, effects + 1);
     struct parameter *parameter = POOL_ARRAY(pool, struct parameter, nparameter + added);
@@ -67,7 +67,7 @@ static int open_model(struct pool *pool, const struct job *job, const struct eff
     if (effects)
         memcpy(effect, rotor.effect, (size_t)effects * sizeof *effect);
     if (nparameter)
-        memcpy(parameter, job->parameter, (size_t)nparameter * sizeof *parameter);
+        memcpy(parameter, job->unknowns.parameter, (size_t)nparameter * sizeof *parameter);
     if (extra)
         effect[rotor.neffect++] = *extra;
     for (int i = 0; i < added; i++)
@@ -84,27 +84,27 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
     if (status)
         return status;
     int nparam = c->model.equations.nparam, shapes = job_fits_shapes(job);
-    c->measured = (rotid_measured){.nmode = job->nmode,
+    c->measured = (rotid_measured){.nmode = job->measurement.nmode,
                                    .number = number,
-                                   .frequency_hz = job->frequency_hz,
-                                   .frequency_std = job->frequency_std,
-                                   .shape = shapes ? job->shape : NULL,
-                                   .shape_std = shapes ? job->shape_std : NULL,
+                                   .frequency_hz = job->measurement.frequency_hz,
+                                   .frequency_std = job->measurement.frequency_std,
+                                   .shape = shapes ? job->measurement.shape : NULL,
+                                   .shape_std = shapes ? job->measurement.shape_std : NULL,
                                    .holdout = holdout};
     status = functional_new(pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &c->model.equations, &c->measured,
                             &c->functional);
     if (status)
         return status;
     c->nrow = c->functional.nresidual;
-    c->mode = POOL_ARRAY(pool, struct columns_mode, job->nmode);
+    c->mode = POOL_ARRAY(pool, struct columns_mode, job->measurement.nmode);
     c->x = POOL_ARRAY(pool, double, nparam);
     c->r = POOL_ARRAY(pool, double, c->nrow);
     if (!c->mode || !c->x || !c->r)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < nparam; p++)
-        c->x[p] = x && p < job->nparameter ? x[p] : *parameter_value(c->model.rotor, c->model.parameter[p]);
+        c->x[p] = x && p < job->unknowns.nparameter ? x[p] : *parameter_value(c->model.rotor, c->model.parameter[p]);
     status = functional_residual(&c->functional, c->x, c->r);
-    for (int m = 0; m < job->nmode && !status; m++) {
+    for (int m = 0; m < job->measurement.nmode && !status; m++) {
         if (holdout && holdout[m])
             continue;
         status = open_mode(pool, c, m, &c->mode[c->nmode++]);
@@ -212,7 +212,7 @@ int columns_parameter(struct columns *c, int p, double *column)
 int columns_probe(struct columns *c, const struct effect *effect)
 {
     for (int i = 0; i < EFFECT_MOST_PARAMETERS; i++)
-        c->x[c->job->nparameter + i] = effect->value[i];
+        c->x[c->job->unknowns.nparameter + i] = effect->value[i];
     return model_exchange_effect(c->pool, &c->model, effect);
 }
 

@@ -10,8 +10,8 @@
 int data_correct(struct engine *engine, const struct data_finding *finding, const struct correction *found)
 {
     struct job *job = &engine->job;
-    struct correction *more = POOL_ARRAY(engine->pool, struct correction, job->ncorrection + 1), correction = *found;
-    correction.name = pool_format(engine->pool, "fault_%d", job->ncorrection + 1);
+    struct correction *more = POOL_ARRAY(engine->pool, struct correction, job->measurement.ncorrection + 1), correction = *found;
+    correction.name = pool_format(engine->pool, "fault_%d", job->measurement.ncorrection + 1);
     correction.id = finding->cause->id;
     int status = more && correction.name ? data_add_finding(engine, finding) : ROTID_ERROR_MEMORY;
     if (!status)
@@ -20,10 +20,10 @@ int data_correct(struct engine *engine, const struct data_finding *finding, cons
         status = correction_apply(engine->pool, job, &correction);
     if (status)
         return status;
-    if (job->ncorrection)
-        memcpy(more, job->correction, (size_t)job->ncorrection * sizeof *more);
-    more[job->ncorrection++] = correction;
-    job->correction = more;
+    if (job->measurement.ncorrection)
+        memcpy(more, job->measurement.correction, (size_t)job->measurement.ncorrection * sizeof *more);
+    more[job->measurement.ncorrection++] = correction;
+    job->measurement.correction = more;
     return ROTID_OK;
 }
 

@@ -22,11 +22,11 @@ static void *copy(struct pool *pool, const void *source, size_t count, size_t si
 static int copy_raw(struct pool *pool, struct job *job)
 {
     struct job_raw *raw = POOL_NEW(pool, struct job_raw);
-    size_t components = (size_t)job->raw->nsensor * (size_t)job->nmode;
+    size_t components = (size_t)job->measurement.raw->nsensor * (size_t)job->measurement.nmode;
     if (!raw)
         return ROTID_ERROR_MEMORY;
-    *raw = *job->raw;
-    job->raw = raw;
+    *raw = *job->measurement.raw;
+    job->measurement.raw = raw;
     if (!raw->shape)
         return ROTID_OK;
     raw->shape = copy(pool, raw->shape, components, sizeof *raw->shape);
@@ -36,28 +36,36 @@ static int copy_raw(struct pool *pool, struct job *job)
 
 int data_copy(struct pool *pool, struct job *job)
 {
-    size_t components = (size_t)job->rotor.nsensor * (size_t)job->nmode;
+    size_t components = (size_t)job->rotor.nsensor * (size_t)job->measurement.nmode;
     job->rotor.sensor = copy(pool, job->rotor.sensor, (size_t)job->rotor.nsensor, sizeof *job->rotor.sensor);
-    job->number = copy(pool, job->number, (size_t)job->nmode, sizeof *job->number);
-    job->frequency_hz = copy(pool, job->frequency_hz, (size_t)job->nmode, sizeof *job->frequency_hz);
-    job->damping = copy(pool, job->damping, (size_t)job->nmode, sizeof *job->damping);
-    job->frequency_std = copy(pool, job->frequency_std, (size_t)job->nmode, sizeof *job->frequency_std);
-    job->holdout = copy(pool, job->holdout, (size_t)job->nmode, sizeof *job->holdout);
-    if (!job->rotor.sensor || !job->number || !job->frequency_hz || !job->damping || !job->frequency_std || !job->holdout)
+    job->measurement.number =
+        copy(pool, job->measurement.number, (size_t)job->measurement.nmode, sizeof *job->measurement.number);
+    job->measurement.frequency_hz =
+        copy(pool, job->measurement.frequency_hz, (size_t)job->measurement.nmode, sizeof *job->measurement.frequency_hz);
+    job->measurement.damping =
+        copy(pool, job->measurement.damping, (size_t)job->measurement.nmode, sizeof *job->measurement.damping);
+    job->measurement.frequency_std =
+        copy(pool, job->measurement.frequency_std, (size_t)job->measurement.nmode, sizeof *job->measurement.frequency_std);
+    job->measurement.holdout =
+        copy(pool, job->measurement.holdout, (size_t)job->measurement.nmode, sizeof *job->measurement.holdout);
+    if (!job->rotor.sensor || !job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
+        !job->measurement.frequency_std || !job->measurement.holdout)
         return ROTID_ERROR_MEMORY;
-    if (job->shape) {
-        job->shape = copy(pool, job->shape, components, sizeof *job->shape);
-        job->shape_std = copy(pool, job->shape_std, components, sizeof *job->shape_std);
-        if (!job->shape || !job->shape_std)
+    if (job->measurement.shape) {
+        job->measurement.shape = copy(pool, job->measurement.shape, components, sizeof *job->measurement.shape);
+        job->measurement.shape_std = copy(pool, job->measurement.shape_std, components, sizeof *job->measurement.shape_std);
+        if (!job->measurement.shape || !job->measurement.shape_std)
             return ROTID_ERROR_MEMORY;
     }
-    if (job->point_frequency_hz) {
-        job->point_frequency_hz = copy(pool, job->point_frequency_hz, components, sizeof *job->point_frequency_hz);
-        job->point_frequency_std = copy(pool, job->point_frequency_std, components, sizeof *job->point_frequency_std);
-        if (!job->point_frequency_hz || !job->point_frequency_std)
+    if (job->measurement.point_frequency_hz) {
+        job->measurement.point_frequency_hz =
+            copy(pool, job->measurement.point_frequency_hz, components, sizeof *job->measurement.point_frequency_hz);
+        job->measurement.point_frequency_std =
+            copy(pool, job->measurement.point_frequency_std, components, sizeof *job->measurement.point_frequency_std);
+        if (!job->measurement.point_frequency_hz || !job->measurement.point_frequency_std)
             return ROTID_ERROR_MEMORY;
     }
-    return job->raw ? copy_raw(pool, job) : ROTID_OK;
+    return job->measurement.raw ? copy_raw(pool, job) : ROTID_OK;
 }
 
 int data_add_finding(struct engine *engine, const struct data_finding *finding)
@@ -90,21 +98,25 @@ static void remove_column(const struct job *job, double *values, int k)
 {
     ptrdiff_t nsensor = job->rotor.nsensor;
     if (values)
-        memmove(values + k * nsensor, values + (k + 1) * nsensor, (size_t)((job->nmode - k - 1) * nsensor) * sizeof *values);
+        memmove(values + k * nsensor, values + (k + 1) * nsensor,
+                (size_t)((job->measurement.nmode - k - 1) * nsensor) * sizeof *values);
 }
 
 void data_remove_mode(struct job *job, int k)
 {
-    int behind = job->nmode - k - 1;
-    memmove(job->number + k, job->number + k + 1, (size_t)behind * sizeof *job->number);
-    memmove(job->frequency_hz + k, job->frequency_hz + k + 1, (size_t)behind * sizeof *job->frequency_hz);
-    memmove(job->damping + k, job->damping + k + 1, (size_t)behind * sizeof *job->damping);
-    memmove(job->frequency_std + k, job->frequency_std + k + 1, (size_t)behind * sizeof *job->frequency_std);
-    memmove(job->holdout + k, job->holdout + k + 1, (size_t)behind * sizeof *job->holdout);
-    double *const table[] = {job->shape, job->shape ? job->shape_std : NULL, job->point_frequency_hz, job->point_frequency_std};
+    int behind = job->measurement.nmode - k - 1;
+    memmove(job->measurement.number + k, job->measurement.number + k + 1, (size_t)behind * sizeof *job->measurement.number);
+    memmove(job->measurement.frequency_hz + k, job->measurement.frequency_hz + k + 1,
+            (size_t)behind * sizeof *job->measurement.frequency_hz);
+    memmove(job->measurement.damping + k, job->measurement.damping + k + 1, (size_t)behind * sizeof *job->measurement.damping);
+    memmove(job->measurement.frequency_std + k, job->measurement.frequency_std + k + 1,
+            (size_t)behind * sizeof *job->measurement.frequency_std);
+    memmove(job->measurement.holdout + k, job->measurement.holdout + k + 1, (size_t)behind * sizeof *job->measurement.holdout);
+    double *const table[] = {job->measurement.shape, job->measurement.shape ? job->measurement.shape_std : NULL,
+                             job->measurement.point_frequency_hz, job->measurement.point_frequency_std};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         remove_column(job, table[i], k);
-    job->nmode--;
+    job->measurement.nmode--;
 }
 
 /* A nearly axisymmetric rotor has each mode twice: two measured modes of one shape and nearly one frequency. The second goes. */
@@ -112,22 +124,23 @@ static int drop_doubles(struct engine *engine)
 {
     struct job *job = &engine->job;
     int nsensor = job->rotor.nsensor;
-    for (int k = 1; k < job->nmode && job->shape && nsensor > 3; k++) {
-        const double *shape = job->shape + (ptrdiff_t)k * nsensor;
-        double apart = job->frequency_hz[k] / job->frequency_hz[k - 1] - 1;
+    for (int k = 1; k < job->measurement.nmode && job->measurement.shape && nsensor > 3; k++) {
+        const double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor;
+        double apart = job->measurement.frequency_hz[k] / job->measurement.frequency_hz[k - 1] - 1;
         if (fabs(apart) > 0.03 || rotid_mac(nsensor, shape - nsensor, shape) < 0.8)
             continue;
         int status = data_add_pairing(
-            engine, job->number[k - 1], job->number[k],
+            engine, job->measurement.number[k - 1], job->measurement.number[k],
             pool_format(engine->pool,
                         "measured modes %d and %d (%.6g and %.6g Hz) have one shape: a mode measured twice, or the pair of a "
                         "rotor that is not quite round; the second is left out",
-                        job->number[k - 1], job->number[k], job->frequency_hz[k - 1], job->frequency_hz[k]));
+                        job->measurement.number[k - 1], job->measurement.number[k], job->measurement.frequency_hz[k - 1],
+                        job->measurement.frequency_hz[k]));
         if (status)
             return status;
         data_remove_mode(job, k);
-        for (int l = k; l < job->nmode; l++)
-            job->number[l]--;
+        for (int l = k; l < job->measurement.nmode; l++)
+            job->measurement.number[l]--;
         k--; /* another one may follow it */
     }
     return ROTID_OK;
@@ -141,17 +154,17 @@ static int look_like_radians(struct engine *engine)
     struct pool scratch;
     double ratio[64];
     int count = 0, highest = comparison_highest(job);
-    double *x = POOL_ARRAY(engine->pool, double, job->nparameter);
+    double *x = POOL_ARRAY(engine->pool, double, job->unknowns.nparameter);
     if (!x)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->nparameter; p++)
-        x[p] = job->bounds[p].start;
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        x[p] = job->unknowns.bounds[p].start;
     pool_open(&scratch, engine->pool->allocator);
-    int status =
-        spectrum_compute(&scratch, job->models, &job->rotor, job->nparameter, job->parameter, x, ROTID_GUYAN, highest, &spectrum);
-    for (int k = 0; k < job->nmode && !status && count < 64; k++)
-        if (job->number[k] <= spectrum.count)
-            ratio[count++] = job->frequency_hz[k] / spectrum.full_hz[job->number[k] - 1];
+    int status = spectrum_compute(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x,
+                                  ROTID_GUYAN, highest, &spectrum);
+    for (int k = 0; k < job->measurement.nmode && !status && count < 64; k++)
+        if (job->measurement.number[k] <= spectrum.count)
+            ratio[count++] = job->measurement.frequency_hz[k] / spectrum.full_hz[job->measurement.number[k] - 1];
     pool_close(&scratch);
     if (status || !count)
         return status;
@@ -170,8 +183,8 @@ static int look_like_radians(struct engine *engine)
 static int count_fitted(const struct job *job)
 {
     int count = 0;
-    for (int k = 0; k < job->nmode; k++)
-        count += !job->holdout[k];
+    for (int k = 0; k < job->measurement.nmode; k++)
+        count += !job->measurement.holdout[k];
     return count;
 }
 
@@ -208,7 +221,7 @@ int data_prepare(struct engine *engine, const struct job *job)
 {
     struct diagnosis *out = engine->out;
     engine->job = *job;
-    if (!job->nmode) {
+    if (!job->measurement.nmode) {
         message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
                     "the deck has no measured modes, expected *MODES or *MEASURED");
         return ROTID_ERROR_ARGUMENT;
@@ -217,20 +230,20 @@ int data_prepare(struct engine *engine, const struct job *job)
     if (status)
         return status;
     struct job *judged = &engine->job;
-    engine->nown = job->nparameter;
-    engine->deck_start = POOL_ARRAY(engine->pool, double, job->nparameter);
+    engine->nown = job->unknowns.nparameter;
+    engine->deck_start = POOL_ARRAY(engine->pool, double, job->unknowns.nparameter);
     if (!engine->deck_start)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->nparameter; p++)
-        engine->deck_start[p] = job->bounds[p].start;
-    judged->fit.functional = ROTID_LIKELIHOOD;
-    judged->fit.reduction = ROTID_REDUCTION_NONE;
-    judged->fit.derivative = ROTID_NELSON;
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        engine->deck_start[p] = job->unknowns.bounds[p].start;
+    judged->options.fit.functional = ROTID_LIKELIHOOD;
+    judged->options.fit.reduction = ROTID_REDUCTION_NONE;
+    judged->options.fit.derivative = ROTID_NELSON;
     if (!job_knows_frequency_noise(job)) {
         out->frequency_noise_assumed = 1;
-        for (int k = 0; k < judged->nmode; k++)
-            if (!isfinite(judged->frequency_std[k]))
-                judged->frequency_std[k] = ASSUMED_FREQUENCY_NOISE;
+        for (int k = 0; k < judged->measurement.nmode; k++)
+            if (!isfinite(judged->measurement.frequency_std[k]))
+                judged->measurement.frequency_std[k] = ASSUMED_FREQUENCY_NOISE;
     }
     status = look_like_radians(engine);
     if (!status)
@@ -238,11 +251,11 @@ int data_prepare(struct engine *engine, const struct job *job)
     if (status)
         return status;
     int fitted = count_fitted(judged), shapes = job_fits_shapes(judged);
-    if (!shapes && fitted <= judged->nparameter) {
+    if (!shapes && fitted <= judged->unknowns.nparameter) {
         message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
                     "%d %s for %d parameters leave nothing to judge the model by, expected more modes, or shapes with *NOISE, "
                     "SHAPE=",
-                    fitted, fitted == 1 ? "frequency" : "frequencies", judged->nparameter);
+                    fitted, fitted == 1 ? "frequency" : "frequencies", judged->unknowns.nparameter);
         return ROTID_ERROR_ARGUMENT;
     }
     judge_amount(engine);

@@ -65,8 +65,8 @@ static double noise_drop(const struct before *before)
 static double frequency_noise(const struct job *job)
 {
     double noise = 0;
-    for (int k = 0; k < job->nmode; k++)
-        noise = fmax(noise, 100 * job->frequency_std[k]);
+    for (int k = 0; k < job->measurement.nmode; k++)
+        noise = fmax(noise, 100 * job->measurement.frequency_std[k]);
     return noise;
 }
 

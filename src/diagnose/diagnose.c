@@ -48,7 +48,7 @@ static int run(struct engine *engine, const struct job *job, struct round_result
     engine_step(engine, "data");
     if (!status)
         status = engine_stage(engine, "fit as the deck states it", 1);
-    if (!status && job->nparameter) { /* what the user does today; should that fail, there is still the judged model */
+    if (!status && job->unknowns.nparameter) { /* what the user does today; should that fail, there is still the judged model */
         int today = identify_run(engine->pool, job, 0, engine->environment, &quiet, &out->today);
         out->has_today = !today;
         int ends = today == ROTID_ERROR_MEMORY || (!today && out->today.fit->status == ROTID_STOP_CANCELLED);
@@ -83,7 +83,7 @@ int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose
                             .mode_out_shape = NAN,
                             .clock = clock_seconds()};
     struct round_result last = {0};
-    engine.user_reduction = job->fit.reduction;
+    engine.user_reduction = job->options.fit.reduction;
     *out = (struct diagnosis){0};
     out->step = POOL_ARRAY(pool, struct diagnosis_step, MOST_STEPS);
     out->numerical_finding = POOL_ARRAY(pool, struct numerical_finding, 2);

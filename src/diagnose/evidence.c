@@ -31,14 +31,14 @@ static void take_parameters(const struct refit *refit, int own, struct candidate
     int last = refit->job.rotor.neffect - 1;
     c->effect = refit->job.rotor.effect[last];
     for (int p = own; p < fit->n; p++) {
-        int component = refit->job.parameter[p].component;
+        int component = refit->job.unknowns.parameter[p].component;
         c->std[component] = fit->std[p];
-        c->ci_lower[component] = fmax(fit->ci_lower[p], refit->job.bounds[p].lower);
-        c->ci_upper[component] = fmin(fit->ci_upper[p], refit->job.bounds[p].upper);
+        c->ci_lower[component] = fmax(fit->ci_lower[p], refit->job.unknowns.bounds[p].lower);
+        c->ci_upper[component] = fmin(fit->ci_upper[p], refit->job.unknowns.bounds[p].upper);
         if (!isfinite(fit->std[p])) /* fmax and fmin prefer the number */
             c->ci_lower[component] = c->ci_upper[component] = NAN;
         if (component == c->cause->size)
-            c->at_bound = ends_at_bound(&refit->job.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
+            c->at_bound = ends_at_bound(&refit->job.unknowns.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
     }
 }
 
@@ -101,10 +101,10 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     double unused, shape;
     c->chi2 = refit->chi2;
     c->chi2_drop = engine->fit->chi2 - refit->chi2;
-    c->bic = refit->chi2 + log(scan->nrow) * refit->job.nparameter;
+    c->bic = refit->chi2 + log(scan->nrow) * refit->job.unknowns.nparameter;
     c->p_value = bootstrap_p(bootstrap, c->chi2_drop);
     c->chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
-    take_parameters(refit, engine->job.nparameter, c);
+    take_parameters(refit, engine->job.unknowns.nparameter, c);
     mend_intervals(scan, s, c);
     fitted_errors(&refit->job, engine->holdout, refit->fit, 1, &c->holdout_rms, &unused, &shape);
     return sensor_out(engine->pool, &refit->job, engine->holdout, refit->fit, &c->sensor_out_rms, &shape);
@@ -143,7 +143,7 @@ static double rms(int n, const double *value)
 
 int modes_in_turn(const struct engine *engine, int models, const struct job *const *job, double *error, double *shape)
 {
-    int nmode = engine->job.nmode;
+    int nmode = engine->job.measurement.nmode;
     size_t cells = (size_t)models * (size_t)nmode;
     struct leave_out out = {engine, job, nmode, POOL_ARRAY(engine->pool, double, cells), POOL_ARRAY(engine->pool, double, cells)};
     if (!out.error || !out.shape)

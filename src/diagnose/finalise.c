@@ -24,7 +24,7 @@ static int quality(struct engine *engine, const struct job *job, const struct id
     fitted_errors(job, engine->holdout, fit, 0, &q->frequency_rms_percent, &q->frequency_max_percent, &q->shape_rms);
     fitted_errors(job, engine->holdout, fit, 1, &q->holdout_frequency_rms_percent, &unused, &q->holdout_shape_rms);
     q->chi2_per_dof = fit->chi2_per_dof;
-    for (int k = 0; k < job->nmode; k++)
+    for (int k = 0; k < job->measurement.nmode; k++)
         if (isfinite(identified->compared.nco[k]))
             q->nco_min = fmin(isfinite(q->nco_min) ? q->nco_min : 2, identified->compared.nco[k]);
     struct job started;
@@ -39,11 +39,11 @@ static int quality(struct engine *engine, const struct job *job, const struct id
  * much; and a place that the fit gives no interval for has that of the scan. */
 static void settle_parameter(const struct job *job, rotid_fit_result *fit, int p, struct candidate *cause)
 {
-    int component = job->parameter[p].component, from_round = isfinite(cause->ci_lower[component]);
+    int component = job->unknowns.parameter[p].component, from_round = isfinite(cause->ci_lower[component]);
     if (isfinite(fit->std[p]) && from_round) {
         cause->std[component] = fit->std[p];
-        cause->ci_lower[component] = fmax(fit->ci_lower[p], job->bounds[p].lower);
-        cause->ci_upper[component] = fmin(fit->ci_upper[p], job->bounds[p].upper);
+        cause->ci_lower[component] = fmax(fit->ci_lower[p], job->unknowns.bounds[p].lower);
+        cause->ci_upper[component] = fmin(fit->ci_upper[p], job->unknowns.bounds[p].upper);
     } else if (from_round) {
         fit->ci_lower[p] = cause->ci_lower[component];
         fit->ci_upper[p] = cause->ci_upper[component];
@@ -65,7 +65,7 @@ static void settle_causes(struct diagnosis *out)
             continue;
         effect_at(job, e, fit->x, &cause->effect);
         for (int p = 0; p < fit->n; p++)
-            if (job->parameter[p].kind == PARAMETER_EFFECT && job->parameter[p].index == e)
+            if (job->unknowns.parameter[p].kind == PARAMETER_EFFECT && job->unknowns.parameter[p].index == e)
                 settle_parameter(job, fit, p, cause);
     }
 }
@@ -116,9 +116,9 @@ static const char *open_parameters(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
     const rotid_fit_result *fit = out->extended.fit ? out->extended.fit : out->base.fit;
-    const rotid_parameter *parameter = out->extended.fit ? out->extended_job.bounds : out->job.bounds;
+    const rotid_parameter *parameter = out->extended.fit ? out->extended_job.unknowns.bounds : out->job.unknowns.bounds;
     const char *text = "";
-    for (int p = 0; p < fit->n && p < out->job.nparameter && text; p++) {
+    for (int p = 0; p < fit->n && p < out->job.unknowns.nparameter && text; p++) {
         if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->kind != VERDICT_ADEQUATE)
             text = pool_format(engine->pool, "%s %s ends at its %s bound %.4g %s, which may be the cause itself: widen it.", text,
                                parameter[p].name, base_bound_side(engine, p), out->base.fit->x[p], parameter[p].unit);
@@ -148,7 +148,7 @@ static const char *verdict_sentence(struct engine *engine)
         faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->ndata_finding,
                              out->ndata_finding == 1 ? "" : "s", out->ndata_finding == 1 ? "was" : "were");
     const char *chance = pool_format(pool,
-                                     !isfinite(out->p_value) ? "no chance of that can be stated"
+                                     !isfinite(out->p_value) ? "no p-value can be stated"
                                      : out->p_value < 1e-99  ? "p below 1e-99"
                                                              : "p = %.2g",
                                      out->p_value),
@@ -216,19 +216,19 @@ static int refine_base(struct engine *engine)
 /* A suspect that was named is part of the model now. */
 static int keep_open_suspects(struct pool *pool, struct job *job)
 {
-    struct suspect *open = POOL_ARRAY(pool, struct suspect, job->nsuspect);
+    struct suspect *open = POOL_ARRAY(pool, struct suspect, job->unknowns.nsuspect);
     int count = 0;
     if (!open)
         return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < job->nsuspect; i++) {
+    for (int i = 0; i < job->unknowns.nsuspect; i++) {
         int named = 0;
         for (int e = 0; e < job->rotor.neffect; e++)
-            named |= same_text(job->rotor.effect[e].name, job->suspect[i].effect.name);
+            named |= same_text(job->rotor.effect[e].name, job->unknowns.suspect[i].effect.name);
         if (!named)
-            open[count++] = job->suspect[i];
+            open[count++] = job->unknowns.suspect[i];
     }
-    job->suspect = open;
-    job->nsuspect = count;
+    job->unknowns.suspect = open;
+    job->unknowns.nsuspect = count;
     return ROTID_OK;
 }
 

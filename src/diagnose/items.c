@@ -22,7 +22,7 @@ const char *candidate_variant(const struct candidate *candidate)
 int fitted_parameter(const struct job *job, const rotid_fit_result *fit, const char *name)
 {
     for (int p = 0; fit && p < fit->n; p++)
-        if (!strcmp(job->bounds[p].name, name))
+        if (!strcmp(job->unknowns.bounds[p].name, name))
             return p;
     return -1;
 }

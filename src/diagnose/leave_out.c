@@ -11,8 +11,8 @@ double shape_difference(const struct job *job, int k, double mac)
 {
     double sum = 0, largest = 0;
     int count = 0;
-    for (int s = 0; s < job->rotor.nsensor && job->shape; s++) {
-        double value = job->shape[s + (ptrdiff_t)k * job->rotor.nsensor];
+    for (int s = 0; s < job->rotor.nsensor && job->measurement.shape; s++) {
+        double value = job->measurement.shape[s + (ptrdiff_t)k * job->rotor.nsensor];
         if (!isfinite(value))
             continue;
         sum += value * value;
@@ -29,17 +29,17 @@ int mode_out_fit(const struct job *job, const int *number, const int *holdout, i
     rotid_fit_result *fit = NULL;
     pool_open(&pool, allocator);
     *error_percent = *shape = NAN;
-    int *without = POOL_ARRAY(&pool, int, job->nmode), left = 0, status = ROTID_ERROR_MEMORY;
+    int *without = POOL_ARRAY(&pool, int, job->measurement.nmode), left = 0, status = ROTID_ERROR_MEMORY;
     if (without) {
-        for (int m = 0; m < job->nmode; m++) {
+        for (int m = 0; m < job->measurement.nmode; m++) {
             without[m] = holdout[m] || m == k;
             left += !without[m];
         }
-        int enough = job_fits_shapes(job) ? left > 0 : left >= job->nparameter;
+        int enough = job_fits_shapes(job) ? left > 0 : left >= job->unknowns.nparameter;
         status = left && enough ? refit_job(&pool, job, number, without, environment, &fit) : ROTID_ERROR_ARGUMENT;
     }
     if (!status) {
-        *error_percent = 100 * (fit->predicted_hz[k] / job->frequency_hz[k] - 1);
+        *error_percent = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[k] - 1);
         *shape = shape_difference(job, k, fit->mac[k]);
     }
     rotid_fit_free(fit);
@@ -52,8 +52,9 @@ int mode_out_fit(const struct job *job, const int *number, const int *holdout, i
 static int scale_directions(const struct job *job, const int *holdout, const rotid_fit_result *fit, int next, double *basis)
 {
     int nsensor = job->rotor.nsensor, count = 0;
-    for (int k = 0; k < job->nmode; k++) {
-        const double *shape = job->shape + (ptrdiff_t)k * nsensor, *std = job->shape_std + (ptrdiff_t)k * nsensor;
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        const double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor,
+                     *std = job->measurement.shape_std + (ptrdiff_t)k * nsensor;
         double *q = basis + (ptrdiff_t)count * fit->nresidual, largest = 0, square = 0;
         for (int s = 0; s < nsensor; s++)
             largest = isfinite(shape[s]) ? fmax(largest, fabs(shape[s])) : largest;
@@ -86,7 +87,7 @@ int sensor_out(struct pool *pool, const struct job *job, const int *holdout, con
 {
     int nsensor = job->rotor.nsensor, nrow = fit->nresidual, nfitted = 0, status;
     *standardised = *shape_rms = NAN;
-    for (int k = 0; k < job->nmode; k++)
+    for (int k = 0; k < job->measurement.nmode; k++)
         nfitted += !holdout[k];
     if (!job_fits_shapes(job) || nrow <= nfitted || nfitted < 1)
         return ROTID_OK;
@@ -101,9 +102,9 @@ int sensor_out(struct pool *pool, const struct job *job, const int *holdout, con
         return status;
     int rank = scale_directions(job, holdout, fit, nfitted, basis), next = nfitted;
     rank = orthonormalise(nrow, fit->n, fit->jacobian, rank, basis);
-    for (int k = 0, m = 0; k < job->nmode; k++) {
+    for (int k = 0, m = 0; k < job->measurement.nmode; k++) {
         for (int s = 0; s < nsensor && !holdout[k]; s++)
-            row[m + (ptrdiff_t)s * nfitted] = isfinite(job->shape[s + (ptrdiff_t)k * nsensor]) ? next++ : -1;
+            row[m + (ptrdiff_t)s * nfitted] = isfinite(job->measurement.shape[s + (ptrdiff_t)k * nsensor]) ? next++ : -1;
         m += !holdout[k];
     }
     double sum = 0, difference = 0;
@@ -125,12 +126,12 @@ int sensor_out(struct pool *pool, const struct job *job, const int *holdout, con
         if (!rows || symmetric_factor(&block, rows))
             continue;
         symmetric_solve(&block, rows, right);
-        for (int i = 0, k = 0, m = 0; k < job->nmode; k++) {
+        for (int i = 0, k = 0, m = 0; k < job->measurement.nmode; k++) {
             if (holdout[k])
                 continue;
             if (row[m++ + (ptrdiff_t)s * nfitted] < 0)
                 continue;
-            double std = job->shape_std[s + (ptrdiff_t)k * nsensor];
+            double std = job->measurement.shape_std[s + (ptrdiff_t)k * nsensor];
             sum += right[i] * right[i];
             difference += right[i] * right[i] * std * std;
             i++;
@@ -150,10 +151,11 @@ void fitted_errors(const struct job *job, const int *holdout, const rotid_fit_re
     double sum = 0, shapes = 0;
     int count = 0, with_shape = 0;
     *max_percent = NAN;
-    for (int k = 0; k < job->nmode; k++) {
+    for (int k = 0; k < job->measurement.nmode; k++) {
         if ((holdout[k] != 0) != held)
             continue;
-        double error = 100 * (fit->predicted_hz[k] / job->frequency_hz[k] - 1), shape = shape_difference(job, k, fit->mac[k]);
+        double error = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[k] - 1),
+               shape = shape_difference(job, k, fit->mac[k]);
         *max_percent = count++ ? fmax(*max_percent, fabs(error)) : fabs(error);
         sum += error * error;
         if (isfinite(shape)) {

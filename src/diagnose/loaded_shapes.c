@@ -14,12 +14,12 @@
 static int raw_sensor(const struct job *job, int s)
 {
     int id = job->rotor.sensor[s].id, raw = 0;
-    for (int c = job->ncorrection - 1; c >= 0; c--) {
-        const struct correction *correction = &job->correction[c];
+    for (int c = job->measurement.ncorrection - 1; c >= 0; c--) {
+        const struct correction *correction = &job->measurement.correction[c];
         if (!strcmp(correction->id, "sensor_swap") && (correction->sensor[0] == id || correction->sensor[1] == id))
             id = correction->sensor[correction->sensor[0] == id];
     }
-    while (raw + 1 < job->raw->nsensor && job->raw->sensor[raw].id != id)
+    while (raw + 1 < job->measurement.raw->nsensor && job->measurement.raw->sensor[raw].id != id)
         raw++;
     return raw;
 }
@@ -35,7 +35,7 @@ static void widen(double *std, double *raw, double more)
 
 static double *raw_value(struct job *job, double *of, int s, int k)
 {
-    return of ? &of[raw_sensor(job, s) + (ptrdiff_t)k * job->raw->nsensor] : NULL;
+    return of ? &of[raw_sensor(job, s) + (ptrdiff_t)k * job->measurement.raw->nsensor] : NULL;
 }
 
 /* The model has the mass spread over all sensors, so a shape that is free of the accelerometer gets what that does to it. */
@@ -43,14 +43,15 @@ static void spread_mass(struct job *job, const struct weighing *w, int m, double
 {
     int k = w->columns.mode[m].k;
     const double *phi = w->phi + (ptrdiff_t)m * w->npoint, *spread = w->spread + (ptrdiff_t)m * w->npoint;
-    double *shape = job->shape + (ptrdiff_t)k * w->npoint, product = 0, square = 0;
+    double *shape = job->measurement.shape + (ptrdiff_t)k * w->npoint, product = 0, square = 0;
     for (int s = 0; s < w->npoint; s++)
         if (isfinite(shape[s])) {
             product += shape[s] * phi[s];
             square += phi[s] * phi[s];
         }
     for (int s = 0; s < w->npoint; s++) {
-        double *raw = raw_value(job, job->raw ? job->raw->shape : NULL, s, k), more = product / square * mass * spread[s];
+        double *raw = raw_value(job, job->measurement.raw ? job->measurement.raw->shape : NULL, s, k),
+               more = product / square * mass * spread[s];
         if (!isfinite(shape[s]))
             continue;
         shape[s] += more;
@@ -67,27 +68,27 @@ int loaded_shapes_correct(struct job *job, const struct weighing *w, double mass
         const double *phi = w->phi + (ptrdiff_t)m * w->npoint;
         double largest = 0;
         for (int s = 0; s < w->npoint; s++)
-            if (isfinite(job->shape[s + (ptrdiff_t)k * w->npoint]))
+            if (isfinite(job->measurement.shape[s + (ptrdiff_t)k * w->npoint]))
                 largest = fmax(largest, fabs(phi[s]));
         int known = w->hammer >= 0 && fabs(phi[w->hammer]) > NODE * largest;
         corrected += known;
         for (int s = 0; s < w->npoint && largest > 0; s++) {
             ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
-            double *raw_std = raw_value(job, job->raw ? job->raw->shape_std : NULL, s, k),
-                   *raw = raw_value(job, job->raw ? job->raw->shape : NULL, s, k),
+            double *raw_std = raw_value(job, job->measurement.raw ? job->measurement.raw->shape_std : NULL, s, k),
+                   *raw = raw_value(job, job->measurement.raw ? job->measurement.raw->shape : NULL, s, k),
                    size = mass * (w->square[model] + fabs(w->others[model])), share = fabs(phi[s]) / largest;
-            if (!isfinite(job->shape[at]))
+            if (!isfinite(job->measurement.shape[at]))
                 continue;
             if (!known) {
-                widen(&job->shape_std[at], raw_std, ROOM * size * share);
+                widen(&job->measurement.shape_std[at], raw_std, ROOM * size * share);
                 continue;
             }
             double change = moving_mass_residue(mass, w->square[model], w->others[model], w->bend[model], w->across[model],
                                                 w->across_bend[model], phi[s] / phi[w->hammer]);
-            job->shape[at] /= change;
+            job->measurement.shape[at] /= change;
             if (raw)
                 *raw /= change;
-            widen(&job->shape_std[at], raw_std, UNSURE * fabs(change - 1) * share);
+            widen(&job->measurement.shape_std[at], raw_std, UNSURE * fabs(change - 1) * share);
         }
         if (known)
             spread_mass(job, w, m, mass);
@@ -105,8 +106,9 @@ void loaded_shapes_allow(struct job *job, const struct weighing *w, double mass)
             largest = fmax(largest, fabs(phi[s]));
         for (int s = 0; s < w->npoint && largest > 0; s++) {
             ptrdiff_t at = s + (ptrdiff_t)k * w->npoint, model = s + (ptrdiff_t)m * w->npoint;
-            if (isfinite(job->shape[at]))
-                widen(&job->shape_std[at], raw_value(job, job->raw ? job->raw->shape_std : NULL, s, k),
+            if (isfinite(job->measurement.shape[at]))
+                widen(&job->measurement.shape_std[at],
+                      raw_value(job, job->measurement.raw ? job->measurement.raw->shape_std : NULL, s, k),
                       mass * (w->square[model] + fabs(w->others[model])) * fabs(phi[s]) / largest);
         }
     }

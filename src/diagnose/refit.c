@@ -28,15 +28,15 @@ static void set_start(rotid_parameter *bounds, double value)
 
 int job_started_at(struct pool *pool, const struct job *job, const double *x, struct job *to)
 {
-    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->nparameter);
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
     if (!bounds)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->nparameter; p++) {
-        bounds[p] = job->bounds[p];
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
+        bounds[p] = job->unknowns.bounds[p];
         set_start(&bounds[p], x[p]);
     }
     *to = *job;
-    to->bounds = bounds;
+    to->unknowns.bounds = bounds;
     return ROTID_OK;
 }
 
@@ -45,33 +45,34 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
 {
     const struct job copy = *from, *job = &copy; /* `to` may be the same */
     const struct rotor *rotor = &job->rotor;
-    int nown = job->nparameter, nnew = cause_parameters(effect), index = rotor->neffect;
+    int nown = job->unknowns.nparameter, nnew = cause_parameters(effect), index = rotor->neffect;
     *to = *job;
     to->rotor.effect = POOL_ARRAY(pool, struct effect, index + 1);
-    to->parameter = POOL_ARRAY(pool, struct parameter, nown + nnew);
-    to->bounds = POOL_ARRAY(pool, rotid_parameter, nown + nnew);
-    if (!to->rotor.effect || !to->parameter || !to->bounds)
+    to->unknowns.parameter = POOL_ARRAY(pool, struct parameter, nown + nnew);
+    to->unknowns.bounds = POOL_ARRAY(pool, rotid_parameter, nown + nnew);
+    if (!to->rotor.effect || !to->unknowns.parameter || !to->unknowns.bounds)
         return ROTID_ERROR_MEMORY;
     if (index)
         memcpy(to->rotor.effect, rotor->effect, (size_t)index * sizeof *effect);
     to->rotor.effect[to->rotor.neffect++] = *effect;
     for (int p = 0; p < nown; p++) {
-        to->parameter[p] = job->parameter[p];
-        to->bounds[p] = job->bounds[p];
+        to->unknowns.parameter[p] = job->unknowns.parameter[p];
+        to->unknowns.bounds[p] = job->unknowns.bounds[p];
         if (x)
-            set_start(&to->bounds[p], x[p]);
+            set_start(&to->unknowns.bounds[p], x[p]);
     }
     for (int p = 0; p < nnew; p++) {
         if (fixed && fixed[p])
             continue;
-        rotid_parameter *bounds = &to->bounds[to->nparameter];
+        rotid_parameter *bounds = &to->unknowns.bounds[to->unknowns.nparameter];
         *bounds = (rotid_parameter){.unit = effect->kind->parameter[p].unit};
         bounds->name = pool_format(pool, "%s.%s", effect->name, effect->kind->parameter[p].name);
         if (!bounds->name)
             return ROTID_ERROR_MEMORY;
         cause->bounds(rotor, effect, p, &bounds->lower, &bounds->upper);
         set_start(bounds, inside(bounds, effect->value[p]));
-        to->parameter[to->nparameter++] = (struct parameter){.kind = PARAMETER_EFFECT, .index = index, .component = p};
+        to->unknowns.parameter[to->unknowns.nparameter++] =
+            (struct parameter){.kind = PARAMETER_EFFECT, .index = index, .component = p};
     }
     return ROTID_OK;
 }
@@ -79,15 +80,15 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
 void effect_at(const struct job *job, int effect, const double *x, struct effect *out)
 {
     *out = job->rotor.effect[effect];
-    for (int p = 0; p < job->nparameter; p++)
-        if (job->parameter[p].kind == PARAMETER_EFFECT && job->parameter[p].index == effect)
-            out->value[job->parameter[p].component] = x[p];
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        if (job->unknowns.parameter[p].kind == PARAMETER_EFFECT && job->unknowns.parameter[p].index == effect)
+            out->value[job->unknowns.parameter[p].component] = x[p];
 }
 
 int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,
               const rotid_environment *environment, rotid_fit_result **fit)
 {
-    rotid_fit_options options = job->fit;
+    rotid_fit_options options = job->options.fit;
     const rotid_environment quiet = {.size = sizeof quiet,
                                      .cancelled = environment ? environment->cancelled : NULL,
                                      .context = environment ? environment->context : NULL,
@@ -165,13 +166,13 @@ int refit_again(struct pool *pool, const struct job *job, int nown, const double
 {
     struct job other = *job;
     rotid_fit_result *second = NULL;
-    other.bounds = POOL_ARRAY(pool, rotid_parameter, job->nparameter);
-    if (!other.bounds)
+    other.unknowns.bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
+    if (!other.unknowns.bounds)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->nparameter; p++) {
-        other.bounds[p] = job->bounds[p];
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
+        other.unknowns.bounds[p] = job->unknowns.bounds[p];
         if (p < nown)
-            set_start(&other.bounds[p], own[p]);
+            set_start(&other.unknowns.bounds[p], own[p]);
     }
     int status = refit_job(pool, &other, number, holdout, environment, &second);
     if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
@@ -190,8 +191,8 @@ int refit_beyond(struct pool *pool, const struct job *job, int nown, const rotid
     int widened = 0, status = job_started_at(pool, job, fit->x, &wider);
     *drop = 0;
     for (int p = 0; p < nown && !status; p++) {
-        rotid_parameter *bounds = &wider.bounds[p];
-        if (!fit->at_bound[p] || job->parameter[p].kind == PARAMETER_NU) /* whose bounds are physical */
+        rotid_parameter *bounds = &wider.unknowns.bounds[p];
+        if (!fit->at_bound[p] || job->unknowns.parameter[p].kind == PARAMETER_NU) /* whose bounds are physical */
             continue;
         if (fit->x[p] - bounds->lower < bounds->upper - fit->x[p])
             bounds->lower = bounds->lower > 0 ? bounds->lower / WIDER : bounds->lower * WIDER;
@@ -260,7 +261,8 @@ int refit_candidate(struct pool *pool, const struct job *job, const int *number,
     int nested = c->cause->effect->nparameter && !c->fixed[c->cause->size];
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
     int status = fit_from(pool, job, number, holdout, x, scan, c, environment, refit);
-    if (!status && deck && (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, job->nparameter)))
+    if (!status && deck &&
+        (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, job->unknowns.nparameter)))
         status = fit_from(pool, job, number, holdout, deck, scan, c, environment, refit);
     if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)
         return status;

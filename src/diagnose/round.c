@@ -60,14 +60,14 @@ static int choose(const struct scan *scan, double threshold, int *chosen)
 static int run_refits(struct engine *engine, struct round_result *result)
 {
     struct pool *pool = engine->pool;
-    double *deck = POOL_ARRAY(pool, double, engine->job.nparameter);
+    double *deck = POOL_ARRAY(pool, double, engine->job.unknowns.nparameter);
     struct refits refits = {engine, result, deck, POOL_ARRAY(pool, struct pool, result->nrefit)};
     result->refit = POOL_ARRAY(pool, struct refit, result->nrefit);
     if (!deck || !refits.pool || !result->refit) {
         result->nrefit = 0;
         return ROTID_ERROR_MEMORY;
     }
-    for (int p = 0; p < engine->job.nparameter; p++)
+    for (int p = 0; p < engine->job.unknowns.nparameter; p++)
         deck[p] = p < engine->nown ? engine->deck_start[p] : engine->fit->x[p];
     for (int i = 0; i < result->nrefit; i++)
         pool_open(&refits.pool[i], pool->allocator);

@@ -75,7 +75,7 @@ static int fill_columns(const struct job *job, struct columns *columns, struct s
             continue;
         status = columns_probe(columns, &item->effect);
         if (!status)
-            status = columns_parameter(columns, job->nparameter + cause->size, scan->column + (ptrdiff_t)i * n);
+            status = columns_parameter(columns, job->unknowns.nparameter + cause->size, scan->column + (ptrdiff_t)i * n);
     }
     for (int i = 0; i < scan->nitem && !status; i++) { /* behind the others: they leave the point */
         struct effect effect = scan->item[i].effect;
@@ -107,7 +107,7 @@ static int make_basis(const struct job *job, struct columns *columns, struct sca
         if (mode->square > 0)
             scan->nbasis = basis_extend(n, scan->nbasis, INSEPARABLE, scan->basis);
     }
-    for (int p = 0; p < job->nparameter && !status; p++) {
+    for (int p = 0; p < job->unknowns.nparameter && !status; p++) {
         double *column = scan->basis + (ptrdiff_t)scan->nbasis * n;
         status = columns_parameter(columns, p, column);
         if (!status)
@@ -174,14 +174,14 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
         items += item_count(&scan->candidate[i], model->naxis);
     scan->item = POOL_ARRAY(pool, struct scan_item, items);
     scan->column = POOL_ARRAY(pool, double, (size_t)items *(size_t)n);
-    scan->basis = POOL_ARRAY(pool, double, (size_t)(job->nparameter + columns.nmode + 1) * (size_t)n);
+    scan->basis = POOL_ARRAY(pool, double, (size_t)(job->unknowns.nparameter + columns.nmode + 1) * (size_t)n);
     scan->r = POOL_ARRAY(pool, double, n);
     double *raw = POOL_ARRAY(pool, double, items);
     if (!scan->item || !scan->column || !scan->basis || !scan->r || !raw)
         return ROTID_ERROR_MEMORY;
     list_items(&job->rotor, model, scan);
     scan->nfrequency = columns.nmode;
-    scan->nfree = job->nparameter;
+    scan->nfree = job->unknowns.nparameter;
     memcpy(scan->r, columns.r, (size_t)n * sizeof *scan->r);
     scan->chi2 = product_dot(n, scan->r, scan->r);
     scan->chi2_frequency = product_dot(columns.nmode, scan->r, scan->r);

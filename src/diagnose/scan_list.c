@@ -8,8 +8,9 @@
 
 static int is_identified(const struct job *job, int group)
 {
-    for (int p = 0; p < job->nparameter; p++)
-        if (job->parameter[p].index == group && (job->parameter[p].kind == PARAMETER_E || job->parameter[p].kind == PARAMETER_G))
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        if (job->unknowns.parameter[p].index == group &&
+            (job->unknowns.parameter[p].kind == PARAMETER_E || job->unknowns.parameter[p].kind == PARAMETER_G))
             return 1;
     return 0;
 }
@@ -103,7 +104,7 @@ static int add_suspect(struct pool *pool, const struct job *job, const struct su
 int scan_list(struct pool *pool, const struct job *job, struct scan *scan)
 {
     const struct rotor *rotor = &job->rotor;
-    int most = job->nsuspect, status = ROTID_OK;
+    int most = job->unknowns.nsuspect, status = ROTID_OK;
     int *identified = POOL_ARRAY(pool, int, rotor->ngroup);
     for (int i = 0; i < catalogue_count(); i++)
         most += target_count(rotor, catalogue_item(i)->target);
@@ -120,7 +121,7 @@ int scan_list(struct pool *pool, const struct job *job, struct scan *scan)
                 (!cause->applies || cause->applies(rotor, t, identified)))
                 status = add(pool, job, cause, t, scan);
     }
-    for (int i = 0; i < job->nsuspect && !status; i++)
-        status = add_suspect(pool, job, &job->suspect[i], scan);
+    for (int i = 0; i < job->unknowns.nsuspect && !status; i++)
+        status = add_suspect(pool, job, &job->unknowns.suspect[i], scan);
     return status;
 }

@@ -30,20 +30,20 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
     engine->fit = refit->fit;
     refit->fit = NULL;
     if (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0) {
-        ptrdiff_t components = (ptrdiff_t)job.rotor.nsensor * job.nmode;
-        double *std = POOL_ARRAY(engine->pool, double, job.nmode);
+        ptrdiff_t components = (ptrdiff_t)job.rotor.nsensor * job.measurement.nmode;
+        double *std = POOL_ARRAY(engine->pool, double, job.measurement.nmode);
         if (!std)
             return ROTID_ERROR_MEMORY;
-        for (int k = 0; k < job.nmode; k++)
-            std[k] = hypot(job.frequency_std[k], cause->discrepancy_frequency);
-        job.frequency_std = std;
-        if (job.shape && cause->discrepancy_shape > 0) {
+        for (int k = 0; k < job.measurement.nmode; k++)
+            std[k] = hypot(job.measurement.frequency_std[k], cause->discrepancy_frequency);
+        job.measurement.frequency_std = std;
+        if (job.measurement.shape && cause->discrepancy_shape > 0) {
             double *shapes = POOL_ARRAY(engine->pool, double, components);
             if (!shapes)
                 return ROTID_ERROR_MEMORY;
             for (ptrdiff_t i = 0; i < components; i++)
-                shapes[i] = hypot(job.shape_std[i], cause->discrepancy_shape);
-            job.shape_std = shapes;
+                shapes[i] = hypot(job.measurement.shape_std[i], cause->discrepancy_shape);
+            job.measurement.shape_std = shapes;
         }
         rotid_fit_result *fit = NULL;
         int status = refit_job(engine->pool, &job, engine->number, engine->holdout, engine->environment, &fit);
@@ -132,8 +132,8 @@ static int job_without(struct engine *engine, int left_out, struct job *job)
         if (c != left_out)
             status =
                 job_with_effect(engine->pool, job, NULL, &out->cause[c].effect, out->cause[c].cause, out->cause[c].fixed, job);
-    job->frequency_std = engine->job.frequency_std;
-    job->shape_std = engine->job.shape_std;
+    job->measurement.frequency_std = engine->job.measurement.frequency_std;
+    job->measurement.shape_std = engine->job.measurement.shape_std;
     return status;
 }
 
@@ -162,8 +162,9 @@ static int confirm(struct engine *engine, struct diagnosis_round *round, struct 
         rotid_fit_free(other.fit); /* the round may have put another one in its place */
         engine->clock = other.clock;
         engine->coloured = other.coloured;
-        engine->job.correction = out->job.correction; /* noise that was raised there is raised here: the data are the same */
-        engine->job.ncorrection = out->job.ncorrection;
+        engine->job.measurement.correction =
+            out->job.measurement.correction; /* noise that was raised there is raised here: the data are the same */
+        engine->job.measurement.ncorrection = out->job.measurement.ncorrection;
         if (!status && !(round->kind == VERDICT_NAMED && same_cause(&round->candidate[0], &out->cause[c])))
             *doubtful = c;
     }

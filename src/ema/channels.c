@@ -92,20 +92,20 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
         channel[c] = (struct ema_channel){.twin = -1, .fit = NAN, .noise = NAN};
         usable[c] = is_finite(&set->frf[c], first, last);
         if (!usable[c]) {
-            channel[c].doubts = EMA_NOT_FINITE;
+            channel[c].quality_flags = EMA_NOT_FINITE;
             continue;
         }
         most[c] = largest(&set->frf[c], first, last, &power, &constant[c]);
         noise_of(&set->frf[c], first, last, power, &channel[c].noise, &coherence);
         if (coherence < LEAST_COHERENT)
-            channel[c].doubts |= EMA_LOW_COHERENCE;
+            channel[c].quality_flags |= EMA_LOW_COHERENCE;
         sorted[known++] = most[c];
     }
     double usual = median_of(known, sorted);
     known = 0;
     for (int c = 0; c < set->nfrf; c++) {
         if (usable[c] && (constant[c] || most[c] < DEAD_SHARE * usual || most[c] == 0)) {
-            channel[c].doubts |= EMA_DEAD;
+            channel[c].quality_flags |= EMA_DEAD;
             usable[c] = 0;
         }
         if (usable[c] && !isnan(channel[c].noise))
@@ -116,12 +116,12 @@ int channels_check(struct pool *pool, const struct frf_set *set, int first, int 
         if (!usable[c])
             continue;
         if (is_noisy(&set->frf[c], first, last, channel[c].noise, usual))
-            channel[c].doubts |= EMA_NOISY;
+            channel[c].quality_flags |= EMA_NOISY;
         for (int d = 0; d < c && channel[c].twin < 0; d++)
             if (usable[d] &&
                 is_twin(&set->frf[d], &set->frf[c], first, last, channel[d].noise, channel[c].noise, fmax(most[c], most[d]))) {
                 channel[c].twin = d;
-                channel[c].doubts |= EMA_DUPLICATE;
+                channel[c].quality_flags |= EMA_DUPLICATE;
             }
     }
     return ROTID_OK;
@@ -158,6 +158,6 @@ int channels_compare(struct pool *pool, const struct frf_set *set, int first, in
     for (int c = 0; c < set->nfrf; c++)
         /* below 1e-6 the difference is rounding */
         if (usable[c] && out->nmode && left[c] > MISFIT_RATIO * usual && left[c] > 1e-6)
-            out->channel[c].doubts |= EMA_MISFIT;
+            out->channel[c].quality_flags |= EMA_MISFIT;
     return ROTID_OK;
 }

@@ -26,7 +26,7 @@
 #define SUSPECT       2
 #define NOT_PICKED    (-1)
 
-struct job {
+struct extraction {
     struct pool *pool;
     const struct frf_set *set;
     struct ema_options options;
@@ -38,7 +38,7 @@ struct job {
     int stated; /* the lines came with a variance */
     int ncandidate;
     double complex *candidate;
-    int *doubts; /* [ncandidate] of picks, or NOT_PICKED; NULL without picks */
+    int *quality_flags; /* [ncandidate] of picks, or NOT_PICKED; NULL without picks */
     struct ema *out;
 };
 
@@ -57,7 +57,7 @@ static void set_defaults(struct ema_options *o, int nline)
     o->order = o->order < 2 ? 2 : o->order;
 }
 
-static int find_lines(struct job *job)
+static int find_lines(struct extraction *job)
 {
     const struct frf_set *set = job->set;
     const struct ema_options *o = &job->options;
@@ -73,7 +73,7 @@ static int find_lines(struct job *job)
     return job->last - job->first >= LEAST_LINES ? ROTID_OK : ROTID_ERROR_ARGUMENT;
 }
 
-static int prepare(struct job *job)
+static int prepare(struct extraction *job)
 {
     int n = job->set->nfrf, status = n > 0 ? find_lines(job) : ROTID_ERROR_ARGUMENT, alive = 0;
     if (status != ROTID_OK)
@@ -98,7 +98,7 @@ static int prepare(struct job *job)
 }
 
 /* Candidates from the stabilisation table, or what the user picked. */
-static int find_candidates(struct job *job, struct stabilisation *table)
+static int find_candidates(struct extraction *job, struct stabilisation *table)
 {
     const struct ema_options *o = &job->options;
     struct ema *out = job->out;
@@ -112,7 +112,7 @@ static int find_candidates(struct job *job, struct stabilisation *table)
 }
 
 /* Keeps the candidates that earn their place: refined, or where no refinement is wanted as they came. */
-static int earn(struct job *job)
+static int earn(struct extraction *job)
 {
     int *from = POOL_ARRAY(job->pool, int, job->ncandidate);
     double complex *pole = POOL_ARRAY(job->pool, double complex, job->ncandidate);
@@ -142,19 +142,19 @@ static int earn(struct job *job)
 /* What the user picked joins what was found, or marks it where the pole of the table for that frequency is the same to half a
  * half-power bandwidth. The modes that were not picked stay in the fit, where they are not mistaken for residuals, and are not
  * reported. */
-static int add_picks(struct job *job, const struct stabilisation *table)
+static int add_picks(struct extraction *job, const struct stabilisation *table)
 {
     int npick = job->options.npick, found = job->ncandidate, all = found;
     double complex *pick = POOL_ARRAY(job->pool, double complex, npick);
     double complex *pole = POOL_ARRAY(job->pool, double complex, found + npick);
     int *unstable = POOL_ARRAY(job->pool, int, npick);
-    job->doubts = POOL_ARRAY(job->pool, int, found + npick);
-    if (!pick || !pole || !unstable || !job->doubts)
+    job->quality_flags = POOL_ARRAY(job->pool, int, found + npick);
+    if (!pick || !pole || !unstable || !job->quality_flags)
         return ROTID_ERROR_MEMORY;
     stabilisation_picks(table, npick, job->options.pick_hz, pick, unstable);
     for (int r = 0; r < found; r++) {
         pole[r] = job->candidate[r];
-        job->doubts[r] = NOT_PICKED;
+        job->quality_flags[r] = NOT_PICKED;
     }
     for (int i = 0; i < npick; i++) {
         int same = -1;
@@ -165,14 +165,14 @@ static int add_picks(struct job *job, const struct stabilisation *table)
             same = all;
             pole[all++] = pick[i];
         }
-        job->doubts[same] = unstable[i] ? EMA_UNSTABLE : 0;
+        job->quality_flags[same] = unstable[i] ? EMA_UNSTABLE : 0;
     }
     job->candidate = pole;
     job->ncandidate = all;
     return ROTID_OK;
 }
 
-static int fit_modes(struct job *job)
+static int fit_modes(struct extraction *job)
 {
     struct modal_fit fit;
     struct refinement refinement;
@@ -216,12 +216,12 @@ static int fit_modes(struct job *job)
     for (int r = 0; r < n; r++) {
         double complex at = fit.pole[r] * fit.scale;
         int inside = r < n - nguard && !refinement.moved[r] && cimag(at) >= band->low && cimag(at) <= band->high;
-        if (r >= n - nguard || (job->doubts ? job->doubts[r] == NOT_PICKED : !inside)) {
+        if (r >= n - nguard || (job->quality_flags ? job->quality_flags[r] == NOT_PICKED : !inside)) {
             behind[others++] = out->mode[r];
             continue;
         }
         struct ema_mode mode = out->mode[r];
-        mode.doubts |= job->doubts ? job->doubts[r] : 0;
+        mode.quality_flags |= job->quality_flags ? job->quality_flags[r] : 0;
         /* the scores of the channels tell cheaply whether they agree on the frequency */
         suspect[reported] = refinement.widened[(ptrdiff_t)2 * r + 1] > SUSPECT;
         for (int k = 0; k < band->nchannel; k++)
@@ -236,7 +236,7 @@ static int fit_modes(struct job *job)
     return per_point_frequencies(job->pool, band, job->set->window_decay, suspect, common, gain, job->environment, out);
 }
 
-static int finish(struct job *job)
+static int finish(struct extraction *job)
 {
     struct ema *out = job->out;
     double complex *work = POOL_ARRAY(job->pool, double complex, job->points.nreference);
@@ -246,9 +246,9 @@ static int finish(struct job *job)
         shapes_of_mode(job->set, &job->points, job->usable, out, &out->mode[r], work);
     for (int r = 0; r < out->nmode; r++) {
         if (out->mode[r].modal_mass < 0)
-            out->mode[r].doubts |= EMA_NEGATIVE_MASS;
+            out->mode[r].quality_flags |= EMA_NEGATIVE_MASS;
         if (job->options.no_refinement) /* nobody asked for it */
-            out->mode[r].doubts &= ~EMA_NOT_REFINED;
+            out->mode[r].quality_flags &= ~EMA_NOT_REFINED;
     }
     int status = modes_judge(job->pool, &job->band, job->set->window_decay, out);
     if (status != ROTID_OK)
@@ -262,13 +262,13 @@ static int by_frequency_of_mode(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static int is_cancelled(const struct job *job)
+static int is_cancelled(const struct extraction *job)
 {
     const rotid_environment *e = job->environment;
     return e && e->cancelled && e->cancelled(e->context);
 }
 
-static int extract(struct job *job, struct stabilisation *table)
+static int extract(struct extraction *job, struct stabilisation *table)
 {
     int status = find_candidates(job, table);
     if (status == ROTID_OK && is_cancelled(job))
@@ -299,7 +299,7 @@ int ema_compute(struct pool *pool, const struct frf_set *set, const struct ema_o
                 const rotid_environment *environment, struct ema *out)
 {
     struct stabilisation table = {0};
-    struct job job = {.pool = pool, .set = set, .environment = environment, .out = out};
+    struct extraction job = {.pool = pool, .set = set, .environment = environment, .out = out};
     if (options)
         job.options = *options;
     *out = (struct ema){0};

@@ -36,7 +36,7 @@ struct ema_pole { /* of the stabilisation table */
 };
 
 /* What is doubtful about a mode: a set of flags, each with the number that it rests on below. */
-enum ema_doubt {
+enum ema_quality_flag {
     EMA_CLOSE = 1,       /* another mode within three half-power bandwidths */
     EMA_COMPLEX = 2,     /* MPC below 0.8 or MPD above 20 degrees */
     EMA_UNSTABLE = 4,    /* picked by the user where the table has no stable pole */
@@ -67,11 +67,11 @@ struct ema_mode {
     double *point_frequency_hz, *point_frequency_std; /* [npoint] where per_point, else NULL; NaN where it cannot be told */
     double peak_signal_to_noise;                      /* |H|/std at the peak, median of the channels; without a variance from
                                                          what the modes leave over */
-    int doubts;                                       /* of enum ema_doubt */
+    int quality_flags;                                /* of enum ema_quality_flag */
     double nearest_hz;                                /* nearest other mode, NaN where there is one mode */
 };
 
-enum ema_channel_doubt {
+enum ema_channel_quality_flag {
     EMA_DEAD = 1,        /* no more than noise: its largest |H| is below 1e-3 of the median channel, or constant */
     EMA_DUPLICATE = 2,   /* the same as an earlier channel to 1e-6, or correlated above 0.99999 with equal noise */
     EMA_NOISY = 4,       /* noise over signal five times that of the median channel, at least over a fifth of the band */
@@ -81,9 +81,9 @@ enum ema_channel_doubt {
 };
 
 struct ema_channel {
-    int doubts, twin; /* twin: the channel that it duplicates, or -1 */
-    double fit;       /* |sum conj(H) H^|^2/(sum |H|^2 sum |H^|^2) over the band (FRAC of measured and synthesised) */
-    double noise;     /* rms of sqrt(variance) over rms of |H|; NaN without variance */
+    int quality_flags, twin; /* twin: the channel that it duplicates, or -1 */
+    double fit;              /* |sum conj(H) H^|^2/(sum |H|^2 sum |H^|^2) over the band (FRAC of measured and synthesised) */
+    double noise;            /* rms of sqrt(variance) over rms of |H|; NaN without variance */
 };
 
 struct ema { /* everything on the pool */

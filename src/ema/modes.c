@@ -83,7 +83,7 @@ void modes_from_fit(const struct ema_band *band, const struct modal_fit *fit, co
                     refinement->covariance[(ptrdiff_t)2 * r + j + (ptrdiff_t)(2 * r + k) * p] * fit->scale * fit->scale;
         modes_of_pole(fit->pole[r] * fit->scale + decay, block, &out->mode[r]);
         if (refinement->moved[r] || !refinement->converged)
-            out->mode[r].doubts |= EMA_NOT_REFINED;
+            out->mode[r].quality_flags |= EMA_NOT_REFINED;
     }
     for (int k = 0; k < fit->nchannel; k++) {
         int c = band->channel[k];
@@ -144,7 +144,7 @@ int modes_judge(struct pool *pool, const struct ema_band *band, double decay, st
             if (s != r && !(fabs(mode->nearest_hz - mode->frequency_hz) <= apart))
                 mode->nearest_hz = out->mode[s].frequency_hz;
             if (s != r && apart < CLOSE_WIDTHS * fmax(width, half_power_hz(&out->mode[s])))
-                mode->doubts |= EMA_CLOSE;
+                mode->quality_flags |= EMA_CLOSE;
         }
         for (int c = 0; c < out->nfrf; c++) {
             known |= isfinite(mode->residue_std[c]);
@@ -152,14 +152,14 @@ int modes_judge(struct pool *pool, const struct ema_band *band, double decay, st
                 strongest = cabs(mode->residue[c]) / mode->residue_std[c];
         }
         if (known && strongest < WEAK_THRESHOLD)
-            mode->doubts |= EMA_WEAK;
+            mode->quality_flags |= EMA_WEAK;
         if (mode->mpc < LEAST_MPC || mode->mpd > MOST_MPD)
-            mode->doubts |= EMA_COMPLEX;
+            mode->quality_flags |= EMA_COMPLEX;
         if (mode->damping < 0)
-            mode->doubts |= EMA_NEGATIVE_DAMPING;
+            mode->quality_flags |= EMA_NEGATIVE_DAMPING;
         if (mode->frequency_hz - band->low / TWO_PI < EDGE_WIDTHS * width ||
             band->high / TWO_PI - mode->frequency_hz < EDGE_WIDTHS * width)
-            mode->doubts |= EMA_EDGE;
+            mode->quality_flags |= EMA_EDGE;
         if (band->variance)
             mode->peak_signal_to_noise = signal_to_noise(band, mode, sorted);
     }

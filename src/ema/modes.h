@@ -1,4 +1,4 @@
-/* The modes of the result from a fit: frequencies, residues, doubts. */
+/* The modes of the result from a fit: frequencies, residues, quality flags. */
 #ifndef ROTID_EMA_MODES_H
 #define ROTID_EMA_MODES_H
 
@@ -18,7 +18,8 @@ void modes_of_pole(double complex pole, const double *covariance, struct ema_mod
 void modes_from_fit(const struct ema_band *band, const struct modal_fit *fit, const struct refinement *refinement, double decay,
                     struct ema *out);
 
-/* nearest_hz, peak_signal_to_noise, mac, and the doubts CLOSE, COMPLEX, WEAK, NEGATIVE_DAMPING, EDGE from what the modes hold. */
+/* nearest_hz, peak_signal_to_noise, mac, and the quality flags CLOSE, COMPLEX, WEAK, NEGATIVE_DAMPING, EDGE from what the modes
+ * hold. */
 int modes_judge(struct pool *pool, const struct ema_band *band, double decay, struct ema *out);
 
 #endif

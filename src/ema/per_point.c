@@ -203,7 +203,7 @@ static int one_mode(struct work *w, int informed, int r)
         !leaves_less(band->nchannel, w->local, w->common + (ptrdiff_t)r * band->nchannel) || !(chi > SCATTER) ||
         !(rms > SCATTER_WIDTHS * fabs(creal(w->pole[r]))))
         return ROTID_OK;
-    mode->doubts |= EMA_DOUBLE_PEAK;
+    mode->quality_flags |= EMA_DOUBLE_PEAK;
     return same_width(band->nchannel, w->local, known, w->sorted)
                ? take_local(w->pool, band, w->local, w->decay, known, w->sorted, out, mode)
                : take_common(w->pool, band, out->nmode, w->pole, r, w->decay, mode);

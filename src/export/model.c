@@ -12,7 +12,7 @@ static int condense(struct pool *pool, struct export_model *model)
     struct export_condensed *c = &model->condensed;
     struct reduction reduction;
     c->count = beam->nmaster;
-    c->kind = model->job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
+    c->kind = model->job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
     if (c->count > EXPORT_MOST_CONDENSE) {
         c->impossible =
             pool_format(pool, "%d %s are too many to condense onto, at most %d are possible", c->count,
@@ -38,21 +38,21 @@ int export_model_open(struct pool *pool, const struct job *job, const struct ide
                       int with_condensed, struct export_model *model)
 {
     *model = (struct export_model){.job = job, .version = version, .identified = identified};
-    int failed, highest = comparison_highest(job), nparameter = identified ? job->nparameter : 0;
+    int failed, highest = comparison_highest(job), nparameter = identified ? job->unknowns.nparameter : 0;
     const double *x = identified ? identified->fit->x : NULL;
     model->discrete = POOL_NEW(pool, struct rotor_model);
     if (!model->discrete)
         return ROTID_ERROR_MEMORY;
     struct rotor_model *discrete = model->discrete;
-    int status = model_open(pool, job->models, &job->rotor, nparameter, job->parameter, 1, discrete, &failed);
+    int status = model_open(pool, job->models, &job->rotor, nparameter, job->unknowns.parameter, 1, discrete, &failed);
     const struct mesh *mesh = &discrete->beam.mesh;
     if (!status)
         status = matrix_new(pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &model->k);
     if (!status)
         status = matrix_new(pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &model->m);
     if (!status)
-        status = spectrum_compute(pool, job->models, &job->rotor, nparameter, job->parameter, x,
-                                  job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN,
+        status = spectrum_compute(pool, job->models, &job->rotor, nparameter, job->unknowns.parameter, x,
+                                  job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN,
                                   highest > EXPORT_MODES ? highest : EXPORT_MODES, &model->spectrum);
     if (!status)
         status = export_nodes(pool, model);
@@ -65,7 +65,7 @@ int export_model_open(struct pool *pool, const struct job *job, const struct ide
 
 double export_parameter(const struct export_model *model, int p)
 {
-    return *parameter_value(&model->discrete->beam.rotor, model->job->parameter[p]);
+    return *parameter_value(&model->discrete->beam.rotor, model->job->unknowns.parameter[p]);
 }
 
 double export_parameter_std(const struct export_model *model, int p)

@@ -75,8 +75,8 @@ static void put_origin(const struct remark *remark, const struct export_model *m
     const struct job *job = model->job;
     if (model->identified) {
         const rotid_fit_result *fit = model->identified->fit;
-        remark_put(remark, "Identified from %d measured modes, %s, REDUCTION=%s: %s.", job->nmode,
-                   functional_name(job->fit.functional), reduction_name(job->fit.reduction),
+        remark_put(remark, "Identified from %d measured modes, %s, REDUCTION=%s: %s.", job->measurement.nmode,
+                   functional_name(job->options.fit.functional), reduction_name(job->options.fit.reduction),
                    !fit->converged         ? "NOT CONVERGED, not to be trusted"
                    : fit->any_at_bound     ? "AT A BOUND, not to be trusted"
                    : fit->any_undetermined ? "NOT DETERMINED by the data, not to be trusted"
@@ -84,16 +84,17 @@ static void put_origin(const struct remark *remark, const struct export_model *m
     } else {
         remark_put(remark, "As the deck states it: nothing was fitted.");
     }
-    for (int p = 0; p < job->nparameter; p++) {
-        const char *unit = job->bounds[p].unit;
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
+        const char *unit = job->unknowns.bounds[p].unit;
         double std = export_parameter_std(model, p);
         char value[32];
         (void)remark_number(export_parameter(model, p), value);
         unit = unit && strcmp(unit, "1") ? unit : "";
         if (isfinite(std))
-            remark_put(remark, "%s = %s%s%s, standard deviation %.3g", job->bounds[p].name, value, *unit ? " " : "", unit, std);
+            remark_put(remark, "%s = %s%s%s, standard deviation %.3g", job->unknowns.bounds[p].name, value, *unit ? " " : "",
+                       unit, std);
         else
-            remark_put(remark, "%s = %s%s%s", job->bounds[p].name, value, *unit ? " " : "", unit);
+            remark_put(remark, "%s = %s%s%s", job->unknowns.bounds[p].name, value, *unit ? " " : "", unit);
     }
 }
 

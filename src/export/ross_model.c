@@ -63,7 +63,8 @@ static int find_partners(struct pool *pool, const double *x, int nparameter, str
     const struct spectrum *script = ross->spectrum;
     struct spectrum deck;
     int inner = 2 * (mesh->nnode - mesh->naxis), count = script->count + (inner < MOST_OWN ? inner : MOST_OWN);
-    int status = spectrum_compute(pool, job->models, &job->rotor, nparameter, job->parameter, x, ROTID_GUYAN, count, &deck);
+    int status =
+        spectrum_compute(pool, job->models, &job->rotor, nparameter, job->unknowns.parameter, x, ROTID_GUYAN, count, &deck);
     double *hz = POOL_ARRAY(pool, double, script->count);
     if (status || !hz)
         return status ? status : ROTID_ERROR_MEMORY;
@@ -118,7 +119,7 @@ static void say_limits(const struct export_model *model, struct message_list *no
 int ross_open(struct pool *pool, const struct export_model *model, struct message_list *notes, struct ross_model *ross)
 {
     const struct job *job = model->job;
-    int failed, nparameter = model->identified ? job->nparameter : 0;
+    int failed, nparameter = model->identified ? job->unknowns.nparameter : 0;
     const double *x = model->identified ? model->identified->fit->x : NULL;
     struct rotor rotor;
     *ross = (struct ross_model){.model = model, .discrete = model->discrete, .spectrum = &model->spectrum};
@@ -131,10 +132,10 @@ int ross_open(struct pool *pool, const struct export_model *model, struct messag
     if (!spectrum || !ross->discrete)
         return ROTID_ERROR_MEMORY;
     ross->spectrum = spectrum;
-    int status = model_open(pool, job->models, &rotor, nparameter, job->parameter, 1, ross->discrete, &failed);
+    int status = model_open(pool, job->models, &rotor, nparameter, job->unknowns.parameter, 1, ross->discrete, &failed);
     if (!status)
-        status = spectrum_compute(pool, job->models, &rotor, nparameter, job->parameter, x, ROTID_GUYAN, model->spectrum.count,
-                                  spectrum);
+        status = spectrum_compute(pool, job->models, &rotor, nparameter, job->unknowns.parameter, x, ROTID_GUYAN,
+                                  model->spectrum.count, spectrum);
     if (status)
         return status;
     model_set(ross->discrete, x);

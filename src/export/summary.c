@@ -32,11 +32,11 @@ void table_export(FILE *out, const struct export_files *files, const struct expo
     (void)fprintf(out,
                   model->identified ? "model           identified from %d measured modes\n"
                                     : "model           as the deck states it\n",
-                  job->nmode);
-    for (int p = 0; p < job->nparameter; p++) {
+                  job->measurement.nmode);
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
         double std = export_parameter_std(model, p);
-        name_cell(out, 15, job->bounds[p].name);
-        (void)fprintf(out, " %.6g %s", export_parameter(model, p), job->bounds[p].unit);
+        name_cell(out, 15, job->unknowns.bounds[p].name);
+        (void)fprintf(out, " %.6g %s", export_parameter(model, p), job->unknowns.bounds[p].unit);
         if (isfinite(std))
             (void)fprintf(out, ", standard deviation %.3g", std);
         (void)fputc('\n', out);
@@ -65,10 +65,10 @@ void table_export(FILE *out, const struct export_files *files, const struct expo
 static struct export_parameter_result *parameters(struct pool *pool, const struct export_model *model)
 {
     const struct job *job = model->job;
-    struct export_parameter_result *list = POOL_ARRAY(pool, struct export_parameter_result, job->nparameter);
-    for (int p = 0; p < job->nparameter && list; p++)
-        list[p] = (struct export_parameter_result){job->bounds[p].name, job->bounds[p].unit, export_parameter(model, p),
-                                                   export_parameter_std(model, p)};
+    struct export_parameter_result *list = POOL_ARRAY(pool, struct export_parameter_result, job->unknowns.nparameter);
+    for (int p = 0; p < job->unknowns.nparameter && list; p++)
+        list[p] = (struct export_parameter_result){job->unknowns.bounds[p].name, job->unknowns.bounds[p].unit,
+                                                   export_parameter(model, p), export_parameter_std(model, p)};
     return list;
 }
 
@@ -82,7 +82,7 @@ char *json_export(const struct provenance *provenance, const struct export_files
         .nfiles = files->count,
         .model = model->identified ? "identified" : "stated",
         .status = state_of(model),
-        .nparameters = model->job->nparameter,
+        .nparameters = model->job->unknowns.nparameter,
         .mass_kg = model->mass.mass,
         .center_of_mass_m = model->mass.center,
         .nodes = model->discrete->beam.mesh.nnode,

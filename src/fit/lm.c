@@ -224,7 +224,7 @@ static void move(struct lm *lm)
     (void)linearise(lm); /* J = 0: the gradient has vanished */
 }
 
-/* Behind a step that was accepted: mu after Nielsen, and a radius. */
+/* After an accepted step: update mu (Nielsen 1999) and the step bound. */
 static void relax(struct lm *lm)
 {
     double t = 2 * lm->gain - 1, factor = 1 - t * t * t;

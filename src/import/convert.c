@@ -10,7 +10,7 @@
 
 #define PIECE 4096 /* values, bytes at a time */
 
-struct job {
+struct conversion {
     const char *path;
     const struct convert_options *options;
     FILE *out, *source; /* source: the file once more, for what is copied */
@@ -22,7 +22,7 @@ struct job {
     int format_known;
 };
 
-static int cancelled(const struct job *job)
+static int cancelled(const struct conversion *job)
 {
     return job->options->cancelled && job->options->cancelled(job->options->context);
 }
@@ -32,7 +32,7 @@ static int is_single(int ordinate)
     return ordinate == UFF_REAL_SINGLE || ordinate == UFF_COMPLEX_SINGLE;
 }
 
-static int convert_values(struct job *job, const struct uff_function *function)
+static int convert_values(struct conversion *job, const struct uff_function *function)
 {
     struct uff_function_writer writer;
     int status = uff_write_function(job->out, function, &writer);
@@ -47,7 +47,7 @@ static int convert_values(struct job *job, const struct uff_function *function)
     return status ? status : uff_end_function(&writer);
 }
 
-static int convert_function(struct job *job, const struct uff_set *set)
+static int convert_function(struct conversion *job, const struct uff_set *set)
 {
     struct uff_function function = {0};
     int status = uff_read_function(job->reader, &function);
@@ -78,7 +78,7 @@ static int holds_all(int analysis_type)
 }
 
 /* Reads a set that is no function and writes it to `out`; UFF_END for those that are copied. */
-static int carry(struct job *job, const struct uff_set *set, FILE *out)
+static int carry(struct conversion *job, const struct uff_set *set, FILE *out)
 {
     struct uff_reader *reader = job->reader;
     struct pool *pool = &job->scratch;
@@ -122,7 +122,7 @@ static int carry(struct job *job, const struct uff_set *set, FILE *out)
 }
 
 /* By way of memory, so that nothing of a set that does not fit reaches the file. *copy: it is to be copied. */
-static int convert_other(struct job *job, const struct uff_set *set, int *copy)
+static int convert_other(struct conversion *job, const struct uff_set *set, int *copy)
 {
     char *text = NULL;
     size_t length = 0;
@@ -143,7 +143,7 @@ static int convert_other(struct job *job, const struct uff_set *set, int *copy)
 }
 
 /* Bytes from `first` to `end` of the source, or to its end where that is negative. */
-static int copy_bytes(struct job *job, long long first, long long end)
+static int copy_bytes(struct conversion *job, long long first, long long end)
 {
     char piece[PIECE];
     if (fseeko(job->source, (off_t)first, SEEK_SET) != 0)
@@ -162,7 +162,7 @@ static int copy_bytes(struct job *job, long long first, long long end)
     return ROTID_OK;
 }
 
-static int convert_sets(struct job *job)
+static int convert_sets(struct conversion *job)
 {
     long long pending = -1; /* where a set begins that is copied as soon as its end is known */
     for (;;) {
@@ -188,7 +188,7 @@ static int convert_sets(struct job *job)
 int convert_file(const char *path, const struct convert_options *options, FILE *out, struct message_list *messages,
                  struct convert_result *result)
 {
-    struct job job = {.path = path, .options = options, .out = out, .messages = messages, .result = result};
+    struct conversion job = {.path = path, .options = options, .out = out, .messages = messages, .result = result};
     *result = (struct convert_result){0};
     pool_open(&job.pool, NULL);
     job.x = POOL_ARRAY(&job.pool, double, PIECE);

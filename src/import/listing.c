@@ -5,7 +5,7 @@
 
 #define PIECE 4096 /* values at a time */
 
-struct job {
+struct listing_work {
     struct pool *pool;
     struct pool scratch; /* of one set */
     const struct listing_options *options;
@@ -14,12 +14,12 @@ struct job {
     double *x, *real, *imag; /* [PIECE] */
 };
 
-static int cancelled(const struct job *job)
+static int cancelled(const struct listing_work *job)
 {
     return job->options->cancelled && job->options->cancelled(job->options->context);
 }
 
-static int read_nodes(struct job *job, struct listing_set *set)
+static int read_nodes(struct listing_work *job, struct listing_set *set)
 {
     struct listing *listing = job->listing;
     struct uff_node *node;
@@ -41,7 +41,7 @@ static int read_nodes(struct job *job, struct listing_set *set)
     return ROTID_OK;
 }
 
-static int read_shape(struct job *job, struct listing_set *set)
+static int read_shape(struct listing_work *job, struct listing_set *set)
 {
     struct listing *listing = job->listing;
     struct pool *pool = job->options->keep_shapes ? job->pool : &job->scratch;
@@ -74,7 +74,7 @@ static int read_shape(struct job *job, struct listing_set *set)
     return ROTID_OK;
 }
 
-static int read_function(struct job *job, struct listing_set *set)
+static int read_function(struct listing_work *job, struct listing_set *set)
 {
     struct listing *listing = job->listing;
     struct listing_function entry = {0};
@@ -104,7 +104,7 @@ static int read_function(struct job *job, struct listing_set *set)
     return ROTID_OK;
 }
 
-static int read_rest(struct job *job, struct listing_set *set)
+static int read_rest(struct listing_work *job, struct listing_set *set)
 {
     struct listing *listing = job->listing;
     int count = 0, status;
@@ -139,7 +139,7 @@ static int read_rest(struct job *job, struct listing_set *set)
     return status;
 }
 
-static int read_set(struct job *job, struct listing_set *set)
+static int read_set(struct listing_work *job, struct listing_set *set)
 {
     switch (set->set.number) {
     case 15:
@@ -163,7 +163,7 @@ static int read_set(struct job *job, struct listing_set *set)
     }
 }
 
-static int read_sets(struct job *job)
+static int read_sets(struct listing_work *job)
 {
     struct listing *listing = job->listing;
     for (;;) {
@@ -238,7 +238,7 @@ static void find_groups(struct listing *listing)
 int listing_read(struct pool *pool, const char *path, const struct listing_options *options, struct message_list *messages,
                  struct listing *listing)
 {
-    struct job job = {.pool = pool, .options = options, .listing = listing};
+    struct listing_work job = {.pool = pool, .options = options, .listing = listing};
     *listing = (struct listing){0};
     job.x = POOL_ARRAY(pool, double, PIECE);
     job.real = POOL_ARRAY(pool, double, PIECE);

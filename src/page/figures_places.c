@@ -1,4 +1,4 @@
-/* Where along the axis the misfit acts, under the rotor, with the places of what may cause it between the two. */
+/* Force residual along the axis, under the rotor, with the places of what may cause it between the two. */
 #include <math.h>
 
 #include "page/cause_words.h"
@@ -211,7 +211,7 @@ void figure_places(struct document *document, const struct result *result)
     if (most < 0 || d->nlocalisation < 2 || d->verdict.kind == ROTID_ADEQUATE)
         return;
     struct places places = find_places(pool, result);
-    struct figure *figure = document_figure(document, "places", "Where the misfit acts");
+    struct figure *figure = document_figure(document, "places", "Force residual along the axis");
     figure->caption = pool_format(
         pool,
         "The misfit is mended best by a force at %s\xc2\xa0m, where the indicator is 1.%s The curve is a hint "

@@ -66,9 +66,9 @@ static struct residuals collect(struct document *document, const rotid_diagnosis
     static const struct column of_modes[] = {{"place", NULL, AS_PLACE, 0},
                                              {"mode", NULL, AS_TEXT, 0},
                                              {"measured", "Hz", AS_FIXED, 3},
-                                             {"residual over noise", "1", AS_SIGNED, 2}};
+                                             {"residual/sigma", "1", AS_SIGNED, 2}};
     static const struct column of_sensors[] = {
-        {"sensor", NULL, AS_TEXT, 0}, {"z", "m", AS_FIXED, 4}, {"residual over noise", "1", AS_FIXED, 2}};
+        {"sensor", NULL, AS_TEXT, 0}, {"z", "m", AS_FIXED, 4}, {"residual/sigma", "1", AS_FIXED, 2}};
     struct residuals r = {series_new(document, "modes", d->nmodes_standardised, 4, of_modes),
                           series_new(document, "sensors", m->sensors ? d->nsensors : 0, 3, of_sensors)};
     for (int k = 0; k < d->nmodes_standardised; k++) {
@@ -92,7 +92,7 @@ static void draw_modes(struct plot *plot, const rotid_diagnosis *d)
     double pad = 0.1 * (range.to - range.from);
     plot_line(plot, "set xrange [0.4:%g]\nset yrange [%.6g:%.6g]", n + 0.6, range.from - pad, range.to + pad);
     plot_mode_tics(plot, n, d->base->modes, MOST_TICKS);
-    plot_axes(plot, "mode of the model [1]", "residual over noise [1]");
+    plot_axes(plot, "mode of the model [1]", "residual/sigma [1]");
     plot_line(plot, "set style fill solid noborder\nset boxwidth 0.6");
     plot_line(plot,
               "plot $modes using 1:3 with boxes fc rgb BLUE, 0 with lines lc rgb INK lw 1 dt 1, \\\n"
@@ -110,7 +110,7 @@ static void draw_sensors(struct plot *plot, const struct result *result, struct 
     range.to = fmax(range.to, fmax(1, m->limit));
     plot_line(plot, "set xrange [%.6g:%.6g]\nset yrange [0:%.6g]\nset xtics %g", -0.02 * length, 1.02 * length, 1.1 * range.to,
               plot_tic(length, 4));
-    plot_axes(plot, "position of the sensor z [m]", "rms of its residuals over noise [1]");
+    plot_axes(plot, "position of the sensor z [m]", "rms of its residuals/sigma [1]");
     plot_line(plot,
               "plot $sensors using 1:2 with impulses lc rgb BLUE lw 2 dt 1, 1 with lines lc rgb INK lw 1 dt 1, \\\n"
               "    %s with lines ls 2 lw 1",

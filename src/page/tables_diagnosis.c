@@ -41,7 +41,7 @@ struct number_table *tables_candidates(struct pool *pool, const rotid_diagnosis 
 {
     int count;
     const rotid_candidate *candidate = diagnosis_candidates(d, round, &count);
-    static const char *const head[] = {"cause", "drop expected", "drop reached", "chance", "what became of it"};
+    static const char *const head[] = {"cause", "drop expected", "drop reached", "p-value", "what became of it"};
     enum { COLUMNS = sizeof head / sizeof *head };
     struct number_table *table = table_new(pool, count, COLUMNS);
     for (int j = 0; j < COLUMNS; j++)
@@ -62,7 +62,7 @@ struct number_table *tables_candidate_quality(struct pool *pool, const rotid_dia
     int count;
     const rotid_candidate *candidate = diagnosis_candidates(d, round, &count);
     static const char *const head[] = {
-        "cause", "BIC", "modes left out [%]", "sensors left out [1]", "held out [%]", "looks like (cosine)"};
+        "cause", "BIC", "modes left out [%]", "sensors left out [1]", "held out [%]", "most similar (cosine)"};
     enum { COLUMNS = sizeof head / sizeof *head, LEFT_OUT = 2, LIKE = COLUMNS - 1 };
     int shown[COLUMNS], columns = 0, rows = 0, known[COLUMNS] = {1, 1, 0, 0, 0, 1};
     for (int i = 0; i < count; i++) { /* what was not left out has no column */

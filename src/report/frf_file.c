@@ -15,7 +15,7 @@ static int write_nodes(FILE *stream, const struct frf_view *view)
 {
     const struct frf_result *r = view->result;
     struct uff_node *node = POOL_ARRAY(view->pool, struct uff_node, 2 * (size_t)r->ndone);
-    int axis = view->job->frf.axis, count = 0;
+    int axis = view->job->options.frf.axis, count = 0;
     if (!node)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < 2 * r->ndone; i++) {
@@ -36,7 +36,7 @@ static int write_nodes(FILE *stream, const struct frf_view *view)
 static int direction_of(const struct frf_view *view, const struct frf_row *row)
 {
     int measured = row->measured ? abs(row->measured->response_direction) : 0;
-    return measured ? measured : view->job->frf.axis == 0 ? 2 : 1;
+    return measured ? measured : view->job->options.frf.axis == 0 ? 2 : 1;
 }
 
 static int write_function(FILE *stream, const struct frf_view *view, int i, double complex *h, double complex *work, double *re,

@@ -59,7 +59,7 @@ static struct ema_mode_result *modes(struct pool *pool, const struct ema *ema)
                                            .modal_mass_kg = m->modal_mass,
                                            .peak_signal_to_noise = m->peak_signal_to_noise,
                                            .nearest_hz = m->nearest_hz,
-                                           .doubts = m->doubts,
+                                           .doubts = m->quality_flags,
                                            .nshape = ema->npoint,
                                            .shape = shape(pool, ema, m)};
         if (!list[k].shape)
@@ -73,8 +73,13 @@ static struct ema_pole_result *poles(struct pool *pool, const struct ema *ema)
     struct ema_pole_result *list = POOL_ARRAY(pool, struct ema_pole_result, ema->npole);
     for (int i = 0; i < ema->npole && list; i++) {
         const struct ema_pole *p = &ema->pole[i];
-        list[i] = (struct ema_pole_result){p->order,          p->frequency_hz, p->damping, p->stable_frequency,
-                                           p->stable_damping, p->part,         p->mode >= 0 ? p->mode + 1 : ROTID_NONE};
+        list[i] = (struct ema_pole_result){p->order,
+                                           p->frequency_hz,
+                                           p->damping,
+                                           p->stable_frequency,
+                                           p->stable_damping,
+                                           p->part,
+                                           p->mode >= 0 ? p->mode + 1 : ROTID_NONE};
     }
     return list;
 }
@@ -86,7 +91,7 @@ static struct ema_channel_result *channels(struct pool *pool, const struct ema_r
         const struct frf *f = &r->measurement->set.frf[c];
         const struct ema_channel *channel = &r->ema->channel[c];
         list[c] = (struct ema_channel_result){f->response_node, f->response_direction, f->reference_node, f->reference_direction,
-                                              f->averages,      channel->fit,          channel->noise,    channel->doubts};
+                                              f->averages,      channel->fit,          channel->noise,    channel->quality_flags};
     }
     return list;
 }

@@ -20,7 +20,7 @@ static int add_parameters(struct pool *pool, const struct frf_view *view, struct
     out->parameters = POOL_ARRAY(pool, struct transfer_parameter, n);
     for (int p = 0; p < n && out->parameters; p++)
         out->parameters[out->nparameters++] = (struct transfer_parameter){
-            view->job->bounds[p].name, view->job->bounds[p].unit, view->identified->fit->x[p]};
+            view->job->unknowns.bounds[p].name, view->job->unknowns.bounds[p].unit, view->identified->fit->x[p]};
     return !out->parameters;
 }
 
@@ -104,8 +104,10 @@ static int add_functions(struct pool *pool, const struct frf_view *view, struct 
     for (; out->nfunctions < r->ndone; out->nfunctions++) {
         const struct frf_row *row = &r->row[out->nfunctions];
         struct transfer_function *f = &out->functions[out->nfunctions];
-        *f = (struct transfer_function){
-            .response = row->response, .reference = row->reference, .response_z_m = row->response_z, .reference_z_m = row->reference_z};
+        *f = (struct transfer_function){.response = row->response,
+                                        .reference = row->reference,
+                                        .response_z_m = row->response_z,
+                                        .reference_z_m = row->reference_z};
         if (r->is_measured && !(f->beside = beside_measured(pool, r, out->nfunctions)))
             return 1;
         if (!out->with_curves)
@@ -138,7 +140,7 @@ char *json_frf(const struct provenance *provenance, const struct frf_view *view,
         .high_hz = r->frequency_hz[r->nline - 1],
         .modes_up_to_hz = r->up_to_hz,
         .window_decay = r->decay,
-        .measured_file = r->is_measured ? view->job->frf.file : NULL,
+        .measured_file = r->is_measured ? view->job->options.frf.file : NULL,
         .agreement = r->is_measured ? &all : NULL,
         .left_out = r->is_measured ? r->nleft_out : ROTID_NONE,
         .with_curves = (double)r->nline * r->ndone <= JSON_FRF_MOST_LINES,

@@ -18,7 +18,8 @@ struct ema_report {
     double seconds;
 };
 
-/* Modes, doubts, stabilisation table as a picture, MAC of the result with itself, worst channels. all: every pole, every channel.
+/* Modes, quality flags, stabilisation table as a picture, MAC of the result with itself, worst channels. all: every pole, every
+ * channel.
  */
 void table_ema(FILE *out, const struct ema_report *report, int all);
 /* To be freed with json_free, or NULL where memory is out. */

@@ -36,14 +36,14 @@ static void print_effect(FILE *out, const struct rotor *rotor, const struct effe
 /* The CAUSE cards. */
 static void print_causes(FILE *out, const struct job *job)
 {
-    if (job->rotor.neffect || job->ncorrection || job->nsuspect)
+    if (job->rotor.neffect || job->measurement.ncorrection || job->unknowns.nsuspect)
         (void)fprintf(out, "\ncause\n");
     for (int i = 0; i < job->rotor.neffect; i++)
         print_effect(out, &job->rotor, &job->rotor.effect[i], "in the model");
-    for (int i = 0; i < job->nsuspect; i++)
-        print_effect(out, &job->rotor, &job->suspect[i].effect, "suspected");
-    for (int i = 0; i < job->ncorrection; i++) {
-        const struct correction *correction = &job->correction[i];
+    for (int i = 0; i < job->unknowns.nsuspect; i++)
+        print_effect(out, &job->rotor, &job->unknowns.suspect[i].effect, "suspected");
+    for (int i = 0; i < job->measurement.ncorrection; i++) {
+        const struct correction *correction = &job->measurement.correction[i];
         name_cell(out, 12, correction->name);
         (void)fprintf(out, " taken out of the data, %s", correction->id);
         for (int s = 0; s < correction->nsensor; s++)
@@ -64,7 +64,7 @@ void table_check(FILE *out, const struct result *result, const struct job *job)
     (void)fprintf(out, "mesh            %12d nodes, %d elements\n", check->nodes, check->elements);
     (void)fprintf(out, "sensors         %12d\n", check->nsensors);
     (void)fprintf(out, "measured modes  %12d\n", check->measured_modes);
-    (void)fprintf(out, "free motions    %12d", check->rigid_modes);
+    (void)fprintf(out, "rigid-body modes%12d", check->rigid_modes);
     for (int i = 0; i < check->nrigid_hz; i++)
         (void)fprintf(out, "%s%.3f", i ? ", " : " (modes on the supports at ", check->rigid_hz[i]);
     (void)fprintf(out, "%s\n", check->nrigid_hz ? " Hz)" : "");

@@ -31,15 +31,15 @@ static void print_verdict(const struct diagnosis_view *view)
         wrap_text(view->out, 2, view->width, "  ", v->sentence);
     wrap_open(&wrap, view->out, 2, view->width, "  ");
     if (isfinite(v->p_value) && v->sentence) {
-        wrap_words(&wrap, "chance that an adequate model misfits so:");
+        wrap_words(&wrap, "p-value (hypothesis: adequate model):");
         wrap_item(&wrap, v->p_value < 0.001 ? "below %g" : "%.3g", v->p_value < 0.001 ? 0.001 : v->p_value);
         if (v->kind != ROTID_ADEQUATE)
-            wrap_words(&wrap, !v->adequate_after             ? "; what is left is more than noise"
+            wrap_words(&wrap, !v->adequate_after           ? "; what is left is more than noise"
                               : v->kind == ROTID_AMBIGUOUS ? "; with the best of them it is adequate"
-                                                             : "; with what is named it is adequate");
+                                                           : "; with what is named it is adequate");
         wrap_close(&wrap);
     } else {
-        wrap_words(&wrap, v->sentence ? "no chance can be stated" : "no verdict was reached");
+        wrap_words(&wrap, v->sentence ? "no p-value can be stated" : "no verdict was reached");
         wrap_close(&wrap);
     }
     if (noise->frequency_assumed || noise->shape_assumed)
@@ -92,7 +92,7 @@ static void print_today(const struct diagnosis_view *view)
     if (!fit)
         return;
     int as_judged = !strcmp(fit->functional, "LIKELIHOOD") && !strcmp(fit->reduction, "NONE");
-    (void)fprintf(view->out, "\nYOUR FIT TODAY  %s, reduction %s: %s\n", fit->functional, fit->reduction,
+    (void)fprintf(view->out, "\nFIT AS SPECIFIED  %s, reduction %s: %s\n", fit->functional, fit->reduction,
                   as_judged ? "as it is judged below" : "what that choice alone costs");
     for (int i = 0; i < fit->nparameters; i++) {
         const rotid_fitted_parameter *p = &fit->parameters[i];

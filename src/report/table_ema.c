@@ -57,7 +57,7 @@ static void print_modes(FILE *out, const struct ema *ema)
         number_cell(out, 11, 1, m->mpd);
         digits_cell(out, 12, 3, m->peak_signal_to_noise);
         digits_cell(out, 16, 4, m->modal_mass);
-        (void)fprintf(out, "%s\n", m->doubts ? "  ?" : "");
+        (void)fprintf(out, "%s\n", m->quality_flags ? "  ?" : "");
     }
     if (!ema->nmode)
         (void)fprintf(out, "  none found\n");
@@ -70,14 +70,14 @@ static void print_doubts(FILE *out, const struct ema_report *r)
     for (int k = 0; k < ema->nmode; k++) {
         struct wrap wrap;
         char head[80];
-        if (!ema->mode[k].doubts)
+        if (!ema->mode[k].quality_flags)
             continue;
         if (!any++)
             (void)fprintf(out, "\nDoubtful\n");
         (void)snprintf(head, sizeof head, "  mode %d, %.6g Hz: ", k + 1, ema->mode[k].frequency_hz);
         wrap_open(&wrap, out, 6, WIDTH, head);
         for (int i = 0, first = 1; ema_mode_doubts[i]; i++)
-            if (ema->mode[k].doubts & (1 << i)) {
+            if (ema->mode[k].quality_flags & (1 << i)) {
                 wrap_words(&wrap, first ? "" : "; ");
                 wrap_words(&wrap, ema_mode_doubts[i]);
                 if ((1 << i) == EMA_CLOSE && isfinite(ema->mode[k].nearest_hz))
@@ -88,13 +88,13 @@ static void print_doubts(FILE *out, const struct ema_report *r)
     }
     for (int c = 0; c < ema->nfrf; c++) {
         const struct frf *f = &r->measurement->set.frf[c];
-        if (!ema->channel[c].doubts)
+        if (!ema->channel[c].quality_flags)
             continue;
         if (!any++)
             (void)fprintf(out, "\nDoubtful\n");
         (void)fprintf(out, "  node %d over node %d:", f->response_node, f->reference_node);
         for (int i = 0; ema_channel_doubts[i]; i++)
-            if (ema->channel[c].doubts & (1 << i)) {
+            if (ema->channel[c].quality_flags & (1 << i)) {
                 (void)fprintf(out, " %s", ema_channel_doubts[i]);
                 if ((1 << i) == EMA_DUPLICATE && ema->channel[c].twin >= 0)
                     (void)fprintf(out, " of node %d", r->measurement->set.frf[ema->channel[c].twin].response_node);

@@ -18,8 +18,7 @@ static void print_values(struct wrap *wrap, const rotid_cause *cause)
     }
 }
 
-static void print_candidate(const struct diagnosis_view *view, const rotid_round *round, const rotid_candidate *c,
-                            int in_set)
+static void print_candidate(const struct diagnosis_view *view, const rotid_round *round, const rotid_candidate *c, int in_set)
 {
     struct wrap wrap;
     (void)fprintf(view->out, "  %c ", in_set ? '*' : ' ');
@@ -43,7 +42,7 @@ static void print_candidate(const struct diagnosis_view *view, const rotid_round
     if (c->suspect)
         wrap_item(&wrap, "[your suspicion, a %s]", c->cause.id);
     if (c->collinear_with && isfinite(c->cosine))
-        wrap_item(&wrap, "; looks like %s%s%s (%.2f)", c->collinear_with, c->collinear_target && *c->collinear_target ? " " : "",
+        wrap_item(&wrap, "; similar to %s%s%s (%.2f)", c->collinear_with, c->collinear_target && *c->collinear_target ? " " : "",
                   c->collinear_target ? c->collinear_target : "", c->cosine);
     if (c->rejected_because) {
         wrap_item(&wrap, "; rejected:");
@@ -62,7 +61,7 @@ static void print_chance(struct wrap *wrap, const char *what, double chance)
 
 static void print_columns(FILE *out)
 {
-    (void)fputs("    cause               target       expected    chi2     BIC  chance   rms of what was left out\n"
+    (void)fputs("    cause               target       expected    chi2     BIC p-value   held-out prediction error\n"
                 "    size and place, 95 % interval        drop    drop                  modes  sensors held out\n",
                 out);
 }
@@ -79,7 +78,7 @@ static void print_round(const struct diagnosis_view *view, int number)
         wrap_item(&wrap, "chi2 %.4g of %d degrees of freedom", round->chi2, round->dof);
     if (isfinite(round->largest) && isfinite(round->threshold))
         wrap_item(&wrap, "; expected drop %.3g (noise: %.3g)", round->largest, round->threshold);
-    print_chance(&wrap, "; chance of that drop", round->p_scan);
+    print_chance(&wrap, "; p-value of that drop", round->p_scan);
     print_chance(&wrap, ", of the frequencies", round->p_frequency);
     print_chance(&wrap, ", of chi2", round->p_total);
     wrap_close(&wrap);
@@ -109,7 +108,7 @@ void table_evidence(const struct diagnosis_view *view)
     const rotid_diagnosis *d = view->diagnosis;
     if (d->nrounds)
         (void)fprintf(view->out,
-                      "\nEVIDENCE  (noise: drop that chance alone reaches in 3 %% of tests; modes in %%, sensors over noise)\n");
+                      "\nEVIDENCE  (noise: drop that chance alone reaches in 3 %% of tests; modes in %%, sensors res./sigma)\n");
     for (int i = 0; i < d->nrounds; i++)
         print_round(view, i);
 }

@@ -50,8 +50,8 @@ static void print_model(FILE *out, const struct frf_view *view)
                   r->frequency_hz[r->nline - 1]);
     (void)fprintf(out, "full model %s", view->identified ? "at the identified parameters" : "as the deck states it");
     for (int p = 0; view->identified && p < view->identified->fit->n; p++)
-        (void)fprintf(out, "%s %s = %.6g %s", p ? "," : ":", view->job->bounds[p].name, view->identified->fit->x[p],
-                      view->job->bounds[p].unit);
+        (void)fprintf(out, "%s %s = %.6g %s", p ? "," : ":", view->job->unknowns.bounds[p].name, view->identified->fit->x[p],
+                      view->job->unknowns.bounds[p].unit);
     (void)fprintf(
         out, "\nsum of %d mode%s on the supports or free and %d elastic ones, all up to %.6g Hz; the rest by its flexibility\n",
         s->nrigid, s->nrigid == 1 ? "" : "s", s->nmode - s->nrigid, r->up_to_hz);

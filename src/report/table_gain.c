@@ -94,7 +94,8 @@ static void print_parameters(FILE *out, const rotid_diagnosis *d)
     if (!d->gain.nparameters)
         return;
     if (extended)
-        (void)fprintf(out, "  %-*s %-*s%-*s change [%%]\n", NAME, "parameter", VALUE, "before (95 % interval)", VALUE - 5, "after");
+        (void)fprintf(out, "  %-*s %-*s%-*s change [%%]\n", NAME, "parameter", VALUE, "before (95 % interval)", VALUE - 5,
+                      "after");
     else
         (void)fprintf(out, "  %-*s value (95 %% interval)\n", NAME, "parameter");
     for (int i = 0; i < d->gain.nparameters; i++) {
@@ -179,7 +180,7 @@ void table_blind_spots(const struct diagnosis_view *view)
     int beyond = 0;
     if (d->ndetectable)
         (void)fprintf(view->out,
-                      "\nBLIND SPOTS  smallest change that shows (9 times in 10, false alarm 3 %%); less stays hidden\n");
+                      "\nDETECTION LIMITS  smallest change that shows (9 times in 10, false alarm 3 %%); less stays hidden\n");
     for (int i = 0; i < d->ndetectable; i++) {
         int before = 0;
         for (int j = 0; j < i; j++)

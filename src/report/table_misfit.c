@@ -23,7 +23,7 @@ static void print_modes(const struct diagnosis_view *view)
     for (int k = 0; k < d->base->nmodes; k++)
         if (isfinite(standardised(d, k)))
             scale = fmax(scale, ceil(fabs(standardised(d, k))));
-    (void)fprintf(view->out, "  mode  measured [Hz]  predicted  error [%%]  over noise  %-+*.0f0%+*.0f    NCO\n", BAR_HALF,
+    (void)fprintf(view->out, "  mode  measured [Hz]  predicted  error [%%]  res./sigma  %-+*.0f0%+*.0f    NCO\n", BAR_HALF,
                   -scale, BAR_HALF, scale);
     for (int k = 0; k < d->base->nmodes; k++) {
         const rotid_compared_mode *mode = &d->base->modes[k];
@@ -63,7 +63,7 @@ static int print_localisation(const struct diagnosis_view *view, int columns)
         return 0;
     strip_open(&strip, d->geometry->length_m, columns);
     strip_density(&strip, d->nlocalisation, d->localisation);
-    strip_print(&strip, view->out, LABEL, "  misfit acts");
+    strip_print(&strip, view->out, LABEL, "  force resid.");
     return 1;
 }
 
@@ -97,9 +97,9 @@ static void print_axis(const struct diagnosis_view *view)
     struct wrap wrap;
     wrap_open(&wrap, view->out, 4, view->width, "  ");
     if (sensors)
-        wrap_words(&wrap, "sensors: rms over noise, 1 is noise alone;");
+        wrap_words(&wrap, "sensors: rms of residual/sigma, 1 is noise alone;");
     if (local)
-        wrap_words(&wrap, "misfit acts: force that the model lacks, most at @");
+        wrap_words(&wrap, "force residual: force that the model lacks, most at @");
     wrap_close(&wrap);
 }
 

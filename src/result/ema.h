@@ -2,8 +2,8 @@
 #ifndef ROTID_RESULT_EMA_H
 #define ROTID_RESULT_EMA_H
 
-/* The doubts of a mode and of a channel as words, in the order of the bits of enum ema_doubt and enum ema_channel_doubt; NULL
- * behind the last. */
+/* The doubts of a mode and of a channel as words, in the order of the bits of enum ema_quality_flag and enum
+ * ema_channel_quality_flag; NULL behind the last. */
 extern const char *const ema_mode_doubts[], *const ema_channel_doubts[];
 
 /* what was measured */
@@ -27,12 +27,12 @@ struct ema_point_frequency {
 
 /* a point; the last two keys with --per-point */
 struct ema_shape_point {
-    int node;          /* label of the file */
-    int direction;     /* 0 scalar, 1 to 6 X Y Z RX RY RZ */
-    double value;      /* real shape, largest component 1; NaN where not measured */
-    double std;        /* its standard deviation, the scale of the mode left out */
-    double complex_re; /* complex shape at the same scale, real part */
-    double complex_im; /* and imaginary part */
+    int node;                          /* label of the file */
+    int direction;                     /* 0 scalar, 1 to 6 X Y Z RX RY RZ */
+    double value;                      /* real shape, largest component 1; NaN where not measured */
+    double std;                        /* its standard deviation, the scale of the mode left out */
+    double complex_re;                 /* complex shape at the same scale, real part */
+    double complex_im;                 /* and imaginary part */
     struct ema_point_frequency *alone; /* NULL: the keys are left out */
 };
 

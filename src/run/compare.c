@@ -8,21 +8,21 @@
 int comparison_highest(const struct job *job)
 {
     int highest = 0;
-    for (int k = 0; k < job->nmode; k++)
-        highest = job->number[k] > highest ? job->number[k] : highest;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
     return highest;
 }
 
 int comparison_candidates(const struct job *job)
 {
-    return comparison_highest(job) + (job->shape ? BEYOND : 0);
+    return comparison_highest(job) + (job->measurement.shape ? BEYOND : 0);
 }
 
 static int components(const struct job *job, int mode)
 {
     int count = 0;
-    for (int s = 0; s < job->rotor.nsensor && job->shape; s++)
-        count += isfinite(job->shape[s + (ptrdiff_t)mode * job->rotor.nsensor]);
+    for (int s = 0; s < job->rotor.nsensor && job->measurement.shape; s++)
+        count += isfinite(job->measurement.shape[s + (ptrdiff_t)mode * job->rotor.nsensor]);
     return count;
 }
 
@@ -31,11 +31,11 @@ static int components(const struct job *job, int mode)
 static double *correlations(struct pool *pool, const struct job *job, const struct spectrum *spectrum, int candidates,
                             double *work)
 {
-    double *correlation = POOL_ARRAY(pool, double, (size_t)job->nmode *(size_t)candidates);
-    for (int k = 0; k < job->nmode && correlation; k++)
+    double *correlation = POOL_ARRAY(pool, double, (size_t)job->measurement.nmode *(size_t)candidates);
+    for (int k = 0; k < job->measurement.nmode && correlation; k++)
         for (int j = 0; j < candidates && components(job, k) >= candidates; j++)
-            correlation[k + (ptrdiff_t)j * job->nmode] =
-                spectrum_correlation(spectrum, job->shape + (ptrdiff_t)k * spectrum->nmaster, j, work);
+            correlation[k + (ptrdiff_t)j * job->measurement.nmode] =
+                spectrum_correlation(spectrum, job->measurement.shape + (ptrdiff_t)k * spectrum->nmaster, j, work);
     return correlation;
 }
 
@@ -50,17 +50,17 @@ static void say_what_is_odd(const struct job *job, const struct spectrum *spectr
     int highest = 0;
     for (int k = 0; k < c->nmode; k++) {
         highest = c->number[k] > highest ? c->number[k] : highest;
-        if (c->number[k] != job->number[k] && !isfinite(c->nco[k]))
+        if (c->number[k] != job->measurement.number[k] && !isfinite(c->nco[k]))
             message_add(notes, SEVERITY_WARNING, NULL, 0, 0, "measured mode %d at %.6g Hz is mode %d of the model by its shape",
-                        job->number[k], job->frequency_hz[k], c->number[k]);
-        else if (c->number[k] != job->number[k])
-            note(notes, "measured mode %d at %.6g Hz is mode %d of the model by its shape (NCO %.2f)", job->number[k],
-                 job->frequency_hz[k], c->number[k], c->nco[k]);
+                        job->measurement.number[k], job->measurement.frequency_hz[k], c->number[k]);
+        else if (c->number[k] != job->measurement.number[k])
+            note(notes, "measured mode %d at %.6g Hz is mode %d of the model by its shape (NCO %.2f)", job->measurement.number[k],
+                 job->measurement.frequency_hz[k], c->number[k], c->nco[k]);
         else if (isfinite(c->nco[k]) && c->nco[k] < PAIRING_LEAST && components(job, k) >= comparison_candidates(job))
             note(notes,
                  "measured mode %d at %.6g Hz has no partner in the model by its shape: mode %d, which has its number, "
                  "correlates by %.2f only",
-                 job->number[k], job->frequency_hz[k], c->number[k], c->nco[k]);
+                 job->measurement.number[k], job->measurement.frequency_hz[k], c->number[k], c->nco[k]);
     }
     for (int j = 1; j <= highest && j <= spectrum->count; j++) {
         int found = 0;
@@ -75,7 +75,7 @@ static void say_what_is_odd(const struct job *job, const struct spectrum *spectr
 int comparison_make(struct pool *pool, const struct job *job, const struct spectrum *spectrum, struct message_list *notes,
                     struct comparison *c)
 {
-    int nmode = job->nmode, candidates = spectrum->count;
+    int nmode = job->measurement.nmode, candidates = spectrum->count;
     *c = (struct comparison){.nmode = nmode};
     c->number = POOL_ARRAY(pool, int, nmode);
     c->basis = POOL_ARRAY(pool, enum pairing_basis, nmode);
@@ -85,21 +85,21 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
     double *work = POOL_ARRAY(pool, double, spectrum->nmaster), *correlation = NULL;
     if (!c->number || !c->basis || !c->mac || !c->nco || !used || !work)
         return ROTID_ERROR_MEMORY;
-    if (job->shape && !(correlation = correlations(pool, job, spectrum, candidates, work)))
+    if (job->measurement.shape && !(correlation = correlations(pool, job, spectrum, candidates, work)))
         return ROTID_ERROR_MEMORY;
     if (nmode)
-        memcpy(c->number, job->number, (size_t)nmode * sizeof *c->number);
+        memcpy(c->number, job->measurement.number, (size_t)nmode * sizeof *c->number);
     int clash = pair_modes(nmode, candidates, correlation, c->number, c->basis, used);
     if (clash) {
         c->clash = clash - 1;
         message_add(notes, SEVERITY_ERROR, NULL, 0, 0,
                     "measured mode %d at %.6g Hz has the number of a mode that the shape of another one claims, expected modes "
                     "that differ; a mode of the rotor on its supports is none of them (leave it out: rotid ema --band)",
-                    job->number[clash - 1], job->frequency_hz[clash - 1]);
+                    job->measurement.number[clash - 1], job->measurement.frequency_hz[clash - 1]);
         return ROTID_ERROR_UNPAIRED;
     }
     for (int k = 0; k < nmode; k++) {
-        const double *shape = job->shape ? job->shape + (ptrdiff_t)k * spectrum->nmaster : NULL;
+        const double *shape = job->measurement.shape ? job->measurement.shape + (ptrdiff_t)k * spectrum->nmaster : NULL;
         int has = shape && components(job, k) > 1 && c->number[k] <= spectrum->count;
         c->mac[k] =
             has ? rotid_mac(spectrum->nmaster, shape, spectrum->shape + (ptrdiff_t)(c->number[k] - 1) * spectrum->nmaster) : NAN;

@@ -69,7 +69,7 @@ static int take_pair(struct chooser *chooser, const struct frf_set *set, struct 
 static int requested_rows(struct chooser *chooser, const struct job *job, const struct frf_measured *measured,
                           struct message_list *notes)
 {
-    const struct frf_request *request = &job->frf;
+    const struct frf_request *request = &job->options.frf;
     for (int i = 0; i < request->npair; i++)
         if (!take_pair(chooser, measured->set, request->pair[i], request->axis)) {
             message_add(
@@ -84,7 +84,7 @@ static int requested_rows(struct chooser *chooser, const struct job *job, const 
 
 static int all_rows(struct chooser *chooser, const struct job *job, const struct frf_set *set, struct message_list *notes)
 {
-    int axis = job->frf.axis;
+    int axis = job->options.frf.axis;
     for (int c = 0; c < set->nfrf; c++)
         if (is_lateral(&set->frf[c], axis))
             take(chooser, set->frf[c].response_node, set->frf[c].reference_node, &set->frf[c]);
@@ -110,7 +110,7 @@ int frf_choose_rows(struct pool *pool, const struct job *job, const struct frf_m
                     struct frf_result *out)
 {
     const struct rotor *rotor = &job->rotor;
-    const struct frf_request *request = &job->frf;
+    const struct frf_request *request = &job->options.frf;
     struct chooser chooser = {.pool = pool, .out = out};
     int status = ROTID_OK;
     if (measured)
@@ -142,7 +142,7 @@ static int node_position(const struct job *job, const struct frf_measured *measu
 {
     double *z = &point->z;
     int id = point->id;
-    const struct frf_request *request = &job->frf;
+    const struct frf_request *request = &job->options.frf;
     double length = rotor_length(&job->rotor);
     for (int s = 0; s < job->rotor.nsensor; s++)
         if (job->rotor.sensor[s].id == id) {
@@ -227,7 +227,8 @@ int frf_place_points(struct pool *pool, const struct job *job, int parameters, c
     if (!status)
         status = add_nodes(pool, *npoint, point, &rotor);
     if (!status)
-        status = model_open(pool, job->models, &rotor, parameters ? job->nparameter : 0, job->parameter, 1, model, &failed);
+        status = model_open(pool, job->models, &rotor, parameters ? job->unknowns.nparameter : 0, job->unknowns.parameter, 1,
+                            model, &failed);
     for (int i = 0; i < *npoint && !status; i++)
         dof[i] = model_lateral_dof(model, point[i].z);
     for (int i = 0; i < out->nrow && !status; i++) {

@@ -17,7 +17,7 @@ static int refuse(struct message_list *notes, const struct job *job, const char 
 
 static int measured_lines(const struct job *job, const struct frf_set *set, struct message_list *notes, struct frf_result *out)
 {
-    const struct frf_request *request = &job->frf;
+    const struct frf_request *request = &job->options.frf;
     int first = 0, last = set->nline - 1;
     double low = request->low_hz * (1 - 1e-9), high = request->high_hz * (1 + 1e-9);
     while (first <= last && !(set->frequency_hz[first] > 0 && set->frequency_hz[first] >= low))
@@ -35,13 +35,13 @@ static int measured_lines(const struct job *job, const struct frf_set *set, stru
 
 static int requested_lines(struct pool *pool, const struct job *job, struct message_list *notes, struct frf_result *out)
 {
-    const struct frf_request *request = &job->frf;
+    const struct frf_request *request = &job->options.frf;
     double low = request->low_hz, high = request->high_hz;
-    for (int k = 0; k < job->nmode; k++) {
-        if (request->low_hz <= 0 && (!k || job->frequency_hz[k] / 2 < low))
-            low = job->frequency_hz[k] / 2;
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        if (request->low_hz <= 0 && (!k || job->measurement.frequency_hz[k] / 2 < low))
+            low = job->measurement.frequency_hz[k] / 2;
         if (request->high_hz <= 0)
-            high = fmax(high, 1.1 * job->frequency_hz[k]);
+            high = fmax(high, 1.1 * job->measurement.frequency_hz[k]);
     }
     if (!(low > 0 && high > low))
         return refuse(notes, job,
@@ -65,14 +65,14 @@ static int requested_lines(struct pool *pool, const struct job *job, struct mess
 /* A ratio of zero is that of a file or deck which does not know it. */
 static int has_ratio(const struct job *job, int k)
 {
-    return job->damping[k] > 0 && job->damping[k] < 1;
+    return job->measurement.damping[k] > 0 && job->measurement.damping[k] < 1;
 }
 
 int frf_choose_damping(struct pool *pool, const struct job *job, const struct comparison *compared, struct message_list *notes,
                        struct frf_result *out)
 {
     const struct synthesis *s = &out->synthesis;
-    double stated = job->frf.damping, smallest = INFINITY, sum = 0;
+    double stated = job->options.frf.damping, smallest = INFINITY, sum = 0;
     int count = 0;
     out->zeta = POOL_ARRAY(pool, double, s->nmode);
     out->damping = POOL_ARRAY(pool, enum frf_damping, s->nmode);
@@ -81,8 +81,8 @@ int frf_choose_damping(struct pool *pool, const struct job *job, const struct co
         return ROTID_ERROR_MEMORY;
     for (int k = 0; compared && k < compared->nmode; k++)
         if (has_ratio(job, k)) {
-            smallest = fmin(smallest, job->damping[k]);
-            sum += job->damping[k];
+            smallest = fmin(smallest, job->measurement.damping[k]);
+            sum += job->measurement.damping[k];
             count++;
         }
     if (!count && stated <= 0)
@@ -98,12 +98,12 @@ int frf_choose_damping(struct pool *pool, const struct job *job, const struct co
     }
     for (int k = 0; compared && k < compared->nmode; k++) {
         int r = s->nrigid + compared->number[k] - 1;
-        double omega = TWO_PI * job->frequency_hz[k];
+        double omega = TWO_PI * job->measurement.frequency_hz[k];
         if (r >= s->nmode)
             continue;
         out->moved_lambda[r] = omega * omega;
         if (has_ratio(job, k)) {
-            out->zeta[r] = job->damping[k];
+            out->zeta[r] = job->measurement.damping[k];
             out->damping[r] = FRF_DAMPING_MEASURED;
         }
     }
@@ -147,7 +147,7 @@ int frf_make_bands(struct pool *pool, const struct job *job, const struct compar
         for (int k = 0; compared && k < compared->nmode; k++)
             if (compared->number[k] == band.mode) {
                 band.measured = k;
-                band.measured_hz = job->frequency_hz[k];
+                band.measured_hz = job->measurement.frequency_hz[k];
                 out->any_swapped = 1;
             }
         if (highest(&band) < from || lowest(&band) > to)

@@ -60,9 +60,10 @@ static void draw_direction(int nmaster, int modes, unsigned long seed, struct se
 static int prepare(struct pool *pool, const struct job *job, const rotid_model *model, int modes, unsigned long seed,
                    struct search *s)
 {
-    int status = make_data(pool, model, job->fit.reduction, modes, s);
+    int status = make_data(pool, model, job->options.fit.reduction, modes, s);
     if (!status)
-        status = functional_new(pool, ROTID_HYBRID, job->fit.reduction, ROTID_NELSON, model, &s->measured, &s->functional);
+        status =
+            functional_new(pool, ROTID_HYBRID, job->options.fit.reduction, ROTID_NELSON, model, &s->measured, &s->functional);
     s->direction = POOL_ARRAY(pool, double, (size_t)model->nmaster *(size_t)modes);
     s->x = POOL_ARRAY(pool, double, model->nparam);
     s->r = POOL_ARRAY(pool, double, modes);
@@ -120,8 +121,7 @@ int growth_run(struct pool *pool, const struct job *job, int n, const struct par
     int failed;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct search search = {.x0 = x0};
-    *out = (struct growth){
-        .nepsilon_squared = POINTS, .hybrid.nepsilon_squared = POINTS, .hybrid_f.nepsilon_squared = POINTS};
+    *out = (struct growth){.nepsilon_squared = POINTS, .hybrid.nepsilon_squared = POINTS, .hybrid_f.nepsilon_squared = POINTS};
     struct growth_line *line[GROWTH_KINDS] = {[GROWTH_E] = &out->hybrid, [GROWTH_F] = &out->hybrid_f};
     double **arrays[] = {&out->epsilon_squared, &out->hybrid.objective, &out->hybrid_f.objective, &out->shapes_alone};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)

@@ -11,17 +11,17 @@
 /* Which measured shapes the functional gets: with LIKELIHOOD those whose noise is known. */
 static int uses_shapes(const struct job *job)
 {
-    return job->shape && (job->fit.functional != ROTID_LIKELIHOOD || job_knows_shape_noise(job));
+    return job->measurement.shape && (job->options.fit.functional != ROTID_LIKELIHOOD || job_knows_shape_noise(job));
 }
 
 /* bare: what pairing needs */
 static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int bare,
                             struct spectrum *spectrum)
 {
-    int reduction = job->fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
-    int parts = !bare ? SPECTRUM_MESH | SPECTRUM_REDUCED : job->shape ? SPECTRUM_REDUCED : 0;
-    return spectrum_compute_parts(pool, job->models, &job->rotor, job->nparameter, job->parameter, x, reduction, count, parts,
-                                  spectrum);
+    int reduction = job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
+    int parts = !bare ? SPECTRUM_MESH | SPECTRUM_REDUCED : job->measurement.shape ? SPECTRUM_REDUCED : 0;
+    return spectrum_compute_parts(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x, reduction,
+                                  count, parts, spectrum);
 }
 
 int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
@@ -29,20 +29,21 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
                  rotid_fit_result **fit)
 {
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
-    int failed, status = model ? model_open(pool, job->models, &job->rotor, job->nparameter, job->parameter, 1, model, &failed)
+    int failed, status = model ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1,
+                                            model, &failed)
                                : ROTID_ERROR_MEMORY;
     if (status)
         return status;
     int shapes = uses_shapes(job);
     rotid_measured measured = {.size = sizeof measured,
-                               .nmode = job->nmode,
+                               .nmode = job->measurement.nmode,
                                .number = number,
-                               .frequency_hz = job->frequency_hz,
-                               .frequency_std = job_knows_frequency_noise(job) ? job->frequency_std : NULL,
-                               .shape = shapes ? job->shape : NULL,
-                               .shape_std = shapes && job_knows_shape_noise(job) ? job->shape_std : NULL,
+                               .frequency_hz = job->measurement.frequency_hz,
+                               .frequency_std = job_knows_frequency_noise(job) ? job->measurement.frequency_std : NULL,
+                               .shape = shapes ? job->measurement.shape : NULL,
+                               .shape_std = shapes && job_knows_shape_noise(job) ? job->measurement.shape_std : NULL,
                                .holdout = holdout};
-    status = rotid_fit(&model->equations, job->bounds, &measured, options, environment, NULL, fit);
+    status = rotid_fit(&model->equations, job->unknowns.bounds, &measured, options, environment, NULL, fit);
     if (!status && mass) { /* the model stands at the last point that was evaluated; the mass wants the best one */
         model_set(model, (*fit)->x);
         model_mass_properties(model, mass);
@@ -61,18 +62,18 @@ static int is_cancelled(const rotid_fit_result *fit, const rotid_environment *en
 static int predict_baseline(struct pool *pool, const struct job *job, struct identification *out)
 {
     const rotid_fit_result *fit = out->fit;
-    int failed, highest = 1, nmode = job->nmode;
+    int failed, highest = 1, nmode = job->measurement.nmode;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
     for (int k = 0; k < nmode; k++)
         highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
     out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
-    int status = model && out->baseline_hz
-                     ? model_open(pool, job->models, &job->rotor, job->nparameter, job->parameter, 1, model, &failed)
-                     : ROTID_ERROR_MEMORY;
+    int status = model && out->baseline_hz ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter,
+                                                        job->unknowns.parameter, 1, model, &failed)
+                                           : ROTID_ERROR_MEMORY;
     if (!status)
-        status =
-            prediction_new(pool, &model->equations, job->fit.reduction, ROTID_NELSON, model->equations.nrigid + highest, 0, &p);
+        status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON,
+                                model->equations.nrigid + highest, 0, &p);
     for (int i = 0; i < fit->nbaseline && status != ROTID_ERROR_MEMORY; i++) {
         int lost = status ? status : prediction_compute(&p, fit->baseline[i].x);
         for (int k = 0; k < nmode; k++)
@@ -86,13 +87,13 @@ static int with_models(struct pool *pool, const struct job *job, int baseline, i
                        struct message_list *notes, struct identification *out)
 {
     int status, candidates = comparison_candidates(job);
-    double *start = POOL_ARRAY(pool, double, job->nparameter);
-    if (!job->nmode)
+    double *start = POOL_ARRAY(pool, double, job->unknowns.nparameter);
+    if (!job->measurement.nmode)
         message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes, expected *MODES or *MEASURED");
-    if (!job->nmode || !start)
+    if (!job->measurement.nmode || !start)
         return start ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->nparameter; p++)
-        start[p] = job->bounds[p].start;
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        start[p] = job->unknowns.bounds[p].start;
     struct comparison before;
     struct message_list quiet; /* what the pairing at the start says is not worth repeating unless it ends the run */
     message_open(&quiet, pool);
@@ -105,19 +106,19 @@ static int with_models(struct pool *pool, const struct job *job, int baseline, i
         out->compared = before;
         return status;
     }
-    rotid_fit_options options = job->fit;
+    rotid_fit_options options = job->options.fit;
     options.baseline = baseline;
     for (int round = 1;; round++) {
         rotid_fit_free(out->fit);
         out->fit = NULL;
-        status = identify_fit(pool, job, before.number, job->holdout, &options, environment, &out->mass, &out->fit);
+        status = identify_fit(pool, job, before.number, job->measurement.holdout, &options, environment, &out->mass, &out->fit);
         if (!status)
             status = compute_spectrum(pool, job, out->fit->x, candidates, bare, &out->spectrum);
         message_open(&quiet, pool);
         if (!status)
             status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
         if (status || round == ROUNDS ||
-            !memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number) ||
+            !memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number) ||
             is_cancelled(out->fit, environment))
             break;
         before = out->compared;
@@ -131,11 +132,11 @@ static int with_models(struct pool *pool, const struct job *job, int baseline, i
         out->fit = NULL;
         return status;
     }
-    if (memcmp(before.number, out->compared.number, (size_t)job->nmode * sizeof *before.number))
+    if (memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number))
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
                     "the pairing of the modes still changes with the fitted model: do not trust this result");
-    out->shapes_fitted =
-        uses_shapes(job) && !(job->fit.functional != ROTID_LIKELIHOOD && job->fit.reduction == ROTID_REDUCTION_NONE);
+    out->shapes_fitted = uses_shapes(job) &&
+                         !(job->options.fit.functional != ROTID_LIKELIHOOD && job->options.fit.reduction == ROTID_REDUCTION_NONE);
     return ROTID_OK;
 }
 
@@ -170,9 +171,9 @@ void identify_warn_of_mesh(const struct job *job, const struct identification *r
     const int *number = result->compared.number;
     double largest = 1;
     int worst = -1;
-    for (int k = 0; k < job->nmode && job_knows_frequency_noise(job); k++) {
+    for (int k = 0; k < job->measurement.nmode && job_knows_frequency_noise(job); k++) {
         int mode = number[k] - 1;
-        double ratio = mode < s->count ? fabs(s->mesh_error_percent[mode]) / (100 * job->frequency_std[k]) : NAN;
+        double ratio = mode < s->count ? fabs(s->mesh_error_percent[mode]) / (100 * job->measurement.frequency_std[k]) : NAN;
         if (ratio > largest) {
             largest = ratio;
             worst = k;
@@ -182,7 +183,7 @@ void identify_warn_of_mesh(const struct job *job, const struct identification *r
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
                     "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "
                     "allow for it",
-                    job->number[worst], s->mesh_error_percent[number[worst] - 1], largest);
+                    job->measurement.number[worst], s->mesh_error_percent[number[worst] - 1], largest);
 }
 
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
@@ -194,9 +195,9 @@ void identify_warn_of_reduction(const struct job *job, const struct identificati
         if (fabs(error) > fabs(worst))
             worst = error;
     }
-    if (job->fit.reduction != ROTID_REDUCTION_NONE && fabs(worst) > 0.5)
+    if (job->options.fit.reduction != ROTID_REDUCTION_NONE && fabs(worst) > 0.5)
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
                     "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is %s "
                     "here (rotid identify, column reduction)",
-                    reduction_name(job->fit.reduction), worst, what);
+                    reduction_name(job->options.fit.reduction), worst, what);
 }

@@ -13,26 +13,26 @@ const struct reference *job_reference(const struct job *job, const char *quantit
 
 int job_knows_frequency_noise(const struct job *job)
 {
-    for (int k = 0; k < job->nmode; k++)
-        if (!isfinite(job->frequency_std[k]))
+    for (int k = 0; k < job->measurement.nmode; k++)
+        if (!isfinite(job->measurement.frequency_std[k]))
             return 0;
-    return job->nmode > 0;
+    return job->measurement.nmode > 0;
 }
 
 int job_knows_shape_noise(const struct job *job)
 {
-    ptrdiff_t components = (ptrdiff_t)job->rotor.nsensor * job->nmode;
-    if (!job->shape)
+    ptrdiff_t components = (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode;
+    if (!job->measurement.shape)
         return 0;
     for (ptrdiff_t i = 0; i < components; i++)
-        if (isfinite(job->shape[i]) && !isfinite(job->shape_std[i]))
+        if (isfinite(job->measurement.shape[i]) && !isfinite(job->measurement.shape_std[i]))
             return 0;
     return 1;
 }
 
 int job_fits_shapes(const struct job *job)
 {
-    return job->shape && job_knows_shape_noise(job);
+    return job->measurement.shape && job_knows_shape_noise(job);
 }
 
 const char *functional_name(int functional)

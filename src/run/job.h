@@ -58,19 +58,9 @@ struct frf_request {
     struct frf_pair *pair;
 };
 
-struct job {
-    const char *deck; /* path as given */
-    int nfile;
-    const char *const *file; /* what it was read from: the deck, files it includes, measured data it names */
-    int nheading;
-    const char **heading; /* lines of text without the references */
-    int nreference;
-    struct reference *reference;
-
-    struct rotor rotor;
-    struct models *models; /* of it, as far as they are built, or NULL */
-
-    int nmode;             /* measured */
+/* What was measured, as it is judged: the corrections are applied already. */
+struct job_measurement {
+    int nmode;
     int *number;           /* [nmode] elastic mode of the model, from 1; the shapes may decide otherwise */
     double *frequency_hz;  /* [nmode] */
     double *damping;       /* [nmode] ratio, NaN where there is none */
@@ -84,21 +74,44 @@ struct job {
     double *point_frequency_hz, *point_frequency_std;
     int hammer; /* id of the sensor beside the hammer while that accelerometer went round, 0 where not known */
 
-    int ncorrection; /* already applied to the above; raw is NULL where there are none */
+    int ncorrection; /* raw is NULL where there are none */
     struct correction *correction;
     struct job_raw *raw;
+};
 
-    int nsuspect; /* CAUSE cards with SUSPECT: candidates for `diagnose`, no part of the model */
-    struct suspect *suspect;
-
+/* What is searched. */
+struct job_unknowns {
     int nparameter;
     struct parameter *parameter; /* [nparameter] */
     rotid_parameter *bounds;     /* [nparameter] with name and unit */
+    int nsuspect;                /* CAUSE cards with SUSPECT: candidates for `diagnose`, no part of the model */
+    struct suspect *suspect;
+};
 
-    struct frf_request frf;
-
+/* How the commands are to go about it. */
+struct job_options {
     int has_fit; /* a FIT card states functional or reduction */
     rotid_fit_options fit;
+    struct frf_request frf;
+};
+
+/* Four things that change for different reasons, each a struct of its own: the rotor (a cause is added to it), what was measured
+ * (the measurement chain is corrected, a mode is left out), what is searched (a cause brings its parameters, a refit other
+ * starts) and the options. A second state of the same rotor is a second measurement; another model is another option. */
+struct job {
+    const char *deck; /* path as given */
+    int nfile;
+    const char *const *file; /* what it was read from: the deck, files it includes, measured data it names */
+    int nheading;
+    const char **heading; /* lines of text without the references */
+    int nreference;
+    struct reference *reference;
+
+    struct rotor rotor;
+    struct models *models; /* of it, as far as they are built, or NULL */
+    struct job_measurement measurement;
+    struct job_unknowns unknowns;
+    struct job_options options;
 };
 
 /* The values of a reference, or NULL. */

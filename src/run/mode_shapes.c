@@ -22,7 +22,7 @@ static void keep_measured(const struct job *job, struct mode_shapes *m)
         ptrdiff_t at = (ptrdiff_t)k * m->nsensor;
         double largest = 0;
         for (int s = 0; s < m->nsensor; s++) {
-            m->measured[at + s] = job->shape ? job->shape[at + s] : NAN;
+            m->measured[at + s] = job->measurement.shape ? job->measurement.shape[at + s] : NAN;
             if (fabs(m->measured[at + s]) > fabs(largest))
                 largest = m->measured[at + s];
         }
@@ -36,7 +36,7 @@ static void keep_measured(const struct job *job, struct mode_shapes *m)
 static double best_scale(const struct job *job, const struct mode_shapes *m, int k, const double *p)
 {
     const double *measured = m->measured + (ptrdiff_t)k * m->nsensor,
-                 *std = job->shape_std ? job->shape_std + (ptrdiff_t)k * m->nsensor : NULL;
+                 *std = job->measurement.shape_std ? job->measurement.shape_std + (ptrdiff_t)k * m->nsensor : NULL;
     double product = 0, square = 0;
     int weighted = std != NULL;
     for (int s = 0; s < m->nsensor && weighted; s++)
@@ -105,7 +105,8 @@ static int correlate(struct pool *pool, const struct job *job, const struct spec
         return ROTID_ERROR_MEMORY;
     for (int k = 0; k < m->nmode; k++)
         for (int j = 0; j < m->ncolumn; j++) {
-            const double *shape = job->shape + (ptrdiff_t)k * s->nmaster, *mode = s->shape + (ptrdiff_t)j * s->nmaster;
+            const double *shape = job->measurement.shape + (ptrdiff_t)k * s->nmaster,
+                         *mode = s->shape + (ptrdiff_t)j * s->nmaster;
             int usable = m->has_shape[k] && components(m, k) > 1;
             ptrdiff_t at = k + (ptrdiff_t)j * m->nmode;
             m->mac[at] = usable ? rotid_mac(s->nmaster, shape, mode) : NAN;

@@ -13,8 +13,8 @@ static double residual(const struct prediction *p, int nrigid, const double *ref
     return 1 - p->lambda[nrigid + k] / reference[k];
 }
 
-static int allocate(struct pool *pool, int n, const rotid_parameter *named, const double *x0, const struct sensitivity_options *options,
-                    struct sensitivity *out)
+static int allocate(struct pool *pool, int n, const rotid_parameter *named, const double *x0,
+                    const struct sensitivity_options *options, struct sensitivity *out)
 {
     int m = options->modes, points = options->points;
     *out = (struct sensitivity){.step = options->step, .nfrequency_hz = m, .nrelative_value = points, .nparameters = n};
@@ -50,7 +50,7 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
     if (status)
         return status;
     int nrigid = model->equations.nrigid;
-    status = prediction_new(pool, &model->equations, job->fit.reduction, ROTID_NELSON, nrigid + m, 0, &p);
+    status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON, nrigid + m, 0, &p);
     double *x = POOL_ARRAY(pool, double, n), *lambda = POOL_ARRAY(pool, double, m);
     int *wanted = POOL_ARRAY(pool, int, nrigid + m);
     if (!status && (!x || !lambda || !wanted))
@@ -85,7 +85,7 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
             }
         }
     }
-    out->reduction = reduction_name(job->fit.reduction);
+    out->reduction = reduction_name(job->options.fit.reduction);
     if (status || !options->with_growth)
         return status;
     out->functional_growth = POOL_NEW(pool, struct growth);

@@ -126,8 +126,8 @@ static void check_sensors(struct checker *c, const struct study_cell *cell, cons
     const struct plan *plan = c->study->plan;
     int highest = 0, nsensor = job->rotor.nsensor;
     char text[512];
-    for (int k = 0; k < job->nmode; k++)
-        highest = job->number[k] > highest ? job->number[k] : highest;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
     for (int s = 0; s < plan->nsensors; s++) {
         const struct plan_sensors *sensors = &plan->sensors[s];
         int left = sensors->keep ? sensors->keep : sensors->every ? (nsensor + sensors->every - 1) / sensors->every : nsensor;
@@ -140,7 +140,7 @@ static void check_sensors(struct checker *c, const struct study_cell *cell, cons
         else if (left > nsensor)
             (void)snprintf(text, sizeof text, "deck %s has %d sensors, expected not more than that", plan->deck[cell->deck].name,
                            nsensor);
-        else if (job->fit.reduction != ROTID_REDUCTION_NONE && left < 2 * highest)
+        else if (job->options.fit.reduction != ROTID_REDUCTION_NONE && left < 2 * highest)
             (void)snprintf(text, sizeof text,
                            "%d sensors are too few to condense deck %s onto for mode %d, expected at least twice as many as "
                            "modes, or FIT.REDUCTION=NONE",
@@ -200,7 +200,7 @@ static int check_variants(struct checker *c, int d)
             if (keep_files(c, &job))
                 return ROTID_ERROR_MEMORY;
             check_sensors(c, &cell, &job);
-            c->check->nparameter[cell.variant + (ptrdiff_t)d * plan->nvariant] = job.nparameter;
+            c->check->nparameter[cell.variant + (ptrdiff_t)d * plan->nvariant] = job.unknowns.nparameter;
             if (!cell.modes)
                 digest_measured(&c->check->data, &job);
         }
@@ -210,9 +210,9 @@ static int check_variants(struct checker *c, int d)
 /* What a run cannot do without. */
 static void check_job(const struct plan *plan, const struct job *job, struct message_list *found)
 {
-    if (!job->nmode)
+    if (!job->measurement.nmode)
         message_add(found, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes, expected *MODES or *MEASURED");
-    if (!job->nparameter && plan->command == PLAN_IDENTIFY)
+    if (!job->unknowns.nparameter && plan->command == PLAN_IDENTIFY)
         message_add(found, SEVERITY_ERROR, job->deck, 1, 1, "the deck names nothing to identify, expected a card *IDENTIFY");
 }
 

@@ -65,22 +65,22 @@ void digest_cards(struct digest *digest, const struct deck_text *text)
 
 void digest_measured(struct digest *digest, const struct job *job)
 {
-    size_t nmode = (size_t)job->nmode, components = nmode * (size_t)job->rotor.nsensor;
-    digest_integer(digest, job->nmode);
+    size_t nmode = (size_t)job->measurement.nmode, components = nmode * (size_t)job->rotor.nsensor;
+    digest_integer(digest, job->measurement.nmode);
     digest_integer(digest, job->rotor.nsensor);
-    for (int k = 0; k < job->nmode; k++)
-        digest_integer(digest, job->number[k]);
+    for (int k = 0; k < job->measurement.nmode; k++)
+        digest_integer(digest, job->measurement.number[k]);
     for (int s = 0; s < job->rotor.nsensor; s++) {
         digest_integer(digest, job->rotor.sensor[s].id);
         digest_doubles(digest, 1, &job->rotor.sensor[s].position);
     }
-    digest_doubles(digest, nmode, job->frequency_hz);
-    digest_doubles(digest, nmode, job->frequency_std);
-    digest_doubles(digest, job->shape ? components : 0, job->shape);
-    digest_doubles(digest, job->shape ? components : 0, job->shape_std);
-    digest_doubles(digest, job->point_frequency_hz ? components : 0, job->point_frequency_hz);
-    digest_doubles(digest, job->point_frequency_hz ? components : 0, job->point_frequency_std);
-    digest_integer(digest, job->hammer);
+    digest_doubles(digest, nmode, job->measurement.frequency_hz);
+    digest_doubles(digest, nmode, job->measurement.frequency_std);
+    digest_doubles(digest, job->measurement.shape ? components : 0, job->measurement.shape);
+    digest_doubles(digest, job->measurement.shape ? components : 0, job->measurement.shape_std);
+    digest_doubles(digest, job->measurement.point_frequency_hz ? components : 0, job->measurement.point_frequency_hz);
+    digest_doubles(digest, job->measurement.point_frequency_hz ? components : 0, job->measurement.point_frequency_std);
+    digest_integer(digest, job->measurement.hammer);
 }
 
 void digest_letters(const struct digest *digest, char letters[DIGEST_LETTERS + 1])

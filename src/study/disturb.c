@@ -15,12 +15,12 @@ static int is_fault(const struct truth *truth, const char *id)
 
 void experiment_fault(const struct truth *truth, int behind, struct job *job)
 {
-    if (!truth->cause || truth->effect || !job->shape || !truth->fault.nsensor)
+    if (!truth->cause || truth->effect || !job->measurement.shape || !truth->fault.nsensor)
         return;
     int a = sensor_find(job, truth->fault.sensor[0]),
         b = truth->fault.nsensor > 1 ? sensor_find(job, truth->fault.sensor[1]) : -1;
-    for (int k = 0; k < job->nmode && a >= 0; k++) {
-        double *shape = job->shape + (ptrdiff_t)k * job->rotor.nsensor, kept = shape[a];
+    for (int k = 0; k < job->measurement.nmode && a >= 0; k++) {
+        double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor, kept = shape[a];
         if (is_fault(truth, "sensor_gain") && !behind) {
             shape[a] *= truth->fault.value;
         } else if (is_fault(truth, "sensor_sign") && !behind) {
@@ -57,21 +57,24 @@ void experiment_noise(const struct study *study, const struct study_point *point
     const struct plan_noise *noise = &study->plan->noise[point->cell.noise];
     int from_model = truth != NULL, nsensor = job->rotor.nsensor;
     if (noise->frequency > 0 || noise->shape > 0) /* frequencies at single sensors would contradict the rest */
-        job->point_frequency_hz = job->point_frequency_std = NULL;
-    for (int k = 0; k < job->nmode && noise->frequency > 0; k++) {
+        job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
+    for (int k = 0; k < job->measurement.nmode && noise->frequency > 0; k++) {
         double level = noise->frequency * factor(truth, "FREQUENCY");
-        job->frequency_hz[k] *= 1 + level * normal(study, DRAW_FREQUENCY, point->replicate, job->number[k], 0);
-        job->frequency_std[k] = stated(from_model, job->frequency_std[k], noise->frequency);
+        job->measurement.frequency_hz[k] *=
+            1 + level * normal(study, DRAW_FREQUENCY, point->replicate, job->measurement.number[k], 0);
+        job->measurement.frequency_std[k] = stated(from_model, job->measurement.frequency_std[k], noise->frequency);
     }
-    for (int k = 0; k < job->nmode && job->shape && noise->shape > 0; k++) {
-        double *shape = job->shape + (ptrdiff_t)k * nsensor, *std = job->shape_std + (ptrdiff_t)k * nsensor, largest = 0;
+    for (int k = 0; k < job->measurement.nmode && job->measurement.shape && noise->shape > 0; k++) {
+        double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor,
+               *std = job->measurement.shape_std + (ptrdiff_t)k * nsensor, largest = 0;
         double level = noise->shape * factor(truth, "SHAPE");
         for (int s = 0; s < nsensor; s++)
             largest = isfinite(shape[s]) ? fmax(largest, fabs(shape[s])) : largest;
         for (int s = 0; s < nsensor; s++) {
             if (!isfinite(shape[s]))
                 continue;
-            shape[s] += level * largest * normal(study, DRAW_SHAPE, point->replicate, job->number[k], job->rotor.sensor[s].id);
+            shape[s] += level * largest *
+                        normal(study, DRAW_SHAPE, point->replicate, job->measurement.number[k], job->rotor.sensor[s].id);
             std[s] = stated(from_model, std[s], noise->shape);
         }
     }
@@ -93,9 +96,9 @@ static int compare(const void *left, const void *right)
 /* A sensor that an effect or the hidden fault is about stays. */
 static int must_stay(const struct job *job, const struct truth *truth, int s)
 {
-    for (int i = 0; i < job->rotor.neffect + job->nsuspect; i++) {
+    for (int i = 0; i < job->rotor.neffect + job->unknowns.nsuspect; i++) {
         const struct effect *effect =
-            i < job->rotor.neffect ? &job->rotor.effect[i] : &job->suspect[i - job->rotor.neffect].effect;
+            i < job->rotor.neffect ? &job->rotor.effect[i] : &job->unknowns.suspect[i - job->rotor.neffect].effect;
         const struct cause_kind *cause = catalogue_of(effect);
         if (cause && cause->target == TARGET_SENSOR && effect->target == s)
             return 1;
@@ -142,18 +145,18 @@ static void follow(struct effect *effect, const int *new_index)
 static int own_effects(struct pool *pool, struct job *job, const int *new_index)
 {
     struct effect *effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
-    struct suspect *suspect = POOL_ARRAY(pool, struct suspect, job->nsuspect);
+    struct suspect *suspect = POOL_ARRAY(pool, struct suspect, job->unknowns.nsuspect);
     if (!effect || !suspect)
         return ROTID_ERROR_MEMORY;
     if (job->rotor.neffect)
         memcpy(effect, job->rotor.effect, (size_t)job->rotor.neffect * sizeof *effect);
-    if (job->nsuspect)
-        memcpy(suspect, job->suspect, (size_t)job->nsuspect * sizeof *suspect);
+    if (job->unknowns.nsuspect)
+        memcpy(suspect, job->unknowns.suspect, (size_t)job->unknowns.nsuspect * sizeof *suspect);
     job->rotor.effect = effect;
-    job->suspect = suspect;
+    job->unknowns.suspect = suspect;
     for (int i = 0; i < job->rotor.neffect; i++)
         follow(&effect[i], new_index);
-    for (int i = 0; i < job->nsuspect; i++)
+    for (int i = 0; i < job->unknowns.nsuspect; i++)
         follow(&suspect[i].effect, new_index);
     return ROTID_OK;
 }
@@ -185,21 +188,21 @@ int experiment_sensors(struct pool *pool, const struct study *study, const struc
     if (status)
         return status;
     /* noise is relative to the largest component, which may be one of those that go: it stays what it is in absolute terms */
-    if (job->shape)
+    if (job->measurement.shape)
         shapes_scale(job);
-    leave_rows(n, job->nmode, keep, job->shape);
-    leave_rows(n, job->nmode, keep, job->shape_std);
-    leave_rows(n, job->nmode, keep, job->point_frequency_hz);
-    leave_rows(n, job->nmode, keep, job->point_frequency_std);
+    leave_rows(n, job->measurement.nmode, keep, job->measurement.shape);
+    leave_rows(n, job->measurement.nmode, keep, job->measurement.shape_std);
+    leave_rows(n, job->measurement.nmode, keep, job->measurement.point_frequency_hz);
+    leave_rows(n, job->measurement.nmode, keep, job->measurement.point_frequency_std);
     for (int s = 0; s < n; s++)
         if (keep[s])
             job->rotor.sensor[new_index[s]] = job->rotor.sensor[s];
     job->rotor.nsensor = left;
-    if (job->shape)
+    if (job->measurement.shape)
         shapes_rescale(job);
-    if (sensor_find(job, job->hammer) < 0)
-        job->hammer = 0;
-    job->ncorrection = 0; /* they are in the data already, and what the deck read is of all sensors */
-    job->raw = NULL;
+    if (sensor_find(job, job->measurement.hammer) < 0)
+        job->measurement.hammer = 0;
+    job->measurement.ncorrection = 0; /* they are in the data already, and what the deck read is of all sensors */
+    job->measurement.raw = NULL;
     return ROTID_OK;
 }

@@ -20,15 +20,15 @@ static double true_value(struct rotor *rotor, const char *name)
 /* Room for shapes where the deck has sensors and the plan a noise of shapes. */
 static int add_shapes(struct pool *pool, const struct plan_noise *noise, struct job *job)
 {
-    size_t components = (size_t)job->rotor.nsensor * (size_t)job->nmode;
-    if (job->shape || !job->rotor.nsensor || isnan(noise->shape))
+    size_t components = (size_t)job->rotor.nsensor * (size_t)job->measurement.nmode;
+    if (job->measurement.shape || !job->rotor.nsensor || isnan(noise->shape))
         return ROTID_OK;
-    job->shape = POOL_ARRAY(pool, double, components); /* zeros: measured, and to be filled in */
-    job->shape_std = POOL_ARRAY(pool, double, components);
-    if (!job->shape || !job->shape_std)
+    job->measurement.shape = POOL_ARRAY(pool, double, components); /* zeros: measured, and to be filled in */
+    job->measurement.shape_std = POOL_ARRAY(pool, double, components);
+    if (!job->measurement.shape || !job->measurement.shape_std)
         return ROTID_ERROR_MEMORY;
     for (size_t i = 0; i < components; i++)
-        job->shape_std[i] = NAN;
+        job->measurement.shape_std[i] = NAN;
     return ROTID_OK;
 }
 
@@ -36,16 +36,17 @@ static int add_shapes(struct pool *pool, const struct plan_noise *noise, struct 
 static int own_data(struct pool *pool, const struct plan *plan, struct job *job)
 {
     int status = data_copy(pool, job);
-    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->nparameter);
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
     if (status || !bounds)
         return status ? status : ROTID_ERROR_MEMORY;
-    if (job->nparameter)
-        memcpy(bounds, job->bounds, (size_t)job->nparameter * sizeof *bounds);
-    job->bounds = bounds;
+    if (job->unknowns.nparameter)
+        memcpy(bounds, job->unknowns.bounds, (size_t)job->unknowns.nparameter * sizeof *bounds);
+    job->unknowns.bounds = bounds;
     if (plan->no_shapes) {
-        job->shape = job->shape_std = job->point_frequency_hz = job->point_frequency_std = NULL;
-        job->ncorrection = 0;
-        job->raw = NULL;
+        job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
+            job->measurement.point_frequency_std = NULL;
+        job->measurement.ncorrection = 0;
+        job->measurement.raw = NULL;
     }
     return ROTID_OK;
 }
@@ -66,11 +67,11 @@ static int from_model(struct pool *pool, struct jobs *jobs, const struct study_p
     if (!status)
         status = experiment_model(pool, jobs->study, point->replicate, truth, messages, &out->job);
     out->made_by = truth;
-    out->truth = POOL_ARRAY(pool, double, out->job.nparameter);
+    out->truth = POOL_ARRAY(pool, double, out->job.unknowns.nparameter);
     if (!status && !out->truth)
         status = ROTID_ERROR_MEMORY;
-    for (int p = 0; p < out->job.nparameter && !status; p++)
-        out->truth[p] = true_value(&truth->job.rotor, out->job.bounds[p].name);
+    for (int p = 0; p < out->job.unknowns.nparameter && !status; p++)
+        out->truth[p] = true_value(&truth->job.rotor, out->job.unknowns.bounds[p].name);
     return status;
 }
 
@@ -104,8 +105,8 @@ void experiment_starts(const struct study *study, const struct study_point *poin
 {
     const struct plan *plan = study->plan;
     long digits = point->start;
-    for (int p = 0; p < job->nparameter && plan->spread > 0; p++) {
-        rotid_parameter *bounds = &job->bounds[p];
+    for (int p = 0; p < job->unknowns.nparameter && plan->spread > 0; p++) {
+        rotid_parameter *bounds = &job->unknowns.bounds[p];
         double inside = 1e-6 * (bounds->upper - bounds->lower), reach = plan->spread * fabs(bounds->start);
         double lower = fmax(bounds->start - reach, bounds->lower + inside),
                upper = fmin(bounds->start + reach, bounds->upper - inside);

@@ -26,7 +26,8 @@ static struct override *overrides(struct pool *pool, const struct study *study, 
     if (noise >= 0) {
         const struct plan_noise *stated = &plan->noise[noise];
         if (stated->frequency > 0)
-            list[(*count)++] = (struct override){"NOISE", "FREQUENCY", pool_format(pool, "%.17g", stated->frequency), "noise", NULL};
+            list[(*count)++] =
+                (struct override){"NOISE", "FREQUENCY", pool_format(pool, "%.17g", stated->frequency), "noise", NULL};
         if (stated->shape > 0)
             list[(*count)++] = (struct override){"NOISE", "SHAPE", pool_format(pool, "%.17g", stated->shape), "noise", NULL};
     }
@@ -40,7 +41,7 @@ static struct override *overrides(struct pool *pool, const struct study *study, 
 static int lacks_noise(const struct job *job, const struct plan_noise *noise)
 {
     return (noise->frequency > 0 && !job_knows_frequency_noise(job)) ||
-           (noise->shape > 0 && job->shape && !job_knows_shape_noise(job));
+           (noise->shape > 0 && job->measurement.shape && !job_knows_shape_noise(job));
 }
 
 /* The deck by a functional that needs no noise: what it knows of that itself. */
@@ -74,8 +75,8 @@ int jobs_read_fitted(struct pool *pool, const struct study *study, const struct 
     list = overrides(pool, study, cell, cell->noise, &count);
     status = list ? deck_read(pool, path, count, list, messages, job) : ROTID_ERROR_MEMORY;
     if (!status && !bare_status) { /* the noise of the plan is added to this one */
-        job->frequency_std = bare.frequency_std;
-        job->shape_std = bare.shape_std;
+        job->measurement.frequency_std = bare.measurement.frequency_std;
+        job->measurement.shape_std = bare.measurement.shape_std;
     }
     return status;
 }
@@ -94,8 +95,8 @@ static void take_values(const struct job *job, struct truth *truth, double *valu
 {
     if (truth->effect)
         memcpy(value, job->rotor.effect[job->rotor.neffect - 1].value, sizeof truth->lower);
-    else if (job->ncorrection)
-        value[0] = job->correction[job->ncorrection - 1].value;
+    else if (job->measurement.ncorrection)
+        value[0] = job->measurement.correction[job->measurement.ncorrection - 1].value;
 }
 
 /* A component of a shape for a deck that has none: the plan makes them, and a fault of a sensor is one of shapes. */
@@ -111,7 +112,7 @@ static struct card *shape_card(struct pool *pool, const struct job *job, struct 
     field[1] = (struct field){"1", place};
     *line = (struct data_line){.place = place, .end = place, .text = "", .count = 2, .field = field};
     *option = (struct card_option){
-        .name = "MODE", .value = pool_format(pool, "%d", job->number[0]), .place = place, .value_place = place};
+        .name = "MODE", .value = pool_format(pool, "%d", job->measurement.number[0]), .place = place, .value_place = place};
     *card = (struct card){.name = "SHAPE", .place = place, .noption = 1, .nline = 1, .option = option, .line = line};
     return field[0].text && option->value ? card : NULL;
 }
@@ -138,7 +139,7 @@ int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int 
     int status = list ? deck_read(pool, path, count, list, messages, &truth->job) : ROTID_ERROR_MEMORY;
     if (status || !hidden->lower)
         return status;
-    if (!truth->job.shape && truth->job.rotor.nsensor && truth->job.nmode && makes_shapes(plan)) {
+    if (!truth->job.measurement.shape && truth->job.rotor.nsensor && truth->job.measurement.nmode && makes_shapes(plan)) {
         struct card *shape = shape_card(pool, &truth->job, hidden->place);
         if (!shape)
             return ROTID_ERROR_MEMORY;
@@ -157,7 +158,7 @@ int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int 
         truth->job = lower;
         truth->effect = &truth->job.rotor.effect[truth->job.rotor.neffect - 1];
     } else {
-        truth->fault = lower.correction[lower.ncorrection - 1];
+        truth->fault = lower.measurement.correction[lower.measurement.ncorrection - 1];
     }
     take_values(&lower, truth, truth->lower);
     take_values(&upper, truth, truth->upper);

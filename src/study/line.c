@@ -29,8 +29,8 @@ static struct study_run begin(const struct line *line)
     };
 }
 
-/* The pool, on which parts of the run hang, is closed. whole 0: memory was out. seconds stand last, before the stamp: so two lines
- * can be compared without them. */
+/* The pool, on which parts of the run hang, is closed. whole 0: memory was out. seconds stand last, before the stamp: so two
+ * lines can be compared without them. */
 static char *end(struct pool *pool, struct study_run *run, int whole, double seconds)
 {
     struct json_tree tree;
@@ -52,14 +52,15 @@ char *line_failed(const struct line *line, const char *error, double seconds)
     return end(&pool, &run, 1, seconds);
 }
 
-static struct run_parameter *parameters(struct pool *pool, const struct job *job, const rotid_fit_result *fit, const double *truth)
+static struct run_parameter *parameters(struct pool *pool, const struct job *job, const rotid_fit_result *fit,
+                                        const double *truth)
 {
     struct run_parameter *list = POOL_ARRAY(pool, struct run_parameter, fit->n);
     for (int p = 0; p < fit->n && list; p++)
-        list[p] = (struct run_parameter){.name = job->bounds[p].name,
-                                         .unit = job->bounds[p].unit,
+        list[p] = (struct run_parameter){.name = job->unknowns.bounds[p].name,
+                                         .unit = job->unknowns.bounds[p].unit,
                                          .value = fit->x[p],
-                                         .start = job->bounds[p].start,
+                                         .start = job->unknowns.bounds[p].start,
                                          .std = fit->std[p],
                                          .ci95 = {fit->ci_lower[p], fit->ci_upper[p]},
                                          .at_bound = fit->at_bound[p],
@@ -74,11 +75,11 @@ static struct run_mode *modes(struct pool *pool, const struct job *job, const st
     struct run_mode *list = POOL_ARRAY(pool, struct run_mode, fit->m);
     for (int k = 0; k < fit->m && list; k++)
         list[k] = (struct run_mode){.mode = compared->number[k],
-                                    .measured_hz = job->frequency_hz[k],
+                                    .measured_hz = job->measurement.frequency_hz[k],
                                     .predicted_hz = fit->predicted_hz[k],
-                                    .error_percent = 100 * (fit->predicted_hz[k] / job->frequency_hz[k] - 1),
+                                    .error_percent = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[k] - 1),
                                     .nco = compared->nco[k],
-                                    .holdout = job->holdout && job->holdout[k]};
+                                    .holdout = job->measurement.holdout && job->measurement.holdout[k]};
     return list;
 }
 
@@ -94,8 +95,8 @@ static struct run_hidden *hidden(struct pool *pool, const struct truth *truth)
         return NULL;
     out->id = truth->cause->id;
     for (int p = 0; (parameter = truth_parameter(truth, p)); p++)
-        out->parameters[out->nparameters++] = (struct run_value){parameter->name, parameter->unit,
-                                                                 truth->effect ? truth->effect->value[p] : truth->fault.value};
+        out->parameters[out->nparameters++] =
+            (struct run_value){parameter->name, parameter->unit, truth->effect ? truth->effect->value[p] : truth->fault.value};
     return out;
 }
 
@@ -109,8 +110,8 @@ static int add_fit(struct pool *pool, const struct experiment *experiment, const
     run->fit = out;
     run->status = !fit->converged ? STUDY_NOT_CONVERGED : fit->any_at_bound ? STUDY_AT_BOUND : STUDY_CONVERGED;
     *out = (struct run_fit){
-        .functional = functional_name(job->fit.functional),
-        .reduction = reduction_name(job->fit.reduction),
+        .functional = functional_name(job->options.fit.functional),
+        .reduction = reduction_name(job->options.fit.reduction),
         .objective = fit->objective,
         .chi2_per_dof = fit->chi2_per_dof,
         .dof = fit->dof,
@@ -142,9 +143,9 @@ static int add_baseline(struct pool *pool, const rotid_fit_result *fit, struct s
 {
     run->baseline = POOL_ARRAY(pool, struct run_minimiser, fit->nbaseline);
     for (int i = 0; i < fit->nbaseline && run->baseline; i++)
-        run->baseline[run->nbaseline++] =
-            (struct run_minimiser){fit->baseline[i].algorithm,   fit->baseline[i].usable, fit->baseline[i].objective,
-                                   fit->baseline[i].evaluations, fit->n,                  fit->baseline[i].x};
+        run->baseline[run->nbaseline++] = (struct run_minimiser){
+            fit->baseline[i].algorithm, fit->baseline[i].usable, fit->baseline[i].objective, fit->baseline[i].evaluations, fit->n,
+            fit->baseline[i].x};
     return run->baseline != NULL;
 }
 
@@ -177,8 +178,8 @@ static struct run_cause *causes(struct pool *pool, int count, const struct candi
         if (!list[i].parameters)
             return NULL;
         for (int p = 0; (parameter = candidate_parameter(&candidate[i], p)); p++)
-            list[i].parameters[list[i].nparameters++] = (struct run_cause_parameter){
-                parameter->name, parameter->unit, candidate[i].effect.value[p], candidate[i].std[p]};
+            list[i].parameters[list[i].nparameters++] =
+                (struct run_cause_parameter){parameter->name, parameter->unit, candidate[i].effect.value[p], candidate[i].std[p]};
     }
     return list;
 }
@@ -214,8 +215,8 @@ static double extended_truth(const struct experiment *experiment, const struct d
 {
     const struct truth *truth = experiment->made_by;
     const char *dot = strrchr(name, '.');
-    for (int p = 0; p < experiment->job.nparameter; p++)
-        if (same_text(name, experiment->job.bounds[p].name))
+    for (int p = 0; p < experiment->job.unknowns.nparameter; p++)
+        if (same_text(name, experiment->job.unknowns.bounds[p].name))
             return experiment->truth[p];
     for (int i = 0; i < d->ncause && dot; i++) {
         const struct candidate *c = &d->cause[i];
@@ -238,9 +239,9 @@ char *line_diagnosed(const struct line *line, const struct experiment *experimen
     struct pool pool;
     struct study_run run = begin(line);
     pool_open(&pool, NULL);
-    double *truth = POOL_ARRAY(&pool, double, job->nparameter);
-    for (int p = 0; p < job->nparameter && truth && experiment->made_by; p++)
-        truth[p] = extended_truth(experiment, d, job->bounds[p].name);
+    double *truth = POOL_ARRAY(&pool, double, job->unknowns.nparameter);
+    for (int p = 0; p < job->unknowns.nparameter && truth && experiment->made_by; p++)
+        truth[p] = extended_truth(experiment, d, job->unknowns.bounds[p].name);
     int whole = final->fit && truth &&
                 add_fit(&pool, experiment, job, &final->compared, final->fit, experiment->made_by ? truth : NULL, &run) &&
                 add_warnings(&pool, notes, &run) && add_diagnosis(&pool, experiment, d, &run);

@@ -34,8 +34,8 @@ static void draw_values(const struct study *study, long replicate, struct truth 
 {
     const struct plan *plan = study->plan;
     struct job *job = &truth->job;
-    for (int p = 0; p < job->nparameter; p++)
-        set(&job->rotor, job->bounds[p].name, job->bounds[p].start);
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        set(&job->rotor, job->unknowns.bounds[p].name, job->unknowns.bounds[p].start);
     for (int t = 0; t < plan->ntruth; t++)
         set(&job->rotor, plan->truth[t].name,
             draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));
@@ -53,7 +53,8 @@ static void draw_values(const struct study *study, long replicate, struct truth 
 static int place_sensors(struct pool *pool, const struct truth *truth, struct job *job)
 {
     *job = truth->job;
-    job->shape = job->shape_std = job->point_frequency_hz = job->point_frequency_std = NULL;
+    job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
+        job->measurement.point_frequency_std = NULL;
     if (!truth->cause || strcmp(truth->cause->id, "sensor_position") != 0)
         return ROTID_OK;
     job->rotor.sensor = POOL_ARRAY(pool, struct sensor, job->rotor.nsensor);
@@ -63,7 +64,7 @@ static int place_sensors(struct pool *pool, const struct truth *truth, struct jo
     memcpy(job->rotor.sensor, truth->job.rotor.sensor, (size_t)job->rotor.nsensor * sizeof *job->rotor.sensor);
     if (job->rotor.neffect)
         memcpy(job->rotor.effect, truth->job.rotor.effect, (size_t)job->rotor.neffect * sizeof *job->rotor.effect);
-    job->nsuspect = 0;
+    job->unknowns.nsuspect = 0;
     return correction_apply(pool, job, &truth->fault);
 }
 
@@ -144,12 +145,12 @@ static int solve_moving(struct pool *pool, const struct rotor *rotor, int refine
 
 static void take_mode(const struct rotor *rotor, const struct modes *modes, int k, struct job *job)
 {
-    const double *made = modes->shape + (ptrdiff_t)(job->number[k] - 1) * modes->nsensor;
+    const double *made = modes->shape + (ptrdiff_t)(job->measurement.number[k] - 1) * modes->nsensor;
     double largest = 0;
-    job->frequency_hz[k] = modes->hz[job->number[k] - 1];
-    if (!job->shape)
+    job->measurement.frequency_hz[k] = modes->hz[job->measurement.number[k] - 1];
+    if (!job->measurement.shape)
         return;
-    double *shape = job->shape + (ptrdiff_t)k * job->rotor.nsensor;
+    double *shape = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor;
     for (int s = 0; s < modes->nsensor; s++)
         largest = fmax(largest, fabs(made[s]));
     for (int s = 0; s < job->rotor.nsensor; s++) {
@@ -171,8 +172,8 @@ int experiment_model(struct pool *pool, const struct study *study, long replicat
     int status = place_sensors(pool, truth, &source), last = source.rotor.neffect - 1;
     if (status == ROTID_ERROR_ARGUMENT)
         message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "the hidden shift leaves the sensor no place of its own");
-    for (int k = 0; k < job->nmode; k++)
-        highest = job->number[k] > highest ? job->number[k] : highest;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        highest = job->measurement.number[k] > highest ? job->measurement.number[k] : highest;
     if (!status)
         status = modes_new(pool, highest, source.rotor.nsensor, &modes);
     /* a diagnosis refines its mesh until the error is below the noise, and would find what a coarse one leaves in the data */
@@ -180,13 +181,13 @@ int experiment_model(struct pool *pool, const struct study *study, long replicat
     int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;
     if (!status)
         status = moving ? solve_moving(pool, &source.rotor, refine, last, &modes) : solve(&source.rotor, refine, &modes);
-    for (int k = 0; k < job->nmode && !status; k++)
+    for (int k = 0; k < job->measurement.nmode && !status; k++)
         take_mode(&source.rotor, &modes, k, job);
     /* what else was measured is not that of this model */
-    job->point_frequency_hz = job->point_frequency_std = NULL;
-    job->hammer = job->ncorrection = 0;
-    job->raw = NULL;
-    job->has_noise_floor = 0;
+    job->measurement.point_frequency_hz = job->measurement.point_frequency_std = NULL;
+    job->measurement.hammer = job->measurement.ncorrection = 0;
+    job->measurement.raw = NULL;
+    job->measurement.has_noise_floor = 0;
     if (!status)
         experiment_fault(truth, 0, job);
     return status;

@@ -7,8 +7,6 @@
 #define MOST_REPLICATES 10000000
 #define MOST_GRID       1000
 
-static const char *const answers[] = {"NO", "YES", NULL};
-
 static int whole_option(struct plan_reader *reader, const struct card *card, const char *name, double least, double most,
                         double *value)
 {
@@ -42,7 +40,7 @@ void plan_study(struct plan_reader *reader, const struct card *card)
     no_data(reader, card);
     if (command && (word = deck_option_word(&reader->fields, command, commands)) >= 0)
         plan->command = (enum plan_command)word;
-    if (baseline && (word = deck_option_word(&reader->fields, baseline, answers)) >= 0)
+    if (baseline && (word = deck_option_word(&reader->fields, baseline, deck_answers)) >= 0)
         plan->baseline = word;
     if (whole_option(reader, card, "SEED", 0, 4294967295.0, &number))
         plan->seed = (unsigned long)number;
@@ -182,7 +180,7 @@ void plan_data(struct plan_reader *reader, const struct card *card)
     no_data(reader, card);
     if (source && (word = deck_option_word(&reader->fields, source, sources)) >= 0)
         reader->plan->from_model = word;
-    if (shapes && (word = deck_option_word(&reader->fields, shapes, answers)) >= 0)
+    if (shapes && (word = deck_option_word(&reader->fields, shapes, deck_answers)) >= 0)
         reader->plan->no_shapes = !word;
 }
 

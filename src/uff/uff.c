@@ -19,7 +19,7 @@ struct shape_list {
 };
 
 /* One reading. */
-struct job {
+struct uff_run {
     struct uff_reader *reader;
     const char *path;
     struct message_list *messages;
@@ -32,8 +32,8 @@ struct job {
 };
 
 /* Remembers that the set at `line` was not read: the format gives its name, such as "set 151". */
-static void note_skip(struct job *job, int line, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void note_skip(struct job *job, int line, const char *format, ...)
+static void note_skip(struct uff_run *job, int line, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void note_skip(struct uff_run *job, int line, const char *format, ...)
 {
     char what[sizeof job->skip[0].what];
     va_list values;
@@ -55,7 +55,7 @@ static void note_skip(struct job *job, int line, const char *format, ...)
     skip->count = 1;
 }
 
-static void say_skipped(struct job *job)
+static void say_skipped(struct uff_run *job)
 {
     for (int i = 0; i < job->skip_count; ++i) {
         const struct skip *skip = &job->skip[i];
@@ -70,7 +70,7 @@ static void say_skipped(struct job *job)
 }
 
 /* Notes that this set is no shape of a vibration; nonzero when it is to be skipped. */
-static int note_other_data(struct job *job, const struct uff_shape *shape)
+static int note_other_data(struct uff_run *job, const struct uff_shape *shape)
 {
     static const char *const analysis_name[] = {"unknown", "static", "", "", "transient", "", "buckling"};
     int analysis = shape->analysis_type;
@@ -92,7 +92,7 @@ static int note_other_data(struct job *job, const struct uff_shape *shape)
     return 0;
 }
 
-static int read_shape(struct job *job)
+static int read_shape(struct uff_run *job)
 {
     struct uff_shape shape;
     int status = uff_read_shape_kind(job->reader, &shape);
@@ -114,7 +114,7 @@ static int read_shape(struct job *job)
     return ROTID_OK;
 }
 
-static int read_nodes(struct job *job, const struct uff_set *set)
+static int read_nodes(struct uff_run *job, const struct uff_set *set)
 {
     struct uff_node_list *list = &job->nodes;
     size_t before = list->count;
@@ -129,7 +129,7 @@ static int read_nodes(struct job *job, const struct uff_set *set)
     return status;
 }
 
-static int read_sets(struct job *job)
+static int read_sets(struct uff_run *job)
 {
     for (;;) {
         struct uff_set set;
@@ -160,7 +160,7 @@ static int keep_shapes(struct pool *pool, const struct shape_list *list, int *co
 
 int uff_read(struct pool *pool, const char *path, struct message_list *messages, struct uff_file *out)
 {
-    struct job job = {.path = path, .messages = messages, .pool = pool};
+    struct uff_run job = {.path = path, .messages = messages, .pool = pool};
     *out = (struct uff_file){0};
     pool_open(&job.scratch, pool->allocator);
 

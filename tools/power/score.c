@@ -226,19 +226,21 @@ static int quiet_job(struct pool *pool, const struct diagnosis *d, const struct 
     const cJSON *shapes = cJSON_GetObjectItem(with, "shape"), *sensor;
     int nsensor = read->rotor.nsensor, row = 0;
     *job = *read;
-    job->fit = d->job.fit;
-    job->frequency_hz = POOL_ARRAY(pool, double, job->nmode);
-    job->shape = job->shape ? POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)job->nmode) : NULL;
-    *same = cJSON_GetArraySize(hz) == job->nmode && d->base.compared.nmode == job->nmode;
-    if (!job->frequency_hz || (read->shape && !job->shape))
+    job->options.fit = d->job.options.fit;
+    job->measurement.frequency_hz = POOL_ARRAY(pool, double, job->measurement.nmode);
+    job->measurement.shape =
+        job->measurement.shape ? POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)job->measurement.nmode) : NULL;
+    *same = cJSON_GetArraySize(hz) == job->measurement.nmode && d->base.compared.nmode == job->measurement.nmode;
+    if (!job->measurement.frequency_hz || (read->measurement.shape && !job->measurement.shape))
         return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < job->nmode && *same; k++)
-        job->frequency_hz[k] = cJSON_GetArrayItem(hz, k)->valuedouble;
+    for (int k = 0; k < job->measurement.nmode && *same; k++)
+        job->measurement.frequency_hz[k] = cJSON_GetArrayItem(hz, k)->valuedouble;
     cJSON_ArrayForEach(sensor, cJSON_GetObjectItem(truth, "sensors"))
     {
-        for (int s = 0; s < nsensor && job->shape && *same; s++)
-            for (int k = 0; k < job->nmode && job->rotor.sensor[s].id == number_of(sensor, "id"); k++)
-                job->shape[s + (ptrdiff_t)k * nsensor] = cJSON_GetArrayItem(cJSON_GetArrayItem(shapes, k), row)->valuedouble;
+        for (int s = 0; s < nsensor && job->measurement.shape && *same; s++)
+            for (int k = 0; k < job->measurement.nmode && job->rotor.sensor[s].id == number_of(sensor, "id"); k++)
+                job->measurement.shape[s + (ptrdiff_t)k * nsensor] =
+                    cJSON_GetArrayItem(cJSON_GetArrayItem(shapes, k), row)->valuedouble;
         row++;
     }
     return ROTID_OK;
@@ -248,7 +250,7 @@ static double fitted_chi2(struct pool *pool, const struct diagnosis *d, const st
 {
     rotid_fit_result *fit = NULL;
     double chi2 = NAN;
-    if (!identify_fit(pool, job, d->base.compared.number, job->holdout, &job->fit, NULL, NULL, &fit))
+    if (!identify_fit(pool, job, d->base.compared.number, job->measurement.holdout, &job->options.fit, NULL, NULL, &fit))
         chi2 = fit->chi2;
     rotid_fit_free(fit);
     return chi2;
@@ -310,8 +312,8 @@ static void take_parameters(const struct job *job, const rotid_fit_result *fit, 
     cJSON_ArrayForEach(parameter, cJSON_GetObjectItem(truth, "parameters"))
     {
         for (int p = 0; p < fit->n; p++)
-            if (same_text(job->bounds[p].name, text_of(parameter, "name")))
-                add_value(s, "", job->bounds[p].name, number_of(parameter, "value"), fit->x[p], fit->ci_lower[p],
+            if (same_text(job->unknowns.bounds[p].name, text_of(parameter, "name")))
+                add_value(s, "", job->unknowns.bounds[p].name, number_of(parameter, "value"), fit->x[p], fit->ci_lower[p],
                           fit->ci_upper[p]);
     }
 }

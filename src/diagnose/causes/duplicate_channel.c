@@ -8,11 +8,11 @@ static int correct(struct pool *pool, struct job *job, const struct correction *
 {
     (void)pool;
     int s = sensor_find(job, correction->sensor[0]);
-    if (s < 0 || !job->shape)
+    if (s < 0 || !job->measurement.shape)
         return ROTID_ERROR_ARGUMENT;
     shapes_scale(job);
-    for (int k = 0; k < job->nmode; k++)
-        job->shape[s + (ptrdiff_t)k * job->rotor.nsensor] = NAN;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        job->measurement.shape[s + (ptrdiff_t)k * job->rotor.nsensor] = NAN;
     shapes_rescale(job);
     return ROTID_OK;
 }

@@ -10,10 +10,10 @@ static int correct(struct pool *pool, struct job *job, const struct correction *
     (void)pool;
     int shape = correction->block && same_text(correction->block, "SHAPE"),
         frequency = correction->block && same_text(correction->block, "FREQUENCY");
-    if (!(isfinite(correction->value) && correction->value > 0) || !(shape || frequency) || (shape && !job->shape))
+    if (!(isfinite(correction->value) && correction->value > 0) || !(shape || frequency) || (shape && !job->measurement.shape))
         return ROTID_ERROR_ARGUMENT;
-    ptrdiff_t count = shape ? (ptrdiff_t)job->rotor.nsensor * job->nmode : job->nmode;
-    double *std = shape ? job->shape_std : job->frequency_std;
+    ptrdiff_t count = shape ? (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode : job->measurement.nmode;
+    double *std = shape ? job->measurement.shape_std : job->measurement.frequency_std;
     for (ptrdiff_t i = 0; i < count; i++)
         std[i] *= correction->value;
     return ROTID_OK;

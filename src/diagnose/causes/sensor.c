@@ -14,8 +14,9 @@ int sensor_find(const struct job *job, int id)
 static void divide_by_largest(struct job *job, int with_std)
 {
     int n = job->rotor.nsensor;
-    for (int k = 0; k < job->nmode && job->shape; k++) {
-        double *shape = job->shape + (ptrdiff_t)k * n, *std = job->shape_std + (ptrdiff_t)k * n, largest = 0;
+    for (int k = 0; k < job->measurement.nmode && job->measurement.shape; k++) {
+        double *shape = job->measurement.shape + (ptrdiff_t)k * n, *std = job->measurement.shape_std + (ptrdiff_t)k * n,
+               largest = 0;
         for (int s = 0; s < n; s++)
             if (isfinite(shape[s]))
                 largest = fmax(largest, fabs(shape[s]));
@@ -40,10 +41,10 @@ void shapes_rescale(struct job *job)
 void shapes_multiply(struct job *job, int s, double factor)
 {
     shapes_scale(job);
-    for (int k = 0; k < job->nmode && job->shape; k++) {
+    for (int k = 0; k < job->measurement.nmode && job->measurement.shape; k++) {
         ptrdiff_t at = s + (ptrdiff_t)k * job->rotor.nsensor;
-        job->shape[at] *= factor;
-        job->shape_std[at] *= fabs(factor);
+        job->measurement.shape[at] *= factor;
+        job->measurement.shape_std[at] *= fabs(factor);
     }
     shapes_rescale(job);
 }
@@ -57,15 +58,15 @@ static void exchange(double *a, double *b)
 
 void shapes_exchange(struct job *job, int a, int b)
 {
-    for (int k = 0; k < job->nmode && job->shape; k++) {
+    for (int k = 0; k < job->measurement.nmode && job->measurement.shape; k++) {
         ptrdiff_t mode = (ptrdiff_t)k * job->rotor.nsensor;
-        exchange(&job->shape[a + mode], &job->shape[b + mode]);
-        exchange(&job->shape_std[a + mode], &job->shape_std[b + mode]);
+        exchange(&job->measurement.shape[a + mode], &job->measurement.shape[b + mode]);
+        exchange(&job->measurement.shape_std[a + mode], &job->measurement.shape_std[b + mode]);
     }
-    for (int k = 0; k < job->nmode && job->point_frequency_hz; k++) {
+    for (int k = 0; k < job->measurement.nmode && job->measurement.point_frequency_hz; k++) {
         ptrdiff_t mode = (ptrdiff_t)k * job->rotor.nsensor;
-        exchange(&job->point_frequency_hz[a + mode], &job->point_frequency_hz[b + mode]);
-        exchange(&job->point_frequency_std[a + mode], &job->point_frequency_std[b + mode]);
+        exchange(&job->measurement.point_frequency_hz[a + mode], &job->measurement.point_frequency_hz[b + mode]);
+        exchange(&job->measurement.point_frequency_std[a + mode], &job->measurement.point_frequency_std[b + mode]);
     }
 }
 
@@ -82,22 +83,24 @@ static void *copy(struct pool *pool, const void *source, size_t count, size_t si
 int corrections_keep_raw(struct pool *pool, struct job *job)
 {
     int n = job->rotor.nsensor, failed = 0;
-    size_t components = (size_t)n * (size_t)job->nmode;
-    if (job->raw)
+    size_t components = (size_t)n * (size_t)job->measurement.nmode;
+    if (job->measurement.raw)
         return ROTID_OK;
     struct job_raw *raw = POOL_NEW(pool, struct job_raw);
     if (!raw)
         return ROTID_ERROR_MEMORY;
-    *raw = (struct job_raw){
-        .nsensor = n,
-        .sensor = copy(pool, job->rotor.sensor, (size_t)n, sizeof *raw->sensor, &failed),
-        .shape = copy(pool, job->shape, components, sizeof *raw->shape, &failed),
-        .shape_std = copy(pool, job->shape_std, components, sizeof *raw->shape_std, &failed),
-        .frequency_std = copy(pool, job->frequency_std, (size_t)job->nmode, sizeof *raw->frequency_std, &failed),
-        .point_frequency_hz = copy(pool, job->point_frequency_hz, components, sizeof *raw->point_frequency_hz, &failed),
-        .point_frequency_std = copy(pool, job->point_frequency_std, components, sizeof *raw->point_frequency_std, &failed)};
+    *raw = (struct job_raw){.nsensor = n,
+                            .sensor = copy(pool, job->rotor.sensor, (size_t)n, sizeof *raw->sensor, &failed),
+                            .shape = copy(pool, job->measurement.shape, components, sizeof *raw->shape, &failed),
+                            .shape_std = copy(pool, job->measurement.shape_std, components, sizeof *raw->shape_std, &failed),
+                            .frequency_std = copy(pool, job->measurement.frequency_std, (size_t)job->measurement.nmode,
+                                                  sizeof *raw->frequency_std, &failed),
+                            .point_frequency_hz = copy(pool, job->measurement.point_frequency_hz, components,
+                                                       sizeof *raw->point_frequency_hz, &failed),
+                            .point_frequency_std = copy(pool, job->measurement.point_frequency_std, components,
+                                                        sizeof *raw->point_frequency_std, &failed)};
     if (failed)
         return ROTID_ERROR_MEMORY;
-    job->raw = raw;
+    job->measurement.raw = raw;
     return ROTID_OK;
 }

@@ -8,7 +8,7 @@ static int correct(struct pool *pool, struct job *job, const struct correction *
 {
     (void)pool;
     int s = sensor_find(job, correction->sensor[0]);
-    if (s < 0 || !job->shape || !(isfinite(correction->value) && correction->value > 0))
+    if (s < 0 || !job->measurement.shape || !(isfinite(correction->value) && correction->value > 0))
         return ROTID_ERROR_ARGUMENT;
     shapes_multiply(job, s, 1 / correction->value);
     return ROTID_OK;

@@ -63,8 +63,8 @@ static void exchange(struct job *job, int a, int b)
     shapes_exchange(job, a, b);
     for (int i = 0; i < job->rotor.neffect; i++)
         exchange_target(&job->rotor.effect[i], a, b);
-    for (int i = 0; i < job->nsuspect; i++)
-        exchange_target(&job->suspect[i].effect, a, b);
+    for (int i = 0; i < job->unknowns.nsuspect; i++)
+        exchange_target(&job->unknowns.suspect[i].effect, a, b);
 }
 
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)

@@ -6,7 +6,7 @@ static int correct(struct pool *pool, struct job *job, const struct correction *
 {
     (void)pool;
     int a = sensor_find(job, correction->sensor[0]), b = sensor_find(job, correction->sensor[1]);
-    if (a < 0 || b < 0 || a == b || !job->shape)
+    if (a < 0 || b < 0 || a == b || !job->measurement.shape)
         return ROTID_ERROR_ARGUMENT;
     shapes_exchange(job, a, b);
     return ROTID_OK;
