@@ -186,6 +186,20 @@ static void every_command_writes_json(void **state)
     }
 }
 
+/* the library takes a seed of 0 for its default */
+static void a_diagnosis_states_the_seed_that_was_used(void **state)
+{
+    (void)state;
+    for (int seed = 0; seed < 3; seed++) {
+        char text[2] = {(char)('0' + seed), 0};
+        struct outcome outcome = run("diagnose", BRAKE, "--json", "-", "--replicates=100", "--seed", text);
+        cJSON *json = cJSON_Parse(outcome.out);
+        assert_int_equal(get(json, "seed")->valueint, seed ? seed : 1);
+        cJSON_Delete(json);
+        forget(&outcome);
+    }
+}
+
 static void json_is_utf_8_whatever_the_deck_holds(void **state)
 {
     (void)state;
@@ -352,6 +366,7 @@ int main(void)
         cmocka_unit_test(quiet_commands_print_nothing),
         cmocka_unit_test(json_of_identify_has_the_keys_of_the_interface),
         cmocka_unit_test(every_command_writes_json),
+        cmocka_unit_test(a_diagnosis_states_the_seed_that_was_used),
         cmocka_unit_test(json_is_utf_8_whatever_the_deck_holds),
         cmocka_unit_test(a_result_at_a_bound_is_written_and_exits_1),
         cmocka_unit_test(a_parameter_without_effect_is_flagged_and_exits_1),

@@ -45,6 +45,8 @@ int command_diagnose(struct command *command)
 {
     char failure[ROTID_FAILURE_LENGTH];
     double last = 0;
+    if (!command->seed) /* of which the library takes its default: the result states the one that was used */
+        command->provenance.seed = command->seed = 1;
     const rotid_diagnose_options options = {.size = sizeof options,
                                             .threads = command->threads,
                                             .replicates = command->replicates,
