@@ -1,5 +1,5 @@
-/* The sections of a diagnosis, in the order in which one asks: is the measurement sound, where does the model miss it, what could
- * cause that, what is it worth, what could not have been seen. */
+/* The sections of a diagnosis, in the order in which a reader asks: is the measurement sound, where does the model miss the
+ * measurement, which causes are possible, what does the extended model gain, which effects stay undetected. */
 #include <math.h>
 
 #include "page/cause_words.h"
