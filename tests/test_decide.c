@@ -224,7 +224,7 @@ static void what_makes_the_fit_worse_is_refused(void **state)
     add("tie_shear", "ties", 0, -237);
     add("density", "left", 1, 40);
     conclude_as(VERDICT_NAMED, 1);
-    assert_reason("tie_shear", "worse with it");
+    assert_reason("tie_shear", "worse with this cause");
 }
 
 static void modes_held_out_speak(void **state)
@@ -234,7 +234,7 @@ static void modes_held_out_speak(void **state)
     before.holdout_rms = 1;
     add("support", "foam", 1, 50)->holdout_rms = 1.2;
     conclude_as(VERDICT_UNEXPLAINED, 0);
-    assert_reason("support", "held out get worse");
+    assert_reason("support", "prediction of held-out modes gets worse");
     open_round(); /* as good as before is allowed */
     before.holdout_rms = 1;
     add("support", "foam", 1, 50)->holdout_rms = 1.05;
@@ -261,7 +261,7 @@ static void modes_left_out_in_turn_speak(void **state)
     before.sensor_out_rms = 1.2;
     add("joint", "core|right", 1, 50)->mode_out_rms = 1.4;
     conclude_as(VERDICT_UNEXPLAINED, 0);
-    assert_reason("joint", "left out in turn get worse");
+    assert_reason("joint", "left out in turn gets worse");
     open_round(); /* the sensors say otherwise */
     before.mode_out_rms = 0.6;
     before.sensor_out_rms = 1.2;

@@ -40,7 +40,7 @@ static void assert_nested(const struct diagnosis *d)
             if (c->chi2_drop < -0.01 && (c->cause->effect->nparameter || !c->rejected_because || i < d->round[r].nset))
                 fail_msg("round %d: %s %s changes chi2 by %+g", r + 1, c->cause->id, c->target, -c->chi2_drop);
             if (c->refitted && isnan(c->chi2))
-                assert_says(c->rejected_because, "no fit of it got below");
+                assert_says(c->rejected_because, "no fit of this cause reached a smaller chi2");
         }
 }
 

@@ -94,7 +94,7 @@ static void a_named_cause_is_told_with_its_evidence_and_its_worth(void **state)
     static const char *const figures[] = {"rotor", "residuals", "places", "evidence", "improvement", "gain", "change", "shapes"};
     for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
         page_says(html, "<figure id=\"%s\">", figures[i]);
-    static const char *const sections[] = {"trust", "basis", "look", "misfit", "causes", "worth", "blind"};
+    static const char *const sections[] = {"trust", "basis", "look", "misfit", "causes", "worth", "limits"};
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++)
         page_says(html, "<section id=\"%s\">", sections[i]);
     cJSON_Delete(json);
@@ -144,10 +144,10 @@ static void what_cannot_be_told_apart_is_listed_with_what_would_settle_it(void *
     assert_string_equal(text_of(verdict, "kind"), "ambiguous");
     assert_int_equal(count, 16);
     page_says(html, "Ambiguous: one of %d causes", count);
-    page_says(html, "these data cannot tell which of %d causes it is, nor surely that it is one of them", count);
+    page_says(html, "these data cannot tell which of %d causes is present, nor surely that any of them is", count);
     page_says(html, "%d more.", count - 3);
     page_says(html, "Next: measure mode shapes (some 30 points or more along the rotor, *NOISE, SHAPE=); measure mode ");
-    page_says(html, "a name asks for a lead of %.0f", number_of(element(json, "rounds", 0), "required_margin"));
+    page_says(html, "a name requires a lead of %.0f", number_of(element(json, "rounds", 0), "required_margin"));
     page_says(html, "The deck does not state all of the noise");
     page_says(html, "frequencies 0.30\xc2\xa0%% (assumed)");
     page_says(html, "No shape was fitted, so nothing can be said of single sensors.");
@@ -170,7 +170,7 @@ static void what_nothing_explains_says_what_was_refused(void **state)
     assert_string_equal(text_of(get(json, "verdict"), "kind"), "unexplained");
     page_says(html, "class=\"answer bad\"");
     page_says(html, "<p class=\"tone\">Unexplained</p>");
-    page_says(html, "nothing in the catalogue of causes explains it");
+    page_says(html, "no cause in the catalogue explains the misfit");
     page_says(html, "Nothing is left to name: the longest bar, %s, was refused because %s",
               text_of(element(json, "candidates", 0), "id"), text_of(element(json, "candidates", 0), "rejected_because"));
     page_says(html, "modes with a star were held out of the fit");
@@ -190,13 +190,13 @@ static void an_adequate_model_and_a_fault_of_the_data_are_told_apart(void **stat
     assert_string_equal(text_of(get(json, "verdict"), "kind"), "adequate");
     page_says(html, "class=\"answer good\"");
     page_says(html, "The model explains the measurement within its noise");
-    page_says(html, "Next: read the blind spots");
+    page_says(html, "Next: read the detection limits");
     page_says(html, "Nothing promised enough to be fitted.");
     assert_null(strstr(html, "<figure id=\"places\">")); /* the most of mere noise is no place to look at */
     assert_null(strstr(html, "<figure id=\"evidence\">"));
     assert_null(strstr(html, "<section id=\"findings\">"));
     const cJSON *size = element(json, "detectable", 0);
-    page_says(html, "<section id=\"blind\">");
+    page_says(html, "<section id=\"limits\">");
     page_says(html, "%s", text_of(size, "parameter"));
     cJSON_Delete(json);
 
@@ -240,7 +240,7 @@ static void an_interrupted_diagnosis_says_so_and_shows_what_is_there(void **stat
         cJSON_ReplaceItemInObject(json, empty[i], cJSON_CreateArray());
     page_write_json("early.json", json); /* after the base model */
     html = page_made("early.json");
-    page_says(html, "Below stands what was finished");
+    page_says(html, "The finished part stands below");
     page_says(html, "<figure id=\"residuals\">");
     assert_null(strstr(html, "<figure id=\"evidence\">"));
 
@@ -267,22 +267,22 @@ static void rare_verdicts_are_told_as_well(void **state)
     cJSON *json = page_json("mass.json"), *paper = page_json("paper.json"), *verdict = cJSON_GetObjectItem(json, "verdict");
     cJSON_ReplaceItemInObject(verdict, "adequate_after", cJSON_CreateFalse());
     page_write_json("more.json", json);
-    page_says(page_made("more.json"), "still leaves more than noise, and nothing in the catalogue explains that");
+    page_says(page_made("more.json"), "the residual still exceeds the noise, and no cause in the catalogue explains the rest");
     cJSON *one = cJSON_CreateArray();
     cJSON_AddItemToArray(one, cJSON_Duplicate(element(get(paper, "verdict"), "alternative_causes", 1), 1));
     cJSON_ReplaceItemInObject(verdict, "alternative_causes", one);
     page_write_json("second.json", json);
-    page_says(page_made("second.json"), "What is left then, these data cannot tell: it may be ");
+    page_says(page_made("second.json"), "These data cannot tell what causes the rest: it may be ");
     cJSON_ReplaceItemInObject(verdict, "causes", cJSON_CreateArray());
     cJSON_ReplaceItemInObject(verdict, "kind", cJSON_CreateString("ambiguous"));
     cJSON_ReplaceItemInObject(json, "extended", cJSON_CreateNull());
     page_write_json("single.json", json);
     const char *html = page_made("single.json");
     page_says(html, "Ambiguous: no name can be given");
-    page_says(html, "these data cannot carry its name: ");
+    page_says(html, "these data do not suffice to name a cause: ");
     cJSON_ReplaceItemInObject(cJSON_GetArrayItem(one, 0), "id", cJSON_CreateString("<another>")); /* of a newer catalogue */
     page_write_json("newer.json", json);
-    page_says(page_made("newer.json"), "cannot carry its name: &lt;another&gt; of right");
+    page_says(page_made("newer.json"), "do not suffice to name a cause: &lt;another&gt; of right");
     cJSON_Delete(json);
     cJSON_Delete(paper);
 }

@@ -327,7 +327,7 @@ static void a_variant_may_be_named_like_an_axis(void **state)
     make_study("named", "*STUDY\n*DECKS\nbeam.inp\n*VARIANT, NAME=xmodes 1\n*VARIANT, NAME=of "
                         "likelihood\nFIT.FUNCTIONAL=HYBRID_F\n*MODES\n1-3\n1-4\n");
     const char *html = page_made("named.jsonl"),
-               *caption = strstr(html, "What is left of the functional for each pair of modes: xmodes 1 ");
+               *caption = strstr(html, "Mean functional for each pair of modes at the optimum: xmodes 1 ");
     assert_non_null(caption);
     page_says(caption, " with 3 modes, ");
     page_says(caption, "; of likelihood ");

@@ -499,7 +499,7 @@ static void a_named_cause_is_read_from_top_to_bottom(void **state)
         assert_order(parts[i - 1], parts[i]);
     assert_says("core.E 1.178e+11 Pa: +0.9 % off the full model by the likelihood, +2.8 % off the extended one");
     assert_says("sensor_gain sensor 23: 1.4 +- 0.03, chi2 less by 180; sensor 23 reads");
-    assert_says("adequate model): below 0.001; with what is named it is adequate");
+    assert_says("adequate model): below 0.001; the extended model is adequate");
     assert_says("flexibility 2.13e-10 rad/(N.m) (1.92e-10 ... 2.34e-10)");
     assert_says("      NAMED: flexibility");
     assert_says("; rejected: it leaves 31 of chi2");
@@ -568,7 +568,7 @@ static void each_verdict_says_its_own(void **state)
     fill_unexplained();
     show(0, 100);
     assert_says("VERDICT  UNEXPLAINED");
-    assert_says("what is left is more than noise");
+    assert_says("the residual still exceeds the noise");
     assert_silent("\n  * ");
 }
 

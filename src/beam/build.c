@@ -28,7 +28,7 @@ static int build_sections(struct beam *beam, int *failed)
     return ROTID_OK;
 }
 
-/* The rest of what a beam needs once its rotor, sections, mesh and hinges are there: what depends on the values of the rotor. */
+/* Completes a beam that has its rotor, sections, mesh and hinges, by the parts that depend on the values of the rotor. */
 static int finish(struct pool *pool, struct beam *beam)
 {
     struct mass_properties own;

@@ -1,10 +1,11 @@
 /* Joints: a massless rotational spring in series with an element, at the end of it that lies at the interface, statically
  * condensed.
  *
- * This is the place that states what hangs where. The node at the interface, with all that is attached to it (tie rods, springs,
- * disks, masses at that very place), is on one side of the joint, the element with the hinge on the other. Where a bundle of tie
- * rods begins or ends at the interface, it presses the joint together and holds on to what is outside: the hinge is in the
- * element between its ends. Elsewhere, and between two bundles, the hinge is in the element left of the interface. */
+ * This comment states which part is attached to which side. The node at the interface, with all parts attached to the node (tie
+ * rods, springs, disks, masses at that very place), is on one side of the joint, the element with the hinge on the other. Where a
+ * bundle of tie rods begins or ends at the interface, the bundle presses the joint together and holds on to the parts outside: the
+ * hinge is in the element between the ends of the bundle. Elsewhere, and between two bundles, the hinge is in the element left of the
+ * interface. */
 #ifndef ROTID_BEAM_HINGE_H
 #define ROTID_BEAM_HINGE_H
 

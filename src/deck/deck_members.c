@@ -1,4 +1,4 @@
-/* Cards of what is attached to the shaft: rods, bars, holes, forces, disks, springs, the sling. */
+/* Cards of the parts that are attached to the shaft: rods, bars, holes, forces, disks, springs, the sling. */
 #include <math.h>
 #include <string.h>
 

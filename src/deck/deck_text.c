@@ -235,7 +235,7 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     card->line[card->nline++] = data;
 }
 
-/* Overwrites what is behind the line. Returns 1 where the file is not text, which ends the reading of it. */
+/* Overwrites the text behind the line. Returns 1 where the file is not text, which ends the reading. */
 static int read_line(struct reader *reader, char *whole, size_t length, int line)
 {
     const char *line_text = whole;

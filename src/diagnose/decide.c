@@ -84,20 +84,20 @@ static const char *reason(const struct engine *engine, const struct before *befo
     if (!c->refitted)
         return "promises too little";
     if (!isfinite(c->chi2))
-        return "no fit of it got below the model without it";
+        return "no fit of this cause reached a smaller chi2 than the model without the cause";
     if (c->chi2_drop < -REFIT_WORSE) /* it replaces something, or its size is fixed: no part of the model before */
-        return "the model is worse with it";
+        return "the model is worse with this cause";
     if (c->at_bound)
         return pool_format(pool, "its size ends at the physical bound");
     double most = fmax(0, engine->moving.mass) + SURE * engine->moving.std;
     if (engine->moving.usable && is_moving_accelerometer(&c->effect) && c->effect.value[0] > most)
         return pool_format(pool, "the frequencies at single sensors allow no more than %.2g kg", most);
     if (isfinite(c->holdout_rms) && c->holdout_rms > WORSE * before->holdout_rms)
-        return pool_format(pool, "modes held out get worse: %.2g %% after %.2g %%", c->holdout_rms, before->holdout_rms);
+        return pool_format(pool, "the prediction of held-out modes gets worse: %.2g %% after %.2g %%", c->holdout_rms, before->holdout_rms);
     int worse = isfinite(c->mode_out_rms) && c->mode_out_rms > WORSE * before->mode_out_rms,
         no_better = !(isfinite(c->sensor_out_rms) && c->sensor_out_rms < before->sensor_out_rms);
     if (worse && c->mode_out_rms > 2 * frequency_noise(&engine->job) && no_better)
-        return pool_format(pool, "modes left out in turn get worse: %.2g %% after %.2g %%", c->mode_out_rms,
+        return pool_format(pool, "the prediction of modes left out in turn gets worse: %.2g %% after %.2g %%", c->mode_out_rms,
                            before->mode_out_rms);
     return NULL;
 }

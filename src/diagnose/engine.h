@@ -1,4 +1,4 @@
-/* What the steps of a diagnosis share. */
+/* The state that the steps of a diagnosis share. */
 #ifndef ROTID_DIAGNOSE_ENGINE_H
 #define ROTID_DIAGNOSE_ENGINE_H
 

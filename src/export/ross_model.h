@@ -33,8 +33,8 @@ struct ross_model {
     double *deck_hz; /* [spectrum->count] of the deck's own model for each of them, NaN without a partner; NULL: the same */
 };
 
-/* Says in `notes` what is replaced and what that costs, and what holds at rest only. Statuses of model_open and
- * spectrum_compute. */
+/* Lists in `notes` the replaced parts with the error that each replacement causes, and the parts that hold at rest only.
+ * Statuses of model_open and spectrum_compute. */
 int ross_open(struct pool *pool, const struct export_model *model, struct message_list *notes, struct ross_model *ross);
 
 /* Of an element of the axis. ROTID_OK or ROTID_ERROR_MEMORY. */

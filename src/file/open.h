@@ -10,15 +10,15 @@
 #define FILE_WAIT 5.0 /* s */
 
 /* Takes the numbers 0, 1 and 2 where they are closed, with a directory, of which nothing is read and to which nothing is written:
- * else the next file would have them, and what is said on standard error would stand in it. Nonzero with errno where that fails.
- */
+ * else the next file would have these numbers, and messages on standard error would be written into that file.
+ * Nonzero with errno where that fails. */
 int file_hold_standard(void);
 
-/* Opens what is there for reading and waits for nobody; *about as by fstat. A descriptor that does not wait while it is read
+/* Opens an existing file for reading and waits for nobody; *about as by fstat. A descriptor that does not wait while it is read
  * either (regular files never do), or -1 with errno. */
 int file_descriptor(const char *path, struct stat *about);
 
-/* The stream of a regular file, NULL with errno for what is absent or something else (EISDIR, EINVAL). */
+/* The stream of a regular file, NULL with errno where the path has no file or no regular one (EISDIR, EINVAL). */
 FILE *file_open_regular(const char *path, struct stat *about);
 
 /* The stream of a file, a device, a pipe (/dev/stdin, <(...)) or a named pipe, which reads as usual from then on; NULL with

@@ -7,7 +7,7 @@
 #include "rotid.h"
 
 #define MU_MOST    1e16   /* beyond it a step is below rounding */
-#define MU_LEAST   1e-100 /* nothing at all: what is left is `floor` */
+#define MU_LEAST   1e-100 /* no damping; `floor` remains */
 #define FIRST      10     /* a first step changes x by no more than this many times itself (More 1978: 0.1 to 100) */
 #define LONGER     4      /* than the last step that was good, at most */
 #define SHORTER    0.1    /* than a step that failed, at least */
@@ -30,14 +30,14 @@ struct lm {
     double unit;              /* a power of two: the largest component of unit r is between a half and one, and its square has a
                                  double whatever the size of r. Below, what is "in units" is multiplied by it, without rounding */
     double *scaled;           /* r in units */
-    double objective;         /* half the square of that */
+    double objective;         /* half the square of r in units */
     double *trial, *trial_r, *trial_jacobian;
     double *step, *gradient; /* in units */
     double *norm, *scale, *scratch, *work;
     double *floor; /* of the damping: parts of the columns of J too small to tell from its rounding */
     rotid_lm_result *result;
     double mu;     /* relative to the present size of J */
-    double size;   /* that: the largest |J_j|/D_j, 1 unless every column has shrunk */
+    double size;   /* present size of J: the largest |J_j|/D_j, 1 unless every column has shrunk */
     double fall;   /* factor of mu behind the next good step */
     double radius; /* of |D h|, in units */
     double length, gain;
@@ -99,7 +99,7 @@ static double largest_cosine(const struct lm *lm, const double *r, const double 
     return largest;
 }
 
-/* The Jacobian at a point that has a residual, the last one that was asked for. Nonzero where there is none that can be used. */
+/* The Jacobian at the point whose residual was computed last. Nonzero where no usable Jacobian exists. */
 static int ask_jacobian(struct lm *lm, const double *x, double *jacobian)
 {
     lm->result->jacobians++;
@@ -165,7 +165,7 @@ static int negligible(const struct lm *lm, const double *step)
     return 1;
 }
 
-/* step [n] of damping mu >= what is given, within radius. */
+/* step [n] within radius; its damping is the given mu or larger. */
 static int solve(struct lm *lm, double radius, double *mu, double *step)
 {
     double square = lm->size * lm->size, damping = *mu * square;
@@ -238,7 +238,7 @@ static void relax(struct lm *lm)
     lm->radius = lm->gain < 0.25 ? HALF * lm->length : LONGER * lm->length;
 }
 
-/* Behind one that was not: f along it is a parabola through what is known, whose minimum is the next length (More 1978). */
+/* After a rejected step: f along the step is a parabola through the known values, whose minimum is the next length (More 1978). */
 static void tighten(struct lm *lm, double actual, int refused)
 {
     double slope = 0;

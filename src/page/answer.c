@@ -51,7 +51,7 @@ static void on_convergence(struct reasons *reasons, const rotid_identification *
                         human_plural(fit->iterations, "iteration", "iterations"), fit->stop_reason));
     else if (!strcmp(fit->status, "at_bound"))
         say(reasons, TONE_BAD,
-            "The fit ended with a parameter pressed against its bound: what it would be without the bound is not known.");
+            "The fit ended with a parameter pressed against its bound: its value without the bound is not known.");
     else
         say(reasons, TONE_BAD, pool_format(pool, "The fit did not converge: %s.", fit->stop_reason));
     const char *held = "", *loose = "";
@@ -108,7 +108,7 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
                         fit->modes[worst].mode));
     if (isfinite(held))
         say(reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,
-            pool_format(pool, "Of the modes that were held out it leaves %s\xc2\xa0%% rms.", human_digits(pool, held, 2)));
+            pool_format(pool, "The prediction error on held-out modes is %s\xc2\xa0%% rms.", human_digits(pool, held, 2)));
     if (!noisy)
         return;
     if (fit_p_value(fit) < JUDGEMENT_CHANCE)

@@ -66,14 +66,14 @@ static int unsure(const rotid_diagnosis *d)
 static const char *named(struct pool *pool, const rotid_diagnosis *d)
 {
     const char *what = causes(pool, d, d->verdict.ncauses, d->verdict.causes, "; and "),
-               *with = d->verdict.ncauses > 1 ? "With them" : "With it";
+               *with = d->verdict.ncauses > 1 ? "With these causes" : "With this cause";
     if (d->verdict.adequate_after)
-        return pool_format(pool, "The model lacks %s. %s it explains the measurement within its noise.", what, with);
+        return pool_format(pool, "The model lacks %s. %s the model explains the measurement within its noise.", what, with);
     if (d->verdict.nalternative_causes)
-        return pool_format(pool, "The model lacks %s. What is left then, these data cannot tell: it may be %s.", what,
+        return pool_format(pool, "The model lacks %s. These data cannot tell what causes the rest: it may be %s.", what,
                            causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
     return pool_format(
-        pool, "The model lacks %s. %s it still leaves more than noise, and nothing in the catalogue explains that.", what, with);
+        pool, "The model lacks %s. %s the residual still exceeds the noise, and no cause in the catalogue explains the rest.", what, with);
 }
 
 static const char *verdict(struct pool *pool, const rotid_diagnosis *d)
@@ -85,10 +85,10 @@ static const char *verdict(struct pool *pool, const rotid_diagnosis *d)
                : d->verdict.ncauses
                    ? pool_format(
                          pool,
-                         "The diagnosis was interrupted before a verdict. A round that was finished would name %s; what would "
-                         "have followed may speak against it.",
+                         "The diagnosis was interrupted before a verdict. A round that was finished would name %s; the rounds "
+                         "that did not run may speak against that.",
                          causes(pool, d, d->verdict.ncauses, d->verdict.causes, "; and "))
-                   : "The diagnosis was interrupted before a verdict. Below stands what was finished: it shows where the model "
+                   : "The diagnosis was interrupted before a verdict. The finished part stands below: it shows where the model "
                      "misses the measurement, and does not say why.";
     case ROTID_ADEQUATE:
         text = "The model explains the measurement within its noise: these data give no reason to doubt it.";
@@ -99,21 +99,21 @@ static const char *verdict(struct pool *pool, const rotid_diagnosis *d)
     case ROTID_AMBIGUOUS:
         text = d->verdict.nalternative_causes == 1
                    ? pool_format(pool,
-                                 "Something is wrong with the model. One cause would explain it, but these data cannot carry its "
-                                 "name: %s.",
+                                 "Something is wrong with the model. One cause would explain the misfit, but these data do not "
+                                 "suffice to name a cause: %s.",
                                  causes(pool, d, 1, d->verdict.alternative_causes, ""))
                    : pool_format(pool,
-                                 "Something is wrong with the model, and these data cannot tell which of %s causes it is%s: %s.",
+                                 "Something is wrong with the model, and these data cannot tell which of %s causes is present%s: %s.",
                                  human_count(pool, d->verdict.nalternative_causes),
-                                 unsure(d) ? ", nor surely that it is one of them" : "",
+                                 unsure(d) ? ", nor surely that any of them is" : "",
                                  causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
         break;
     case ROTID_UNEXPLAINED:
-        text = "Something is wrong with the model, and nothing in the catalogue of causes explains it.";
+        text = "Something is wrong with the model, and no cause in the catalogue explains the misfit.";
         break;
     }
     return pool_format(pool, "%s%s%s", or_nothing(text), faults(pool, d),
-                       d->interrupted ? " It was interrupted afterwards: what follows is not complete." : "");
+                       d->interrupted ? " The diagnosis was interrupted afterwards: the rest of this page is not complete." : "");
 }
 
 /* "step_stiffness and added_mass" */
@@ -163,9 +163,9 @@ static const char *next(struct pool *pool, const rotid_diagnosis *d, const char 
     if (d->verdict.kind == -1)
         return pool_format(pool, "Next: run rotid diagnose %s to its end.", deck);
     if (d->verdict.kind == ROTID_ADEQUATE)
-        return "Next: read the blind spots below before you rely on the moduli. What is smaller than they say may be there.";
+        return "Next: read the detection limits below before you rely on the moduli. Smaller effects may be present.";
     if (d->verdict.kind == ROTID_NAMED && *look && !(text && strstr(text, look))) /* or it says it already */
-        text = pool_format(pool, "%s%s%s", look, text ? "; and " : ", before you believe it", text ? text : "");
+        text = pool_format(pool, "%s%s%s", look, text ? "; and " : ", before you believe the verdict", text ? text : "");
     return text ? pool_format(pool, "Next: %s.", text) : NULL;
 }
 
@@ -187,8 +187,8 @@ static void on_chance(struct reasons *reasons, const rotid_diagnosis *d)
                         "100 tests.",
                         human_digits(pool, round->largest, 2), human_digits(pool, round->threshold, 2)));
     if (assumed)
-        say(reasons, "The deck does not state all of the noise. What is assumed stands below; with another noise the verdict may "
-                     "be another one, so no cause is named: state *NOISE.");
+        say(reasons, "The deck does not state all of the noise. The assumed values stand below; another noise may change the "
+                     "verdict, so no cause is named: state *NOISE.");
 }
 
 static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
@@ -204,7 +204,7 @@ static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
         tried += candidate[i].refitted;
     if (d->verdict.kind == ROTID_NAMED && first >= 0 && second >= 0)
         say(reasons,
-            pool_format(pool, "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; %s are asked for.",
+            pool_format(pool, "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; the required lead is %s.",
                         human_count(pool, tried), cause_label(pool, d, &candidate[first].cause),
                         cause_label(pool, d, &candidate[second].cause),
                         human_digits(pool, candidate_lead(&candidate[first], &candidate[second]), 3),
@@ -212,13 +212,13 @@ static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
     else if (d->verdict.kind == ROTID_NAMED && first >= 0 && tried > 1)
         say(reasons,
             pool_format(pool,
-                        "Of %s causes that were fitted all others were refused, for their size or for what they do to modes "
-                        "that were held out.",
+                        "Of %s causes that were fitted all others were refused, for their size or because they predict "
+                        "held-out modes worse.",
                         human_count(pool, tried)));
     if (d->verdict.kind == ROTID_AMBIGUOUS && d->verdict.nalternative_causes > 1 && isfinite(round->required_margin))
         say(reasons, pool_format(pool,
-                                 "None of them leads the others by %s in the misfit, which a name asks for. The order in which "
-                                 "they stand is that of the fit, and the next test may reverse it.",
+                                 "None of them leads the others by %s in the misfit, the lead that a name requires. Their order "
+                                 "is that of the fit, and the next test may reverse it.",
                                  human_trimmed(pool, round->required_margin, 3)));
     if (d->verdict.kind == ROTID_UNEXPLAINED)
         say(reasons,
@@ -241,7 +241,7 @@ static void on_left_out(struct reasons *reasons, const rotid_diagnosis *d)
             continue;
         say(reasons,
             pool_format(pool,
-                        "Frequencies of %s are predicted to %s\xc2\xa0%% rms, where the model without it leaves %s\xc2\xa0%%.",
+                        "Frequencies of %s are predicted to %s\xc2\xa0%% rms, the model without the cause leaves %s\xc2\xa0%%.",
                         rows[i].what, human_digits(pool, after, 2), human_digits(pool, before, 2)));
     }
 }
@@ -258,12 +258,12 @@ static void on_parameters(struct reasons *reasons, const rotid_diagnosis *d)
                                 human_signed(pool, percent, fabs(percent) < 1 ? 2 : 1));
     }
     if (count && moved && d->verdict.kind != -1)
-        say(reasons, pool_format(pool, "What was missing had moved the parameters: with it they change, %s.", moved));
+        say(reasons, pool_format(pool, "The missing cause had biased the parameters; the extended model moves %s.", moved));
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     for (int p = 0; fit && p < fit->nparameters; p++)
         if (!fit->parameters[p].identifiable)
             say(reasons, pool_format(pool, "%s %s.", fit->parameters[p].name,
-                                     fit->parameters[p].at_bound ? "ends at its bound: what it would be beyond is not known"
+                                     fit->parameters[p].at_bound ? "ends at its bound: its value without the bound is not known"
                                                                  : "is not determined by these data"));
 }
 

@@ -122,8 +122,8 @@ void figure_functional_by_modes(struct document *document, const struct result *
     }
     figure->caption =
         pool_format(pool,
-                    "What is left of the functional for each pair of modes: %s.%s Where it is small because as many modes "
-                    "as parameters were fitted, it says nothing about the model.",
+                    "Mean functional for each pair of modes at the optimum: %s.%s A functional that is small because no more modes "
+                    "than parameters were fitted says nothing about the model.",
                     says ? says : "", by.more ? " Further variants stand in the table of the cells." : "");
     figure->alt =
         pool_format(pool, "One line for each of %d variants over the number of modes: %s.", by.nseries, says ? says : "");

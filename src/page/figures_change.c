@@ -11,7 +11,7 @@
 #define NAMES_PX    112.0
 
 static const int state_style[STATES] = {3, 2, 1};
-static const char *const state_text[STATES] = {"as the deck fits", "without the cause", "with it"};
+static const char *const state_text[STATES] = {"as the deck fits", "without the cause", "with the cause"};
 
 struct moved {
     const rotid_changed_parameter *parameter;
@@ -166,7 +166,7 @@ void figure_change(struct document *document, const struct result *result)
                                             d->extended ? "Parameters with their 95 % intervals, before and after"
                                                         : "Parameters with their 95 % intervals");
     if (d->extended)
-        figure->caption = pool_format(pool, "With what was named in the model %s.", movements(pool, count, moved));
+        figure->caption = pool_format(pool, "In the extended model %s.", movements(pool, count, moved));
     else
         figure->caption =
             pool_format(pool,

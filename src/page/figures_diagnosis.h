@@ -12,8 +12,8 @@ void figure_residuals(struct document *document, const struct result *result);
 void figure_places(struct document *document, const struct result *result);
 /* Drop of chi2 by each candidate of a round, number from 0. */
 void figure_evidence(struct document *document, const struct result *result, int number);
-/* Errors of the frequencies before and after, mode by mode; and what was fitted and what was left out, as rms. None without an
- * extended model. */
+/* Errors of the frequencies before and after, mode by mode; and the rms errors of the fit and of the prediction of held-out data.
+ * None without an extended model. */
 void figure_improvement(struct document *document, const struct result *result);
 void figure_gain(struct document *document, const struct result *result);
 /* Intervals of the parameters before and after, and by the fit as the deck states it. */

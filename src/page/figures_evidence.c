@@ -211,18 +211,18 @@ static const char *lead(struct pool *pool, const rotid_diagnosis *d, int number,
         text = pool_format(pool, "%s lowers the misfit of %s by %s", name, human_digits(pool, round->chi2, 4),
                            human_digits(pool, best->chi2_drop, 3));
     if (round->kind == ROTID_NAMED && best && second >= 0 && text)
-        text = pool_format(pool, "%s and leads the runner-up, %s, by %s, with 3 charged for each parameter; a name asks for %s",
+        text = pool_format(pool, "%s and leads the runner-up, %s, by %s, with 3 charged for each parameter; the required lead is %s",
                            text, next, human_digits(pool, candidate_lead(best, &candidate[second]), 3), asked);
     else if (round->kind == ROTID_NAMED && best && longest != best && text)
         text = pool_format(pool, "%s. %s does so by more and was refused: %s", text, bars->bar[0].label,
                            longest->rejected_because ? longest->rejected_because : "");
     else if (round->set > 1)
         text = pool_format(pool,
-                           "%s causes explain the data about equally well: a name asks for a lead of %s over every other, with 3 "
+                           "%s causes explain the data about equally well: a name requires a lead of %s over every other, with 3 "
                            "charged for each parameter",
                            words_sentence(pool, human_count(pool, round->set)), asked);
     else if (round->set == 1 && round->kind != ROTID_NAMED)
-        text = pool_format(pool, "%s leads, but these data cannot carry its name", name);
+        text = pool_format(pool, "%s leads, but these data do not suffice to name a cause", name);
     else if (!round->set)
         text =
             pool_format(pool, "Nothing is left to name: the longest bar, %s, was refused%s%s", bars->bar[0].label,
@@ -249,8 +249,8 @@ void figure_evidence(struct document *document, const struct result *result, int
         margin_at = NAN;
     struct figure *figure =
         document_figure(document, "evidence",
-                        number ? pool_format(pool, "Evidence, round %d: with what was named before in the model", number + 1)
-                               : "Evidence: what each cause would mend");
+                        number ? pool_format(pool, "Evidence, round %d: with the causes named before in the model", number + 1)
+                               : "Evidence: drop of the misfit by each cause");
     const char *chance = isfinite(round->threshold) ? pool_format(pool, " Chance alone reaches %s in 3 of 100 tests.",
                                                                   human_digits(pool, round->threshold, 3))
                                                     : "",

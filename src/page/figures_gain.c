@@ -1,4 +1,4 @@
-/* What was fitted and what was left out, before and after, as rms. */
+/* Errors of the fit and prediction errors on held-out data, before and after, as rms. */
 #include <math.h>
 
 #include "page/cause_words.h"
@@ -113,7 +113,7 @@ void figure_gain(struct document *document, const struct result *result)
     struct plot plot;
     if (!d->extended || (!rows_of(d, 0, shown) && !rows_of(d, 1, shown)))
         return;
-    struct figure *figure = document_figure(document, "gain", "Fitted and left out, before and after");
+    struct figure *figure = document_figure(document, "gain", "Fit and prediction of held-out data, before and after");
     const char *parts[] = {one(pool, &d->gain.holdout_frequency_rms_percent, 1, "frequencies held out by the deck go"),
                            one(pool, &d->gain.mode_out_frequency_rms_percent, 1, "frequencies of modes left out in turn go"),
                            one(pool, &d->gain.sensor_out_shape_rms, 100, "shapes at sensors left out in turn go")};
@@ -123,8 +123,8 @@ void figure_gain(struct document *document, const struct result *result)
             text = pool_format(pool, "%s%s%s", text, *text ? ", " : "", parts[i]);
     figure->caption =
         pool_format(pool,
-                    "%s%s A model with more parameters always fits better; what it has not seen tells whether it is "
-                    "better.",
+                    "%s%s A model with more parameters always fits better; its prediction of held-out data tells "
+                    "whether the model is better.",
                     text ? words_sentence(pool, text) : "", text && *text ? "." : "");
     figure->alt = pool_format(pool, "Pairs of points, without and with the cause: %s.", text ? text : "");
     /* its numbers: the table of the quality */

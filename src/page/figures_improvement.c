@@ -98,7 +98,7 @@ void figure_improvement(struct document *document, const struct result *result)
              : " No mode was held out by the deck.";
     figure->caption = pool_format(
         pool,
-        "With what was named in the model the errors of the fitted frequencies fall from %s to %s\xc2\xa0%% rms, the largest "
+        "In the extended model the errors of the fitted frequencies fall from %s to %s\xc2\xa0%% rms, the largest "
         "from %s to %s\xc2\xa0%%.%s",
         human_digits(pool, fit_rms_percent(d->base, 0), 2), human_digits(pool, fit_rms_percent(d->extended, 0), 2),
         human_digits(pool, d->gain.frequency_max_percent.before, 2), human_digits(pool, d->gain.frequency_max_percent.after, 2),

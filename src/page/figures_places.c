@@ -1,4 +1,4 @@
-/* Force residual along the axis, under the rotor, with the places of what may cause it between the two. */
+/* Force residual along the axis, under the rotor, with the places of possible causes between the two. */
 #include <math.h>
 
 #include "page/cause_words.h"

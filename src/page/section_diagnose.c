@@ -1,5 +1,5 @@
-/* The sections of a diagnosis, in the order in which one asks: is the measurement sound, where does the model miss it, what could
- * cause that, what is it worth, what could not have been seen. */
+/* The sections of a diagnosis, in the order in which a reader asks: is the measurement sound, where does the model miss the
+ * measurement, which causes are possible, what does the extended model gain, which effects stay undetected. */
 #include <math.h>
 
 #include "page/cause_words.h"
@@ -34,13 +34,13 @@ static void section_next(struct document *document, const rotid_diagnosis *d, co
     }
     if (count && d->verdict.ncauses)
         text[n++] = pool_format(pool,
-                                "To go on with it in the model: rotid diagnose %s --extended better.inp writes the deck with the "
+                                "To go on with the extended model: rotid diagnose %s --extended better.inp writes the deck with the "
                                 "cause as a *CAUSE card, and rotid identify better.inp uses it.",
                                 deck);
     if (!n)
         return;
     document_section(document, "look",
-                     d->verdict.ncauses ? "Look at the rotor before you believe it" : "What would settle it at the rotor");
+                     d->verdict.ncauses ? "Inspect the rotor before you believe the verdict" : "The measurement that would decide");
     document_list(document, n, text);
 }
 
@@ -81,14 +81,14 @@ static void section_misfit(struct document *document, const struct result *resul
 static const char *round_says(struct pool *pool, const rotid_round *round, int number, int fitted)
 {
     static const char *const kinds[] = {"no verdict", "the model is adequate", "a cause is named", "the data cannot tell",
-                                        "nothing explains it"};
+                                        "no cause explains the misfit"};
     const char *text = pool_format(
         pool,
         "Round %d, %s: the misfit is %s for %d degrees of freedom. The largest drop that the linear scan expects is %s; %s.%s",
         number + 1, kinds[round->kind + 1], human_digits(pool, round->chi2, 4), round->dof, human_digits(pool, round->largest, 3),
         isfinite(round->threshold)
             ? pool_format(pool, "chance alone reaches %s in 3 of 100 tests", human_digits(pool, round->threshold, 3))
-            : "what chance alone reaches was not found out",
+            : "the threshold of chance was not reached before the end",
         fitted ? "" : " Nothing promised enough to be fitted.");
     return text ? text : "";
 }
@@ -99,7 +99,7 @@ static void section_evidence(struct document *document, const struct result *res
     struct pool *pool = document->pool;
     if (!d->nrounds)
         return;
-    document_section(document, "causes", d->verdict.kind == ROTID_ADEQUATE ? "What was looked for" : "What could cause it");
+    document_section(document, "causes", d->verdict.kind == ROTID_ADEQUATE ? "Causes that were tried" : "Possible causes");
     for (int i = 0; i < d->nrounds; i++) {
         int fitted = 0, count;
         const rotid_candidate *candidate = diagnosis_candidates(d, i, &count);
@@ -111,7 +111,7 @@ static void section_evidence(struct document *document, const struct result *res
             continue;
         document_table(document, pool_format(pool, "Candidates of round %d, those that stay first", i + 1),
                        tables_candidates(pool, d, i));
-        document_table(document, pool_format(pool, "What the fitted ones of round %d predict, and what they look like", i + 1),
+        document_table(document, pool_format(pool, "Fitted candidates of round %d: prediction error on held-out data, and the most similar candidate", i + 1),
                        tables_candidate_quality(pool, d, i));
         document_table(document, pool_format(pool, "Sizes and places of the candidates of round %d", i + 1),
                        tables_candidate_sizes(pool, d, i));
@@ -123,7 +123,7 @@ static void section_gain(struct document *document, const struct result *result)
     const rotid_diagnosis *d = result->diagnose;
     if (!d->base || d->verdict.kind == -1)
         return;
-    document_section(document, "worth", d->extended ? "What it is worth" : "Quality and parameters of the model");
+    document_section(document, "worth", d->extended ? "Gain of the extended model" : "Quality and parameters of the model");
     figure_improvement(document, result);
     figure_gain(document, result);
     document_table(document, d->extended ? "Quality before and after" : "Quality of the model",
@@ -134,15 +134,15 @@ static void section_gain(struct document *document, const struct result *result)
     figure_shapes(document, result, d->extended ? d->extended : d->base);
 }
 
-static void section_blind_spots(struct document *document, const rotid_diagnosis *d)
+static void section_detection_limits(struct document *document, const rotid_diagnosis *d)
 {
     if (!d->ndetectable)
         return;
-    document_section(document, "blind", "Blind spots");
+    document_section(document, "limits", "Detection limits");
     document_paragraph(
-        document, "What is smaller than this would not have shown in this measurement, and may be there. A size is told as the "
-                  "distance from no effect; it shows in 9 of 10 tests at 3 false alarms in 100.");
-    document_table(document, "The smallest size of each cause that would have shown", tables_blind_spots(document->pool, d));
+        document, "An effect below its limit would not have shown in this measurement, and may be present. A size is the "
+                  "distance from no effect; an effect of that size shows in 9 of 10 tests at 3 false alarms in 100.");
+    document_table(document, "Detection limits: the smallest size of each cause that would have shown", tables_detection_limits(document->pool, d));
 }
 
 void section_diagnose(struct document *document, const struct result *result)
@@ -153,5 +153,5 @@ void section_diagnose(struct document *document, const struct result *result)
     section_misfit(document, result);
     section_evidence(document, result);
     section_gain(document, result);
-    section_blind_spots(document, d);
+    section_detection_limits(document, d);
 }

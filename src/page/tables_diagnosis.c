@@ -158,7 +158,7 @@ struct number_table *tables_quality(struct pool *pool, const rotid_diagnosis *d)
     return table;
 }
 
-struct number_table *tables_blind_spots(struct pool *pool, const rotid_diagnosis *d)
+struct number_table *tables_detection_limits(struct pool *pool, const rotid_diagnosis *d)
 {
     static const char *const head[] = {"cause", "parameter", "smallest that would have shown", "where it shows best",
                                        "at the worst place"};

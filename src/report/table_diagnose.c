@@ -26,7 +26,7 @@ static void print_verdict(const struct diagnosis_view *view)
         (void)fputc(toupper((unsigned char)*c), view->out);
     (void)fputc('\n', view->out);
     if (view->diagnosis->interrupted)
-        wrap_text(view->out, 2, view->width, "  ", "INTERRUPTED: below stands what was finished; it is no complete diagnosis.");
+        wrap_text(view->out, 2, view->width, "  ", "INTERRUPTED: the finished part stands below; the diagnosis is not complete.");
     if (v->sentence)
         wrap_text(view->out, 2, view->width, "  ", v->sentence);
     wrap_open(&wrap, view->out, 2, view->width, "  ");
@@ -34,9 +34,9 @@ static void print_verdict(const struct diagnosis_view *view)
         wrap_words(&wrap, "p-value (hypothesis: adequate model):");
         wrap_item(&wrap, v->p_value < 0.001 ? "below %g" : "%.3g", v->p_value < 0.001 ? 0.001 : v->p_value);
         if (v->kind != ROTID_ADEQUATE)
-            wrap_words(&wrap, !v->adequate_after           ? "; what is left is more than noise"
-                              : v->kind == ROTID_AMBIGUOUS ? "; with the best of them it is adequate"
-                                                           : "; with what is named it is adequate");
+            wrap_words(&wrap, !v->adequate_after           ? "; the residual still exceeds the noise"
+                              : v->kind == ROTID_AMBIGUOUS ? "; with the best of these causes the model is adequate"
+                                                           : "; the extended model is adequate");
         wrap_close(&wrap);
     } else {
         wrap_words(&wrap, v->sentence ? "no p-value can be stated" : "no verdict was reached");
@@ -44,7 +44,7 @@ static void print_verdict(const struct diagnosis_view *view)
     }
     if (noise->frequency_assumed || noise->shape_assumed)
         wrap_text(view->out, 2, view->width, "  ",
-                  "The deck states no noise for all of the data: what is assumed stands below, so statements are relative.");
+                  "The deck states no noise for all of the data: the assumed values stand below, so statements are relative.");
     if (v->next_measurement)
         wrap_text(view->out, 10, view->width, "  to settle it: ", v->next_measurement);
 }
@@ -211,6 +211,6 @@ void table_diagnose(const struct diagnosis_view *view)
     table_misfit(view);
     table_evidence(view);
     table_gain(view);
-    table_blind_spots(view);
+    table_detection_limits(view);
     print_foot(view);
 }

@@ -173,7 +173,7 @@ static void print_detectable(const struct diagnosis_view *view, int first)
         wrap_close(&wrap);
 }
 
-void table_blind_spots(const struct diagnosis_view *view)
+void table_detection_limits(const struct diagnosis_view *view)
 {
     const rotid_diagnosis *d = view->diagnosis;
     struct wrap wrap;

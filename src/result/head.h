@@ -1,4 +1,4 @@
-/* What stands at the head of every result: who made it, of what. */
+/* The head of every result: the program that wrote the result, and the input. */
 #ifndef ROTID_RESULT_HEAD_H
 #define ROTID_RESULT_HEAD_H
 

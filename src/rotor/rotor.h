@@ -20,7 +20,7 @@ struct segment {
 
 struct group {
     const char *name;
-    struct material material; /* a copy: what is identified of one group leaves the others alone */
+    struct material material; /* a copy: identifying one group leaves the others unchanged */
     int holes;                /* 0 where there is no perforation */
     double hole_diameter, hole_pitch;
     double preload; /* N, tension positive */

@@ -1,4 +1,4 @@
-/* Cross sections: area and second moment of what is stiff, and of what has mass. */
+/* Cross sections: area and second moment of the stiff part and of the part with mass. */
 #ifndef ROTID_ROTOR_SECTION_H
 #define ROTID_ROTOR_SECTION_H
 

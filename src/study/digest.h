@@ -19,7 +19,7 @@ void digest_bytes(struct digest *digest, size_t count, const void *bytes);
 /* Numbers by their bits. */
 void digest_doubles(struct digest *digest, size_t count, const double *value);
 void digest_integer(struct digest *digest, long long value);
-/* With its end, so that "a", "bc" is not "ab", "c". NULL is not "". */
+/* Includes the terminating zero, so that "a", "bc" is not "ab", "c". NULL is not "". */
 void digest_text(struct digest *digest, const char *text);
 /* Names, options and data lines of the cards. */
 void digest_cards(struct digest *digest, const struct deck_text *text);
