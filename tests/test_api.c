@@ -192,6 +192,51 @@ static void with_nothing_to_identify_the_model_is_compared(void **state)
     rotid_deck_free(deck);
 }
 
+static void an_identification_says_what_its_fit_found(void **state)
+{
+    (void)state;
+    rotid_identification *r;
+    rotid_spectrum *s;
+    rotid_deck *deck = bench_deck(PAPER);
+    assert_status(rotid_identify(deck, 1, NULL, NULL, &r), ROTID_OK);
+    const rotid_fit_result *fit = r->fit;
+    assert_true(r->nparameters == fit->n && r->nmodes == fit->m && r->nhistory == fit->nhistory && r->nhistory > 2);
+    assert_true(r->objective == fit->objective && r->gradient == fit->gradient && r->dof == fit->dof);
+    assert_true(r->iterations == fit->iterations && r->evaluations == fit->evaluations && r->jacobians == fit->jacobians);
+    for (int p = 0; p < r->nparameters; p++) {
+        const rotid_fitted_parameter *is = &r->parameters[p];
+        const rotid_parameter *asked = &deck->parameter[p];
+        assert_true(!strcmp(is->name, asked->name) && !strcmp(is->unit, asked->unit));
+        assert_true(is->value == fit->x[p] && is->std == fit->std[p] && is->start == asked->start);
+        assert_true(is->lower == asked->lower && is->upper == asked->upper);
+        assert_true(is->ci95[0] == fit->ci_lower[p] && is->ci95[1] == fit->ci_upper[p] && is->ci95[0] < is->ci95[1]);
+    }
+    assert_status(rotid_spectrum_compute(deck, fit->x, 20, NULL, NULL, &s), ROTID_OK);
+    for (int k = 0; k < r->nmodes; k++) {
+        const rotid_compared_mode *mode = &r->modes[k];
+        const rotid_model_mode *own = &s->modes[mode->mode - 1];
+        assert_true(mode->measured_mode == deck->number[k] && mode->measured_hz == deck->frequency_hz[k]);
+        assert_true(mode->predicted_hz == fit->predicted_hz[k] && mode->residual == fit->residual[k]);
+        assert_close(mode->error_percent, 100 * (fit->predicted_hz[k] / deck->frequency_hz[k] - 1), 1e-12, 0);
+        assert_close(r->reduction_error_percent[k], own->reduction_error_percent, 1e-6, 1e-9);
+        assert_close(r->mesh_error_percent[k], own->mesh_error_percent, 1e-6, 1e-9);
+        assert_true(fabs(own->reduction_error_percent - own->mesh_error_percent) > 1e-4);
+    }
+    for (int i = 0; i < r->nhistory; i++) {
+        const rotid_history_entry *is = &r->history[i];
+        assert_true(is->iteration == i && is->objective == fit->history[i].objective && is->step == fit->history[i].step);
+        assert_true(is->gradient == fit->history[i].gradient && is->mu == fit->history[i].mu);
+        assert_memory_equal(is->x, fit->history_x + (ptrdiff_t)i * fit->n, (size_t)fit->n * sizeof *is->x);
+    }
+    for (int i = 0; i < r->nbaseline; i++) {
+        assert_true(r->baseline[i].objective == fit->baseline[i].objective);
+        assert_close(r->baseline[i].predicted_hz[0], fit->predicted_hz[0], 1e-3, 0);
+    }
+    rotid_spectrum_free(s);
+    rotid_identification_free(r);
+    rotid_deck_free(deck);
+}
+
 static void verdicts_have_names(void **state)
 {
     (void)state;
@@ -228,6 +273,7 @@ int main(void)
         cmocka_unit_test(modes_follow_the_parameters),
         cmocka_unit_test(a_model_with_few_modes_gives_what_it_has),
         cmocka_unit_test(with_nothing_to_identify_the_model_is_compared),
+        cmocka_unit_test(an_identification_says_what_its_fit_found),
         cmocka_unit_test(verdicts_have_names),
     };
     return cmocka_run_group_tests_name("api", tests, open_directory, remove_directory);

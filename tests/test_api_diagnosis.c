@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "api_bench.h"
@@ -36,6 +37,46 @@ static void the_extended_deck_is_that_of_the_program(void **state)
     free(text);
 }
 
+static double rms_of_fitted(const rotid_identification *fit)
+{
+    double sum = 0;
+    for (int k = 0; k < fit->nmodes; k++)
+        sum += fit->modes[k].error_percent * fit->modes[k].error_percent;
+    return sqrt(sum / fit->nmodes);
+}
+
+/* What a diagnosis says in two places is the same in both. No mode is held out. */
+static void a_diagnosis_agrees_with_its_fits(const rotid_diagnosis *d)
+{
+    const rotid_identification *fits[2] = {d->base, d->extended};
+    const rotid_gain *gain = &d->gain;
+    const double chi2[2] = {gain->chi2_per_dof.before, gain->chi2_per_dof.after},
+                 rms[2] = {gain->frequency_rms_percent.before, gain->frequency_rms_percent.after};
+    for (int f = 0; f < 2; f++) {
+        assert_close(chi2[f], fits[f]->chi2_per_dof, 1e-9, 0);
+        assert_close(rms[f], rms_of_fitted(fits[f]), 1e-9, 0);
+        for (int p = 0; p < fits[f]->nparameters; p++) {
+            const rotid_fitted_parameter *is = &fits[f]->parameters[p];
+            const rotid_changed_parameter *of = &gain->parameters[p];
+            const double *ci95 = f ? of->after_ci95 : of->before_ci95;
+            assert_true(!strcmp(of->name, is->name) && !strcmp(of->unit, is->unit));
+            assert_true((f ? of->after : of->before) == is->value && ci95[0] == is->ci95[0] && ci95[1] == is->ci95[1]);
+        }
+    }
+    assert_true(gain->frequency_max_percent.before >= rms[0] && gain->frequency_max_percent.after >= rms[1]);
+    assert_true(isnan(gain->holdout_frequency_rms_percent.before) && isnan(gain->holdout_shape_rms.after));
+    /* what was left out is predicted worse than what was fitted */
+    assert_true(gain->mode_out_frequency_rms_percent.after > rms[1]);
+    /* fits of their own by the scan and the refits: closer by far than the 10 or so that decide */
+    assert_close(d->rounds[0].chi2, d->base->chi2, 0, 0.2);
+    assert_true(d->rounds[0].chi2_frequency < d->rounds[0].chi2 && d->rounds[0].dof == d->base->dof);
+    const rotid_candidate *named = &d->candidates[0];
+    assert_true(named->round == 1 && named->refitted && !strcmp(named->cause.id, d->verdict.causes[0].id));
+    assert_close(named->chi2, d->extended->chi2, 0, 0.2);
+    assert_close(named->chi2_drop, d->rounds[0].chi2 - named->chi2, 1e-6, 0);
+    assert_true(named->chi2_frequency < named->chi2 && named->bic > named->chi2);
+}
+
 /* Data made by the library itself from a deck that says what is wrong, given to one that does not. */
 static void what_was_hidden_is_named(void **state)
 {
@@ -55,6 +96,7 @@ static void what_was_hidden_is_named(void **state)
     assert_true(d->verdict.causes[0].parameters[0].std < 0.05);
     assert_true(d->gain.chi2_per_dof.after < 2 && d->gain.chi2_per_dof.before > 5 * d->gain.chi2_per_dof.after);
     assert_int_equal(d->extended->nparameters, 3);
+    a_diagnosis_agrees_with_its_fits(d);
     rotid_diagnosis_free(d);
 }
 

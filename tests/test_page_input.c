@@ -222,6 +222,18 @@ static void every_value_that_is_wrong_is_refused_or_does_no_harm(void **state)
     }
 }
 
+/* What stands at the end of a path of keys; through lists their first element. */
+static cJSON *item_at(cJSON *at, const char *path)
+{
+    char copy[64], *rest = copy, *key;
+    (void)snprintf(copy, sizeof copy, "%s", path);
+    while ((key = strtok_r(rest, "/.", &rest))) {
+        at = cJSON_GetObjectItem(cJSON_IsArray(at) ? at->child : at, key);
+        assert_non_null(at);
+    }
+    return at;
+}
+
 /* What no single value is wrong in. */
 static void a_result_that_contradicts_itself_is_refused(void **state)
 {
@@ -244,14 +256,7 @@ static void a_result_that_contradicts_itself_is_refused(void **state)
     };
     make_results();
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        cJSON *json = page_json(wrong[i].file), *at = json;
-        char path[64], *rest = path, *key;
-        (void)snprintf(path, sizeof path, "%s", wrong[i].list);
-        while ((key = strtok_r(rest, "/.", &rest))) { /* through lists their first element */
-            at = cJSON_IsArray(at) ? at->child : at;
-            at = cJSON_GetObjectItem(at, key);
-            assert_non_null(at);
-        }
+        cJSON *json = page_json(wrong[i].file), *at = item_at(json, wrong[i].list);
         assert_true(cJSON_IsArray(at) && cJSON_GetArraySize(at) > 1);
         cJSON_DeleteItemFromArray(at, cJSON_GetArraySize(at) - 1);
         page_write_json("wrong.json", json);
@@ -261,6 +266,38 @@ static void a_result_that_contradicts_itself_is_refused(void **state)
             print_error("%s: '%s'\n", wrong[i].list, page_err);
         assert_non_null(strstr(page_err, wrong[i].says));
         assert_false(page_exists("page"));
+    }
+}
+
+static void a_value_out_of_its_range_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *file, *path;
+        double value;
+        const char *says;
+    } wrong[] = {
+        {"identify.json", "modes.measured_hz", 0, "modes[0].measured_hz: is 0, expected a number above 0"},
+        {"identify.json", "modes.predicted_hz", -1, "modes[0].predicted_hz: is -1, expected no number below 0"},
+        {"identify.json", "modes.mode", 0, "modes[0].mode: is 0, expected no number below 1"},
+        {"identify.json", "modes.mode", 1.5, "modes[0].mode: is 1.5, expected a whole number"},
+        {"identify.json", "modes.mac", 1.001, "modes[0].mac: is 1.001, expected a number from 0 to 1"},
+        {"identify.json", "parameters.std", -1, "parameters[0].std: is -1, expected no number below 0"},
+        {"identify.json", "mass_kg", 0, "mass_kg: is 0, expected a number above 0"},
+        {"identify.json", "intervals_widened_by", 0.9, "intervals_widened_by: is 0.9, expected no number below 1"},
+        {"diagnose.json", "candidates.p_value", -0.001, "candidates[0].p_value: is -0.001, expected a number from 0 to 1"},
+    };
+    make_results();
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        cJSON *json = page_json(wrong[i].file), *value = item_at(json, wrong[i].path);
+        assert_true(cJSON_IsNumber(value));
+        cJSON_SetNumberValue(value, wrong[i].value);
+        page_write_json("wrong.json", json);
+        cJSON_Delete(json);
+        int code = page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("wrong.json"), page_path("page"));
+        if (code != 2 || !strstr(page_err, wrong[i].says))
+            print_error("%s: exit code %d, '%s'\n", wrong[i].path, code, page_err);
+        assert_true(code == 2 && strstr(page_err, wrong[i].says));
     }
 }
 
@@ -325,6 +362,7 @@ int main(void)
         cmocka_unit_test(all_files_are_judged_and_one_bad_one_is_enough),
         cmocka_unit_test(every_value_that_is_wrong_is_refused_or_does_no_harm),
         cmocka_unit_test(a_result_that_contradicts_itself_is_refused),
+        cmocka_unit_test(a_value_out_of_its_range_is_refused),
         cmocka_unit_test(a_file_cut_off_anywhere_is_refused),
         cmocka_unit_test(memory_that_runs_out_is_survived),
     };
