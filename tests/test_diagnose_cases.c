@@ -246,7 +246,7 @@ static void supports_are_a_false_lead(void **state)
         assert_true(c->chi2_drop > 0.5 * d->round[0].chi2); /* they do look good */
         assert_true(c->holdout_rms > 1.5 * d->before.holdout_frequency_rms_percent);
         assert_non_null(c->rejected_because);
-        assert_non_null(strstr(c->rejected_because, "modes held out get worse"));
+        assert_non_null(strstr(c->rejected_because, "prediction of held-out modes gets worse"));
     }
     assert_int_equal(refused, 2);
     assert_null(find(d->ncause, d->cause, "support"));
