@@ -173,9 +173,9 @@ ROTID_API void rotid_deck_free(rotid_deck *deck);
 /* ---- results */
 
 /* What the routines of the first layer return, and what the program writes with --json: each member is the key of that name in
- * docs/schema, and the comment is its description there. A list X has nX elements. What is not known or cannot be stated is NaN or
- * NULL, and null in JSON. Units stand in brackets, [1] for a pure number; where a name ends in a unit that is the unit. Results are
- * not to be changed, and go as a whole with the routine that is named `rotid_..._free`. */
+ * docs/schema, and the comment is its description there. A list X has nX elements. What is not known or cannot be stated is NaN
+ * or NULL, and null in JSON. Units stand in brackets, [1] for a pure number; where a name ends in a unit that is the unit.
+ * Results are not to be changed, and go as a whole with the routine that is named `rotid_..._free`. */
 
 #define ROTID_NONE (-2147483647) /* an integer that is not known */
 
@@ -281,10 +281,10 @@ typedef struct rotid_cause_parameter {
 /* A CAUSE card that is part of the model, or the accelerometer that a diagnosis weighed. Its factors are not in the values of the
  * other members of the geometry. */
 typedef struct rotid_model_cause {
-    const char *name;    /* of the card, or NULL */
-    const char *id;      /* of the catalogue, such as joint */
-    const char *target;  /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
-    int sensor;          /* id of the sensor that it acts at; ROTID_NONE where it acts at none */
+    const char *name;   /* of the card, or NULL */
+    const char *id;     /* of the catalogue, such as joint */
+    const char *target; /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
+    int sensor;         /* id of the sensor that it acts at; ROTID_NONE where it acts at none */
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
     rotid_cause_parameter *parameters; /* places are metres from the left end */
@@ -328,14 +328,14 @@ typedef struct rotid_fitted_parameter {
 
 /* A measured mode beside the mode of the model that it is paired with. */
 typedef struct rotid_compared_mode {
-    int mode;              /* of the model that it is paired with, from 1 */
-    int measured_mode;     /* number of the measured mode in the deck, which its shape may contradict; ROTID_NONE in old results */
-    double measured_hz;    /* measured frequency of the mode paired with it [Hz] */
-    double frequency_std;  /* relative standard deviation of the measured frequency [1]; NaN where it is not known */
-    double predicted_hz;   /* frequency of the model that error_percent is taken of, condensed or not [Hz] */
-    double error_percent;  /* predicted over measured frequency, less one [%] */
-    double mac;            /* modal assurance criterion [1]; NaN without a measured shape */
-    double nco;            /* normalised cross orthogonality with the mass matrix condensed by Guyan [1]; NaN without a measured shape */
+    int mode;             /* of the model that it is paired with, from 1 */
+    int measured_mode;    /* number of the measured mode in the deck, which its shape may contradict; ROTID_NONE in old results */
+    double measured_hz;   /* measured frequency of the mode paired with it [Hz] */
+    double frequency_std; /* relative standard deviation of the measured frequency [1]; NaN where it is not known */
+    double predicted_hz;  /* frequency of the model that error_percent is taken of, condensed or not [Hz] */
+    double error_percent; /* predicted over measured frequency, less one [%] */
+    double mac;           /* modal assurance criterion [1]; NaN without a measured shape */
+    double nco; /* normalised cross orthogonality with the mass matrix condensed by Guyan [1]; NaN without a measured shape */
     const char *paired_by; /* what decided the pairing: shape or number */
     int holdout;           /* held out of the fit */
     double residual;       /* frequency residual of the functional, of held-out modes too [1] */
@@ -354,10 +354,10 @@ typedef struct rotid_mode_shapes {
     int mode;          /* of the model that it is paired with, from 1 */
     int measured_mode; /* its number in the deck; ROTID_NONE in old results */
     int nmeasured, nmeasured_std, npredicted, npredicted_axis;
-    double *measured;     /* at the sensors, largest component 1, NaN where it was not measured [1]; NULL without a shape */
-    double *measured_std; /* standard deviations at the same scale [1]; NULL where they are not known */
-    double *predicted; /* at the sensors, times its best scale to the measured one: least squares, weighted with measured_std where it
-                          is known of all. Without a measured shape the largest deflection of the axis is 1 [1] */
+    double *measured;       /* at the sensors, largest component 1, NaN where it was not measured [1]; NULL without a shape */
+    double *measured_std;   /* standard deviations at the same scale [1]; NULL where they are not known */
+    double *predicted;      /* at the sensors, times its best scale to the measured one: least squares, weighted with measured_std
+                               where it      is known of all. Without a measured shape the largest deflection of the axis is 1 [1] */
     double *predicted_axis; /* at axis_z_m at the same scale [1] */
     int ntierods;
     rotid_member_shape *tierods; /* in the order of the deck */
@@ -405,11 +405,12 @@ typedef struct rotid_minimiser {
 
 /* Typical noise of the measured data in use. */
 typedef struct rotid_noise {
-    double frequency;           /* relative standard deviation, median of the modes [1]; NaN where none is stated */
-    double shape;               /* relative to the largest component, median of all components [1]; NaN where none is stated */
-    int frequency_assumed;      /* by the diagnosis: the deck states none */
-    int shape_assumed;          /* by the diagnosis: the deck states none */
-    const char *intervals_from; /* what std and ci95 rest on: noise, the stated one, or residuals, their scatter; NULL in a diagnosis */
+    double frequency;      /* relative standard deviation, median of the modes [1]; NaN where none is stated */
+    double shape;          /* relative to the largest component, median of all components [1]; NaN where none is stated */
+    int frequency_assumed; /* by the diagnosis: the deck states none */
+    int shape_assumed;     /* by the diagnosis: the deck states none */
+    const char
+        *intervals_from; /* what std and ci95 rest on: noise, the stated one, or residuals, their scatter; NULL in a diagnosis */
 } rotid_noise;
 
 /* A component of a direction: the parameter that it belongs to, and its size. */
@@ -420,67 +421,67 @@ typedef struct rotid_component {
 
 /* A model fitted to measured modes. */
 typedef struct rotid_identification {
-    const char *status;     /* converged, not_converged, or at_bound: converged with at least one parameter pressed against a bound.
-                               Undetermined parameters are flagged below */
+    const char *status; /* converged, not_converged, or at_bound: converged with at least one parameter pressed against a bound.
+                           Undetermined parameters are flagged below */
     const char *functional; /* that was minimised */
     const char *reduction;  /* of the model that was fitted */
     const char *derivative; /* method of the eigenvector derivatives, where they are needed */
     int shapes_fitted;      /* measured shapes took part in the residuals, or in the quotient of HYBRID */
-    double bijection_chi;   /* chi of the bijection (30), value = lower + (upper - lower)/(1 + exp(chi y)), in whose y the steps are
-                               made [1] */
-    double objective;       /* half the sum of squared residuals [1] */
-    double gradient;        /* largest component of its gradient with respect to value/start [1] */
-    double chi2;            /* sum of squared residuals over the squared stated noise [1]; NaN where no noise is stated */
-    double chi2_per_dof;    /* chi2 over dof [1]; NaN without noise or degrees of freedom */
-    int dof;                /* degrees of freedom: residuals less free parameters less scales of shapes */
-    int iterations;         /* accepted steps */
-    int evaluations;        /* of the residual */
-    int jacobians;          /* evaluations of the Jacobian */
+    double bijection_chi; /* chi of the bijection (30), value = lower + (upper - lower)/(1 + exp(chi y)), in whose y the steps are
+                             made [1] */
+    double objective;     /* half the sum of squared residuals [1] */
+    double gradient;      /* largest component of its gradient with respect to value/start [1] */
+    double chi2;          /* sum of squared residuals over the squared stated noise [1]; NaN where no noise is stated */
+    double chi2_per_dof;  /* chi2 over dof [1]; NaN without noise or degrees of freedom */
+    int dof;              /* degrees of freedom: residuals less free parameters less scales of shapes */
+    int iterations;       /* accepted steps */
+    int evaluations;      /* of the residual */
+    int jacobians;        /* evaluations of the Jacobian */
     const char *stop_reason; /* why the iteration ended: the text of a status ROTID_STOP_ of rotid.h */
     int nparameters;
     rotid_fitted_parameter *parameters; /* in the order of *IDENTIFY, then those of the causes in the model */
-    double *correlation;     /* of the parameters, by rows, symmetric [1]; NaN where it cannot be stated */
+    double *correlation;                /* of the parameters, by rows, symmetric [1]; NaN where it cannot be stated */
     double condition_number; /* of the Jacobian with respect to relative parameters [1]; NaN where it is singular or nothing is
                                 identified */
     int nundetermined_directions;
-    rotid_component *undetermined_directions; /* unit vectors of relative parameter changes that the data do not determine, one after
-                                                 the other, each with the component of every parameter [1] */
-    double intervals_widened_by; /* factor on std and ci95 because the misfit exceeds the stated noise [1] */
+    rotid_component *undetermined_directions; /* unit vectors of relative parameter changes that the data do not determine, one
+                                                 after the other, each with the component of every parameter [1] */
+    double intervals_widened_by;              /* factor on std and ci95 because the misfit exceeds the stated noise [1] */
     int nmodes;
     rotid_compared_mode *modes;      /* measured modes in the order of the deck or by rising frequency */
-    double *reduction_error_percent; /* per entry of modes: condensed over full frequency at the fitted model, less one [%]; NaN where
-                                        the masters are too few or more than 1,000 */
+    double *reduction_error_percent; /* per entry of modes: condensed over full frequency at the fitted model, less one [%]; NaN
+                                        where the masters are too few or more than 1,000 */
     double *mesh_error_percent;      /* per entry of modes: frequency over its Richardson limit, less one [%] */
     double mass_kg;                  /* of the fitted model [kg] */
     double center_of_mass_m;         /* of the fitted model, from the left end [m] */
     rotid_shapes *shapes;            /* NULL in old results */
     int nmatrix_rows, nmatrix_columns;
-    double *nco_matrix; /* normalised cross orthogonality (45) with the mass matrix condensed by Guyan, measured modes by rows, modes of
-                           the model by columns [1]; NULL without measured shapes or with more than 1,000 sensors; a row of NaN for a
-                           mode without a shape */
-    double *mac_matrix; /* modal assurance criterion, measured modes by rows, modes of the model by columns [1]; NULL without measured
-                           shapes; a row of NaN for a mode without a shape */
-    int *matrix_rows;   /* measured_mode of the rows; empty without measured shapes */
+    double *nco_matrix;  /* normalised cross orthogonality (45) with the mass matrix condensed by Guyan, measured modes by rows,
+                            modes of  the model by columns [1]; NULL without measured shapes or with more than 1,000 sensors; a row
+                            of NaN for a  mode without a shape */
+    double *mac_matrix;  /* modal assurance criterion, measured modes by rows, modes of the model by columns [1]; NULL without
+                            measured  shapes; a row of NaN for a mode without a shape */
+    int *matrix_rows;    /* measured_mode of the rows; empty without measured shapes */
     int *matrix_columns; /* mode of the columns; empty without measured shapes */
     int nhistory;
     rotid_history_entry *history; /* accepted points, the start first */
     int nlopt;                    /* 0: built without NLopt, so there is no baseline */
     int nbaseline;
-    rotid_minimiser *baseline;   /* the same problem minimised by NLopt; empty where that was not asked for, or without NLopt */
-    double seconds;              /* of Levenberg-Marquardt [s] */
-    rotid_noise *noise;          /* of the data; NULL in the fits of a diagnosis */
-    rotid_geometry *geometry;    /* the model at the values of the fit; NULL in the fits of a diagnosis, and in old results */
+    rotid_minimiser *baseline; /* the same problem minimised by NLopt; empty where that was not asked for, or without NLopt */
+    double seconds;            /* of Levenberg-Marquardt [s] */
+    rotid_noise *noise;        /* of the data; NULL in the fits of a diagnosis */
+    rotid_geometry *geometry;  /* the model at the values of the fit; NULL in the fits of a diagnosis, and in old results */
     int nmessage;
     const rotid_message *message; /* of the pairing and the fit */
-    const rotid_fit_result *fit; /* where the above comes from, with the Jacobian; NULL in a result that was read from a file */
-    void *memory;                /* internal */
+    const rotid_fit_result *fit;  /* where the above comes from, with the Jacobian; NULL in a result that was read from a file */
+    void *memory;                 /* internal */
 } rotid_identification;
 
 /* A mode of the model, and the measured mode that is paired with it. */
 typedef struct rotid_model_mode {
-    int mode;                       /* number, from 1 */
-    double full_hz;                 /* frequency of the model that is not condensed [Hz] */
-    double reduced_hz;              /* frequency of the condensed model [Hz]; NaN where the masters are too few or more than 1,000 */
+    int mode;          /* number, from 1 */
+    double full_hz;    /* frequency of the model that is not condensed [Hz] */
+    double reduced_hz; /* frequency of the condensed model [Hz]; NaN where the masters are too few or more than 1,000 */
     double reduction_error_percent; /* reduced over full frequency, less one [%] */
     double mesh_error_percent;      /* frequency over its Richardson limit from this mesh and one twice as fine, less one [%] */
     int nshape;
@@ -494,13 +495,13 @@ typedef struct rotid_spectrum {
     int nrigid_hz;
     double *rigid_hz; /* modes of the rotor on its supports, or of free motion, below the first bending mode [Hz] */
     int nsensor_z_m;
-    double *sensor_z_m; /* positions of the components of every shape, from the left end [m]: the sensors, without sensors all nodes of
-                           the axis */
+    double *sensor_z_m; /* positions of the components of every shape, from the left end [m]: the sensors, without sensors all
+                           nodes of the axis */
     int nmodes;
     rotid_model_mode *modes;  /* bending modes by rising frequency; fewer than asked for where the model has fewer */
     rotid_geometry *geometry; /* the model at the values of its parameters; NULL in old results */
-    double *master_mass; /* [nsensor_z_m * nsensor_z_m] condensed by Guyan onto the components of the shapes, for rotid_nco; NULL where
-                            it cannot be had */
+    double *master_mass; /* [nsensor_z_m * nsensor_z_m] condensed by Guyan onto the components of the shapes, for rotid_nco; NULL
+                            where it cannot be had */
     int nmessage;
     const rotid_message *message; /* of the pairing; with an error among them no measured mode is paired */
     void *memory;                 /* internal */
@@ -536,17 +537,17 @@ enum { ROTID_ADEQUATE, ROTID_NAMED, ROTID_AMBIGUOUS, ROTID_UNEXPLAINED }; /* ver
 typedef struct rotid_cause_value {
     const char *name; /* such as depth or z */
     const char *unit; /* 1 for a pure number */
-    double value;   /* in its unit */
-    double std;     /* standard deviation; NaN where it cannot be stated */
-    double ci95[2]; /* 95 % interval; NaN where it cannot be stated */
-    int fixed;      /* by the user: not searched */
+    double value;     /* in its unit */
+    double std;       /* standard deviation; NaN where it cannot be stated */
+    double ci95[2];   /* 95 % interval; NaN where it cannot be stated */
+    int fixed;        /* by the user: not searched */
 } rotid_cause_value;
 
 /* A physical cause at one target, by the ids of docs/diagnosis.md. */
 typedef struct rotid_cause {
-    const char *id;      /* of the catalogue, such as joint */
-    const char *target;  /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
-    const char *name;    /* of the CAUSE card that it would get, or NULL */
+    const char *id;     /* of the catalogue, such as joint */
+    const char *target; /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
+    const char *name;   /* of the CAUSE card that it would get, or NULL */
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
     rotid_cause_value *parameters; /* at the best values found */
@@ -613,18 +614,18 @@ typedef struct rotid_round {
 typedef struct rotid_candidate {
     int round; /* from 1 */
     rotid_cause cause;
-    int suspect;              /* asked for by a CAUSE card with SUSPECT */
-    int refitted;             /* judged by a nonlinear fit; else the numbers of that fit are NaN */
-    double predicted_drop;    /* of chi2, from the linear scan [1] */
-    double chi2;              /* with the cause in the model [1] */
-    double chi2_frequency;    /* the part of the frequencies [1] */
-    double chi2_drop;         /* against the model of the round [1] */
-    double bic;               /* chi2 + ln(number of residuals) times number of parameters [1] */
-    double holdout_rms;       /* error of the frequencies that the deck holds out [%] */
-    double mode_out_rms;      /* error of the frequencies of modes left out in turn [%] */
-    double sensor_out_rms;    /* standardised shape residual of sensors left out in turn [1] */
-    double p_value;           /* that the best of the whole family is this good by chance */
-    int at_bound;             /* a parameter is pressed against a physical bound */
+    int suspect;                  /* asked for by a CAUSE card with SUSPECT */
+    int refitted;                 /* judged by a nonlinear fit; else the numbers of that fit are NaN */
+    double predicted_drop;        /* of chi2, from the linear scan [1] */
+    double chi2;                  /* with the cause in the model [1] */
+    double chi2_frequency;        /* the part of the frequencies [1] */
+    double chi2_drop;             /* against the model of the round [1] */
+    double bic;                   /* chi2 + ln(number of residuals) times number of parameters [1] */
+    double holdout_rms;           /* error of the frequencies that the deck holds out [%] */
+    double mode_out_rms;          /* error of the frequencies of modes left out in turn [%] */
+    double sensor_out_rms;        /* standardised shape residual of sensors left out in turn [1] */
+    double p_value;               /* that the best of the whole family is this good by chance */
+    int at_bound;                 /* a parameter is pressed against a physical bound */
     const char *collinear_with;   /* id of the refitted candidate that looks most like it, or NULL */
     const char *collinear_target; /* its target */
     double cosine;                /* between the two after what is identified has been projected out [1] */
@@ -713,10 +714,10 @@ typedef struct rotid_diagnosis {
     int nlocalisation;
     rotid_localisation *localisation; /* along the axis */
     int ndetectable;
-    rotid_detectable *detectable; /* what would have shown with 90 % power at 3 % false alarm */
-    rotid_noise noise;            /* typical, in use */
-    rotid_geometry *geometry;     /* the base model at the values of its fit, faults of the data taken out, on the mesh that was judged;
-                                     that of the deck where a signal came first. NULL in old results */
+    rotid_detectable *detectable;   /* what would have shown with 90 % power at 3 % false alarm */
+    rotid_noise noise;              /* typical, in use */
+    rotid_geometry *geometry;       /* the base model at the values of its fit, faults of the data taken out, on the mesh that was
+                                       judged;       that of the deck where a signal came first. NULL in old results */
     rotid_identification *today;    /* the fit by the FIT of the deck; NULL where it is that of base or could not be made */
     rotid_identification *base;     /* the full model by the likelihood, faults of the data taken out */
     rotid_identification *extended; /* with the causes that were named; NULL where nothing was named */
@@ -724,18 +725,20 @@ typedef struct rotid_diagnosis {
     rotid_step *steps; /* where the time went */
     int nmessage;
     const rotid_message *message;
-    const char *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
-    void *memory;              /* internal */
+    const char
+        *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
+    void *memory;       /* internal */
 } rotid_diagnosis;
 
 /* ---- the runs */
 
-/* What `rotid check` says of a deck, of which the model is taken as the deck states it. Statuses as for rotid_spectrum_compute. */
+/* What `rotid check` says of a deck, of which the model is taken as the deck states it. Statuses as for rotid_spectrum_compute.
+ */
 ROTID_API int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, char *failure, rotid_check **check);
 ROTID_API void rotid_check_free(rotid_check *check);
 
-/* The lowest nmode elastic modes at the values x [nparameter] of the parameters of the deck, at their starts where x is NULL, and the
- * measured modes beside them; nmode 0: as many as the pairing looks through, at least six. Statuses: every ROTID_ERROR_ but
+/* The lowest nmode elastic modes at the values x [nparameter] of the parameters of the deck, at their starts where x is NULL, and
+ * the measured modes beside them; nmode 0: as many as the pairing looks through, at least six. Statuses: every ROTID_ERROR_ but
  * UNPAIRED, RANK, SYNTAX and IO. *spectrum is NULL on an error. */
 ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
                                      char *failure, rotid_spectrum **spectrum);

@@ -4,8 +4,9 @@
 
 #define FIRST "rotid_material"
 #define LAST  "rotid_diagnosis"
-#define BEGIN "  ! ------------------------------------------------------------------------------------------------ types: results\n"
-#define END   "  ! ---- types: end of results\n"
+#define BEGIN                                                                                                                    \
+    "  ! ------------------------------------------------------------------------------------------------ types: results\n"
+#define END "  ! ---- types: end of results\n"
 
 static const char *remark_of(struct pool *pool, const struct header_type *type)
 {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "deck/deck.h"
+#include "result/json_tree.h"
 #include "study/plan.h"
 #include "study/stamp.h"
 #include "study/summary.h"

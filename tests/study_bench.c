@@ -13,6 +13,7 @@
 
 #include "json_value.h"
 #include "report/json.h"
+#include "result/json_tree.h"
 #include "study/run.h"
 #include "support.h"
 

@@ -8,8 +8,9 @@
 
 #include "base/random.h"
 #include "json_deck.h"
-#include "run/spectrum.h"
 #include "report/json.h"
+#include "result/json_tree.h"
+#include "run/spectrum.h"
 
 #define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
 #define SHAFT                                                                                                                    \

@@ -254,7 +254,8 @@ static void broken_lines_are_told_with_their_place(void **state)
         {"\"status\":\"converged\"", "\"status\":\"perhaps\"",
          "2:1: this line is no result: status: is 'perhaps', expected converged, at_bound, not_converged or failed"},
         {"\"objective\":", "\"objective\":\"x\",\"y\":", "2:1: this line is no result: objective: is a text, expected a number"},
-        {"\"parameters\":[{", "\"parameters\":[7,{", "2:1: this line is no result: parameters[0]: is a number, expected an object"},
+        {"\"parameters\":[{", "\"parameters\":[7,{",
+         "2:1: this line is no result: parameters[0]: is a number, expected an object"},
         {"\"modes\":[", "\"modes\":7,\"y\":[", "2:1: this line is no result: modes: is a number, expected a list"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -355,8 +356,8 @@ static void a_parameter_that_stands_again_is_refused(void **state)
     struct told_cell cell[2] = {{.label = "one", .is = {.nparameters = AGAIN, .parameters = parameter[0]}},
                                 {.label = "two", .is = {.nparameters = AGAIN, .parameters = parameter[1]}}};
     for (int i = 0; i < 2 * AGAIN; i++)
-        parameter[i / AGAIN][i % AGAIN] =
-            (struct cell_parameter){.name = i % 3 ? "a" : "b", .unit = "1", .coverage95 = i < AGAIN ? 0.9 : 0.875, .intervals = 40};
+        parameter[i / AGAIN][i % AGAIN] = (struct cell_parameter){
+            .name = i % 3 ? "a" : "b", .unit = "1", .coverage95 = i < AGAIN ? 0.9 : 0.875, .intervals = 40};
     struct study_outcome study = {.is = {.ncells = 2}, .cell = cell};
     struct result result = {.file = "again.json", .studied = &study};
     struct document document;

@@ -307,9 +307,10 @@ static void wrong_usage_is_refused(void **state)
     bench_says("study --summary one.jsonl a.plan", 2, "is one argument too many");
     bench_says("study --summary one.jsonl -o x.jsonl", 2, "--summary writes no results");
     bench_says("study --summary a.plan", 2, "this is no file of results");
-    (void)bench_write("null.jsonl", "{\"schema\":1,\"rotid\":\"0\",\"commit\":\"\",\"command\":\"study\",\"plan\":null,\"studies\":"
-                                    "\"identify\",\"digest\":{\"plan\":\"1\",\"decks\":\"1\",\"data\":\"1\",\"options\":\"1\"},"
-                                    "\"seed\":null,\"runs\":1,\"shard\":null}\n");
+    (void)bench_write("null.jsonl",
+                      "{\"schema\":1,\"rotid\":\"0\",\"commit\":\"\",\"command\":\"study\",\"plan\":null,\"studies\":"
+                      "\"identify\",\"digest\":{\"plan\":\"1\",\"decks\":\"1\",\"data\":\"1\",\"options\":\"1\"},"
+                      "\"seed\":null,\"runs\":1,\"shard\":null}\n");
     bench_says("study --summary null.jsonl", 2, "null.jsonl:1:1: this is no file of results");
     bench_says("study --summary none.jsonl", 3, "cannot be opened");
     bench_says("study --merge one.jsonl", 2, "no file for the results");

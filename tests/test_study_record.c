@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "result/json_tree.h"
 #include "study/merge.h"
 #include "study/record.h"
 #include "study/stamp.h"
@@ -36,7 +37,8 @@ static int setup(void **state)
 }
 
 #define CELL                                                                                                                     \
-    "{\"deck\":\"d\",\"variant\":null,\"modes\":null,\"sensors\":null,\"noise_frequency\":null,\"noise_shape\":null,\"hide\":null}"
+    "{\"deck\":\"d\",\"variant\":null,\"modes\":null,\"sensors\":null,\"noise_frequency\":null,\"noise_shape\":null,\"hide\":"   \
+    "null}"
 
 /* As study_run writes them: the time last. */
 static const char *line_of(long run, const char *status, double value)
@@ -497,7 +499,8 @@ static void a_line_that_is_wrong_is_never_kept(void **state)
         {"\"objective\":1,", "\"objective\":\"1\",", "objective: is a text, expected a number"},
         {"\"std\":2", "\"std\":[2]", "parameters[0].std: is a list, expected a number"},
         {"\"ci95\":[0,4]", "\"ci95\":4", "parameters[0].ci95: is a number, expected a list"},
-        {"\"status\":\"converged\"", "\"status\":\"fine\"", "status: is 'fine', expected converged, at_bound, not_converged or failed"},
+        {"\"status\":\"converged\"", "\"status\":\"fine\"",
+         "status: is 'fine', expected converged, at_bound, not_converged or failed"},
         {"\"replicate\":1", "\"replicate\":null", "replicate: is null, expected a number"},
         {"\"run\":1,", "\"run\":1.5,", "run: is 1.5, expected a whole number"},
         {"\"run\":1,", "\"run\":\"1\",", "run: is a text, expected a number"},

@@ -5,6 +5,7 @@
 
 #include "json_value.h"
 #include "report/json.h"
+#include "result/json_tree.h"
 #include "study/run.h"
 #include "study_bench.h"
 #include "support.h"

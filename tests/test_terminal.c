@@ -313,7 +313,8 @@ static void results_of_studies(void **state)
     assert_int_equal(results_header_read(&test_pool, json, &header), 0);
     cJSON_Delete(json);
     stamp_study(&header, study);
-    char *failed = stamp_line(study, "{\"run\":0,\"cell\":{\"deck\":\"" HOSTILE "\\nrotid: a line\",\"variant\":null,\"modes\":null,\"sensors\":null,"
+    char *failed = stamp_line(study, "{\"run\":0,\"cell\":{\"deck\":\"" HOSTILE
+                                     "\\nrotid: a line\",\"variant\":null,\"modes\":null,\"sensors\":null,"
                                      "\"noise_frequency\":null,\"noise_shape\":null,\"hide\":null},\"replicate\":0,\"start\":0,"
                                      "\"status\":\"failed\",\"error\":\"" HOSTILE "\\u001b[1m\\u009b\\u202e\",\"seconds\":0}\n");
     write_file("forged.jsonl", pool_format(&test_pool, "%.*s%s", (int)(end - text), text, failed));

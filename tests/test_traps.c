@@ -252,7 +252,8 @@ static const struct {
     {condensations, "rotid_condense rotid_condense_derivative "},
     {least_squares, "rotid_lm_workspace rotid_check_jacobian_workspace rotid_lm rotid_check_jacobian "},
     {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_free "},
-    {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_deck_check rotid_check_free rotid_spectrum_compute rotid_spectrum_free rotid_identify "
+    {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_deck_check rotid_check_free rotid_spectrum_compute "
+            "rotid_spectrum_free rotid_identify "
             "rotid_identification_free rotid_diagnose rotid_diagnosis_free "},
 };
 enum { CALLS = sizeof table / sizeof *table };

@@ -56,7 +56,8 @@ const rotid_message *result_messages(struct result_memory *memory, const struct 
     memory->missing |= list->out_of_memory;
     for (size_t i = 0; copy && i < list->count; i++) {
         const struct message *m = &list->item[i];
-        copy[i] = (rotid_message){(int)m->severity, m->line, m->column, result_text(memory, m->file), result_text(memory, m->text)};
+        copy[i] =
+            (rotid_message){(int)m->severity, m->line, m->column, result_text(memory, m->file), result_text(memory, m->text)};
     }
     return copy;
 }

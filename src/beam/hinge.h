@@ -3,9 +3,9 @@
  *
  * This comment states which part is attached to which side. The node at the interface, with all parts attached to the node (tie
  * rods, springs, disks, masses at that very place), is on one side of the joint, the element with the hinge on the other. Where a
- * bundle of tie rods begins or ends at the interface, the bundle presses the joint together and holds on to the parts outside: the
- * hinge is in the element between the ends of the bundle. Elsewhere, and between two bundles, the hinge is in the element left of the
- * interface. */
+ * bundle of tie rods begins or ends at the interface, the bundle presses the joint together and holds on to the parts outside:
+ * the hinge is in the element between the ends of the bundle. Elsewhere, and between two bundles, the hinge is in the element
+ * left of the interface. */
 #ifndef ROTID_BEAM_HINGE_H
 #define ROTID_BEAM_HINGE_H
 

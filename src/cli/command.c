@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "report/output.h"
+#include "result/json_tree.h"
 #include "result/result.h"
 
 void command_print_messages(struct command *command)

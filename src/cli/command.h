@@ -48,7 +48,7 @@ struct command {
 
     struct pool pool;
     struct message_list messages;
-    size_t printed; /* of the messages */
+    size_t printed;        /* of the messages */
     rotid_deck *read;      /* what was read; NULL of commands that read none */
     const struct job *job; /* of it */
     struct provenance provenance;

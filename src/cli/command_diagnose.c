@@ -47,10 +47,8 @@ int command_diagnose(struct command *command)
     double last = 0;
     if (!command->seed) /* of which the library takes its default: the result states the one that was used */
         command->provenance.seed = command->seed = 1;
-    const rotid_diagnose_options options = {.size = sizeof options,
-                                            .threads = command->threads,
-                                            .replicates = command->replicates,
-                                            .seed = (long)command->seed};
+    const rotid_diagnose_options options = {
+        .size = sizeof options, .threads = command->threads, .replicates = command->replicates, .seed = (long)command->seed};
     const rotid_environment environment = command_environment(command, &last);
     rotid_diagnosis *diagnosis;
     int status = rotid_diagnose(command->read, &options, &environment, failure, &diagnosis);

@@ -93,7 +93,8 @@ static const char *reason(const struct engine *engine, const struct before *befo
     if (engine->moving.usable && is_moving_accelerometer(&c->effect) && c->effect.value[0] > most)
         return pool_format(pool, "the frequencies at single sensors allow no more than %.2g kg", most);
     if (isfinite(c->holdout_rms) && c->holdout_rms > WORSE * before->holdout_rms)
-        return pool_format(pool, "the prediction of held-out modes gets worse: %.2g %% after %.2g %%", c->holdout_rms, before->holdout_rms);
+        return pool_format(pool, "the prediction of held-out modes gets worse: %.2g %% after %.2g %%", c->holdout_rms,
+                           before->holdout_rms);
     int worse = isfinite(c->mode_out_rms) && c->mode_out_rms > WORSE * before->mode_out_rms,
         no_better = !(isfinite(c->sensor_out_rms) && c->sensor_out_rms < before->sensor_out_rms);
     if (worse && c->mode_out_rms > 2 * frequency_noise(&engine->job) && no_better)

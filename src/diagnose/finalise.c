@@ -162,25 +162,25 @@ static const char *verdict_sentence(struct engine *engine)
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case VERDICT_NAMED:
         if (!out->adequate_after && out->nalternative)
-            return pool_format(pool,
-                               "The model lacks %s (%s before); the data cannot tell which of %s causes the rest.%s%s",
+            return pool_format(pool, "The model lacks %s (%s before); the data cannot tell which of %s causes the rest.%s%s",
                                causes, chance, others, faults, open);
-        return pool_format(pool, "The model lacks %s; with %s %s (%s before).%s%s", causes,
-                           out->ncause > 1 ? "these causes" : "this cause",
-                           out->adequate_after ? "the model explains the data within their noise"
-                                               : "the residual still exceeds the noise",
-                           chance, faults, open);
+        return pool_format(
+            pool, "The model lacks %s; with %s %s (%s before).%s%s", causes, out->ncause > 1 ? "these causes" : "this cause",
+            out->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
+            chance, faults, open);
     case VERDICT_AMBIGUOUS:
         if (out->nalternative == 1)
-            return pool_format(pool,
-                               "The model does not explain the data (%s); %s would, but these data do not suffice to name a cause.%s%s",
-                               chance, others, faults, open);
-        return pool_format(pool, "The model does not explain the data (%s), and the data cannot tell which of %s is the cause%s.%s%s",
+            return pool_format(
+                pool, "The model does not explain the data (%s); %s would, but these data do not suffice to name a cause.%s%s",
+                chance, others, faults, open);
+        return pool_format(pool,
+                           "The model does not explain the data (%s), and the data cannot tell which of %s is the cause%s.%s%s",
                            chance, others, engine->confident ? "" : ", nor with confidence that any of them is", faults, open);
     default:
-        return pool_format(pool,
-                           "The model does not explain the data (%s%s), and no cause in the catalogue gains more than its parameters cost.%s%s",
-                           chance, misfit, faults, open);
+        return pool_format(
+            pool,
+            "The model does not explain the data (%s%s), and no cause in the catalogue gains more than its parameters cost.%s%s",
+            chance, misfit, faults, open);
     }
 }
 

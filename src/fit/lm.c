@@ -238,7 +238,8 @@ static void relax(struct lm *lm)
     lm->radius = lm->gain < 0.25 ? HALF * lm->length : LONGER * lm->length;
 }
 
-/* After a rejected step: f along the step is a parabola through the known values, whose minimum is the next length (More 1978). */
+/* After a rejected step: f along the step is a parabola through the known values, whose minimum is the next length (More 1978).
+ */
 static void tighten(struct lm *lm, double actual, int refused)
 {
     double slope = 0;

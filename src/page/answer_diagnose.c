@@ -73,7 +73,8 @@ static const char *named(struct pool *pool, const rotid_diagnosis *d)
         return pool_format(pool, "The model lacks %s. These data cannot tell what causes the rest: it may be %s.", what,
                            causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
     return pool_format(
-        pool, "The model lacks %s. %s the residual still exceeds the noise, and no cause in the catalogue explains the rest.", what, with);
+        pool, "The model lacks %s. %s the residual still exceeds the noise, and no cause in the catalogue explains the rest.",
+        what, with);
 }
 
 static const char *verdict(struct pool *pool, const rotid_diagnosis *d)
@@ -97,16 +98,16 @@ static const char *verdict(struct pool *pool, const rotid_diagnosis *d)
         text = named(pool, d);
         break;
     case ROTID_AMBIGUOUS:
-        text = d->verdict.nalternative_causes == 1
-                   ? pool_format(pool,
-                                 "Something is wrong with the model. One cause would explain the misfit, but these data do not "
-                                 "suffice to name a cause: %s.",
-                                 causes(pool, d, 1, d->verdict.alternative_causes, ""))
-                   : pool_format(pool,
-                                 "Something is wrong with the model, and these data cannot tell which of %s causes is present%s: %s.",
-                                 human_count(pool, d->verdict.nalternative_causes),
-                                 unsure(d) ? ", nor surely that any of them is" : "",
-                                 causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
+        text =
+            d->verdict.nalternative_causes == 1
+                ? pool_format(pool,
+                              "Something is wrong with the model. One cause would explain the misfit, but these data do not "
+                              "suffice to name a cause: %s.",
+                              causes(pool, d, 1, d->verdict.alternative_causes, ""))
+                : pool_format(
+                      pool, "Something is wrong with the model, and these data cannot tell which of %s causes is present%s: %s.",
+                      human_count(pool, d->verdict.nalternative_causes), unsure(d) ? ", nor surely that any of them is" : "",
+                      causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
         break;
     case ROTID_UNEXPLAINED:
         text = "Something is wrong with the model, and no cause in the catalogue explains the misfit.";
@@ -204,17 +205,17 @@ static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
         tried += candidate[i].refitted;
     if (d->verdict.kind == ROTID_NAMED && first >= 0 && second >= 0)
         say(reasons,
-            pool_format(pool, "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; the required lead is %s.",
+            pool_format(pool,
+                        "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; the required lead is %s.",
                         human_count(pool, tried), cause_label(pool, d, &candidate[first].cause),
                         cause_label(pool, d, &candidate[second].cause),
                         human_digits(pool, candidate_lead(&candidate[first], &candidate[second]), 3),
                         human_trimmed(pool, round->required_margin, 3)));
     else if (d->verdict.kind == ROTID_NAMED && first >= 0 && tried > 1)
-        say(reasons,
-            pool_format(pool,
-                        "Of %s causes that were fitted all others were refused, for their size or because they predict "
-                        "held-out modes worse.",
-                        human_count(pool, tried)));
+        say(reasons, pool_format(pool,
+                                 "Of %s causes that were fitted all others were refused, for their size or because they predict "
+                                 "held-out modes worse.",
+                                 human_count(pool, tried)));
     if (d->verdict.kind == ROTID_AMBIGUOUS && d->verdict.nalternative_causes > 1 && isfinite(round->required_margin))
         say(reasons, pool_format(pool,
                                  "None of them leads the others by %s in the misfit, the lead that a name requires. Their order "

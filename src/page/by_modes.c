@@ -36,7 +36,8 @@ int by_modes_make(struct pool *pool, const struct study_outcome *study, struct b
         struct modes_point point = study->cell[i].is.cell.modes ? point_of(study, i) : (struct modes_point){.fitted = 0};
         if (!point.fitted)
             continue;
-        while (s < by->nseries && !study_same_but_modes(&study->cell[by->series[s].point[0].cell].is.cell, &study->cell[i].is.cell))
+        while (s < by->nseries &&
+               !study_same_but_modes(&study->cell[by->series[s].point[0].cell].is.cell, &study->cell[i].is.cell))
             s++;
         if (s == BY_MODES_SERIES) {
             by->more++;

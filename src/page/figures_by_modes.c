@@ -120,11 +120,11 @@ void figure_functional_by_modes(struct document *document, const struct result *
                            *by.series[s].name ? " " : "", functional_text(pool, first->functional), first->fitted,
                            human_plural(first->fitted, "mode", "modes"), functional_text(pool, last->functional), last->fitted);
     }
-    figure->caption =
-        pool_format(pool,
-                    "Mean functional for each pair of modes at the optimum: %s.%s A functional that is small because no more modes "
-                    "than parameters were fitted says nothing about the model.",
-                    says ? says : "", by.more ? " Further variants stand in the table of the cells." : "");
+    figure->caption = pool_format(
+        pool,
+        "Mean functional for each pair of modes at the optimum: %s.%s A functional that is small because no more modes "
+        "than parameters were fitted says nothing about the model.",
+        says ? says : "", by.more ? " Further variants stand in the table of the cells." : "");
     figure->alt =
         pool_format(pool, "One line for each of %d variants over the number of modes: %s.", by.nseries, says ? says : "");
     figure->table = functional_table(pool, &by);

@@ -211,8 +211,9 @@ static const char *lead(struct pool *pool, const rotid_diagnosis *d, int number,
         text = pool_format(pool, "%s lowers the misfit of %s by %s", name, human_digits(pool, round->chi2, 4),
                            human_digits(pool, best->chi2_drop, 3));
     if (round->kind == ROTID_NAMED && best && second >= 0 && text)
-        text = pool_format(pool, "%s and leads the runner-up, %s, by %s, with 3 charged for each parameter; the required lead is %s",
-                           text, next, human_digits(pool, candidate_lead(best, &candidate[second]), 3), asked);
+        text =
+            pool_format(pool, "%s and leads the runner-up, %s, by %s, with 3 charged for each parameter; the required lead is %s",
+                        text, next, human_digits(pool, candidate_lead(best, &candidate[second]), 3), asked);
     else if (round->kind == ROTID_NAMED && best && longest != best && text)
         text = pool_format(pool, "%s. %s does so by more and was refused: %s", text, bars->bar[0].label,
                            longest->rejected_because ? longest->rejected_because : "");

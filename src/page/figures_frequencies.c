@@ -1,4 +1,5 @@
-/* Errors of the frequencies, mode by mode: of the fit, of NLopt's minimisers, and of the references in the heading of the deck. */
+/* Errors of the frequencies, mode by mode: of the fit, of NLopt's minimisers, and of the references in the heading of the deck.
+ */
 #include <math.h>
 #include <string.h>
 

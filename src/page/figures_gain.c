@@ -121,11 +121,10 @@ void figure_gain(struct document *document, const struct result *result)
     for (int i = 0; i < 3 && text; i++)
         if (*parts[i])
             text = pool_format(pool, "%s%s%s", text, *text ? ", " : "", parts[i]);
-    figure->caption =
-        pool_format(pool,
-                    "%s%s A model with more parameters always fits better; its prediction of held-out data tells "
-                    "whether the model is better.",
-                    text ? words_sentence(pool, text) : "", text && *text ? "." : "");
+    figure->caption = pool_format(pool,
+                                  "%s%s A model with more parameters always fits better; its prediction of held-out data tells "
+                                  "whether the model is better.",
+                                  text ? words_sentence(pool, text) : "", text && *text ? "." : "");
     figure->alt = pool_format(pool, "Pairs of points, without and with the cause: %s.", text ? text : "");
     /* its numbers: the table of the quality */
     document->failed |= !text;

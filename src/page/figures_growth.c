@@ -29,8 +29,7 @@ static struct number_table *growth_table(struct pool *pool, const struct growth 
     return table;
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result,
-                  const struct growth *growth)
+static int script(struct document *document, struct figure *figure, const struct result *result, const struct growth *growth)
 {
     struct pool *pool = document->pool;
     int n = growth->nepsilon_squared;
@@ -46,7 +45,8 @@ static int script(struct document *document, struct figure *figure, const struct
     struct plot_range y = plot_decades(2 * n, both, 30), x = plot_decades(n, growth->epsilon_squared, 30);
     plot_head(entry, 2, layout.head);
     plot_line(&plot, "# columns: eps^2, f(E), f(F)");
-    plot_data(&plot, "growth", n, 3, (const double *const[]){growth->epsilon_squared, growth->hybrid.objective, growth->hybrid_f.objective});
+    plot_data(&plot, "growth", n, 3,
+              (const double *const[]){growth->epsilon_squared, growth->hybrid.objective, growth->hybrid_f.objective});
     plot_line(&plot, "# straight lines through the logarithms\nE(x) = exp(%s + %s * log(x)); F(x) = exp(%s + %s * log(x))",
               plot_number(&plot, growth->hybrid.intercept), plot_number(&plot, growth->hybrid.slope),
               plot_number(&plot, growth->hybrid_f.intercept), plot_number(&plot, growth->hybrid_f.slope));
@@ -72,7 +72,8 @@ void figure_growth(struct document *document, const struct result *result)
     double rounding = 0;
     for (int kind = 0; kind < 2; kind++)
         line[kind] = pool_format(pool, "ln f(%c) = %s ln \xce\xb5\xc2\xb2 %s %s", "EF"[kind],
-                                 human_fixed(pool, line_of(growth, kind)->slope, 4), line_of(growth, kind)->intercept < 0 ? "\xe2\x88\x92" : "+",
+                                 human_fixed(pool, line_of(growth, kind)->slope, 4),
+                                 line_of(growth, kind) -> intercept < 0 ? "\xe2\x88\x92" : "+",
                                  human_fixed(pool, fabs(line_of(growth, kind)->intercept), 3));
     for (int i = 0; i < growth->nepsilon_squared && growth->shapes_alone; i++)
         rounding = fmax(rounding, fabs(growth->shapes_alone[i]));
@@ -83,8 +84,8 @@ void figure_growth(struct document *document, const struct result *result)
             : "";
     figure->caption = pool_format(
         pool, "Both grow with the square of the perturbation: %s, %s. They differ by a factor of %s (4 to first order).%s",
-        line[0] ? line[0] : "", line[1] ? line[1] : "", human_digits(pool, exp(growth->hybrid.intercept - growth->hybrid_f.intercept), 2),
-        alone ? alone : "");
+        line[0] ? line[0] : "", line[1] ? line[1] : "",
+        human_digits(pool, exp(growth->hybrid.intercept - growth->hybrid_f.intercept), 2), alone ? alone : "");
     figure->alt = pool_format(pool, "Two straight lines on logarithmic scales, one above the other, with %d points on each.",
                               growth->nepsilon_squared);
     figure->table = growth_table(pool, growth);

@@ -96,13 +96,13 @@ void figure_improvement(struct document *document, const struct result *result)
                            human_digits(pool, fit_rms_percent(d->base, 1), 2),
                            human_digits(pool, fit_rms_percent(d->extended, 1), 2))
              : " No mode was held out by the deck.";
-    figure->caption = pool_format(
-        pool,
-        "In the extended model the errors of the fitted frequencies fall from %s to %s\xc2\xa0%% rms, the largest "
-        "from %s to %s\xc2\xa0%%.%s",
-        human_digits(pool, fit_rms_percent(d->base, 0), 2), human_digits(pool, fit_rms_percent(d->extended, 0), 2),
-        human_digits(pool, d->gain.frequency_max_percent.before, 2), human_digits(pool, d->gain.frequency_max_percent.after, 2),
-        left ? left : "");
+    figure->caption =
+        pool_format(pool,
+                    "In the extended model the errors of the fitted frequencies fall from %s to %s\xc2\xa0%% rms, the largest "
+                    "from %s to %s\xc2\xa0%%.%s",
+                    human_digits(pool, fit_rms_percent(d->base, 0), 2), human_digits(pool, fit_rms_percent(d->extended, 0), 2),
+                    human_digits(pool, d->gain.frequency_max_percent.before, 2),
+                    human_digits(pool, d->gain.frequency_max_percent.after, 2), left ? left : "");
     figure->alt = pool_format(pool, "For each of %d modes its error before and after, joined by a line.", count);
     struct series *series = collect(document, count, before, before + d->base->nmodes);
     struct plot plot;

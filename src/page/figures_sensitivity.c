@@ -117,8 +117,8 @@ void figure_sensitivity(struct document *document, const struct result *result)
                                   "in steps of %s\xc2\xa0%%: %s does most (%s at most)%s.",
                                   human_digits(pool, 100 * s->step, 2), s->parameters[most].name,
                                   human_digits(pool, strongest(s, most), 2), weak ? weak : "");
-    figure->alt =
-        pool_format(pool, "%d %s over %d modes on a logarithmic scale.", count, human_plural(count, "curve", "curves"), s->nfrequency_hz);
+    figure->alt = pool_format(pool, "%d %s over %d modes on a logarithmic scale.", count, human_plural(count, "curve", "curves"),
+                              s->nfrequency_hz);
     figure->table = sensitivity_table(pool, result);
     document->failed |= !figure->caption || !figure->alt || sensitivity_script(document, figure, result, count) != ROTID_OK;
 }
@@ -215,7 +215,8 @@ void figure_sensitivity_curves(struct document *document, const struct result *r
     struct figure *figure = document_figure(document, "sensitivity-curves", "How the functional grows away from the reference");
     figure->caption =
         pool_format(pool, "Share of each mode in the functional where one parameter goes from %s to %s of its reference: %s.",
-                    human_trimmed(pool, s->relative_value[0], 3), human_trimmed(pool, s->relative_value[s->nrelative_value - 1], 3), says ? says : "");
+                    human_trimmed(pool, s->relative_value[0], 3),
+                    human_trimmed(pool, s->relative_value[s->nrelative_value - 1], 3), says ? says : "");
     figure->alt = pool_format(
         pool, "%d panels, one a parameter, on one scale: %d curves that are zero at the reference and rise to both sides.", count,
         modes);

@@ -1,4 +1,5 @@
-/* Shapes of modes, one panel each: measured points and the model's line along the axis, with the mounted parts beside the line. */
+/* Shapes of modes, one panel each: measured points and the model's line along the axis, with the mounted parts beside the line.
+ */
 #include <math.h>
 
 #include "page/figures.h"

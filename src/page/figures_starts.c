@@ -221,9 +221,10 @@ void figure_starts(struct document *document, const struct result *result)
     if (starts.count < 2)
         return;
     struct figure *figure = document_figure(document, "starts", "Where the iterations begin and where they end");
-    const char *where = pool_format(pool, "%s = %s, %s = %s", cell->is.parameters[0].name,
-                                    human_value(pool, cell->is.parameters[0].mean, cell->is.parameters[0].unit), cell->is.parameters[1].name,
-                                    human_value(pool, cell->is.parameters[1].mean, cell->is.parameters[1].unit));
+    const char *where =
+        pool_format(pool, "%s = %s, %s = %s", cell->is.parameters[0].name,
+                    human_value(pool, cell->is.parameters[0].mean, cell->is.parameters[0].unit), cell->is.parameters[1].name,
+                    human_value(pool, cell->is.parameters[1].mean, cell->is.parameters[1].unit));
     const char *span = span_of(pool, cell, &starts);
     const char *end = starts.reached == starts.count
                           ? pool_format(pool, "all end at the same minimum, %s", where ? where : "")

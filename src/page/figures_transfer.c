@@ -247,7 +247,8 @@ void figure_transfer(struct document *document, const struct result *result)
         return;
     }
     document_paragraph(document, "Of %d functions %s are drawn; the result has all.", n,
-                       out->agreement && isfinite(out->agreement->frac) ? "the best, the middle and the worst one" : "the first four");
+                       out->agreement && isfinite(out->agreement->frac) ? "the best, the middle and the worst one"
+                                                                        : "the first four");
     sort_by_agreement(n, out, order);
     if (!isfinite(frac(&out->functions[order[0]]))) {
         for (int i = 0; i < MOST_FIGURES; i++)

@@ -33,14 +33,16 @@ static void section_next(struct document *document, const rotid_diagnosis *d, co
             text[n++] = pool_format(pool, "%s: %s.", cause->id, check);
     }
     if (count && d->verdict.ncauses)
-        text[n++] = pool_format(pool,
-                                "To go on with the extended model: rotid diagnose %s --extended better.inp writes the deck with the "
-                                "cause as a *CAUSE card, and rotid identify better.inp uses it.",
-                                deck);
+        text[n++] =
+            pool_format(pool,
+                        "To go on with the extended model: rotid diagnose %s --extended better.inp writes the deck with the "
+                        "cause as a *CAUSE card, and rotid identify better.inp uses it.",
+                        deck);
     if (!n)
         return;
     document_section(document, "look",
-                     d->verdict.ncauses ? "Inspect the rotor before you believe the verdict" : "The measurement that would decide");
+                     d->verdict.ncauses ? "Inspect the rotor before you believe the verdict"
+                                        : "The measurement that would decide");
     document_list(document, n, text);
 }
 
@@ -111,8 +113,11 @@ static void section_evidence(struct document *document, const struct result *res
             continue;
         document_table(document, pool_format(pool, "Candidates of round %d, those that stay first", i + 1),
                        tables_candidates(pool, d, i));
-        document_table(document, pool_format(pool, "Fitted candidates of round %d: prediction error on held-out data, and the most similar candidate", i + 1),
-                       tables_candidate_quality(pool, d, i));
+        document_table(
+            document,
+            pool_format(pool, "Fitted candidates of round %d: prediction error on held-out data, and the most similar candidate",
+                        i + 1),
+            tables_candidate_quality(pool, d, i));
         document_table(document, pool_format(pool, "Sizes and places of the candidates of round %d", i + 1),
                        tables_candidate_sizes(pool, d, i));
     }
@@ -139,10 +144,11 @@ static void section_detection_limits(struct document *document, const rotid_diag
     if (!d->ndetectable)
         return;
     document_section(document, "limits", "Detection limits");
-    document_paragraph(
-        document, "An effect below its limit would not have shown in this measurement, and may be present. A size is the "
-                  "distance from no effect; an effect of that size shows in 9 of 10 tests at 3 false alarms in 100.");
-    document_table(document, "Detection limits: the smallest size of each cause that would have shown", tables_detection_limits(document->pool, d));
+    document_paragraph(document,
+                       "An effect below its limit would not have shown in this measurement, and may be present. A size is the "
+                       "distance from no effect; an effect of that size shows in 9 of 10 tests at 3 false alarms in 100.");
+    document_table(document, "Detection limits: the smallest size of each cause that would have shown",
+                   tables_detection_limits(document->pool, d));
 }
 
 void section_diagnose(struct document *document, const struct result *result)

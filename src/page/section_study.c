@@ -82,10 +82,11 @@ void answer_study(struct document *document, const struct result *result)
         text = pool_format(pool, "%s Of %.0f diagnoses %.0f are right, in the set, or rightly quiet; %.0f name something else.",
                            text, sum.scored, sum.good, sum.false_alarm);
     if (s->is.plan)
-        document->title = or_nothing(pool_format(pool, "Study %s", strrchr(s->is.plan, '/') ? strrchr(s->is.plan, '/') + 1 : s->is.plan));
+        document->title =
+            or_nothing(pool_format(pool, "Study %s", strrchr(s->is.plan, '/') ? strrchr(s->is.plan, '/') + 1 : s->is.plan));
     document->tone = s->is.done < s->is.runs || s->is.failed > 0 || stuck > 0 ? TONE_CARE : TONE_NONE;
     document->headline = s->is.done < s->is.runs ? pool_format(pool, "%d of %d runs", s->is.done, s->is.runs)
-                                             : pool_format(pool, "%d runs", s->is.done);
+                                                 : pool_format(pool, "%d runs", s->is.done);
     document->answer = or_nothing(text);
 }
 
@@ -173,8 +174,8 @@ void section_study(struct document *document, const struct result *result)
     const struct study_outcome *s = result->studied;
     struct pool *pool = document->pool;
     document_section(document, "study", "The study");
-    document_paragraph(document, "%s: %d of %d %s in %d %s%s.", s->is.plan ? s->is.plan : "Decks as they stand", s->is.done, s->is.runs,
-                       runs_of(s, s->is.runs), s->is.ncells, human_plural(s->is.ncells, "cell", "cells"),
+    document_paragraph(document, "%s: %d of %d %s in %d %s%s.", s->is.plan ? s->is.plan : "Decks as they stand", s->is.done,
+                       s->is.runs, runs_of(s, s->is.runs), s->is.ncells, human_plural(s->is.ncells, "cell", "cells"),
                        isfinite(s->is.seconds) && s->is.done > 0
                            ? or_nothing(pool_format(pool, "; %s a run", human_seconds(pool, s->is.seconds / s->is.done)))
                            : "");
@@ -185,8 +186,7 @@ void section_study(struct document *document, const struct result *result)
             "made: starts and ends, what depends on the number of modes, errors of the runs.",
             result->file);
     for (int i = 0; i < s->is.nerrors && i < MOST_FAILURES; i++)
-        document_paragraph(document, "%s failed: %s",
-                           words_sentence(pool, human_count(pool, s->is.errors[i].runs)),
+        document_paragraph(document, "%s failed: %s", words_sentence(pool, human_count(pool, s->is.errors[i].runs)),
                            s->is.errors[i].error);
     figure_starts(document, result);
     figure_functional_by_modes(document, result);

@@ -70,9 +70,9 @@ void section_transfer(struct document *document, const struct result *result)
     if (out->nparameters)
         document_paragraph(document, "The model is the identified one: %s.", at ? at : "");
     if (out->agreement && isfinite(out->agreement->frac))
-        document_paragraph(document,
-                           "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
-                           human_fixed(pool, out->agreement->frac, 3), human_fixed(pool, out->agreement->frac_at_measured_frequencies, 3));
+        document_paragraph(
+            document, "FRAC over all functions is %s, and %s with the measured frequencies put in for the model's.",
+            human_fixed(pool, out->agreement->frac, 3), human_fixed(pool, out->agreement->frac_at_measured_frequencies, 3));
     if (!out->with_curves)
         document_paragraph(document, "The result has no curves, because there were too many lines: rotid frf -o writes them as a "
                                      "universal file.");

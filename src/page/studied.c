@@ -126,8 +126,7 @@ static int cell_of(const struct json_place *line, const struct study_outcome *ou
 /* The parameters of a run in the order of its cell. */
 static struct run_parameter *values_of(struct pool *pool, const struct run_fit *fit, const struct study_cell_result *cell)
 {
-    static const struct run_parameter nothing = {
-        .value = NAN, .start = NAN, .std = NAN, .ci95 = {NAN, NAN}, .truth = NAN};
+    static const struct run_parameter nothing = {.value = NAN, .start = NAN, .std = NAN, .ci95 = {NAN, NAN}, .truth = NAN};
     struct run_parameter *value = POOL_ARRAY(pool, struct run_parameter, cell->nparameters);
     for (int p = 0; p < cell->nparameters && value; p++) {
         value[p] = nothing;

@@ -15,6 +15,5 @@ struct provenance {
 
 /* A text to be freed with json_free, or NULL where memory is out. */
 char *json_sensitivity(const struct provenance *provenance, const struct job *job, const struct sensitivity *sensitivity);
-void json_free(char *text);
 
 #endif

@@ -26,7 +26,9 @@ static struct listed_set *sets(struct pool *pool, const struct listing *listing)
                                       .set = set->set.number,
                                       .binary = set->set.is_binary,
                                       .name = name_of_set(set->set.number),
-                                      .state = set->is_faulty ? "malformed" : set->is_read ? "read" : "not_known",
+                                      .state = set->is_faulty ? "malformed"
+                                               : set->is_read ? "read"
+                                                              : "not_known",
                                       .count = (double)set->size};
     }
     return list;
@@ -186,16 +188,16 @@ char *json_uff(const struct provenance *provenance, const char *path, const stru
         out.header = &header;
     }
     if (u) {
-        units = (struct listed_units){u->code,   name_of_units(u->code), text_or_null(u->description), u->length, u->force,
-                                      u->temperature, u->temperature_offset};
+        units = (struct listed_units){u->code,  name_of_units(u->code), text_or_null(u->description), u->length,
+                                      u->force, u->temperature,         u->temperature_offset};
         out.units = &units;
     }
     pool_open(&pool, NULL);
     out.sets = sets(&pool, listing);
     out.functions = functions(&pool, listing);
     out.shapes = shapes(&pool, listing);
-    if (out.sets && out.functions && out.shapes && add_nodes(&pool, listing, all, &out.nodes) && add_doubts(&pool, listing, &out) &&
-        add_errors(&pool, messages, &out))
+    if (out.sets && out.functions && out.shapes && add_nodes(&pool, listing, all, &out.nodes) &&
+        add_doubts(&pool, listing, &out) && add_errors(&pool, messages, &out))
         return json_result(&pool, provenance, NULL, NULL, &result);
     pool_close(&pool);
     return NULL;

@@ -30,8 +30,7 @@ void table_sensitivity(FILE *out, const struct job *job, const struct sensitivit
         char quantity[128];
         (void)snprintf(quantity, sizeof quantity, "sensitivity %s", one->name);
         const struct reference *paper = job_reference(job, quantity);
-        (void)fprintf(out, "%s at %.6g %s\n", one->name, one->reference,
-                      strcmp(one->unit, "1") ? one->unit : "");
+        (void)fprintf(out, "%s at %.6g %s\n", one->name, one->reference, strcmp(one->unit, "1") ? one->unit : "");
         (void)fprintf(out, "mode   frequency [Hz]   step        limit       %s\n", paper ? "paper (magnitude)" : "");
         for (int k = 0; k < r->nfrequency_hz; k++) {
             (void)fprintf(out, "%3d", k + 1);

@@ -54,8 +54,8 @@ int cause_place(const rotid_geometry *geometry, const rotid_cause *cause, struct
     if (!geometry)
         return 0;
     if (z && isfinite(z->value)) {
-        *place = (struct cause_place){
-            fmax(z->value - half, 0), fmin(z->value + half, geometry->length_m), {z->ci95[0], z->ci95[1]}};
+        *place =
+            (struct cause_place){fmax(z->value - half, 0), fmin(z->value + half, geometry->length_m), {z->ci95[0], z->ci95[1]}};
         return place->from <= place->to;
     }
     return *cause->target && (at_group(geometry, cause->target, place) || at_member(geometry, cause->target, place));

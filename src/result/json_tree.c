@@ -115,41 +115,6 @@ void json_open(struct json_tree *tree)
     tree->failed = !tree->root;
 }
 
-void json_provenance(struct json_tree *tree, const struct provenance *provenance)
-{
-    json_number(tree, tree->root, "schema", 1);
-    json_text(tree, tree->root, "rotid", provenance->version);
-    json_text(tree, tree->root, "commit", provenance->commit);
-    json_text(tree, tree->root, "blas", provenance->blas);
-    json_number(tree, tree->root, "seed", (double)provenance->seed);
-    json_number(tree, tree->root, "threads", provenance->threads);
-    json_text(tree, tree->root, "command", provenance->command);
-}
-
-void json_begin(struct json_tree *tree, const struct provenance *provenance, const struct job *job)
-{
-    json_open(tree);
-    json_provenance(tree, provenance);
-    json_text(tree, tree->root, "deck", job->deck);
-    cJSON *heading = json_array(tree, tree->root, "heading");
-    for (int i = 0; i < job->nheading; i++)
-        json_text(tree, heading, NULL, job->heading[i]);
-    cJSON *references = json_array(tree, tree->root, "references");
-    for (int i = 0; i < job->nreference; i++) {
-        cJSON *item = json_object(tree, references, NULL);
-        json_text(tree, item, "quantity", job->reference[i].quantity);
-        json_list(tree, item, "values", job->reference[i].count, job->reference[i].value);
-    }
-}
-
-void json_notes(struct json_tree *tree, const struct message_list *notes)
-{
-    cJSON *array = json_array(tree, tree->root, "warnings");
-    for (size_t i = 0; i < notes->count; i++)
-        if (notes->item[i].severity == SEVERITY_WARNING)
-            json_text(tree, array, NULL, notes->item[i].text);
-}
-
 /* A copy with `behind` at its end, in which control characters are escaped: cJSON does so with those of ASCII alone, and a file
  * is shown on terminals too. They stand within texts only, but for the blanks between values. */
 static char *escape(const char *text, const char *behind)

@@ -4,20 +4,15 @@
 
 #include <cJSON.h>
 
-#include "report/json.h"
-
 struct json_tree {
     cJSON *root;
     int failed;
 };
 
 void json_open(struct json_tree *tree);
-/* What stands at the head of every result. */
-void json_provenance(struct json_tree *tree, const struct provenance *provenance);
-/* A tree with that and with the deck and its heading. */
-void json_begin(struct json_tree *tree, const struct provenance *provenance, const struct job *job);
 /* The text, to be freed with json_free, or NULL where memory was out. The tree is gone then. */
 char *json_close(struct json_tree *tree);
+void json_free(char *text);
 /* The same without a blank, in one line that ends in a line feed. */
 char *json_close_line(struct json_tree *tree);
 
@@ -39,7 +34,5 @@ void json_rounded(struct json_tree *tree, cJSON *parent, const char *key, double
 /* Rows of a column-major matrix, in full or with nine significant digits. */
 void json_digit_rows(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value);
 void json_matrix(struct json_tree *tree, cJSON *parent, const char *key, int rows, int columns, const double *value);
-/* "warnings" of the list */
-void json_notes(struct json_tree *tree, const struct message_list *notes);
 
 #endif

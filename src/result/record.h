@@ -1,9 +1,9 @@
-/* One description of a result: a table of fields for each struct, one row a key of the JSON. From the table follow the JSON that is
- * written, the JSON that is read, with the place of every mistake, and docs/schema.
+/* One description of a result: a table of fields for each struct, one row a key of the JSON. From the table follow the JSON that
+ * is written, the JSON that is read, with the place of every mistake, and docs/schema.
  *
  * A key is the name of the member, and its description in the schema is the comment of the member. A list X has its length in the
- * member nX beside it, unless its row names another one. What is not known is NaN, NULL, ROTID_NONE or a word below 0 in the struct
- * and null in the JSON. */
+ * member nX beside it, unless its row names another one. What is not known is NaN, NULL, ROTID_NONE or a word below 0 in the
+ * struct and null in the JSON. */
 #ifndef ROTID_RESULT_RECORD_H
 #define ROTID_RESULT_RECORD_H
 
@@ -38,15 +38,15 @@ enum field_shape {
 
 /* Bits of a row. Of the ranges no more than one. */
 enum {
-    MAY_BE_NULL = 1,    /* not known: null. Of a list: NULL; of its elements: ELEMENTS_MAY_BE_NULL */
+    MAY_BE_NULL = 1, /* not known: null. Of a list: NULL; of its elements: ELEMENTS_MAY_BE_NULL */
     ELEMENTS_MAY_BE_NULL = 2,
-    IF_KNOWN = 4,       /* not known: the key is left out; of FIELD_INLINE all of them */
-    SINCE_LATER = 8,    /* older results do not have the key */
-    ROUNDED = 16,       /* nine significant digits: for what is drawn */
+    IF_KNOWN = 4,    /* not known: the key is left out; of FIELD_INLINE all of them */
+    SINCE_LATER = 8, /* older results do not have the key */
+    ROUNDED = 16,    /* nine significant digits: for what is drawn */
     BEHIND_POINTER = 32,
     NOT_EMPTY = 64,
-    WHOLE = 128,        /* a whole number in a double: what an int may not hold */
-    ABOVE_0 = 256,      /* ranges, of the elements of a list too */
+    WHOLE = 128,   /* a whole number in a double: what an int may not hold */
+    ABOVE_0 = 256, /* ranges, of the elements of a list too */
     FROM_0 = 512,
     FROM_1 = 1024,
     PROBABILITY = 2048, /* 0 to 1 */
@@ -64,7 +64,7 @@ struct field {
     int fixed;
     const char *counted_by;      /* SHAPE_LIST: key of the list whose length this one has, NULL: its own */
     const struct record *record; /* of FIELD_RECORD and FIELD_INLINE */
-    const char *const *words;   /* ends with NULL */
+    const char *const *words;    /* ends with NULL */
 };
 
 struct record {
@@ -73,26 +73,29 @@ struct record {
     const struct field *field; /* ends with key NULL */
 };
 
-#define RECORD_ROW(S, M, KIND, SHAPE, BITS, ...)                                                                                \
+#define RECORD_ROW(S, M, KIND, SHAPE, BITS, ...)                                                                                 \
     {                                                                                                                            \
         .key = #M, .kind = (KIND), .shape = (SHAPE), .bits = (BITS), .offset = offsetof(S, M), __VA_ARGS__                       \
     }
-#define COUNTED(S, COUNT, BY)            .count = offsetof(S, COUNT), .counted_by = (BY)
-#define NUMBER(S, M, BITS)               RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_ONE, BITS, .fixed = 0)
-#define INTEGER(S, M, BITS)              RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_ONE, BITS, .fixed = 0)
-#define FLAG(S, M, BITS)                 RECORD_ROW(S, M, FIELD_FLAG, SHAPE_ONE, BITS, .fixed = 0)
+#define COUNTED(S, COUNT, BY) .count = offsetof(S, COUNT), .counted_by = (BY)
+#define NUMBER(S, M, BITS)    RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_ONE, BITS, .fixed = 0)
+#define INTEGER(S, M, BITS)   RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_ONE, BITS, .fixed = 0)
+#define FLAG(S, M, BITS)      RECORD_ROW(S, M, FIELD_FLAG, SHAPE_ONE, BITS, .fixed = 0)
 /* Of the member is_KEY, where the key is a word of C. */
-#define FLAG_IS(S, KEY, BITS)            {.key = #KEY, .kind = FIELD_FLAG, .bits = (BITS), .offset = offsetof(S, is_##KEY)}
-#define TEXT(S, M, BITS)                 RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .fixed = 0)
-#define TEXT_OF(S, M, BITS, WORDS)       RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .words = (WORDS))
-#define WORD(S, M, BITS, WORDS)          RECORD_ROW(S, M, FIELD_WORD, SHAPE_ONE, BITS, .words = (WORDS))
-#define STRUCT(S, M, BITS, RECORD)       RECORD_ROW(S, M, FIELD_RECORD, SHAPE_ONE, BITS, .record = &(RECORD))
-#define INLINE(S, M, BITS, RECORD)       RECORD_ROW(S, M, FIELD_INLINE, SHAPE_ONE, BITS, .record = &(RECORD))
-#define INTERVAL(S, M, BITS)             RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, BITS, .fixed = 2)
-#define NUMBERS(S, M, BITS)              RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
-#define INTEGERS(S, M, BITS)             RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
-#define TEXTS(S, M, BITS)                RECORD_ROW(S, M, FIELD_TEXT, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
-#define STRUCTS(S, M, BITS, RECORD)      RECORD_ROW(S, M, FIELD_RECORD, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL), .record = &(RECORD))
+#define FLAG_IS(S, KEY, BITS)                                                                                                    \
+    {                                                                                                                            \
+        .key = #KEY, .kind = FIELD_FLAG, .bits = (BITS), .offset = offsetof(S, is_##KEY)                                         \
+    }
+#define TEXT(S, M, BITS)            RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .fixed = 0)
+#define TEXT_OF(S, M, BITS, WORDS)  RECORD_ROW(S, M, FIELD_TEXT, SHAPE_ONE, BITS, .words = (WORDS))
+#define WORD(S, M, BITS, WORDS)     RECORD_ROW(S, M, FIELD_WORD, SHAPE_ONE, BITS, .words = (WORDS))
+#define STRUCT(S, M, BITS, RECORD)  RECORD_ROW(S, M, FIELD_RECORD, SHAPE_ONE, BITS, .record = &(RECORD))
+#define INLINE(S, M, BITS, RECORD)  RECORD_ROW(S, M, FIELD_INLINE, SHAPE_ONE, BITS, .record = &(RECORD))
+#define INTERVAL(S, M, BITS)        RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, BITS, .fixed = 2)
+#define NUMBERS(S, M, BITS)         RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define INTEGERS(S, M, BITS)        RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define TEXTS(S, M, BITS)           RECORD_ROW(S, M, FIELD_TEXT, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL))
+#define STRUCTS(S, M, BITS, RECORD) RECORD_ROW(S, M, FIELD_RECORD, SHAPE_LIST, BITS, COUNTED(S, n##M, NULL), .record = &(RECORD))
 /* As many as the member COUNT says, which an earlier row, of key BY, has set. */
 #define NUMBERS_BY(S, M, BITS, COUNT, BY)  RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_LIST, BITS, COUNTED(S, COUNT, BY))
 #define INTEGERS_BY(S, M, BITS, COUNT, BY) RECORD_ROW(S, M, FIELD_INTEGER, SHAPE_LIST, BITS, COUNTED(S, COUNT, BY))
@@ -103,13 +106,19 @@ struct record {
 #define MAPS(S, M, BITS, EACH)                                                                                                   \
     RECORD_ROW(S, M, FIELD_MAP, SHAPE_LIST, BITS, .count = offsetof(S, n##M), .columns = offsetof(S, EACH))
 /* Rows of the same struct in a table of their own, whose keys stand together or not at all: IF_KNOWN, told by the first one. */
-#define ROWS(BITS, RECORD)               {.key = "", .kind = FIELD_INLINE, .bits = (BITS), .record = &(RECORD)}
+#define ROWS(BITS, RECORD)                                                                                                       \
+    {                                                                                                                            \
+        .key = "", .kind = FIELD_INLINE, .bits = (BITS), .record = &(RECORD)                                                     \
+    }
 /* One such object, with as many components as the member nM says. */
-#define MAP(S, M, BITS)                  RECORD_ROW(S, M, FIELD_MAP, SHAPE_ONE, BITS, .columns = offsetof(S, n##M))
-#define WORDS(S, M, BITS, WORDS)         RECORD_ROW(S, M, FIELD_WORDS, SHAPE_ONE, BITS, .words = (WORDS))
-#define COUNTS(S, M, BITS, WORDS)        RECORD_ROW(S, M, FIELD_COUNTS, SHAPE_ONE, (BITS) | FROM_0, .words = (WORDS))
-#define COUNT_OF(S, M, ABOVE, COUNT)     RECORD_ROW(S, M, FIELD_COUNT, SHAPE_ONE, 0, .count = offsetof(ABOVE, COUNT))
-#define RECORD(S, FIELDS) {.name = #S, .size = sizeof(S), .field = (FIELDS)}
+#define MAP(S, M, BITS)              RECORD_ROW(S, M, FIELD_MAP, SHAPE_ONE, BITS, .columns = offsetof(S, n##M))
+#define WORDS(S, M, BITS, WORDS)     RECORD_ROW(S, M, FIELD_WORDS, SHAPE_ONE, BITS, .words = (WORDS))
+#define COUNTS(S, M, BITS, WORDS)    RECORD_ROW(S, M, FIELD_COUNTS, SHAPE_ONE, (BITS) | FROM_0, .words = (WORDS))
+#define COUNT_OF(S, M, ABOVE, COUNT) RECORD_ROW(S, M, FIELD_COUNT, SHAPE_ONE, 0, .count = offsetof(ABOVE, COUNT))
+#define RECORD(S, FIELDS)                                                                                                        \
+    {                                                                                                                            \
+        .name = #S, .size = sizeof(S), .field = (FIELDS)                                                                         \
+    }
 
 /* Bytes of one element of a list of this kind. */
 size_t record_element_size(const struct field *field);

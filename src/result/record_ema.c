@@ -2,16 +2,17 @@
 #include "result/record.h"
 #include "result/records.h"
 
-const char *const ema_mode_doubts[] = {"close to another mode",
-                                       "complex: its points do not move in phase",
-                                       "no stable pole in the table",
-                                       "its frequency differs from point to point (a moving mass, drift), or two peaks in place of one",
-                                       "weak: hardly above the noise",
-                                       "negative damping",
-                                       "at an end of the band",
-                                       "not refined",
-                                       "its modal mass is negative: sign or place of the drive point",
-                                       NULL};
+const char *const ema_mode_doubts[] = {
+    "close to another mode",
+    "complex: its points do not move in phase",
+    "no stable pole in the table",
+    "its frequency differs from point to point (a moving mass, drift), or two peaks in place of one",
+    "weak: hardly above the noise",
+    "negative damping",
+    "at an end of the band",
+    "not refined",
+    "its modal mass is negative: sign or place of the drive point",
+    NULL};
 const char *const ema_channel_doubts[] = {
     "dead", "duplicate", "noisy", "not explained by the modes", "values not finite, left out", "low coherence", NULL};
 static const char *const quantities[] = {"displacement", "velocity", "acceleration", NULL};

@@ -3,8 +3,8 @@
 #include "result/records.h"
 #include "result/study.h"
 
-const char *const score_words[] = {"quiet",     "false_alarm", "right",       "in_set",
-                                   "other_set", "silent",      "unexplained", "wrong", NULL};
+const char *const score_words[] = {"quiet",  "false_alarm", "right", "in_set", "other_set",
+                                   "silent", "unexplained", "wrong", NULL};
 static const char *const studies[] = {"identify", "diagnose", NULL};
 
 static const struct field digests_fields[] = {

@@ -3,22 +3,18 @@
 #include "result/uff.h"
 
 static const char *const states[] = {"read", "not_known", "malformed", NULL};
-static const char *const doubts[] = {"malformed", "unknown_set", "no_units", "node_twice", "no_coordinates", "abscissa_order",
-                                     "uneven",    "unit",        "dead",     "clipped",    "coherence",      "identical",
-                                     "length",    "resolution",  "frequency_order", NULL};
+static const char *const doubts[] = {
+    "malformed", "unknown_set", "no_units",  "node_twice", "no_coordinates", "abscissa_order", "uneven",          "unit",
+    "dead",      "clipped",     "coherence", "identical",  "length",         "resolution",     "frequency_order", NULL};
 
 #define NUMBER_3(S, M) RECORD_ROW(S, M, FIELD_NUMBER, SHAPE_FIXED, 0, .fixed = 3)
 #define ID(S)          RECORD_ROW(S, id, FIELD_TEXT, SHAPE_FIXED, ELEMENTS_MAY_BE_NULL, .fixed = LISTED_ID_LINES)
 
 static const struct field header_fields[] = {
-    TEXT(struct listed_header, model, MAY_BE_NULL),
-    TEXT(struct listed_header, description, MAY_BE_NULL),
-    TEXT(struct listed_header, program, MAY_BE_NULL),
-    TEXT(struct listed_header, created, MAY_BE_NULL),
-    TEXT(struct listed_header, saved, MAY_BE_NULL),
-    TEXT(struct listed_header, written_by, MAY_BE_NULL),
-    TEXT(struct listed_header, written, MAY_BE_NULL),
-    {0},
+    TEXT(struct listed_header, model, MAY_BE_NULL),   TEXT(struct listed_header, description, MAY_BE_NULL),
+    TEXT(struct listed_header, program, MAY_BE_NULL), TEXT(struct listed_header, created, MAY_BE_NULL),
+    TEXT(struct listed_header, saved, MAY_BE_NULL),   TEXT(struct listed_header, written_by, MAY_BE_NULL),
+    TEXT(struct listed_header, written, MAY_BE_NULL), {0},
 };
 static const struct record header_record = RECORD(struct listed_header, header_fields);
 

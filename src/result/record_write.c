@@ -16,8 +16,8 @@ static int integer_at(const void *from, size_t offset)
 static const void *target_of(const struct field *field, const void *from)
 {
     const char *place = at(from, field->offset);
-    int pointed = field->shape == SHAPE_LIST || field->shape == SHAPE_MATRIX || field->kind == FIELD_MAP ||
-                  field->bits & BEHIND_POINTER;
+    int pointed =
+        field->shape == SHAPE_LIST || field->shape == SHAPE_MATRIX || field->kind == FIELD_MAP || field->bits & BEHIND_POINTER;
     return pointed ? *(const void *const *)place : place;
 }
 

@@ -12,8 +12,8 @@ struct record;
 /* Writes the keys of `from`, a struct that `record` describes, into `object` of the tree. */
 void record_write(struct json_tree *tree, cJSON *object, const struct record *record, const void *from);
 
-/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with its
- * place, reader->status tells at the end. */
+/* Reads the object `at` into `to`, a struct of zeros; lists and texts go to the pool of the reader. What is wrong is told with
+ * its place, reader->status tells at the end. */
 void record_read(const struct json_place *at, const struct record *record, void *to);
 
 /* Bytes of the struct that a table describes. */
@@ -21,29 +21,29 @@ size_t record_size(const struct record *record);
 
 /* Words of several of them. */
 extern const char *const functional_words[], *const reduction_words[], *const pairing_words[], *const fit_status_words[],
-    *const verdict_words[];
+                                                                                                   *const verdict_words[];
 
-extern const struct record provenance_record;           /* struct result_head up to command */
-extern const struct record deck_record;                 /* the rest, where the command reads a deck */
-extern const struct record geometry_record;             /* rotid_geometry */
-extern const struct record sensor_record;               /* rotid_sensor */
-extern const struct record check_record;                /* rotid_check */
-extern const struct record spectrum_record;             /* rotid_spectrum */
-extern const struct record identification_record;       /* rotid_identification as part of a diagnosis: without noise and geometry */
+extern const struct record provenance_record;     /* struct result_head up to command */
+extern const struct record deck_record;           /* the rest, where the command reads a deck */
+extern const struct record geometry_record;       /* rotid_geometry */
+extern const struct record sensor_record;         /* rotid_sensor */
+extern const struct record check_record;          /* rotid_check */
+extern const struct record spectrum_record;       /* rotid_spectrum */
+extern const struct record identification_record; /* rotid_identification as part of a diagnosis: without noise and geometry */
 extern const struct record identification_alone_record; /* these two */
 extern const struct record noise_record;                /* rotid_noise */
 extern const struct record diagnosis_record;            /* rotid_diagnosis */
 extern const struct record head_alone_record;           /* struct result of a study, whose reader does the rest */
 
-extern const struct record sensitivity_record;          /* struct sensitivity */
-extern const struct record transfer_record;             /* struct transfer_result */
-extern const struct record ema_record;                  /* struct ema_result */
-extern const struct record uff_record;                  /* struct uff_result */
-extern const struct record export_record;               /* struct export_result */
-extern const struct record study_record;                /* struct study_result */
-extern const struct record study_header_record;         /* struct study_header */
-extern const struct record study_axes_record;           /* struct study_axes */
-extern const struct record study_run_record;            /* struct study_run */
+extern const struct record sensitivity_record;  /* struct sensitivity */
+extern const struct record transfer_record;     /* struct transfer_result */
+extern const struct record ema_record;          /* struct ema_result */
+extern const struct record uff_record;          /* struct uff_result */
+extern const struct record export_record;       /* struct export_result */
+extern const struct record study_record;        /* struct study_result */
+extern const struct record study_header_record; /* struct study_header */
+extern const struct record study_axes_record;   /* struct study_axes */
+extern const struct record study_run_record;    /* struct study_run */
 
 /* The i-th command that writes results; NULL behind the last. */
 const char *result_command(int i);

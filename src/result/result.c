@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "result/records.h"
 #include "result/record.h"
+#include "result/records.h"
 
 /* Rows of the parts that results are made of. */
 #define PROVENANCE INLINE(struct result, head, 0, provenance_record)

@@ -41,12 +41,12 @@ struct result_reader {
     void (*lines)(const struct json_place *lines, struct result *result);
 };
 
-/* The result as JSON: a text to be freed with json_free, or NULL where memory is out. */
+/* The result as JSON: a text to be freed with json_free of result/json_tree.h, or NULL where memory is out. */
 char *result_json(const struct result *result);
 
-/* Reads a file that a command wrote with --json, or a file of results of a study. The structs hang on the pool. ROTID_OK; ROTID_ERROR_IO: the file cannot be read;
- * ROTID_ERROR_SYNTAX: no JSON, no such result, or one that contradicts itself; ROTID_ERROR_MEMORY. The messages say what and
- * where. */
+/* Reads a file that a command wrote with --json, or a file of results of a study. The structs hang on the pool. ROTID_OK;
+ * ROTID_ERROR_IO: the file cannot be read; ROTID_ERROR_SYNTAX: no JSON, no such result, or one that contradicts itself;
+ * ROTID_ERROR_MEMORY. The messages say what and where. */
 int result_read(struct pool *pool, const char *file, struct message_list *messages, const struct result_reader *study,
                 struct result *result);
 

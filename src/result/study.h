@@ -1,4 +1,5 @@
-/* What `rotid study` writes, in the shape of its JSON: the first line of a file of results, the line of a run, and the summary. */
+/* What `rotid study` writes, in the shape of its JSON: the first line of a file of results, the line of a run, and the summary.
+ */
 #ifndef ROTID_RESULT_STUDY_H
 #define ROTID_RESULT_STUDY_H
 

@@ -12,9 +12,9 @@ struct transfer_parameter {
 struct transfer_mode_agreement {
     double frac;                         /* FRAC of all functions over the lines nearest to this mode [1] */
     double frac_at_measured_frequencies; /* the same with measured frequencies in place of the model's [1] */
-    double level_db;    /* measured over synthesised, each at its own resonance, over all functions [dB] */
-    double phase_deg;   /* measured less synthesised there [degrees] */
-    int worst_function; /* index in functions of the largest deviation */
+    double level_db;                     /* measured over synthesised, each at its own resonance, over all functions [dB] */
+    double phase_deg;                    /* measured less synthesised there [degrees] */
+    int worst_function;                  /* index in functions of the largest deviation */
 };
 
 /* a mode; the keys from frac on stand for elastic ones within the lines where there are measured functions */
@@ -55,11 +55,11 @@ struct transfer_beside {
 
 /* a transfer function; frac to at_modes and the measured curve stand where there are measured functions */
 struct transfer_function {
-    int response;         /* id of the sensor or node */
-    int reference;        /* id, where the force acts */
-    double response_z_m;  /* position in the model [m] */
-    double reference_z_m; /* position in the model [m] */
-    struct transfer_beside *beside;     /* NULL: the keys are left out */
+    int response;                   /* id of the sensor or node */
+    int reference;                  /* id, where the force acts */
+    double response_z_m;            /* position in the model [m] */
+    double reference_z_m;           /* position in the model [m] */
+    struct transfer_beside *beside; /* NULL: the keys are left out */
     int nfrequency_hz;
     double *frequency_hz;   /* lines [Hz]; NULL without curves, whose keys are left out */
     double *synthesised_re; /* real part [unit] */
@@ -69,15 +69,15 @@ struct transfer_function {
 };
 
 struct transfer_result {
-    int complete;              /* false: interrupted, functions holds those that were finished */
-    const char *quantity;      /* of the response */
-    const char *unit;          /* of every function */
-    int lines;                 /* of every function */
-    double low_hz;             /* first line [Hz] */
-    double high_hz;            /* last line [Hz] */
-    double modes_up_to_hz;     /* modes are summed up to here [Hz]; the others by value and slope of their sum at the first elastic
-                                  mode */
-    double window_decay;       /* of an exponential window of the measurement, which the synthesis takes over [1/s]; 0: none */
+    int complete;          /* false: interrupted, functions holds those that were finished */
+    const char *quantity;  /* of the response */
+    const char *unit;      /* of every function */
+    int lines;             /* of every function */
+    double low_hz;         /* first line [Hz] */
+    double high_hz;        /* last line [Hz] */
+    double modes_up_to_hz; /* modes are summed up to here [Hz]; the others by value and slope of their sum at the first elastic
+                              mode */
+    double window_decay;   /* of an exponential window of the measurement, which the synthesis takes over [1/s]; 0: none */
     const char *measured_file; /* universal file of the measured functions */
     int nparameters;
     struct transfer_parameter *parameters; /* at whose values the model is taken; empty: the model as the deck states it */

@@ -1,4 +1,5 @@
-/* What `rotid uff` lists of a universal file, in the shape of its JSON. Values are as in the file; factors to SI stand beside them.
+/* What `rotid uff` lists of a universal file, in the shape of its JSON. Values are as in the file; factors to SI stand beside
+ * them.
  */
 #ifndef ROTID_RESULT_UFF_H
 #define ROTID_RESULT_UFF_H
@@ -55,38 +56,38 @@ struct listed_axis {
 
 /* a function */
 struct listed_function {
-    int line;                         /* line of the '-1' that opens the set; lines are not counted inside binary data */
-    int type;                         /* function type of set 58 */
-    const char *kind;                 /* the same in words */
-    const char *id[LISTED_ID_LINES];  /* the five lines of text, NULL where they say NONE */
-    const char *response;             /* node and direction, as in 19:+X */
-    const char *reference;            /* the same of the excitation */
-    int response_node;                /* label, 0 where there is none */
-    int response_direction;           /* 0 scalar, 1 to 6 X Y Z RX RY RZ, negative the other way */
-    int reference_node;               /* label, 0 where there is none */
-    int reference_direction;          /* as response_direction */
-    int ordinate;                     /* ordinate data type: 2, 4, 5 or 6 */
-    const char *ordinate_name;        /* the same in words */
-    int binary;                       /* 58b */
-    double count;                     /* values */
-    int even;                         /* whether the abscissa is even */
-    double start;                     /* first abscissa, as in the file */
-    double step;                      /* step of an even abscissa */
-    double end;                       /* last abscissa */
-    int time;                         /* whether the abscissa is time */
-    double sampling_rate_hz;          /* of an even time axis [Hz] */
-    struct listed_axis abscissa;      /* record 8 */
-    struct listed_axis numerator;     /* record 9 */
-    struct listed_axis denominator;   /* record 10 */
-    double si_factor;                 /* a value times this is in SI */
-    double abscissa_si_factor;        /* an abscissa times this is in SI */
-    double min;                       /* least value, of complex ones least modulus; as in the file */
-    double max;                       /* the greatest */
-    double rms;                       /* root mean square of the modulus */
-    int nfirst, nlast;                /* 2, 0 without values */
-    const double *first;              /* first value, real and imaginary part */
-    const double *last;               /* last value */
-    double sum[2];                    /* sum of the values */
+    int line;                        /* line of the '-1' that opens the set; lines are not counted inside binary data */
+    int type;                        /* function type of set 58 */
+    const char *kind;                /* the same in words */
+    const char *id[LISTED_ID_LINES]; /* the five lines of text, NULL where they say NONE */
+    const char *response;            /* node and direction, as in 19:+X */
+    const char *reference;           /* the same of the excitation */
+    int response_node;               /* label, 0 where there is none */
+    int response_direction;          /* 0 scalar, 1 to 6 X Y Z RX RY RZ, negative the other way */
+    int reference_node;              /* label, 0 where there is none */
+    int reference_direction;         /* as response_direction */
+    int ordinate;                    /* ordinate data type: 2, 4, 5 or 6 */
+    const char *ordinate_name;       /* the same in words */
+    int binary;                      /* 58b */
+    double count;                    /* values */
+    int even;                        /* whether the abscissa is even */
+    double start;                    /* first abscissa, as in the file */
+    double step;                     /* step of an even abscissa */
+    double end;                      /* last abscissa */
+    int time;                        /* whether the abscissa is time */
+    double sampling_rate_hz;         /* of an even time axis [Hz] */
+    struct listed_axis abscissa;     /* record 8 */
+    struct listed_axis numerator;    /* record 9 */
+    struct listed_axis denominator;  /* record 10 */
+    double si_factor;                /* a value times this is in SI */
+    double abscissa_si_factor;       /* an abscissa times this is in SI */
+    double min;                      /* least value, of complex ones least modulus; as in the file */
+    double max;                      /* the greatest */
+    double rms;                      /* root mean square of the modulus */
+    int nfirst, nlast;               /* 2, 0 without values */
+    const double *first;             /* first value, real and imaginary part */
+    const double *last;              /* last value */
+    double sum[2];                   /* sum of the values */
 };
 
 /* a shape */

@@ -19,8 +19,8 @@ struct growth_line {
 
 struct growth {
     int nepsilon_squared;
-    double *epsilon_squared;   /* abscissa, evenly in the logarithm [1] */
-    struct growth_line hybrid; /* FUNCTIONAL=HYBRID, f with E of (15) */
+    double *epsilon_squared;     /* abscissa, evenly in the logarithm [1] */
+    struct growth_line hybrid;   /* FUNCTIONAL=HYBRID, f with E of (15) */
     struct growth_line hybrid_f; /* FUNCTIONAL=HYBRID_F, f with F of (16) */
     double *shapes_alone; /* objective of HYBRID with the shapes perturbed and the parameters left [1]: nothing but rounding
                              (docs/errata.md) */

@@ -16,23 +16,23 @@ struct sensitivity_options {
 
 /* how the modes depend on one parameter */
 struct sensitivity_parameter {
-    const char *name;                  /* such as core.E */
-    const char *unit;                  /* of the reference; 1 for a pure number */
-    double reference;                  /* value x0 that the relative changes refer to [unit] */
+    const char *name;                   /* such as core.E */
+    const char *unit;                   /* of the reference; 1 for a pure number */
+    double reference;                   /* value x0 that the relative changes refer to [unit] */
     int nfrequency_hz, nrelative_value; /* as in struct sensitivity */
-    double *sensitivity;               /* per mode: E_k after one step, divided by the step [1]; E_k = 1 - R*_k/w_k(x0)^2: (29) */
-    double *derivative;                /* per mode: its limit for a step that vanishes, from the analytic derivatives [1] */
+    double *sensitivity; /* per mode: E_k after one step, divided by the step [1]; E_k = 1 - R*_k/w_k(x0)^2: (29) */
+    double *derivative;  /* per mode: its limit for a step that vanishes, from the analytic derivatives [1] */
     double *curves; /* per mode, Figure 5 of the paper: component E_k^2/2 of the objective of HYBRID at each relative_value [1];
                        NaN where the model has no modes */
 };
 
 struct sensitivity {
-    const char *reduction;   /* of the model that is varied */
-    double step;             /* relative step of the differences [1] */
-    int nfrequency_hz;       /* modes */
-    double *frequency_hz;    /* of each mode at the reference values [Hz] */
-    int nrelative_value;     /* points of the curves */
-    double *relative_value;  /* abscissa of the curves: value over reference [1] */
+    const char *reduction;  /* of the model that is varied */
+    double step;            /* relative step of the differences [1] */
+    int nfrequency_hz;      /* modes */
+    double *frequency_hz;   /* of each mode at the reference values [Hz] */
+    int nrelative_value;    /* points of the curves */
+    double *relative_value; /* abscissa of the curves: value over reference [1] */
     int nparameters;
     struct sensitivity_parameter *parameters; /* in the order of *IDENTIFY or --at */
     struct growth *functional_growth; /* how the hybrid functionals grow away from the optimum, Figure 3 of the paper; NULL where

@@ -59,14 +59,14 @@ int results_header_read(struct pool *pool, const cJSON *object, struct header *h
     record_read(&place, &study_header_record, &line);
     if (reader.status)
         return reader.status;
-    const char *const needed[] = {line.rotid,       line.studies,     line.digest.plan, line.digest.decks,
-                                  line.digest.data, line.digest.options};
+    const char *const needed[] = {line.rotid,        line.studies,     line.digest.plan,
+                                  line.digest.decks, line.digest.data, line.digest.options};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!*needed[i]) /* null */
             return ROTID_ERROR_SYNTAX;
     if (line.schema != 1 || strcmp(line.command, "study") != 0 || !(line.seed <= 4294967295.0) || line.runs > STUDY_MOST_RUNS ||
-        (line.shard && (sscanf(line.shard, "%9d/%9d%n", &shard, &shards, &end) != 2 || line.shard[end] || shard < 1 ||
-                        shard > shards)))
+        (line.shard &&
+         (sscanf(line.shard, "%9d/%9d%n", &shard, &shards, &end) != 2 || line.shard[end] || shard < 1 || shard > shards)))
         return ROTID_ERROR_SYNTAX;
     *header = (struct header){.version = line.rotid,
                               .commit = line.commit,

@@ -8,6 +8,7 @@
 #include "file/open.h"
 #include "report/json.h"
 #include "report/output.h"
+#include "result/json_tree.h"
 #include "study/results.h"
 
 #define MOST_LISTED 20 /* stretches of missing runs that are named */

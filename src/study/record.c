@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "report/json.h"
 #include "report/output.h"
+#include "result/json_tree.h"
 #include "study/results.h"
 
 #define SYNC_SECONDS 1.0

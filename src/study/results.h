@@ -19,7 +19,7 @@ struct results {
     int number;                     /* of the line read last, from 1 */
     off_t next;                     /* where the next line begins; at the end: where the last whole one ends */
     off_t size;                     /* of the file, beyond `next` where the last line is cut */
-    struct pool line; /* what the line read last says */
+    struct pool line;               /* what the line read last says */
     char *buffer;
     size_t capacity, first, count; /* bytes of the buffer not yet given out */
 };

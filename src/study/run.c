@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "diagnose/diagnose.h"
+#include "result/json_tree.h"
 #include "study/experiment.h"
 #include "study/line.h"
 

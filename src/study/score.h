@@ -5,16 +5,16 @@
 #include "diagnose/diagnose.h"
 #include "study/experiment.h"
 
-enum score { /* their words: score_words of result/study.h */
-    SCORE_QUIET,       /* nothing was hidden and nothing was found */
-    SCORE_FALSE_ALARM, /* nothing was hidden and something was found */
-    SCORE_RIGHT,       /* named, and nothing else */
-    SCORE_IN_SET,      /* among those that cannot be told apart */
-    SCORE_OTHER_SET,   /* not among those */
-    SCORE_SILENT,      /* judged adequate */
-    SCORE_UNEXPLAINED,
-    SCORE_WRONG, /* something else was named */
-    SCORE_COUNT
+enum score {                    /* their words: score_words of result/study.h */
+             SCORE_QUIET,       /* nothing was hidden and nothing was found */
+             SCORE_FALSE_ALARM, /* nothing was hidden and something was found */
+             SCORE_RIGHT,       /* named, and nothing else */
+             SCORE_IN_SET,      /* among those that cannot be told apart */
+             SCORE_OTHER_SET,   /* not among those */
+             SCORE_SILENT,      /* judged adequate */
+             SCORE_UNEXPLAINED,
+             SCORE_WRONG, /* something else was named */
+             SCORE_COUNT
 };
 
 /* The experiment's data were made by a model. A cause is the hidden one by its id, its target, and where it has a place by that,

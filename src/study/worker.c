@@ -14,6 +14,7 @@
 
 #include "base/clock.h"
 #include "report/json.h"
+#include "result/json_tree.h"
 #include "study/run.h"
 
 struct stop {

@@ -10,6 +10,7 @@
 
 #include "base/clock.h"
 #include "report/json.h"
+#include "result/json_tree.h"
 #include "study/results.h"
 #include "study/run.h"
 #include "study/worker.h"

@@ -44,8 +44,8 @@ static int add(struct comments *comments, const char *structure, const char *mem
     if (!list)
         return ROTID_ERROR_MEMORY;
     comments->item = list;
-    list[comments->count++] = (struct comment){pool_copy_text(comments->pool, structure),
-                                               member ? pool_copy_text(comments->pool, member) : NULL, text};
+    list[comments->count++] =
+        (struct comment){pool_copy_text(comments->pool, structure), member ? pool_copy_text(comments->pool, member) : NULL, text};
     return text ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 

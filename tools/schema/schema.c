@@ -119,8 +119,8 @@ static void put_list(struct schema *schema, const struct field *field)
 
 static void put_field(struct schema *schema, const struct record *record, const struct field *field, int *count)
 {
-    const char *about = comments_find(schema->comments, strncmp(record->name, "struct ", 7) ? record->name : record->name + 7,
-                                      field->key);
+    const char *about =
+        comments_find(schema->comments, strncmp(record->name, "struct ", 7) ? record->name : record->name + 7, field->key);
     FILE *out = schema->out;
     (void)fprintf(out, "%s\n    ", (*count)++ ? "," : "");
     put_text(out, field->key);
@@ -231,12 +231,13 @@ int schema_write_lines(FILE *out, const struct record *first, const struct recor
     struct schema schema = {.out = out, .command = "study", .comments = comments};
     refer(&schema, first);
     refer(&schema, other);
-    (void)fprintf(out,
-                  "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"rotid study, lines\",\n"
-                  "  \"description\": \"A line of a file of results of rotid study: the first is a header, each other one a run. Units "
-                  "are SI; a key ends in its unit where it has one.\",\n"
-                  "  \"oneOf\": [{\"$ref\": \"#/$defs/%s\"}, {\"$ref\": \"#/$defs/%s\"}]",
-                  short_name(first->name), short_name(other->name));
+    (void)fprintf(
+        out,
+        "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"rotid study, lines\",\n"
+        "  \"description\": \"A line of a file of results of rotid study: the first is a header, each other one a run. Units "
+        "are SI; a key ends in its unit where it has one.\",\n"
+        "  \"oneOf\": [{\"$ref\": \"#/$defs/%s\"}, {\"$ref\": \"#/$defs/%s\"}]",
+        short_name(first->name), short_name(other->name));
     put_definitions(&schema);
     return schema.missing;
 }
