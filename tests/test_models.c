@@ -104,7 +104,7 @@ static void change(struct rotor *rotor, int what)
 
 static void a_rotor_of_another_shape_is_built_anew(void **state)
 {
-    const double zone[] = {0.3, 0.7, 0.05};
+    const double zone[] = {0.3, 0.7, 0.05, 0};
     (void)state;
     for (int what = 0; what < 12; what++) {
         struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);

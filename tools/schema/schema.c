@@ -79,7 +79,7 @@ static void put_value(struct schema *schema, const struct field *field, int null
 {
     static const char *const types[] = {[FIELD_NUMBER] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
                                         [FIELD_TEXT] = "string",   [FIELD_WORD] = "string",     [FIELD_MAP] = "object"};
-    const char *type = field->bits & WHOLE ? "integer" : types[field->kind];
+    const char *type = field->bits & WHOLE ? "integer" : field->kind <= FIELD_MAP ? types[field->kind] : "";
     FILE *out = schema->out;
     if (field->kind == FIELD_RECORD) {
         refer(schema, field->record);
