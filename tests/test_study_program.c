@@ -77,8 +77,8 @@ static void shards_merge_to_one_result(void **state)
     bench_says("study --merge s1.jsonl deck.inp -o x.jsonl", 2, "deck.inp:1:1: this is no file of results");
 }
 
-/* The coordinator is killed at some moment, again and again: what is there is whole, and in the end all is. Where a machine is too
- * slow for a run to end before that moment, the next one comes later. */
+/* The coordinator is killed at some moment, again and again: what is there is whole, and in the end all is. Where a machine is
+ * too slow for a run to end before that moment, the next one comes later. */
 static void nothing_is_lost_by_kill_9(void **state)
 {
     (void)state;
