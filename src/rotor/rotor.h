@@ -9,6 +9,8 @@ struct material {
     const char *name;
     double e, g, nu, rho; /* Pa, Pa, -, kg/m3 */
     int isotropic;        /* G = E/2(1+nu), whatever g holds */
+    int laminated;        /* a stack of sheets across the axis: e and g hold along the axis, nu and the next two of the sheets */
+    double sheet_e, stacking; /* Pa, share of the stack's length that is steel; in the plane E = stacking sheet_e */
 };
 
 struct segment {
@@ -24,6 +26,12 @@ struct group {
     int holes;                /* 0 where there is no perforation */
     double hole_diameter, hole_pitch;
     double preload; /* N, tension positive */
+    int layer_of;   /* -1: a group of the axis; else the group on whose segments its rings lie */
+};
+
+struct ring { /* of a layer, bonded to what lies within and outside: see group.layer_of */
+    int group, segment;
+    double outer, inner; /* m */
 };
 
 enum bundle_model {
@@ -68,9 +76,10 @@ struct sensor {
 struct effect; /* rotor/effect.h */
 
 struct rotor {
-    int ngroup, nsegment, ntierod, nbars, ndisk, nspring, nsensor, neffect;
+    int ngroup, nsegment, nring, ntierod, nbars, ndisk, nspring, nsensor, neffect;
     struct group *group;
     struct segment *segment; /* in order along the axis, those of a group together */
+    struct ring *ring;       /* of the layers, those of a segment from the axis outwards */
     struct tierod *tierod;
     struct bars *bars;
     struct disk *disk;
