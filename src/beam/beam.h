@@ -48,8 +48,4 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
 /* Tie rods, bars, disks and the masses of effects included, at the values of the last beam_assemble. */
 void beam_mass_properties(const struct beam *beam, struct mass_properties *properties);
 
-/* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
- * energy in springs and axial forces instead of bending. Statuses of eigen_band_solve. */
-int beam_count_rigid(struct pool *pool, struct beam *beam, const double *x, int *nrigid);
-
 #endif

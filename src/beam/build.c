@@ -2,8 +2,6 @@
 #include "beam/cylinder.h"
 #include "beam/factors.h"
 #include "beam/hinge.h"
-#include "linalg/eigen.h"
-#include "linalg/matrix.h"
 
 static int build_sections(struct beam *beam, int *failed)
 {
@@ -68,38 +66,4 @@ int beam_of_shape(struct pool *pool, const struct beam *built, const struct roto
     beam->parameter = parameter;
     int status = rotor_copy(pool, rotor, &beam->rotor);
     return status ? status : finish(pool, beam);
-}
-
-int beam_count_rigid(struct pool *pool, struct beam *beam, const double *x, int *nrigid)
-{
-    const struct mesh *mesh = &beam->mesh;
-    int n = mesh->ndof, wanted = n < 4 ? n : 4; /* plane bending has two rigid motions: the third mode is always elastic */
-    rotid_matrix k, m;
-    struct eigen_band eigen;
-    double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, n);
-    int status = phi && work ? matrix_new(pool, n, mesh->kd, mesh->nfar, mesh->far, &k) : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = matrix_new(pool, n, mesh->kd, mesh->nfar, mesh->far, &m);
-    if (!status)
-        status = eigen_band_new(pool, &k, wanted, &eigen);
-    if (status)
-        return status;
-    beam_assemble(beam, x, &k, &m);
-    status = eigen_band_solve(&eigen, &k, &m, lambda, phi);
-    if (status)
-        return status;
-    matrix_zero(&k);
-    matrix_zero(&m);
-    beam->elastic_only = 1;
-    beam_assemble(beam, x, &k, &m);
-    beam->elastic_only = 0;
-    *nrigid = 0;
-    for (int j = 0; j < 2; j++) {
-        const double *shape = phi + (ptrdiff_t)j * n;
-        double elastic = matrix_product(&k, shape, shape, work);
-        if (lambda[j] > 1e-6 * lambda[2] && elastic > 0.5 * lambda[j])
-            break;
-        (*nrigid)++;
-    }
-    return ROTID_OK;
 }

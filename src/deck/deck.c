@@ -136,7 +136,7 @@ static void check_model(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     struct model_size size;
-    int failed, status = models_begin(reader->pool, &job->rotor, &job->models, &size, &failed);
+    int failed, status = models_begin(reader->pool, job->options.solid ? AS_SOLID : AS_BEAM, &job->rotor, &job->models, &size, &failed);
     if (status == ROTID_ERROR_SECTION) {
         reader->no_section = 1;
         int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
@@ -151,7 +151,7 @@ static void check_model(struct deck_reader *reader)
         reader->out_of_memory = 1;
     }
     for (int s = 1; s < job->rotor.nsensor && !status; s++)
-        if (size.sensor_node[s] == size.sensor_node[s - 1])
+        if (size.sensor_dof[s] == size.sensor_dof[s - 1])
             deck_error(reader, reader->sensor_place[s], "sensors %d and %d lie at the same node, expected one sensor a position",
                        job->rotor.sensor[s - 1].id, job->rotor.sensor[s].id);
     int modes = status ? 0 : size.ndof - 2; /* elastic ones, where two motions are free */

@@ -65,7 +65,7 @@ int matrix_market_condensed_mass(FILE *stream, const struct export_model *model)
 int matrix_market_nodes(FILE *stream, const struct export_model *model)
 {
     (void)fprintf(stream, "node,z_m,row_v,row_theta,member,sensor\n");
-    for (int i = 0; i < model->discrete->beam.mesh.nnode; i++) {
+    for (int i = 0; i < model->discrete->discrete.beam.mesh.nnode; i++) {
         const struct export_node *node = &model->node[i];
         (void)fprintf(stream, "%d,%.17g,%d,%d,", i + 1, node->z, 2 * i + 1, 2 * i + 2);
         remark_word(stream, node->member);

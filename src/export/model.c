@@ -45,11 +45,13 @@ int export_model_open(struct pool *pool, const struct job *job, const struct ide
         return ROTID_ERROR_MEMORY;
     struct rotor_model *discrete = model->discrete;
     int status = model_open(pool, job->models, &job->rotor, nparameter, job->unknowns.parameter, 1, discrete, &failed);
-    const struct mesh *mesh = &discrete->beam.mesh;
+    rotid_matrix structure;
+    if (!status) {
+        discrete_structure(&discrete->discrete, &structure);
+        status = matrix_new(pool, structure.n, structure.kd, structure.nfar, structure.far, &model->k);
+    }
     if (!status)
-        status = matrix_new(pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &model->k);
-    if (!status)
-        status = matrix_new(pool, mesh->ndof, mesh->kd, mesh->nfar, mesh->far, &model->m);
+        status = matrix_new(pool, structure.n, structure.kd, structure.nfar, structure.far, &model->m);
     if (!status)
         status = spectrum_compute(pool, job->models, &job->rotor, nparameter, job->unknowns.parameter, x,
                                   job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN,
@@ -58,14 +60,14 @@ int export_model_open(struct pool *pool, const struct job *job, const struct ide
         status = export_nodes(pool, model);
     if (status)
         return status;
-    beam_assemble(&discrete->beam, x, &model->k, &model->m);
-    beam_mass_properties(&discrete->beam, &model->mass);
+    discrete_assemble(&discrete->discrete, x, &model->k, &model->m);
+    discrete_mass_properties(&discrete->discrete, &model->mass);
     return with_condensed ? condense(pool, model) : ROTID_OK;
 }
 
 double export_parameter(const struct export_model *model, int p)
 {
-    return *parameter_value(&model->discrete->beam.rotor, model->job->unknowns.parameter[p]);
+    return *parameter_value(model->discrete->rotor, model->job->unknowns.parameter[p]);
 }
 
 double export_parameter_std(const struct export_model *model, int p)

@@ -10,7 +10,7 @@ static void place_chain(const struct mesh *mesh, const struct chain *chain, doub
 
 int export_nodes(struct pool *pool, struct export_model *model)
 {
-    const struct beam *beam = &model->discrete->beam;
+    const struct beam *beam = &model->discrete->discrete.beam;
     const struct mesh *mesh = &beam->mesh;
     const struct rotor *rotor = &beam->rotor;
     struct export_node *node = POOL_ARRAY(pool, struct export_node, mesh->nnode);

@@ -119,7 +119,7 @@ void remark_model(const struct remark *remark, const struct export_model *model)
         remark_put(remark, "%s", model->job->heading[i]);
     remark_put(remark, "Units: m, kg, s, N.");
     put_origin(remark, model);
-    put_causes(remark, &model->discrete->beam.rotor);
+    put_causes(remark, model->discrete->rotor);
     remark_put(remark, "mass %.10g kg, centre of mass at %.10g m", model->mass.mass, model->mass.center);
     if (s->nrigid)
         put_frequencies(remark, "Modes on the supports, or of free motion", s->nrigid, s->rigid_hz);

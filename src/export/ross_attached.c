@@ -4,7 +4,7 @@
 
 struct ross_needs ross_needs(const struct ross_model *ross)
 {
-    const struct beam *beam = &ross->discrete->beam;
+    const struct beam *beam = &ross->discrete->discrete.beam;
     struct ross_needs needs = {.tierods = beam->rotor.ntierod > 0, .matrices = beam->nhinge > 0};
     for (int i = 0; i < beam->rotor.nspring; i++)
         needs.rotational_springs |= beam->rotor.spring[i].rotational > 0;
@@ -28,7 +28,7 @@ static void put_square(FILE *stream, const char *name, const double *a)
 
 int ross_put_matrices(struct pool *pool, FILE *stream, const struct ross_model *ross)
 {
-    const struct beam *beam = &ross->discrete->beam;
+    const struct beam *beam = &ross->discrete->discrete.beam;
     struct remark remark = {stream, "    # ", 120};
     struct ross_matrices matrices;
     int status;
@@ -113,6 +113,6 @@ static int put_springs(FILE *stream, struct ross_names *names, const struct beam
 int ross_put_attached(struct pool *pool, FILE *stream, const struct ross_model *ross)
 {
     struct ross_names names = {.pool = pool}; /* tags: one of each in a rotor of ROSS */
-    int status = put_disks(stream, &names, &ross->discrete->beam);
-    return status ? status : put_springs(stream, &names, &ross->discrete->beam);
+    int status = put_disks(stream, &names, &ross->discrete->discrete.beam);
+    return status ? status : put_springs(stream, &names, &ross->discrete->discrete.beam);
 }

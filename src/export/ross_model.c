@@ -13,7 +13,7 @@
 /* The rotor without inner nodes of rods and bars; 1 where that changes it, 0 where not, or a negative status. */
 static int simplify(struct pool *pool, const struct export_model *model, struct rotor *rotor, struct message_list *notes)
 {
-    const struct beam *beam = &model->discrete->beam;
+    const struct beam *beam = &model->discrete->discrete.beam;
     int changed = 0;
     *rotor = model->job->rotor;
     struct tierod *tierod = POOL_ARRAY(pool, struct tierod, rotor->ntierod);
@@ -59,7 +59,7 @@ static int simplify(struct pool *pool, const struct export_model *model, struct 
 static int find_partners(struct pool *pool, const double *x, int nparameter, struct ross_model *ross)
 {
     const struct job *job = ross->model->job;
-    const struct mesh *mesh = &ross->model->discrete->beam.mesh;
+    const struct mesh *mesh = &ross->model->discrete->discrete.beam.mesh;
     const struct spectrum *script = ross->spectrum;
     struct spectrum deck;
     int inner = 2 * (mesh->nnode - mesh->naxis), count = script->count + (inner < MOST_OWN ? inner : MOST_OWN);
@@ -99,7 +99,7 @@ static void say_shifts(const struct ross_model *ross, struct message_list *notes
 static void say_limits(const struct export_model *model, struct message_list *notes)
 {
     const struct rotor *rotor = &model->job->rotor;
-    int elements = model->discrete->beam.mesh.nelement;
+    int elements = model->discrete->discrete.beam.mesh.nelement;
     for (int s = 0; s < rotor->nsegment; s++)
         if (rotor->segment[s].rectangular && (!s || rotor->segment[s - 1].group != rotor->segment[s].group))
             message_add(notes, SEVERITY_WARNING, NULL, 0, 0,

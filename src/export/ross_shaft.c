@@ -157,7 +157,7 @@ static void put_tierods(FILE *stream, const struct shaft *shaft)
 
 int ross_put_shaft(struct pool *pool, FILE *stream, const struct ross_model *ross)
 {
-    const struct beam *beam = &ross->discrete->beam;
+    const struct beam *beam = &ross->discrete->discrete.beam;
     int most = beam->mesh.nelement + beam->rotor.ntierod;
     struct shaft shaft = {.pool = pool,
                           .beam = beam,

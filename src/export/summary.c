@@ -85,7 +85,7 @@ char *json_export(const struct provenance *provenance, const struct export_files
         .nparameters = model->job->unknowns.nparameter,
         .mass_kg = model->mass.mass,
         .center_of_mass_m = model->mass.center,
-        .nodes = model->discrete->beam.mesh.nnode,
+        .nodes = model->discrete->discrete.beam.mesh.nnode,
         .degrees_of_freedom = model->k.n,
         .reduction = model->condensed.k ? reduction_name(model->condensed.kind) : NULL,
         .masters = model->condensed.k ? model->condensed.count : ROTID_NONE,

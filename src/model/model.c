@@ -1,37 +1,33 @@
 #include "model/model.h"
 
-#include <string.h>
+#include <math.h>
 
-#include "beam/hinge.h"
 #include "beam/mesh.h"
 
 static int matrices(void *user, const double *x, rotid_matrix *stiffness, rotid_matrix *mass)
 {
     struct rotor_model *model = user;
-    beam_assemble(&model->beam, x, stiffness, mass);
+    discrete_assemble(&model->discrete, x, stiffness, mass);
     return 0;
 }
 
-/* rotid_model gives x here too; the beam already stands at it, since derivatives follow matrices at the same point */
+/* rotid_model gives x here too; the model already stands at it, since derivatives follow matrices at the same point */
 static int derivatives(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass)
 {
     struct rotor_model *model = user;
-    parameters_set(&model->beam.rotor, model->equations.nparam, model->parameter, x);
-    beam_differentiate(&model->beam, p, stiffness, mass);
+    parameters_set(discrete_rotor(&model->discrete), model->equations.nparam, model->parameter, x);
+    discrete_differentiate(&model->discrete, p, stiffness, mass);
     return 0;
 }
 
 static int choose_masters(struct pool *pool, struct rotor_model *model)
 {
-    const struct mesh *mesh = &model->beam.mesh;
-    int nsensor = model->rotor->nsensor, count = 0;
-    model->master = POOL_ARRAY(pool, int, nsensor ? nsensor : mesh->naxis);
+    int nsensor = model->rotor->nsensor, count = nsensor ? nsensor : model->naxis;
+    model->master = POOL_ARRAY(pool, int, count);
     if (!model->master)
         return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < nsensor; i++)
-        model->master[count++] = 2 * mesh->sensor_node[i];
-    for (int i = 0; !nsensor && i < mesh->naxis; i++)
-        model->master[count++] = 2 * i;
+    for (int i = 0; i < count; i++)
+        model->master[i] = nsensor ? discrete_sensor_dof(&model->discrete, i) : discrete_place_dof(&model->discrete, i);
     model->equations.nmaster = count;
     model->equations.master = model->master;
     for (int i = 1; i < count; i++) /* two sensors that fall on one node */
@@ -40,28 +36,39 @@ static int choose_masters(struct pool *pool, struct rotor_model *model)
     return ROTID_OK;
 }
 
+static int find_places(struct pool *pool, struct rotor_model *model)
+{
+    double *z = POOL_ARRAY(pool, double, model->naxis);
+    for (int i = 0; i < model->naxis && z; i++)
+        z[i] = discrete_place_z(&model->discrete, i);
+    model->z = z;
+    return z ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
 int model_open(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                const struct parameter *parameter, int refine, struct rotor_model *model, int *failed)
 {
-    int nrigid, status = models_beam(pool, models, rotor, nparameter, parameter, refine, &model->beam, &nrigid, failed);
+    int nrigid, status = models_discretise(pool, models, rotor, nparameter, parameter, refine, &model->discrete, &nrigid, failed);
     if (status)
         return status;
-    const struct mesh *mesh = &model->beam.mesh;
+    rotid_matrix structure;
+    discrete_structure(&model->discrete, &structure);
     model->equations = (rotid_model){.size = sizeof model->equations,
-                                     .n = mesh->ndof,
-                                     .kd = mesh->kd,
-                                     .nfar = mesh->nfar,
-                                     .far = mesh->far,
+                                     .n = structure.n,
+                                     .kd = structure.kd,
+                                     .nfar = structure.nfar,
+                                     .far = structure.far,
                                      .nparam = nparameter,
                                      .nrigid = nrigid,
                                      .matrices = matrices,
                                      .derivatives = derivatives,
                                      .user = model};
-    model->rotor = &model->beam.rotor;
+    model->rotor = discrete_rotor(&model->discrete);
     model->parameter = parameter;
-    model->naxis = mesh->naxis;
-    model->z = mesh->z;
-    status = choose_masters(pool, model);
+    model->naxis = discrete_places(&model->discrete);
+    status = find_places(pool, model);
+    if (!status)
+        status = choose_masters(pool, model);
     if (status || nrigid >= 0)
         return status;
     double *x = POOL_ARRAY(pool, double, nparameter);
@@ -69,50 +76,65 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < nparameter; p++)
         x[p] = *parameter_value(model->rotor, parameter[p]);
-    status = beam_count_rigid(pool, &model->beam, x, &model->equations.nrigid);
+    status = discrete_count_rigid(pool, &model->discrete, x, &model->equations.nrigid);
     if (!status)
         models_keep_rigid(models, rotor, refine, model->equations.nrigid);
     return status;
 }
 
+static int nearest_place(const struct discrete *discrete, double z)
+{
+    int nearest = 0;
+    for (int i = 1; i < discrete_places(discrete); i++)
+        if (fabs(discrete_place_z(discrete, i) - z) < fabs(discrete_place_z(discrete, nearest) - z))
+            nearest = i;
+    return nearest;
+}
+
 double model_master_z(const struct rotor_model *model, int i)
 {
-    return model->z[model->master[i] / 2];
+    return model->rotor->nsensor ? discrete_sensor_z(&model->discrete, i) : model->z[i];
 }
 
 int model_lateral_dof(const struct rotor_model *model, double z)
 {
-    return 2 * mesh_node_at(&model->beam.mesh, z);
+    return discrete_place_dof(&model->discrete, nearest_place(&model->discrete, z));
+}
+
+double model_extrapolation(const struct rotor_model *model)
+{
+    return discrete_extrapolation(&model->discrete);
 }
 
 void model_set(struct rotor_model *model, const double *x)
 {
-    beam_set(&model->beam, x);
+    discrete_set(&model->discrete, x);
 }
 
 void model_mass_properties(const struct rotor_model *model, struct mass_properties *properties)
 {
-    beam_mass_properties(&model->beam, properties);
+    discrete_mass_properties(&model->discrete, properties);
 }
 
 int model_weigh(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                 const struct parameter *parameter, const double *x, struct mass_properties *properties)
 {
-    struct beam beam;
-    int nrigid, failed, status = models_beam(pool, models, rotor, nparameter, parameter, 1, &beam, &nrigid, &failed);
+    struct discrete discrete;
+    int nrigid, failed, status = models_discretise(pool, models, rotor, nparameter, parameter, 1, &discrete, &nrigid, &failed);
     if (status)
         return status;
-    beam_set(&beam, x);
-    beam_mass_properties(&beam, properties);
+    discrete_set(&discrete, x);
+    discrete_mass_properties(&discrete, properties);
     return ROTID_OK;
 }
 
 int model_exchange_effect(struct pool *pool, struct rotor_model *model, const struct effect *effect)
 {
-    struct effect *slot = &model->beam.rotor.effect[model->beam.rotor.neffect - 1];
+    const struct rotor *rotor = discrete_rotor(&model->discrete);
+    struct effect *slot = &rotor->effect[rotor->neffect - 1];
     int joints = slot->kind->joint || effect->kind->joint;
     *slot = *effect;
-    return joints ? hinge_place(pool, &model->beam) : ROTID_OK; /* which element has the hinge is settled with the mesh */
+    return joints ? discrete_place_joints(pool, &model->discrete) : ROTID_OK;
 }
 
 int model_sensor_alone(struct pool *pool, const struct rotor *rotor, int s, int *alone)

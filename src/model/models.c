@@ -7,12 +7,13 @@ struct entry {
     const struct models *owner;
     struct rotor rotor; /* as it was given */
     int refine, nrigid;
-    struct beam beam; /* only what does not depend on values is used */
+    struct discrete discrete; /* only what does not depend on values is used */
 };
 
 struct models {
     struct pool pool;
     pthread_mutex_t lock; /* of the pool and the list */
+    enum discretisation as;
     int takes_up;
     const struct models *older;
     struct entry *first;
@@ -40,9 +41,9 @@ static int add(struct models *models, const struct rotor *rotor, int refine, con
     struct entry *e = POOL_NEW(&models->pool, struct entry);
     int status = e ? rotor_copy(&models->pool, rotor, &e->rotor) : ROTID_ERROR_MEMORY;
     if (!status && built)
-        e->beam = built->beam;
+        e->discrete = built->discrete;
     else if (!status)
-        status = beam_build(&models->pool, rotor, 0, NULL, refine, &e->beam, failed);
+        status = discrete_build(&models->pool, models->as, rotor, 0, NULL, refine, &e->discrete, failed);
     if (status)
         return status;
     e->rotor.nspring = rotor->nspring; /* without those of the sling */
@@ -54,33 +55,56 @@ static int add(struct models *models, const struct rotor *rotor, int refine, con
     return ROTID_OK;
 }
 
-static struct models *models_new(struct pool *pool, const struct models *older)
+static struct models *models_new(struct pool *pool, enum discretisation as, const struct models *older)
 {
     struct models *models = POOL_NEW(pool, struct models);
     if (!models || pthread_mutex_init(&models->lock, NULL))
         return NULL;
+    models->as = as;
     models->older = older;
     models->takes_up = 1;
     pool_open(&models->pool, pool->allocator);
     return models;
 }
 
-int models_begin(struct pool *pool, const struct rotor *rotor, struct models **models, struct model_size *size, int *failed)
+struct models *models_as(struct pool *pool, enum discretisation as)
+{
+    struct models *models = models_new(pool, as, NULL);
+    if (models)
+        models_end_run(pool, models, NULL);
+    return models;
+}
+
+enum discretisation models_discretisation(const struct models *models)
+{
+    return models ? models->as : AS_BEAM;
+}
+
+int models_begin(struct pool *pool, enum discretisation as, const struct rotor *rotor, struct models **models,
+                 struct model_size *size, int *failed)
 {
     struct entry *e;
     *failed = -1;
-    *models = models_new(pool, NULL);
+    *models = models_new(pool, as, NULL);
     int status = *models ? add(*models, rotor, 1, NULL, &e, failed) : ROTID_ERROR_MEMORY;
     if (*models)
         models_end_run(pool, *models, NULL);
-    if (!status)
-        *size = (struct model_size){e->beam.mesh.ndof, e->beam.mesh.sensor_node};
-    return status;
+    if (status)
+        return status;
+    rotid_matrix structure;
+    int *sensor_dof = POOL_ARRAY(pool, int, rotor->nsensor);
+    if (!sensor_dof)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < rotor->nsensor; s++)
+        sensor_dof[s] = discrete_sensor_dof(&e->discrete, s);
+    discrete_structure(&e->discrete, &structure);
+    *size = (struct model_size){structure.n, sensor_dof};
+    return ROTID_OK;
 }
 
 struct models *models_for_run(struct pool *pool, struct models *given)
 {
-    return given && given->takes_up ? given : models_new(pool, given);
+    return given && given->takes_up ? given : models_new(pool, models_discretisation(given), given);
 }
 
 void models_end_run(struct pool *pool, struct models *models, const struct models *given)
@@ -92,8 +116,8 @@ void models_end_run(struct pool *pool, struct models *models, const struct model
     pool_absorb(pool, &models->pool);
 }
 
-int models_beam(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                const struct parameter *parameter, int refine, struct beam *beam, int *nrigid, int *failed)
+int models_discretise(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                      const struct parameter *parameter, int refine, struct discrete *discrete, int *nrigid, int *failed)
 {
     int same_values, status = ROTID_OK, takes_up = models && models->takes_up;
     *failed = -1;
@@ -107,8 +131,8 @@ int models_beam(struct pool *pool, struct models *models, const struct rotor *ro
         (void)pthread_mutex_unlock(&models->lock);
     if (status)
         return status;
-    return e ? beam_of_shape(pool, &e->beam, rotor, nparameter, parameter, beam)
-             : beam_build(pool, rotor, nparameter, parameter, refine, beam, failed);
+    return e ? discrete_of_shape(pool, &e->discrete, rotor, nparameter, parameter, discrete)
+             : discrete_build(pool, models_discretisation(models), rotor, nparameter, parameter, refine, discrete, failed);
 }
 
 void models_keep_rigid(struct models *models, const struct rotor *rotor, int refine, int nrigid)

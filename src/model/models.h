@@ -4,18 +4,25 @@
 #define ROTID_MODEL_MODELS_H
 
 #include "base/pool.h"
-#include "beam/beam.h"
+#include "model/discrete.h"
 
 struct models;
 
 /* What a reader of decks wants to know of a discretised rotor. */
 struct model_size {
     int ndof;
-    const int *sensor_node; /* [nsensor] */
+    const int *sensor_dof; /* [nsensor] */
 };
 
-/* The model of a rotor without parameters, in *models, which takes up no others. Statuses of beam_build; *failed likewise. */
-int models_begin(struct pool *pool, const struct rotor *rotor, struct models **models, struct model_size *size, int *failed);
+/* No models yet, and none taken up: all that are opened with these are discretised like this. NULL where memory is out. */
+struct models *models_as(struct pool *pool, enum discretisation as);
+
+/* How models that are opened with these are discretised: as beams where models is NULL. */
+enum discretisation models_discretisation(const struct models *models);
+
+/* The model of a rotor without parameters, in *models, which takes up no others. Statuses of discrete_build; *failed likewise. */
+int models_begin(struct pool *pool, enum discretisation as, const struct rotor *rotor, struct models **models,
+                 struct model_size *size, int *failed);
 
 /* Models for a run, which begin with those of `given` (or NULL): `given` itself where it takes up others. NULL where memory is
  * out. */
@@ -24,10 +31,10 @@ struct models *models_for_run(struct pool *pool, struct models *given);
 /* Ends what models_for_run began: the memory goes to the pool, and nothing is taken up any more. */
 void models_end_run(struct pool *pool, struct models *models, const struct models *given);
 
-/* The beam of a rotor, by a mesh that is there already where there is one. *nrigid: rigid-body and suspension modes at the values
- * of the rotor, -1 where nobody has counted them. Statuses of beam_build; *failed likewise. */
-int models_beam(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                const struct parameter *parameter, int refine, struct beam *beam, int *nrigid, int *failed);
+/* A rotor discretised, by a mesh that is there already where there is one. *nrigid: rigid-body and suspension modes at the values
+ * of the rotor, -1 where nobody has counted them. Statuses of discrete_build; *failed likewise. */
+int models_discretise(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                      const struct parameter *parameter, int refine, struct discrete *discrete, int *nrigid, int *failed);
 
 /* Keeps what somebody has counted. */
 void models_keep_rigid(struct models *models, const struct rotor *rotor, int refine, int nrigid);

@@ -91,6 +91,7 @@ struct job_unknowns {
 /* How the commands are to go about it. */
 struct job_options {
     int has_fit; /* a FIT card states functional or reduction */
+    int solid;   /* MODEL=SOLID: a body of revolution in place of a beam */
     rotid_fit_options fit;
     struct frf_request frf;
 };

@@ -105,7 +105,7 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
     for (int j = 0; j < count && !status; j++) {
         double coarse = prediction_hz(&p, s->nrigid + j),
                finer = parts & SPECTRUM_MESH ? prediction_hz(&q, fine->equations.nrigid + j) : NAN,
-               limit = finer + (finer - coarse) / 3;
+               limit = finer + (finer - coarse) * model_extrapolation(model);
         s->full_hz[j] = coarse;
         s->mesh_error_percent[j] = 100 * (coarse / limit - 1);
         s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / coarse - 1);

@@ -1,0 +1,144 @@
+#include "solid/attached.h"
+
+#include <math.h>
+
+#include "linalg/matrix.h"
+#include "rotor/effects.h"
+#include "solid/members.h"
+
+static const struct solid_line *line_at(const struct solid *solid, double z)
+{
+    return &solid->line[solid_mesh_line(&solid->mesh, z)];
+}
+
+/* ---- springs and disks move with the section */
+
+/* lateral and rotational stiffness of spring i, or their derivatives */
+static int spring_of(const struct solid *solid, int i, int p, double *lateral, double *rotational)
+{
+    const struct rotor *rotor = &solid->rotor;
+    const struct spring *spring = &rotor->spring[i];
+    double factor = effects_on_spring(rotor, i), d = 0;
+    *lateral = factor * spring->lateral;
+    *rotational = factor * spring->rotational;
+    if (p < 0)
+        return 1;
+    struct parameter parameter = solid->parameter[p];
+    if (parameter.kind == PARAMETER_EFFECT && effects_spring_derivative(rotor, parameter, i, &d)) {
+        *lateral = d * spring->lateral;
+        *rotational = d * spring->rotational;
+        return 1;
+    }
+    *lateral = parameter.kind == PARAMETER_SPRING_K ? factor : 0;
+    *rotational = parameter.kind == PARAMETER_SPRING_K_ROT ? factor : 0;
+    return parameter.index == i && *lateral + *rotational != 0;
+}
+
+static int disk_of(const struct solid *solid, int i, int p, double *mass, double *inertia)
+{
+    const struct disk *disk = &solid->rotor.disk[i];
+    *mass = disk->mass;
+    *inertia = disk->diametral;
+    if (p < 0)
+        return 1;
+    struct parameter parameter = solid->parameter[p];
+    *mass = parameter.kind == PARAMETER_DISK_MASS;
+    *inertia = parameter.kind == PARAMETER_DISK_INERTIA;
+    return parameter.index == i && *mass + *inertia != 0;
+}
+
+static void add_to_section(rotid_matrix *a, const struct solid_line *line, double v, double theta)
+{
+    if (v != 0)
+        motion_add(a, v, &line->v, &line->v);
+    if (theta != 0)
+        motion_add(a, theta, &line->theta, &line->theta);
+}
+
+/* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W. What inertia about a diameter a mass has
+ * beyond that of a ring of the surface's radius acts on the slope W/R of the surface. */
+
+int attached_next_mass(const struct solid *solid, int *effect, int *i, struct effect_point *point)
+{
+    for (; *effect < solid->rotor.neffect; (*effect)++, *i = -1) {
+        const struct effect *e = &solid->rotor.effect[*effect];
+        if (e->kind->point && e->kind->point(e, &solid->rotor, ++*i, -1, point))
+            return 1;
+    }
+    return 0;
+}
+
+/* d = 0: the mass; 1: its derivative by place; for every component of the motion of the surface */
+static void add_ring(const struct solid *solid, double z, double mass, double inertia, double dz, rotid_matrix *m)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    int dof[2][SURFACE_MOST + 3];
+    double w[2][SURFACE_MOST + 3], radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
+    for (int c = 0; c < 3; c++) {
+        struct motion at, slope;
+        double half = mass / 2 + (c == 2 ? inertia / (radius * radius) : 0);
+        motion_of_surface(mesh, z, c, 0, dof[0], w[0], &at);
+        if (dz == 0) {
+            motion_add(m, half, &at, &at);
+            continue;
+        }
+        motion_of_surface(mesh, z, c, 1, dof[1], w[1], &slope);
+        motion_add(m, 2 * dz * half, &at, &slope);
+    }
+}
+
+static void add_masses(const struct solid *solid, int p, rotid_matrix *m)
+{
+    struct effect_point point, d;
+    struct parameter parameter = p < 0 ? (struct parameter){0} : solid->parameter[p];
+    double length = solid->mesh.z[solid->mesh.nslice];
+    if (p >= 0 && parameter.kind != PARAMETER_EFFECT)
+        return;
+    for (int effect = 0, i = -1; attached_next_mass(solid, &effect, &i, &point);) {
+        const struct effect *e = &solid->rotor.effect[effect];
+        if (p < 0) {
+            add_ring(solid, point.z, point.mass, point.inertia, 0, m);
+        } else if (parameter.index == effect && e->kind->point(e, &solid->rotor, i, parameter.component, &d)) {
+            if (d.mass != 0 || d.inertia != 0)
+                add_ring(solid, point.z, d.mass, d.inertia, 0, m);
+            if (d.z != 0 && point.z > 0 && point.z < length)
+                add_ring(solid, point.z, point.mass, point.inertia, d.z, m);
+        }
+    }
+}
+
+void attached_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+{
+    const struct rotor *rotor = &solid->rotor;
+    double a, b;
+    for (int i = 0; i < rotor->nspring && !solid->elastic_only && k; i++)
+        if (spring_of(solid, i, p, &a, &b))
+            add_to_section(k, line_at(solid, rotor->spring[i].position), a, b);
+    for (int i = 0; i < rotor->ndisk && m; i++)
+        if (disk_of(solid, i, p, &a, &b))
+            add_to_section(m, line_at(solid, rotor->disk[i].position), a, b);
+    if (rotor->neffect && m)
+        add_masses(solid, p, m);
+    members_assemble(solid, p, k, m);
+}
+
+void attached_moments(const struct solid *solid, double moment[3])
+{
+    const struct rotor *rotor = &solid->rotor;
+    const struct solid_mesh *mesh = &solid->mesh;
+    struct effect_point point;
+    for (int i = 0; i < rotor->ndisk; i++) {
+        double z = mesh->z[solid_mesh_line(mesh, rotor->disk[i].position)], mass = rotor->disk[i].mass;
+        moment[0] += mass;
+        moment[1] += mass * z;
+        moment[2] += mass * z * z + rotor->disk[i].diametral;
+    }
+    for (int effect = 0, i = -1; attached_next_mass(solid, &effect, &i, &point);) {
+        double z = fmin(fmax(point.z, 0), mesh->z[mesh->nslice]),
+               radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
+        moment[0] += point.mass;
+        moment[1] += point.mass * z;
+        moment[2] += point.mass * (z * z + radius * radius / 2) + point.inertia;
+    }
+    members_moments(solid, moment);
+}

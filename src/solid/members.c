@@ -1,0 +1,194 @@
+#include "solid/members.h"
+
+#include "beam/element.h"
+#include "beam/shear_coefficient.h"
+#include "linalg/matrix.h"
+#include "rotor/effects.h"
+#include "rotor/section.h"
+
+struct member {
+    int number;
+    const struct material *material;
+    struct section section; /* of all rods together, each about its own axis */
+    double pitch;           /* m4: what their area has beside that about the rotor's axis */
+    double force;           /* N, of all */
+    double young;           /* factor of causes on E */
+};
+
+static struct member member_of(const struct solid *solid, int i)
+{
+    const struct rotor *rotor = &solid->rotor;
+    const struct tierod *rod = i < rotor->ntierod ? &rotor->tierod[i] : NULL;
+    const struct bars *bars = rod ? NULL : &rotor->bars[i - rotor->ntierod];
+    struct member member = {.number = rod ? rod->number : bars->number, .material = rod ? &rod->material : &bars->material, .young = 1};
+    double area, own;
+    section_rods(member.number, rod ? rod->diameter : bars->diameter, rod ? rod->pitch : bars->pitch, &area, &own, &member.pitch);
+    member.section = (struct section){area, own, area, own, 0, 0};
+    if (rod) {
+        struct effect_bundle factor = effects_on_tierod(rotor, i);
+        member.young = factor.young;
+        member.force = rod->number * rod->tension * factor.tension;
+    }
+    return member;
+}
+
+static struct element element_of(const struct solid *solid, const struct member *member, double length)
+{
+    const struct material *material = member->material;
+    double unused;
+    return (struct element){.ei = material->e * member->young * member->section.stiff_inertia,
+                            .kgs = shear_coefficient(&member->section, material->nu, &unused) * material_shear_modulus(material) *
+                                   member->young * member->section.stiff_area,
+                            .rhos = material->rho * member->section.mass_area,
+                            .rhoi = material->rho * member->section.mass_inertia,
+                            .force = solid->elastic_only ? 0 : member->force,
+                            .length = length};
+}
+
+/* Derivatives of the five quantities and of E S e^2/2 = stretch * E pitch; 0 where they vanish. */
+static int direction_of(const struct solid *solid, const struct member *member, int i, struct parameter parameter,
+                        struct element *d, double *stretch)
+{
+    const struct rotor *rotor = &solid->rotor;
+    struct effect_bundle rate = {0, 0, 0};
+    struct element now = element_of(solid, member, 1);
+    *d = (struct element){0};
+    *stretch = 0;
+    if (i >= rotor->ntierod)
+        return 0;
+    if (parameter.kind == PARAMETER_EFFECT) {
+        if (!effects_tierod_derivative(rotor, parameter, i, &rate))
+            return 0;
+        rate.young /= member->young;
+        d->force = rotor->tierod[i].number * rotor->tierod[i].tension * rate.tension;
+    } else if (parameter.index != i) {
+        return 0;
+    } else if (parameter.kind == PARAMETER_TENSION) {
+        d->force = rotor->tierod[i].number * effects_on_tierod(rotor, i).tension;
+    } else if (parameter.kind == PARAMETER_TIEROD_E) {
+        rate.young = 1 / member->material->e;
+    } else {
+        return 0;
+    }
+    d->ei = now.ei * rate.young;
+    d->kgs = parameter.kind == PARAMETER_TIEROD_E && !member->material->isotropic ? 0 : now.kgs * rate.young;
+    *stretch = rate.young;
+    return 1;
+}
+
+/* v and theta of a member on a line: its own, or those of the section; room for two terms of its own */
+struct end {
+    int dof[2];
+    double one;
+    struct motion motion[2];
+};
+
+static void end_of(const struct solid *solid, int i, int line, struct end *end)
+{
+    int dof = *solid_mesh_member_dof(&solid->mesh, i, line);
+    end->dof[0] = dof;
+    end->dof[1] = dof + 1;
+    end->one = 1;
+    for (int c = 0; c < 2; c++)
+        end->motion[c] = (struct motion){1, &end->dof[c], &end->one};
+    if (dof < 0) {
+        end->motion[0] = solid->line[line].v;
+        end->motion[1] = solid->line[line].theta;
+    }
+}
+
+static void add_between(const struct solid *solid, int i, int line, const double *e, rotid_matrix *a)
+{
+    struct end ends[2];
+    end_of(solid, i, line, &ends[0]);
+    end_of(solid, i, line + 1, &ends[1]);
+    for (int p = 0; p < 4 && a; p++)
+        for (int q = 0; q <= p; q++)
+            motion_add(a, (p == q ? 1 : 2) * e[p + 4 * q], &ends[p / 2].motion[p % 2], &ends[q / 2].motion[q % 2]);
+}
+
+/* The rods follow W at both ends, N cos^2 of them N/2, and what lies between them linearly. */
+static void add_stretch(const struct solid *solid, int i, double stiffness, double inertia, rotid_matrix *k, rotid_matrix *m)
+{
+    const struct motion *w = &solid->stretch[2 * (ptrdiff_t)i];
+    for (int end = 0; end < 2; end++) {
+        if (k && stiffness != 0)
+            motion_add(k, stiffness, &w[end], &w[end]);
+        if (m && inertia != 0)
+            motion_add(m, inertia / 3, &w[end], &w[end]);
+    }
+    if (k && stiffness != 0)
+        motion_add(k, -2 * stiffness, &w[0], &w[1]);
+    if (m && inertia != 0)
+        motion_add(m, inertia / 3, &w[0], &w[1]);
+}
+
+static void add_stiffness_alone(const struct element *element, const struct element *d, double *ek, double *em)
+{
+    if (d)
+        element_derivatives(element, d, ek, em);
+    else
+        element_matrices(element, ek, em);
+}
+
+void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
+{
+    const struct rotor *rotor = &solid->rotor;
+    const struct solid_mesh *mesh = &solid->mesh;
+    for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
+        struct member member = member_of(solid, i);
+        struct element d;
+        double rate = 1, ek[16], em[16];
+        int from, to;
+        if (p >= 0 && !direction_of(solid, &member, i, solid->parameter[p], &d, &rate))
+            continue;
+        solid_mesh_member(rotor, mesh, i, &from, &to);
+        for (int l = from; l < to; l++) {
+            struct element element = element_of(solid, &member, mesh->z[l + 1] - mesh->z[l]);
+            add_stiffness_alone(&element, p < 0 ? NULL : &d, ek, em);
+            add_between(solid, i, l, ek, k);
+            if (p < 0)
+                add_between(solid, i, l, em, m);
+        }
+        double area = member.section.stiff_area, length = mesh->z[to] - mesh->z[from];
+        if (i < rotor->ntierod)
+            add_stretch(solid, i, rate * member.material->e * member.young * area / 2 / length,
+                        p < 0 ? member.material->rho * area * length / 2 : 0, k, m);
+        else if (p < 0 && m) /* bars follow the rotation of the section at their centre axially */
+            motion_add(m, member.material->rho * member.pitch * length,
+                       &solid->line[solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center)].theta,
+                       &solid->line[solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center)].theta);
+    }
+}
+
+void members_moments(const struct solid *solid, double moment[3])
+{
+    const struct rotor *rotor = &solid->rotor;
+    for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
+        struct member member = member_of(solid, i);
+        int from, to;
+        solid_mesh_member(rotor, &solid->mesh, i, &from, &to);
+        double a = solid->mesh.z[from], b = solid->mesh.z[to], l = b - a, mass = member.material->rho * member.section.mass_area * l;
+        moment[0] += mass;
+        moment[1] += mass * (a + b) / 2;
+        moment[2] += mass * ((a + b) * (a + b) / 4 + l * l / 12) + member.material->rho * (member.section.mass_inertia + member.pitch) * l;
+    }
+}
+
+void members_deflection(const struct solid *solid, int i, const double *u, int npoint, double *z, double *v)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    int from, to;
+    solid_mesh_member(&solid->rotor, mesh, i, &from, &to);
+    for (int p = 0; p < npoint; p++) {
+        z[p] = mesh->z[from] + (mesh->z[to] - mesh->z[from]) * p / (npoint - 1);
+        int l = solid_mesh_slice(mesh, z[p]);
+        l = l < from ? from : l < to ? l : to - 1;
+        struct end a, b;
+        end_of(solid, i, l, &a);
+        end_of(solid, i, l + 1, &b);
+        double h = mesh->z[l + 1] - mesh->z[l], s = (z[p] - mesh->z[l]) / h;
+        v[p] = (1 + s * s * (2 * s - 3)) * motion_value(&a.motion[0], u) - h * s * (1 - s) * (1 - s) * motion_value(&a.motion[1], u) +
+               s * s * (3 - 2 * s) * motion_value(&b.motion[0], u) + h * s * s * (1 - s) * motion_value(&b.motion[1], u);
+    }
+}

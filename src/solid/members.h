@@ -1,0 +1,18 @@
+/* Tie rods and bars beside a solid: chains of beam elements from line to line of the mesh, which bend by themselves. Tie rods move
+ * with the section at both ends and are stretched by W at their pitch radius there; bars move with the section at their centre. */
+#ifndef ROTID_SOLID_MEMBERS_H
+#define ROTID_SOLID_MEMBERS_H
+
+#include "solid/solid.h"
+
+/* Adds to K and M, or for p >= 0 their derivatives with respect to solid->parameter[p]; the matrices may be NULL. */
+void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m);
+
+/* Adds moments of mass about the left end, as attached_moments. */
+void members_moments(const struct solid *solid, double moment[3]);
+
+/* Deflection v [npoint] of member i at npoint >= 2 even places z [npoint] from its left end to the right one, in the motion u:
+ * cubic between lines, by v and theta there. */
+void members_deflection(const struct solid *solid, int i, const double *u, int npoint, double *z, double *v);
+
+#endif

@@ -1,0 +1,136 @@
+#include "solid/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "linalg/matrix.h"
+#include "solid/shape.h"
+
+static const double place[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
+static const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+
+static int motion_new(struct pool *pool, int most, struct motion *motion)
+{
+    *motion = (struct motion){0, POOL_ARRAY(pool, int, most), POOL_ARRAY(pool, double, most)};
+    return motion->dof && motion->weight ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+static void add_term(struct motion *motion, int dof, double w)
+{
+    if (dof < 0 || w == 0)
+        return;
+    for (int i = 0; i < motion->count; i++)
+        if (motion->dof[i] == dof) {
+            motion->weight[i] += w;
+            return;
+        }
+    motion->dof[motion->count] = dof;
+    motion->weight[motion->count++] = w;
+}
+
+/* +1, or -1 for V on the axis */
+static double sign_of(const struct solid_node *node, int component)
+{
+    return component == 1 && node->r == 0 ? -1 : 1;
+}
+
+/* The shape functions of the edge from node n to n + 2 of a line at x: r, dr/dx and n [3] */
+static void edge_at(const struct solid_mesh *mesh, int n, double x, double *r, double *slope, double *shape)
+{
+    const struct solid_node *node = &mesh->node[n];
+    shape[0] = x * (x - 1) / 2;
+    shape[1] = 1 - x * x;
+    shape[2] = x * (x + 1) / 2;
+    *r = shape[0] * node[0].r + shape[1] * node[1].r + shape[2] * node[2].r;
+    *slope = (x - 0.5) * node[0].r - 2 * x * node[1].r + (x + 0.5) * node[2].r;
+}
+
+int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line, struct motion *v, struct motion *theta)
+{
+    int first = mesh->line[2 * line], end = mesh->line[2 * line + 1];
+    double area = 0, inertia = 0, r, slope, shape[3];
+    int status = motion_new(pool, 2 * (end - first), v);
+    if (!status)
+        status = motion_new(pool, end - first, theta);
+    for (int n = first; n + 2 < end && !status; n += 2)
+        for (int g = 0; g < 3; g++) {
+            edge_at(mesh, n, place[g], &r, &slope, shape);
+            double w = weight[g] * slope * r;
+            area += w;
+            inertia += w * r * r;
+            for (int i = 0; i < 3; i++) {
+                const struct solid_node *node = &mesh->node[n + i];
+                add_term(v, node->dof[0], w * shape[i] / 2);
+                add_term(v, node->dof[1], -sign_of(node, 1) * w * shape[i] / 2);
+                add_term(theta, node->dof[2], w * r * shape[i]);
+            }
+        }
+    for (int i = 0; i < v->count && !status; i++)
+        v->weight[i] /= area;
+    for (int i = 0; i < theta->count && !status; i++)
+        theta->weight[i] /= inertia;
+    return status;
+}
+
+int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, double r, struct motion *w)
+{
+    int first = mesh->line[2 * line], end = mesh->line[2 * line + 1], status = motion_new(pool, 3, w);
+    for (int n = first; n + 2 < end && !status; n += 2) {
+        const double edge[3] = {mesh->node[n].r, mesh->node[n + 1].r, mesh->node[n + 2].r};
+        double shape[3];
+        if (r < edge[0] || r > edge[2])
+            continue;
+        shape_of_edge(edge, r, shape, NULL);
+        for (int i = 0; i < 3; i++)
+            add_term(w, mesh->node[n + i].dof[2], shape[i]);
+        return ROTID_OK;
+    }
+    return status ? status : ROTID_ERROR_SECTION;
+}
+
+/* U of node 5 of an element whose sensor has taken that degree of freedom: (sensor - n1 U1 - n2 U2)/n5 */
+static void add_surface_term(const struct solid_mesh *mesh, const struct solid_element *element, int node, int component, double w,
+                             struct motion *motion)
+{
+    const double *at = element->at_sensor;
+    if (component == 0 && node == 5 && element->sensor >= 0) {
+        add_term(motion, mesh->node[element->node[5]].dof[0], w / at[1]);
+        add_term(motion, mesh->node[element->node[1]].dof[0], -w * at[0] / at[1]);
+        add_term(motion, mesh->node[element->node[2]].dof[0], -w * at[2] / at[1]);
+        return;
+    }
+    const struct solid_node *own = &mesh->node[element->node[node]];
+    add_term(motion, own->dof[component], w);
+}
+
+void motion_of_surface(const struct solid_mesh *mesh, double z, int component, int by_place, int *dof, double *w,
+                       struct motion *motion)
+{
+    static const int edge[3] = {1, 5, 2};
+    const struct solid_element *element = &mesh->element[solid_mesh_outermost(mesh, solid_mesh_slice(mesh, z))];
+    double at[3], n[3], slope[3];
+    *motion = (struct motion){0, dof, w};
+    for (int i = 0; i < 3; i++)
+        at[i] = mesh->node[element->node[edge[i]]].z;
+    z = fmin(fmax(z, at[0]), at[2]);
+    shape_of_edge(at, z, n, slope);
+    for (int i = 0; i < 3; i++)
+        add_surface_term(mesh, element, edge[i], component, by_place ? slope[i] : n[i], motion);
+}
+
+double motion_value(const struct motion *motion, const double *u)
+{
+    double sum = 0;
+    for (int i = 0; i < motion->count; i++)
+        sum += motion->weight[i] * u[motion->dof[i]];
+    return sum;
+}
+
+void motion_add(rotid_matrix *a, double value, const struct motion *x, const struct motion *y)
+{
+    for (int i = 0; i < x->count; i++)
+        for (int j = 0; j < y->count; j++) {
+            double w = value * x->weight[i] * y->weight[j];
+            matrix_add(a, x->dof[i], y->dof[j], x->dof[i] == y->dof[j] ? w : w / 2);
+        }
+}

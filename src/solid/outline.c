@@ -1,0 +1,241 @@
+#include "solid/outline.h"
+
+#include <math.h>
+
+#include "solid/lines.h"
+
+#define SAME         1e-9 /* of the largest radius: radii that are one */
+#define CORNER       0.05 /* of the thinner radius: elements at a corner; leaves 0.03 % in the frequencies of stepped rotors */
+#define LARGEST      4    /* a quarter of the largest radius */
+#define SLICES       50   /* or the length over this, the larger */
+#define AT_LINE      0.01 /* of a slice: a sensor is taken to be at the line */
+#define MOVES        0.35 /* of the slices beside it: how far a line moves to a sensor */
+#define INTERFACE    0.1  /* of the radius: elements at a plain interface of two groups, where a joint may be */
+
+double outline_inner(const struct rotor *rotor, int s)
+{
+    double inner = rotor->segment[s].inner;
+    for (int i = 0; i < rotor->nring; i++)
+        if (rotor->ring[i].segment == s)
+            inner = fmin(inner, rotor->ring[i].inner);
+    return inner / 2;
+}
+
+static double own_outer(const struct segment *segment)
+{
+    return fmin(segment->outer, segment->stiff_outer) / 2;
+}
+
+double outline_outer(const struct rotor *rotor, int s)
+{
+    double outer = 2 * own_outer(&rotor->segment[s]);
+    for (int i = 0; i < rotor->nring; i++)
+        if (rotor->ring[i].segment == s)
+            outer = fmax(outer, rotor->ring[i].outer);
+    return outer / 2;
+}
+
+int outline_group(const struct rotor *rotor, int s, double r)
+{
+    for (int i = 0; i < rotor->nring; i++)
+        if (rotor->ring[i].segment == s && 2 * r > rotor->ring[i].inner && 2 * r < rotor->ring[i].outer)
+            return rotor->ring[i].group;
+    return 2 * r > rotor->segment[s].inner && r < own_outer(&rotor->segment[s]) ? rotor->segment[s].group : -1;
+}
+
+/* The annulus over which the holes of a group are smeared, as broad as a hole. */
+static int hole_zone(const struct rotor *rotor, int group, double *from, double *to)
+{
+    const struct group *g = &rotor->group[group];
+    *from = g->hole_pitch - g->hole_diameter / 2;
+    *to = g->hole_pitch + g->hole_diameter / 2;
+    return g->holes > 0;
+}
+
+double outline_share(const struct rotor *rotor, int group, double r)
+{
+    double from, to;
+    const struct group *g = &rotor->group[group];
+    if (!hole_zone(rotor, group, &from, &to) || r < from || r > to)
+        return 1;
+    return 1 - g->holes * g->hole_diameter * g->hole_diameter / (4 * (to * to - from * from));
+}
+
+static int differ(const struct rotor *rotor, double a, double b)
+{
+    double scale = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        scale = fmax(scale, outline_outer(rotor, s));
+    return fabs(a - b) > SAME * scale;
+}
+
+int outline_corner(const struct rotor *rotor, int s, double r)
+{
+    double a = outline_outer(rotor, s), b = outline_outer(rotor, s + 1), c = outline_inner(rotor, s),
+           d = outline_inner(rotor, s + 1);
+    return (differ(rotor, a, b) && !differ(rotor, r, fmin(a, b))) || (differ(rotor, c, d) && !differ(rotor, r, fmax(c, d)));
+}
+
+static double corner_size(const struct rotor *rotor, const struct solid_rule *rule, int s, int refine)
+{
+    double thin = fmin(outline_outer(rotor, s), outline_outer(rotor, s + 1));
+    return (rule->corner > 0 ? rule->corner : CORNER * thin) / refine;
+}
+
+static double largest_size(const struct rotor *rotor, const struct solid_rule *rule, int refine, int along)
+{
+    double radius = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        radius = fmax(radius, outline_outer(rotor, s));
+    double size = along ? fmax(radius / LARGEST, rotor_length(rotor) / SLICES) : radius / LARGEST;
+    return (rule->largest > 0 ? rule->largest : size) / sqrt(refine);
+}
+
+static int radial(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r)
+{
+    double largest = largest_size(rotor, rule, refine, 0), from, to;
+    int most = 4 * rotor->nsegment + 2 * rotor->nring + 2 * rotor->ngroup * rotor->nsegment, n = 0;
+    struct stop *stop = POOL_ARRAY(pool, struct stop, most);
+    if (!stop)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        double a = outline_outer(rotor, s), c = outline_inner(rotor, s);
+        stop[n++] = (struct stop){a, 0, largest};
+        stop[n++] = (struct stop){c, 0, largest};
+        stop[n++] = (struct stop){rotor->segment[s].inner / 2, 0, largest};
+        stop[n++] = (struct stop){own_outer(&rotor->segment[s]), 0, largest};
+        for (int side = 0; side < 2; side++)
+            for (int t = s - 1; t <= s && t >= 0 && t + 1 < rotor->nsegment; t++)
+                if (outline_corner(rotor, t, side ? c : a)) {
+                    double size = corner_size(rotor, rule, t, refine);
+                    struct stop *here = &stop[n - 4 + side];
+                    here->fine = here->fine > 0 ? fmin(here->fine, size) : size;
+                }
+        for (int g = 0; g < rotor->ngroup; g++)
+            if ((g == rotor->segment[s].group || rotor->group[g].layer_of == rotor->segment[s].group) &&
+                hole_zone(rotor, g, &from, &to)) {
+                stop[n++] = (struct stop){from, 0, largest};
+                stop[n++] = (struct stop){to, 0, largest};
+            }
+    }
+    for (int i = 0; i < rotor->nring; i++) {
+        stop[n++] = (struct stop){rotor->ring[i].inner / 2, 0, largest};
+        stop[n++] = (struct stop){rotor->ring[i].outer / 2, 0, largest};
+    }
+    return lines_graded(pool, stops_merge(n, stop, SAME * largest), stop, nr, r);
+}
+
+static int axial_stops(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nstop,
+                       struct stop **stops)
+{
+    double largest = largest_size(rotor, rule, refine, 1), end = 0, smallest = largest;
+    int n = 0, most = rotor->nsegment + 1 + rotor->nspring + rotor->ndisk + 2 * rotor->ntierod + 3 * rotor->nbars;
+    struct stop *stop = POOL_ARRAY(pool, struct stop, most);
+    if (!stop)
+        return ROTID_ERROR_MEMORY;
+    stop[n++] = (struct stop){0, 0, largest};
+    for (int s = 0; s < rotor->nsegment; s++) {
+        double size = 0;
+        end += rotor->segment[s].length;
+        if (s + 1 < rotor->nsegment &&
+            (differ(rotor, outline_outer(rotor, s), outline_outer(rotor, s + 1)) ||
+             differ(rotor, outline_inner(rotor, s), outline_inner(rotor, s + 1))))
+            size = corner_size(rotor, rule, s, refine);
+        else if (s + 1 < rotor->nsegment && rotor->segment[s].group != rotor->segment[s + 1].group)
+            size = INTERFACE * outline_outer(rotor, s);
+        stop[n++] = (struct stop){end, size, largest};
+        smallest = size > 0 ? fmin(smallest, size) : smallest;
+    }
+    for (int i = 0; i < rotor->nspring; i++)
+        stop[n++] = (struct stop){rotor->spring[i].position, 0, largest};
+    for (int i = 0; i < rotor->ndisk; i++)
+        stop[n++] = (struct stop){rotor->disk[i].position, 0, largest};
+    for (int i = 0; i < rotor->ntierod; i++) {
+        stop[n++] = (struct stop){rotor->tierod[i].from, 0, largest};
+        stop[n++] = (struct stop){rotor->tierod[i].to, 0, largest};
+    }
+    for (int i = 0; i < rotor->nbars; i++) {
+        const struct bars *bars = &rotor->bars[i];
+        for (int side = -1; side <= 1; side++)
+            stop[n++] = (struct stop){fmin(fmax(bars->center + side * bars->length / 2, 0), end), 0, largest};
+    }
+    *stops = stop;
+    *nstop = stops_merge(n, stop, fmin(1e-6 * end, 0.01 * smallest));
+    return ROTID_OK;
+}
+
+/* A line at a sensor where a line that nothing else needs is near, so that a slice has one sensor between its ends at most: it
+ * takes a node of the slice, of which there is one. */
+static int lines_at_sensors(struct pool *pool, const struct rotor *rotor, const int *fixed_before, int *nz, double **z)
+{
+    int n = *nz, inside = -1, room = n + rotor->nsensor;
+    double *x = POOL_ARRAY(pool, double, room);
+    int *fixed = POOL_ARRAY(pool, int, room);
+    if (!x || !fixed)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n; i++) {
+        x[i] = (*z)[i];
+        fixed[i] = fixed_before[i];
+    }
+    for (int s = 0; s < rotor->nsensor; s++) {
+        double at = rotor->sensor[s].position;
+        int i = 0, near;
+        while (i < n - 2 && x[i + 1] <= at)
+            i++;
+        near = at - x[i] < x[i + 1] - at ? i : i + 1;
+        double distance = fabs(at - x[near]);
+        if (distance <= AT_LINE * (x[i + 1] - x[i]) && fixed[near])
+            continue;
+        if (!fixed[near] && !(near == i && inside == i) && distance < MOVES * fmin(x[near] - x[near - 1], x[near + 1] - x[near])) {
+            x[near] = at;
+            fixed[near] = 1;
+        } else if (inside < i) {
+            inside = i;
+        } else {
+            for (int j = n++; j > i + 1; j--) {
+                x[j] = x[j - 1];
+                fixed[j] = fixed[j - 1];
+            }
+            x[i + 1] = at;
+            fixed[i + 1] = 1;
+        }
+    }
+    *nz = n;
+    *z = x;
+    return ROTID_OK;
+}
+
+/* lines where something of the rotor is, which no sensor may move */
+static int *fixed_lines(struct pool *pool, int nstop, const struct stop *stop, int nz, const double *z)
+{
+    int *fixed = POOL_ARRAY(pool, int, nz);
+    for (int i = 0, s = 0; i < nz && fixed; i++)
+        if (s < nstop && z[i] == stop[s].at)
+            fixed[i] = ++s > 0;
+    return fixed;
+}
+
+int outline_lines(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r,
+                  int *nz, double **z, int **segment)
+{
+    struct stop *stop;
+    int nstop, status = radial(pool, rotor, rule, refine, nr, r);
+    if (!status)
+        status = axial_stops(pool, rotor, rule, refine, &nstop, &stop);
+    if (!status)
+        status = lines_graded(pool, nstop, stop, nz, z);
+    if (status)
+        return status;
+    int *fixed = fixed_lines(pool, nstop, stop, *nz, *z);
+    status = fixed ? lines_at_sensors(pool, rotor, fixed, nz, z) : ROTID_ERROR_MEMORY;
+    *segment = POOL_ARRAY(pool, int, *nz);
+    if (status || !*segment)
+        return ROTID_ERROR_MEMORY;
+    double end = rotor->segment[0].length;
+    for (int i = 0, s = 0; i + 1 < *nz; i++) {
+        while (s + 1 < rotor->nsegment && ((*z)[i] + (*z)[i + 1]) / 2 > end)
+            end += rotor->segment[++s].length;
+        (*segment)[i] = s;
+    }
+    return ROTID_OK;
+}
