@@ -1,0 +1,118 @@
+#include "linalg/pencil.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#define LANES  8
+#define STRIDE 8 /* entries that are looked at together */
+
+int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *p)
+{
+    size_t n = (size_t)structure->n, most = n * (size_t)(structure->kd + 1);
+    *p = (struct pencil){.n = structure->n};
+    p->start = POOL_ARRAY(pool, int, n + 1);
+    p->row = POOL_ARRAY(pool, int, most);
+    p->k = POOL_ARRAY(pool, double, most);
+    p->m = POOL_ARRAY(pool, double, most);
+    p->block = POOL_ARRAY(pool, double, (size_t)structure->nfar *(size_t)structure->nfar);
+    p->x = POOL_ARRAY(pool, double, LANES *n);
+    p->y = POOL_ARRAY(pool, double, LANES *n);
+    return p->start && p->row && p->k && p->m && p->block && p->x && p->y ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+/* Nothing but zeros in the next STRIDE entries? Their bits tell faster than comparisons. */
+static int all_zero(const double *a, const double *b)
+{
+    uint64_t bits[2 * STRIDE], any = 0;
+    memcpy(bits, a, STRIDE * sizeof *a);
+    memcpy(bits + STRIDE, b, STRIDE * sizeof *b);
+    for (int i = 0; i < 2 * STRIDE; i++)
+        any |= bits[i];
+    return !any;
+}
+
+int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int same = p->mass != NULL, at = 0;
+    p->stiffness = k;
+    p->mass = m;
+    for (int j = 0; j < p->n; j++) {
+        int reach = k->kd < p->n - 1 - j ? k->kd : p->n - 1 - j;
+        const double *kj = k->band + (ptrdiff_t)j * (k->kd + 1), *mj = m->band + (ptrdiff_t)j * (k->kd + 1);
+        same &= p->start[j] == at;
+        p->start[j] = at;
+        for (int d = 0; d <= reach; d++) {
+            if (d + STRIDE <= reach && d && all_zero(kj + d, mj + d)) {
+                d += STRIDE - 1;
+                continue;
+            }
+            if (d && kj[d] == 0 && mj[d] == 0)
+                continue;
+            same &= p->row[at] == j + d && p->m[at] == mj[d];
+            p->row[at] = j + d;
+            p->k[at] = kj[d];
+            p->m[at++] = mj[d];
+        }
+    }
+    same &= p->start[p->n] == at;
+    p->start[p->n] = at;
+    for (int i = 0; i < m->nfar * m->nfar; i++) {
+        same &= p->block[i] == m->block[i];
+        p->block[i] = m->block[i];
+    }
+    return same;
+}
+
+/* y += A x for LANES columns */
+static void multiply_lanes(const struct pencil *p, const double *restrict value, const double *restrict x, double *restrict y)
+{
+    for (int j = 0; j < p->n; j++) {
+        const double *restrict xj = x + (ptrdiff_t)j * LANES;
+        double sum[LANES], from[LANES];
+        int at = p->start[j];
+        for (int c = 0; c < LANES; c++) {
+            from[c] = xj[c];
+            sum[c] = value[at] * xj[c];
+        }
+        while (++at < p->start[j + 1]) {
+            const double a = value[at], *restrict xi = x + (ptrdiff_t)p->row[at] * LANES;
+            double *restrict yi = y + (ptrdiff_t)p->row[at] * LANES;
+            for (int c = 0; c < LANES; c++) {
+                sum[c] += a * xi[c];
+                yi[c] += a * from[c];
+            }
+        }
+        for (int c = 0; c < LANES; c++)
+            y[(ptrdiff_t)j * LANES + c] += sum[c];
+    }
+}
+
+static void multiply(struct pencil *p, const double *value, const rotid_matrix *a, int columns, const double *x, double *y)
+{
+    ptrdiff_t n = p->n;
+    for (int first = 0; first < columns; first += LANES, x += LANES * n, y += LANES * n) {
+        int lanes = columns - first < LANES ? columns - first : LANES;
+        memset(p->y, 0, (size_t)n * LANES * sizeof *y);
+        for (ptrdiff_t i = 0; i < n; i++)
+            for (int c = 0; c < LANES; c++)
+                p->x[i * LANES + c] = c < lanes ? x[i + c * n] : 0;
+        multiply_lanes(p, value, p->x, p->y);
+        for (int g = 0; g < a->nfar; g++)
+            for (int f = 0; f < a->nfar; f++)
+                for (int c = 0; c < LANES; c++)
+                    p->y[(ptrdiff_t)a->far[f] * LANES + c] += a->block[f + g * a->nfar] * p->x[(ptrdiff_t)a->far[g] * LANES + c];
+        for (ptrdiff_t i = 0; i < n; i++)
+            for (int c = 0; c < lanes; c++)
+                y[i + c * n] = p->y[i * LANES + c];
+    }
+}
+
+void pencil_multiply_stiffness(struct pencil *p, int columns, const double *x, double *y)
+{
+    multiply(p, p->k, p->stiffness, columns, x, y);
+}
+
+void pencil_multiply_mass(struct pencil *p, int columns, const double *x, double *y)
+{
+    multiply(p, p->m, p->mass, columns, x, y);
+}
