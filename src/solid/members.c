@@ -123,12 +123,35 @@ static void add_stretch(const struct solid *solid, int i, double stiffness, doub
         motion_add(m, inertia / 3, &w[0], &w[1]);
 }
 
-static void add_stiffness_alone(const struct element *element, const struct element *d, double *ek, double *em)
+/* rho S, rho I and the tension of rods that follow the section, from half-way to half-way between lines; v' = -theta */
+static void add_following(const struct solid *solid, const struct element *q, int from, int to, rotid_matrix *k, rotid_matrix *m)
 {
-    if (d)
-        element_derivatives(element, d, ek, em);
-    else
-        element_matrices(element, ek, em);
+    const double *z = solid->mesh.z;
+    for (int l = from; l <= to; l++) {
+        const struct solid_line *line = &solid->line[l];
+        double length = ((l < to ? z[l + 1] : z[l]) - (l > from ? z[l - 1] : z[l])) / 2;
+        if (k && q->force != 0)
+            motion_add(k, q->force * length, &line->theta, &line->theta);
+        if (m && q->rhos != 0) {
+            motion_add(m, q->rhos * length, &line->v, &line->v);
+            motion_add(m, q->rhoi * length, &line->theta, &line->theta);
+        }
+    }
+}
+
+static void add_chain(const struct solid *solid, const struct member *member, int i, const struct element *d, int from, int to,
+                      rotid_matrix *k, rotid_matrix *m)
+{
+    double ek[16], em[16];
+    for (int l = from; l < to; l++) {
+        struct element element = element_of(solid, member, solid->mesh.z[l + 1] - solid->mesh.z[l]);
+        if (d)
+            element_derivatives(&element, d, ek, em);
+        else
+            element_matrices(&element, ek, em);
+        add_between(solid, i, l, ek, k);
+        add_between(solid, i, l, em, d ? NULL : m);
+    }
 }
 
 void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
@@ -138,18 +161,17 @@ void members_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_m
     for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
         struct member member = member_of(solid, i);
         struct element d;
-        double rate = 1, ek[16], em[16];
+        double rate = 1;
         int from, to;
         if (p >= 0 && !direction_of(solid, &member, i, solid->parameter[p], &d, &rate))
             continue;
         solid_mesh_member(rotor, mesh, i, &from, &to);
-        for (int l = from; l < to; l++) {
-            struct element element = element_of(solid, &member, mesh->z[l + 1] - mesh->z[l]);
-            add_stiffness_alone(&element, p < 0 ? NULL : &d, ek, em);
-            add_between(solid, i, l, ek, k);
-            if (p < 0)
-                add_between(solid, i, l, em, m);
-        }
+        if (p < 0)
+            d = element_of(solid, &member, 1);
+        if (solid_mesh_follows(rotor, i))
+            add_following(solid, &d, from, to, k, m);
+        else
+            add_chain(solid, &member, i, p < 0 ? NULL : &d, from, to, k, m);
         double area = member.section.stiff_area, length = mesh->z[to] - mesh->z[from];
         if (i < rotor->ntierod)
             add_stretch(solid, i, rate * member.material->e * member.young * area / 2 / length,

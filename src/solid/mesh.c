@@ -130,11 +130,16 @@ void solid_mesh_member(const struct rotor *rotor, const struct solid_mesh *mesh,
     *to = solid_mesh_line(mesh, bars ? bars->center + bars->length / 2 : rotor->tierod[i].to);
 }
 
+int solid_mesh_follows(const struct rotor *rotor, int i)
+{
+    return i < rotor->ntierod && rotor->tierod[i].elements == 1;
+}
+
 /* whether v and theta of a member on this line are those of the rotor there */
 static int is_tied(const struct rotor *rotor, const struct solid_mesh *mesh, int i, int line, int from, int to)
 {
     if (i < rotor->ntierod)
-        return line == from || line == to;
+        return line == from || line == to || solid_mesh_follows(rotor, i);
     return line == solid_mesh_line(mesh, rotor->bars[i - rotor->ntierod].center);
 }
 
@@ -189,7 +194,7 @@ static void find_band(const struct rotor *rotor, struct solid_mesh *mesh)
     for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
         int from, to;
         solid_mesh_member(rotor, mesh, i, &from, &to);
-        for (int l = from; l < to; l++) {
+        for (int l = from; l < to && !solid_mesh_follows(rotor, i); l++) {
             int left = *solid_mesh_member_dof(mesh, i, l), right = *solid_mesh_member_dof(mesh, i, l + 1);
             if (left < 0)
                 line_dofs(mesh, l, &left, &high);

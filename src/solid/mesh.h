@@ -56,6 +56,10 @@ struct solid_mesh {
 int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine,
                      struct solid_mesh *mesh, int *failed);
 
+/* Whether member i moves with the section on all of its lines: tie rods of one element, which lie in the holes of what they press
+ * together. More elements bend by themselves between their ends. */
+int solid_mesh_follows(const struct rotor *rotor, int i);
+
 /* The line nearest to z. */
 int solid_mesh_line(const struct solid_mesh *mesh, double z);
 

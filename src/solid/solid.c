@@ -37,9 +37,9 @@ static int build_lines(struct pool *pool, struct solid *solid, int *failed)
     for (int i = 0; i < rotor->ntierod && !status; i++) {
         *failed = rotor->ngroup + i;
         solid_mesh_member(rotor, &solid->mesh, i, &from, &to);
-        status = hold_on(pool, solid, rotor->tierod[i].from);
-        if (!status)
-            status = hold_on(pool, solid, rotor->tierod[i].to);
+        for (int l = from; l <= to && !status; l++)
+            if (l == from || l == to || solid_mesh_follows(rotor, i))
+                status = hold_on(pool, solid, solid->mesh.z[l]);
         if (!status)
             status = motion_axial(pool, &solid->mesh, from, rotor->tierod[i].pitch, &solid->stretch[2 * (ptrdiff_t)i]);
         if (!status)
