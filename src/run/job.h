@@ -92,6 +92,7 @@ struct job_unknowns {
 struct job_options {
     int has_fit; /* a FIT card states functional or reduction */
     rotid_fit_options fit;
+    int solid; /* the rotor as a solid of revolution, not as a beam */
     struct frf_request frf;
 };
 
