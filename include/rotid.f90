@@ -153,6 +153,8 @@ module rotid
     real(c_double) :: g_pa = 0
     real(c_double) :: nu = 0
     real(c_double) :: rho_kg_m3 = 0
+    real(c_double) :: sheet_e_pa = 0
+    real(c_double) :: stacking = 0
   end type rotid_material
 
   type, bind(C) :: rotid_segment
@@ -174,6 +176,7 @@ module rotid
 
   type, bind(C) :: rotid_group
     type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: layer_of = c_null_ptr ! text
     real(c_double) :: from_m = 0
     real(c_double) :: to_m = 0
     type(rotid_material) :: material = rotid_material()

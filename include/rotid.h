@@ -181,11 +181,14 @@ ROTID_API void rotid_deck_free(rotid_deck *deck);
 
 /* A material at the values of the model. */
 typedef struct rotid_material {
-    const char *name; /* of the *MATERIAL, or NULL */
-    double e_pa;      /* Young's modulus [Pa] */
-    double g_pa;      /* shear modulus, E/2(1+nu) where the material is isotropic [Pa] */
-    double nu;        /* Poisson ratio [1] */
-    double rho_kg_m3; /* density [kg/m3] */
+    const char *name;  /* of the *MATERIAL, or NULL */
+    double e_pa;       /* Young's modulus [Pa] */
+    double g_pa;       /* shear modulus, E/2(1+nu) where the material is isotropic [Pa] */
+    double nu;         /* Poisson ratio [1] */
+    double rho_kg_m3;  /* density [kg/m3] */
+    double sheet_e_pa; /* of a stack of sheets across the axis, along which e_pa and g_pa hold: Young's modulus of a sheet, whose
+                          Poisson ratio is nu [Pa]; NaN of other materials */
+    double stacking;   /* share of the stack's length that is sheet [1]; NaN of other materials */
 } rotid_material;
 
 /* A section of constant diameter: round (outer_m, inner_m, stiff_outer_m) or rectangular (height_m, width_m), the others NaN. */
@@ -209,9 +212,10 @@ typedef struct rotid_perforation {
 
 /* A group of sections of one material. */
 typedef struct rotid_group {
-    const char *name; /* of the card */
-    double from_m;    /* left end [m] */
-    double to_m;      /* right end [m] */
+    const char *name;     /* of the card */
+    const char *layer_of; /* of a *LAYER: name of the group on whose sections its rings lie; NULL of a group of the axis */
+    double from_m;        /* left end [m] */
+    double to_m;          /* right end [m] */
     rotid_material material;
     int nsegments;
     rotid_segment *segments;        /* from left to right */
@@ -294,7 +298,7 @@ typedef struct rotid_model_cause {
 typedef struct rotid_geometry {
     double length_m; /* of the axis [m] */
     int ngroups;
-    rotid_group *groups; /* *SHAFT and *BEAM from left to right */
+    rotid_group *groups; /* *SHAFT and *BEAM from left to right, then *LAYER */
     int ntierods;
     rotid_tierods *tierods; /* *TIEROD */
     int nbars;

@@ -25,10 +25,11 @@ static struct rotor rotor;
 
 struct rotor *paper_rotor(enum bundle_model model, int self_equilibrated)
 {
-    const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1}, core = {"core", 0.6e11, 0.3e11, 0.28, 7380.66, 0};
-    groups[0] = (struct group){.name = "left", .material = steel};
-    groups[1] = (struct group){.name = "core", .material = core};
-    groups[2] = (struct group){.name = "right", .material = steel};
+    const struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1},
+                          core = {.name = "core", .e = 0.6e11, .g = 0.3e11, .nu = 0.28, .rho = 7380.66};
+    groups[0] = (struct group){.layer_of = -1, .name = "left", .material = steel};
+    groups[1] = (struct group){.layer_of = -1, .name = "core", .material = core};
+    groups[2] = (struct group){.layer_of = -1, .name = "right", .material = steel};
     rotor = (struct rotor){.ngroup = 3,
                            .group = groups,
                            .nsegment = STEPS,

@@ -19,12 +19,12 @@ static struct disk disk;
 /* A round bar; without = 1 has no shear flexibility. Add springs and the disk by their counts. */
 static struct rotor bar(double length, double diameter, int elements, int without)
 {
-    struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1};
+    struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};
     if (without) {
         steel.isotropic = 0;
         steel.g = 1e6 * steel.e;
     }
-    shaft = (struct group){.name = "shaft", .material = steel};
+    shaft = (struct group){.layer_of = -1, .name = "shaft", .material = steel};
     segment = (struct segment){0, elements, 0, length, diameter, 0, diameter, 0, 0};
     springs[0] = (struct spring){"left", 0, 0, 0};
     springs[1] = (struct spring){"right", length, 0, 0};

@@ -31,7 +31,7 @@ static struct rotor *dressed(enum bundle_model model, int self_equilibrated, int
     static struct bars bars[2];
     static struct disk disks[2];
     struct rotor *rotor = paper_rotor(model, self_equilibrated);
-    struct material copper = {"copper", 1.2e11, 0, 0.34, 8960, 1};
+    struct material copper = {.name = "copper", .e = 1.2e11, .nu = 0.34, .rho = 8960, .isotropic = 1};
     rotor->tierod[0].elements = rod_elements;
     rotor->group[1].holes = 12;
     rotor->group[1].hole_diameter = 0.033;

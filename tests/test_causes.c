@@ -17,9 +17,9 @@ static struct segment steps[5];
 static struct rotor stepped(double length, int rectangular_end)
 {
     static const double diameter[] = {0.1, 0.3, 0.12, 0.3, 0.2};
-    const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1};
-    bars[0] = (struct group){.name = "a", .material = steel};
-    bars[1] = (struct group){.name = "b", .material = steel};
+    const struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};
+    bars[0] = (struct group){.layer_of = -1, .name = "a", .material = steel};
+    bars[1] = (struct group){.layer_of = -1, .name = "b", .material = steel};
     for (int s = 0; s < 5; s++)
         steps[s] =
             (struct segment){.group = s > 1, .elements = 10, .length = length, .outer = diameter[s], .stiff_outer = diameter[s]};
@@ -75,8 +75,8 @@ static void factors_are_means_of_the_compliance(void **state)
         struct rotor rotor = stepped(0.2, 0);
         steps[3].inner = kind == 2 ? 0.05 : 0;
         if (kind == 3)
-            bars[1] =
-                (struct group){.name = "b", .material = bars[1].material, .holes = 8, .hole_diameter = 0.02, .hole_pitch = 0.04};
+            bars[1] = (struct group){
+                .layer_of = -1, .name = "b", .material = bars[1].material, .holes = 8, .hole_diameter = 0.02, .hole_pitch = 0.04};
         struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {30}};
         for (int e = 0; e < 100; e++) {
             double from = 0.01 * e, to = from + 0.01, bending = 0, shear = 0, own_area, own_inertia;

@@ -176,10 +176,10 @@ static void exact_functions(double complex h[3][LINES], double *hz)
     static struct group group[3];
     static struct segment segment[3];
     static struct exact exact;
-    const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1};
+    const struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};
     const double length[3] = {0.3, 0.5, 0.3}, diameter[3] = {0.06, 0.12, 0.07};
     for (int g = 0; g < 3; g++) {
-        group[g] = (struct group){.name = "part", .material = steel};
+        group[g] = (struct group){.layer_of = -1, .name = "part", .material = steel};
         segment[g] =
             (struct segment){.group = g, .elements = 1, .length = length[g], .outer = diameter[g], .stiff_outer = diameter[g]};
     }

@@ -10,7 +10,7 @@
 #include "paper_rotor.h"
 #include "run/spectrum.h"
 
-static const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1};
+static const struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};
 
 /* ---- order of convergence ---- */
 
@@ -20,7 +20,7 @@ static struct segment bar;
 /* A free steel bar, 1 m long. */
 static struct rotor uniform(double diameter, int elements)
 {
-    shaft = (struct group){.name = "shaft", .material = steel};
+    shaft = (struct group){.layer_of = -1, .name = "shaft", .material = steel};
     bar = (struct segment){.elements = elements, .length = 1, .outer = diameter, .stiff_outer = diameter};
     return (struct rotor){.ngroup = 1, .group = &shaft, .nsegment = 1, .segment = &bar};
 }
@@ -298,7 +298,8 @@ static double random_position(struct random_stream *stream, const struct rotor *
 static struct material random_material(struct random_stream *stream)
 {
     double e = 0.6e11 * pow(2.1 / 0.6, random_uniform(stream)), nu = 0.3 + 0.03 * random_normal(stream);
-    struct material material = {"metal", e, e * between(stream, 0.2, 0.45), nu, between(stream, 2700, 8000), 0};
+    struct material material = {
+        .name = "metal", .e = e, .g = e * between(stream, 0.2, 0.45), .nu = nu, .rho = between(stream, 2700, 8000)};
     material.isotropic = random_uniform(stream) < 0.5;
     return material;
 }
@@ -358,7 +359,8 @@ static void random_rotor(struct random_stream *stream, int index, struct random_
                               .disk = r->disk,
                               .spring = r->spring};
     for (int g = 0; g < 3; g++) /* tension only: a compressed free rotor has no stable equilibrium */
-        r->group[g] = (struct group){.name = "group",
+        r->group[g] = (struct group){.layer_of = -1,
+                                     .name = "group",
                                      .material = random_material(stream),
                                      .preload = random_uniform(stream) < 0.3 ? between(stream, 0, 2e6) : 0};
     for (int s = 0; s < r->rotor.nsegment; s++) {

@@ -21,7 +21,8 @@ struct bench {
     struct spring spring[4];
 };
 
-static const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1}, core = {"core", 1.1e11, 0.33e11, 0.28, 7400, 0};
+static const struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1},
+                             core = {.name = "core", .e = 1.1e11, .g = 0.33e11, .nu = 0.28, .rho = 7400};
 
 static void lay(struct bench *b, int group, double length, double diameter, int elements)
 {
@@ -233,7 +234,7 @@ static void tie_rods_of_different_material_and_tension(void **state)
         add_rods(&plain, (enum bundle_model)model, 0.3, 1.35);
         open_bench(&titanium);
         add_rods(&titanium, (enum bundle_model)model, 0.3, 1.35);
-        titanium.rod[0].material = (struct material){"titanium", 1.05e11, 0, 0.36, 4430, 1};
+        titanium.rod[0].material = (struct material){.name = "titanium", .e = 1.05e11, .nu = 0.36, .rho = 4430, .isotropic = 1};
         check(&titanium, &plain, 2, 0.02);
         open_bench(&slack);
         add_rods(&slack, (enum bundle_model)model, 0.3, 1.35);
@@ -313,7 +314,7 @@ static void bars_held_at_their_centre(void **state)
         lay(&b, 2, 0.3, 0.2, 40);
         lay(&b, 2, 0.2, 0.12, 40);
         b.bars = (struct bars){.name = "bars",
-                               .material = {"copper", 1.2e11, 0, 0.34, 8900, 1},
+                               .material = {.name = "copper", .e = 1.2e11, .nu = 0.34, .rho = 8900, .isotropic = 1},
                                .center = 0.9,
                                .length = 0.7,
                                .model = (enum bundle_model)model,
@@ -373,7 +374,7 @@ static void solid_rotor(void **state)
     open_empty(&b);
     for (int s = 0; s < 7; s++)
         lay(&b, steps[s].group, steps[s].length, steps[s].diameter, steps[s].elements);
-    b.group[1].material = (struct material){"lamination", 0.6e11, 0.3e11, 0.28, 7650, 0};
+    b.group[1].material = (struct material){.name = "lamination", .e = 0.6e11, .g = 0.3e11, .nu = 0.28, .rho = 7650};
     add_spring(&b, 0, 9790, 0);
     add_spring(&b, 2.03, 2000, 0);
     exact_open(&b.rotor, &exact);

@@ -35,10 +35,10 @@ struct bench {
 static void open_bench(struct bench *b, struct pool *pool, double factor)
 {
     static const double length[3] = {0.3, 0.5, 0.3}, diameter[3] = {0.06, 0.12, 0.07}, z[POINTS] = {0, 0.123, 0.5, 0.71, 1.1};
-    const struct material steel = {"steel", 2.1e11 * factor, 0, 0.3, 7850, 1};
+    const struct material steel = {.name = "steel", .e = 2.1e11 * factor, .nu = 0.3, .rho = 7850, .isotropic = 1};
     memset(b, 0, sizeof *b);
     for (int g = 0; g < 3; g++) {
-        b->group[g] = (struct group){.name = "part", .material = steel};
+        b->group[g] = (struct group){.layer_of = -1, .name = "part", .material = steel};
         b->segment[g] =
             (struct segment){.group = g, .elements = 20, .length = length[g], .outer = diameter[g], .stiff_outer = diameter[g]};
     }

@@ -10,7 +10,7 @@
 /* A free steel bar: with G tied to E every eigenvalue is proportional to E, condensed or not. */
 static void make_bar(struct job *job, struct group *group, struct segment *segment, struct sensor *sensor, int nsensor)
 {
-    *group = (struct group){.name = "bar", .material = {.e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1}};
+    *group = (struct group){.layer_of = -1, .name = "bar", .material = {.e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1}};
     *segment = (struct segment){.elements = 20, .length = 1, .outer = 0.1, .stiff_outer = 0.1};
     for (int i = 0; i < nsensor; i++)
         sensor[i] = (struct sensor){i + 1, (double)i / (nsensor - 1)};

@@ -14,7 +14,8 @@
 
 /* A beam with a core of unknown E and G: data are its own modes at 1.1e11 and 0.4e11 Pa with white noise of the stated size,
  * which is so small that the fit is linear in it. */
-static struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1}, soft = {"soft", 1e11, 0.42e11, 0.3, 7600, 0};
+static struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1},
+                       soft = {.name = "soft", .e = 1e11, .g = 0.42e11, .nu = 0.3, .rho = 7600};
 static struct group groups[3];
 static struct segment segments[3];
 static struct sensor sensors[SENSORS];
@@ -28,7 +29,7 @@ static void open_rotor(struct rotor *rotor)
     static const double length[] = {0.4, 0.9, 0.5}, diameter[] = {0.15, 0.3, 0.17};
     static const char *const name[] = {"left", "core", "right"};
     for (int g = 0; g < 3; g++) {
-        groups[g] = (struct group){.name = name[g], .material = g == 1 ? soft : steel};
+        groups[g] = (struct group){.layer_of = -1, .name = name[g], .material = g == 1 ? soft : steel};
         segments[g] =
             (struct segment){.group = g, .elements = 8, .length = length[g], .outer = diameter[g], .stiff_outer = diameter[g]};
     }

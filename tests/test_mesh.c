@@ -18,7 +18,8 @@ static struct sensor sensors[8];
 
 static struct rotor bare(void)
 {
-    groups[0] = (struct group){.name = "shaft", .material = {"steel", 2.1e11, 0, 0.3, 7850, 1}};
+    groups[0] = (struct group){
+        .layer_of = -1, .name = "shaft", .material = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1}};
     segments[0] = (struct segment){0, 10, 0, 1, 0.1, 0, 0.1, 0, 0};
     segments[1] = (struct segment){0, 4, 0, 0.5, 0.1, 0, 0.1, 0, 0};
     return (struct rotor){.ngroup = 1,

@@ -21,10 +21,10 @@ static struct rotor *stepped_rotor(int elements)
     static struct segment segments[3];
     static struct sensor sensors[POINTS];
     static struct rotor rotor;
-    const struct material steel = {"steel", 2.1e11, 0, 0.3, 7850, 1};
+    const struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 7850, .isotropic = 1};
     const double length[3] = {0.3, 0.5, 0.3}, diameter[3] = {0.06, 0.12, 0.07};
     for (int g = 0; g < 3; g++) {
-        groups[g] = (struct group){.name = "part", .material = steel};
+        groups[g] = (struct group){.layer_of = -1, .name = "part", .material = steel};
         segments[g] = (struct segment){
             .group = g, .elements = elements, .length = length[g], .outer = diameter[g], .stiff_outer = diameter[g]};
     }

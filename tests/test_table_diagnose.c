@@ -166,7 +166,7 @@ static void fill_named(void)
     static const double ends[] = {0, 0.70, 1.40, LENGTH};
     memset(&s, 0, sizeof s);
     for (int g = 0; g < 3; g++) {
-        s.group[g].name = names[g];
+        s.group[g] = (struct group){.layer_of = -1, .name = names[g]};
         s.segment[g] = (struct segment){.group = g, .elements = 20, .length = ends[g + 1] - ends[g], .outer = 0.2};
         s.bounds[g] = (rotid_parameter){parameters[g], g < 2 ? "Pa" : "rad/(N.m)", 1e-12, 1e12, 1};
     }

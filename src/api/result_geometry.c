@@ -10,7 +10,9 @@ static rotid_material material_of(struct result_memory *memory, const struct mat
                             .e_pa = material->e,
                             .g_pa = material_shear_modulus(material),
                             .nu = material->nu,
-                            .rho_kg_m3 = material->rho};
+                            .rho_kg_m3 = material->rho,
+                            .sheet_e_pa = material->laminated ? material->sheet_e : (double)NAN,
+                            .stacking = material->laminated ? material->stacking : (double)NAN};
 }
 
 static rotid_segment segment_of(const struct segment *segment, double from)
@@ -26,6 +28,15 @@ static rotid_segment segment_of(const struct segment *segment, double from)
                            .width_m = round ? (double)NAN : segment->width};
 }
 
+/* The section of a layer on one of its host. */
+static rotid_segment ring_of(const struct ring *ring, rotid_segment host)
+{
+    host.outer_m = ring->outer;
+    host.inner_m = ring->inner;
+    host.stiff_outer_m = (double)NAN;
+    return host;
+}
+
 static void fill_group(struct result_memory *memory, const struct rotor *rotor, int g, rotid_group *out)
 {
     const struct group *group = &rotor->group[g];
@@ -33,13 +44,22 @@ static void fill_group(struct result_memory *memory, const struct rotor *rotor, 
     int count = 0, next = 0;
     for (int s = 0; s < rotor->nsegment; s++)
         count += rotor->segment[s].group == g;
+    for (int i = 0; i < rotor->nring; i++)
+        count += rotor->ring[i].group == g;
     *out = (rotid_group){.name = result_text(memory, group->name), .material = material_of(memory, &group->material)};
+    if (group->layer_of >= 0)
+        out->layer_of = result_text(memory, rotor->group[group->layer_of].name);
     out->preload_n = group->preload;
     rotor_group_span(rotor, g, &out->from_m, &out->to_m);
     out->nsegments = RESULT_LIST(memory, out->segments, count);
-    for (int s = 0; s < rotor->nsegment && out->nsegments; z += rotor->segment[s++].length)
+    for (int s = 0; s < rotor->nsegment && out->nsegments; z += rotor->segment[s++].length) {
+        rotid_segment own = segment_of(&rotor->segment[s], z);
         if (rotor->segment[s].group == g)
-            out->segments[next++] = segment_of(&rotor->segment[s], z);
+            out->segments[next++] = own;
+        for (int i = 0; i < rotor->nring; i++)
+            if (rotor->ring[i].segment == s && rotor->ring[i].group == g)
+                out->segments[next++] = ring_of(&rotor->ring[i], own);
+    }
     out->perforation = group->holes ? RESULT_NEW(memory, rotid_perforation) : NULL;
     if (out->perforation)
         *out->perforation = (rotid_perforation){group->holes, group->hole_diameter, group->hole_pitch};

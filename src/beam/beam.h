@@ -12,13 +12,21 @@ struct hinge { /* of a joint: see beam/hinge.h */
     int effect, element, end;
 };
 
+struct section_part { /* of a segment: its own section, or a ring of a layer. In bending all of them turn alike, so stiffness and
+                         mass add */
+    int group;
+    struct section section;
+};
+
 struct beam {
-    struct rotor rotor;      /* own copy of everything a parameter can change */
-    struct section *section; /* [nsegment] */
-    struct section *tube;    /* [ntierod + nbars] equivalent cylinders where the model is TUBE */
+    struct rotor rotor; /* own copy of everything a parameter can change */
+    int most_parts;     /* of a segment */
+    int *first_part; /* [nsegment + 1] those of segment s are part[first_part[s]] to part[first_part[s + 1] - 1], its own first */
+    struct section_part *part; /* [nsegment + nring] */
+    struct section *tube;      /* [ntierod + nbars] equivalent cylinders where the model is TUBE */
     struct mesh mesh;
-    struct effect_field *factor; /* [nelement] on EI, kGS and mass: products over all effects, of the last beam_assemble; NULL
-                                    without effects */
+    struct effect_field *factor; /* [most_parts * nelement] of the parts of each element, on EI, kGS and mass: products over all
+                                    effects, of the last beam_assemble; NULL without effects */
     int nhinge;
     struct hinge *hinge; /* [nhinge] */
     int nparameter;

@@ -6,10 +6,21 @@
 static int build_sections(struct beam *beam, int *failed)
 {
     const struct rotor *rotor = &beam->rotor;
-    for (int s = 0; s < rotor->nsegment; s++) {
-        *failed = rotor->segment[s].group;
-        if (section_of_segment(rotor, s, &beam->section[s]))
+    int count = 0;
+    for (int s = 0, r = 0; s < rotor->nsegment; s++) {
+        struct section_part *part = &beam->part[count++];
+        beam->first_part[s] = count - 1;
+        *failed = part->group = rotor->segment[s].group;
+        if (section_of_segment(rotor, s, &part->section))
             return ROTID_ERROR_SECTION;
+        for (; r < rotor->nring && rotor->ring[r].segment == s; r++) {
+            part = &beam->part[count++];
+            *failed = part->group = rotor->ring[r].group;
+            if (section_of_ring(rotor, r, &part->section))
+                return ROTID_ERROR_SECTION;
+        }
+        beam->first_part[s + 1] = count;
+        beam->most_parts = count - beam->first_part[s] > beam->most_parts ? count - beam->first_part[s] : beam->most_parts;
     }
     for (int i = 0; i < rotor->ntierod + rotor->nbars; i++) {
         int is_rod = i < rotor->ntierod, b = i - rotor->ntierod;
@@ -46,9 +57,10 @@ int beam_build(struct pool *pool, const struct rotor *rotor, int nparameter, con
     int status = rotor_copy(pool, rotor, &beam->rotor);
     if (status)
         return status;
-    beam->section = POOL_ARRAY(pool, struct section, rotor->nsegment);
+    beam->first_part = POOL_ARRAY(pool, int, rotor->nsegment + 1);
+    beam->part = POOL_ARRAY(pool, struct section_part, rotor->nsegment + rotor->nring);
     beam->tube = POOL_ARRAY(pool, struct section, rotor->ntierod + rotor->nbars);
-    if (!beam->section || !beam->tube)
+    if (!beam->first_part || !beam->part || !beam->tube)
         return ROTID_ERROR_MEMORY;
     status = build_sections(beam, failed);
     if (!status)

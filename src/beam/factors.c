@@ -2,17 +2,28 @@
 
 #include "rotor/effects.h"
 
-struct effect_span factors_span(const struct beam *beam, int e)
+struct effect_span factors_span(const struct beam *beam, int e, const struct section_part *part)
 {
-    int segment = beam->mesh.segment[e];
-    return (struct effect_span){beam->rotor.segment[segment].group, segment, beam->mesh.z[e], beam->mesh.z[e + 1]};
+    return (struct effect_span){part->group, beam->mesh.segment[e], beam->mesh.z[e], beam->mesh.z[e + 1]};
+}
+
+int factors_parts(const struct beam *beam, int e, const struct section_part **part, struct effect_field **factor)
+{
+    int segment = beam->mesh.segment[e], first = beam->first_part[segment];
+    *part = beam->part + first;
+    *factor = beam->factor ? beam->factor + (ptrdiff_t)beam->most_parts * e : NULL;
+    return beam->first_part[segment + 1] - first;
 }
 
 void factors_refresh(struct beam *beam)
 {
     for (int e = 0; e < beam->mesh.nelement && beam->factor; e++) {
-        struct effect_span span = factors_span(beam, e);
-        beam->factor[e] = effects_on_axis(&beam->rotor, &span, 1);
+        const struct section_part *part;
+        struct effect_field *factor;
+        for (int i = 0, count = factors_parts(beam, e, &part, &factor); i < count; i++) {
+            struct effect_span span = factors_span(beam, e, &part[i]);
+            factor[i] = effects_on_axis(&beam->rotor, &span, 1);
+        }
     }
 }
 
@@ -21,7 +32,7 @@ int factors_open(struct pool *pool, struct beam *beam)
     beam->factor = NULL;
     if (!beam->rotor.neffect)
         return ROTID_OK;
-    beam->factor = POOL_ARRAY(pool, struct effect_field, beam->mesh.nelement);
+    beam->factor = POOL_ARRAY(pool, struct effect_field, (size_t)beam->most_parts * (size_t)beam->mesh.nelement);
     if (!beam->factor)
         return ROTID_ERROR_MEMORY;
     factors_refresh(beam);

@@ -10,7 +10,10 @@ int factors_open(struct pool *pool, struct beam *beam);
 /* Computes beam->factor anew, where there is one. */
 void factors_refresh(struct beam *beam);
 
-/* Element e as the hooks of effects see it. */
-struct effect_span factors_span(const struct beam *beam, int e);
+/* The parts of the section of element e, how many there are, and the factors of each, NULL without effects. */
+int factors_parts(const struct beam *beam, int e, const struct section_part **part, struct effect_field **factor);
+
+/* A part of element e as the hooks of effects see it. */
+struct effect_span factors_span(const struct beam *beam, int e, const struct section_part *part);
 
 #endif

@@ -9,46 +9,55 @@ static double middle_of(const struct mesh *mesh, int e)
     return (mesh->z[e] + mesh->z[e + 1]) / 2;
 }
 
+/* what material and section give, of length 0 and without force */
+static struct element of_material(const struct material *material, const struct section *section)
+{
+    struct shear_resistance shear;
+    shear_resistance(section, material, &shear);
+    return (struct element){.ei = material->e * section->stiff_inertia,
+                            .kgs = shear.kg * section->stiff_area,
+                            .rhos = material->rho * section->mass_area,
+                            .rhoi = material->rho * section->mass_inertia};
+}
+
+/* with the factors of e, g and rho, where there are any */
+static void add_part(struct element part, const struct effect_field *factor, struct element *sum)
+{
+    sum->ei += factor ? part.ei * factor->e : part.ei;
+    sum->kgs += factor ? part.kgs * factor->g : part.kgs;
+    sum->rhos += factor ? part.rhos * factor->rho : part.rhos;
+    sum->rhoi += factor ? part.rhoi * factor->rho : part.rhoi;
+}
+
 void axis_quantities(const struct beam *beam, int e, struct element *element)
 {
     const struct rotor *rotor = &beam->rotor;
     const struct mesh *mesh = &beam->mesh;
-    int s = mesh->segment[e];
-    const struct section *section = &beam->section[s];
-    const struct group *group = &rotor->group[rotor->segment[s].group];
-    const struct material *material = &group->material;
-    double unused, middle = middle_of(mesh, e);
-    *element = (struct element){.ei = material->e * section->stiff_inertia,
-                                .kgs = shear_coefficient(section, material->nu, &unused) * material_shear_modulus(material) *
-                                       section->stiff_area,
-                                .rhos = material->rho * section->mass_area,
-                                .rhoi = material->rho * section->mass_inertia,
-                                .force = beam->elastic_only ? 0 : rotor_axial_force(rotor, rotor->segment[s].group, middle),
+    const struct section_part *part;
+    struct effect_field *factor;
+    int count = factors_parts(beam, e, &part, &factor);
+    *element = (struct element){.force = beam->elastic_only ? 0 : rotor_axial_force(rotor, part->group, middle_of(mesh, e)),
                                 .length = mesh->z[e + 1] - mesh->z[e]};
-    if (beam->factor) {
-        const struct effect_field *factor = &beam->factor[e];
-        element->ei *= factor->e;
-        element->kgs *= factor->g;
-        element->rhos *= factor->rho;
-        element->rhoi *= factor->rho;
-    }
+    for (int i = 0; i < count; i++)
+        add_part(of_material(&rotor->group[part[i].group].material, &part[i].section), factor ? &factor[i] : NULL, element);
 }
 
 static int material_direction(const struct material *material, const struct section *section, enum parameter_kind kind,
                               struct element *d)
 {
-    double dk, k = shear_coefficient(section, material->nu, &dk), g = material_shear_modulus(material);
+    struct shear_resistance shear;
+    shear_resistance(section, material, &shear);
     switch (kind) {
     case PARAMETER_E:
     case PARAMETER_TIEROD_E:
         d->ei = section->stiff_inertia;
-        d->kgs = material->isotropic ? k * g / material->e * section->stiff_area : 0;
+        d->kgs = shear.by_e * section->stiff_area;
         return 1;
     case PARAMETER_G:
-        d->kgs = k * section->stiff_area;
+        d->kgs = shear.by_g * section->stiff_area;
         return 1;
     case PARAMETER_NU:
-        d->kgs = (dk * g - (material->isotropic ? k * g / (1 + material->nu) : 0)) * section->stiff_area;
+        d->kgs = shear.by_nu * section->stiff_area;
         return 1;
     case PARAMETER_RHO:
         d->rhos = section->mass_area;
@@ -61,14 +70,18 @@ static int material_direction(const struct material *material, const struct sect
 
 static int effect_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
 {
-    struct effect_span span = factors_span(beam, e);
-    struct effect_field rate = {0, 0, 0};
-    int moves = effects_axis_rate(&beam->rotor, parameter, &span, 1, &rate);
-    if (moves) {
-        struct element now;
-        axis_quantities(beam, e, &now);
-        *d = (struct element){
-            .ei = now.ei * rate.e, .kgs = now.kgs * rate.g, .rhos = now.rhos * rate.rho, .rhoi = now.rhoi * rate.rho};
+    const struct section_part *part;
+    struct effect_field *factor;
+    int moves = 0;
+    for (int i = 0, count = factors_parts(beam, e, &part, &factor); i < count; i++) {
+        struct effect_span span = factors_span(beam, e, &part[i]);
+        struct effect_field rate = {0, 0, 0};
+        struct element now = {0};
+        if (!effects_axis_rate(&beam->rotor, parameter, &span, 1, &rate))
+            continue;
+        add_part(of_material(&beam->rotor.group[part[i].group].material, &part[i].section), factor ? &factor[i] : NULL, &now);
+        add_part(now, &rate, d);
+        moves = 1;
     }
     d->force = rotor_axial_force_derivative(&beam->rotor, parameter, middle_of(&beam->mesh, e));
     return moves || d->force != 0;
@@ -77,7 +90,9 @@ static int effect_direction(const struct beam *beam, struct parameter parameter,
 int axis_direction(const struct beam *beam, struct parameter parameter, int e, struct element *d)
 {
     const struct rotor *rotor = &beam->rotor;
-    int s = beam->mesh.segment[e], group = rotor->segment[s].group;
+    const struct section_part *part;
+    struct effect_field *factor;
+    int moves = 0, count = factors_parts(beam, e, &part, &factor);
     *d = (struct element){0};
     if (parameter.kind == PARAMETER_EFFECT)
         return effect_direction(beam, parameter, e, d);
@@ -85,13 +100,12 @@ int axis_direction(const struct beam *beam, struct parameter parameter, int e, s
         d->force = rotor_axial_force_derivative(rotor, parameter, middle_of(&beam->mesh, e));
         return d->force != 0;
     }
-    if (parameter.kind > PARAMETER_RHO || parameter.index != group)
-        return 0;
-    int moves = material_direction(&rotor->group[group].material, &beam->section[s], parameter.kind, d);
-    if (beam->factor) {
-        const struct effect_field *factor = &beam->factor[e];
-        *d = (struct element){
-            .ei = d->ei * factor->e, .kgs = d->kgs * factor->g, .rhos = d->rhos * factor->rho, .rhoi = d->rhoi * factor->rho};
+    for (int i = 0; i < count && parameter.kind <= PARAMETER_RHO; i++) {
+        struct element own = {0};
+        if (part[i].group != parameter.index)
+            continue;
+        moves |= material_direction(&rotor->group[part[i].group].material, &part[i].section, parameter.kind, &own);
+        add_part(own, factor ? &factor[i] : NULL, d);
     }
     return moves;
 }
@@ -108,13 +122,9 @@ static struct section bundle_section(enum bundle_model model, int number, double
 
 static struct element bundle_element(const struct material *material, const struct section *section, double length)
 {
-    double unused;
-    return (struct element){.ei = material->e * section->stiff_inertia,
-                            .kgs = shear_coefficient(section, material->nu, &unused) * material_shear_modulus(material) *
-                                   section->stiff_area,
-                            .rhos = material->rho * section->mass_area,
-                            .rhoi = material->rho * section->mass_inertia,
-                            .length = length};
+    struct element element = of_material(material, section);
+    element.length = length;
+    return element;
 }
 
 static double tierod_length(const struct beam *beam, int tierod)

@@ -6,7 +6,7 @@ static const char *const models[] = {"RODS", "TUBE", NULL}, *const axes[] = {"X"
                          *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL},
                          *const functionals[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL},
                          *const reductions[] = {"NONE", "GUYAN", "IRS", NULL}, *const derivatives[] = {"NELSON", "MODAL", NULL},
-                         *const ties[] = {"E:G", NULL};
+                         *const ties[] = {"E:G", NULL}, *const discretisations[] = {"BEAM", "SOLID", NULL};
 
 /* clang-format off */
 
@@ -20,6 +20,13 @@ const struct deck_row deck_shear_rows[] = {
     {ABOVE_0(struct material, e, "Young's modulus E [Pa]")},
     {ABOVE_0(struct material, g, "shear modulus G [Pa]")},
     {NUMBER(struct material, nu, "Poisson ratio nu")},
+    LAST};
+const struct deck_row deck_laminated_rows[] = {
+    {ABOVE_0(struct material, e, "Young's modulus E along the axis [Pa]")},
+    {ABOVE_0(struct material, g, "shear modulus G along the axis [Pa]")},
+    {ABOVE_0(struct material, sheet_e, "Young's modulus of a sheet [Pa]")},
+    {NUMBER(struct material, nu, "Poisson ratio of a sheet")},
+    {ABOVE_0(struct material, stacking, "stacking factor"), OPTIONAL},
     LAST};
 const struct deck_row deck_density_rows[] = {
     {ABOVE_0(struct material, rho, "density [kg/m3]")},
@@ -37,6 +44,10 @@ const struct deck_row deck_beam_rows[] = {
     {ABOVE_0(struct segment, height, "height in the bending plane [m]")},
     {ABOVE_0(struct segment, width, "width [m]")},
     ELEMENTS(struct segment),
+    LAST};
+const struct deck_row deck_layer_rows[] = {
+    {ABOVE_0(struct ring, outer, "outer diameter [m]")},
+    {FROM_0(struct ring, inner, "inner diameter [m]")},
     LAST};
 const struct deck_row deck_perforation_rows[] = {
     {WHOLE(struct group, holes, "number of holes"), FROM_TO(3, 10000)},
@@ -86,6 +97,7 @@ const struct deck_row deck_fit_rows[] = {
     OTHER("HOLDOUT", .what = ""),
     {.option = "DERIVATIVE", WORD(rotid_fit_options, derivative, derivatives), OPTIONAL},
     OTHER("TIE", .words = ties, .standard = -1),
+    OTHER("MODEL", .words = discretisations),
     LAST};
 const struct deck_row deck_frf_rows[] = {
     OTHER("FILE", .what = ""),

@@ -3,13 +3,14 @@
 
 #include <string.h>
 
-static const char *const types[] = {"ISOTROPIC", "SHEAR", NULL}, *const axes[] = {"X", "Y", "Z", NULL};
+static const char *const types[] = {"ISOTROPIC", "SHEAR", "LAMINATED", NULL}, *const axes[] = {"X", "Y", "Z", NULL};
 
 /* clang-format off */
 
 static const struct deck_row nothing[] = {LAST}, material[] = {NAME(struct material), LAST},
     elastic[] = {OTHER("TYPE", .words = types), LAST},
-    group[] = {OTHER("NAME", .what = ""), OTHER("MATERIAL", .what = ""), LAST}, of_group[] = {OTHER("GROUP", .what = ""), LAST};
+    group[] = {OTHER("NAME", .what = ""), OTHER("MATERIAL", .what = ""), LAST},
+    layer[] = {OTHER("NAME", .what = ""), OTHER("GROUP", .what = ""), OTHER("MATERIAL", .what = ""), LAST}, of_group[] = {OTHER("GROUP", .what = ""), LAST};
 
 static const struct deck_row disk[] = {
     {.option = "NAME", .kind = ROW_NAME, IN(struct disk, name), OPTIONAL, .what = "name"},
@@ -53,34 +54,35 @@ static const struct deck_row cause[] = {
 
 /* In the order of docs/deck.md. */
 const struct deck_card deck_card_table[] = {
-    {"HEADING", CARD_MODEL, 2, deck_heading, "text; see [References](#references-in-the-heading)", nothing, BY_CODE},
+    {"HEADING", CARD_MODEL, 3, deck_heading, "text; see [References](#references-in-the-heading)", nothing, BY_CODE},
     {"MATERIAL", CARD_MODEL, 0, deck_material, NULL, material, BY_CODE},
-    {"ELASTIC", CARD_MODEL, 0, deck_elastic, "E [Pa], nu; with SHEAR: E [Pa], G [Pa], nu", elastic, BY_CODE},
+    {"ELASTIC", CARD_MODEL, 0, deck_elastic, "E [Pa], nu; with SHEAR: E [Pa], G [Pa], nu; with LAMINATED: E, G along the axis [Pa], E [Pa], nu of a sheet [, stacking factor]", elastic, BY_CODE},
     {"DENSITY", CARD_MODEL, 0, deck_density, "density [kg/m3]", deck_density_rows, BY_CODE},
     {"SHAFT", CARD_MODEL, 1, deck_shaft,
      "length, outer diameter, inner diameter [m], elements [, outer diameter that carries stiffness]", group, BY_CODE},
     {"BEAM", CARD_MODEL, 1, deck_beam, "length, height in the bending plane, width [m], elements", group, BY_CODE},
-    {"PERFORATION", CARD_MODEL, 2, deck_perforation, "number, hole diameter [m], pitch radius [m]", of_group, BY_CODE},
-    {"TIEROD", CARD_MODEL, 2, deck_tierod, "number, diameter [m], pitch radius [m], tension per rod [N] [, elements]",
+    {"LAYER", CARD_MODEL, 2, deck_layer, "outer diameter, inner diameter [m]", layer, BY_CODE},
+    {"PERFORATION", CARD_MODEL, 3, deck_perforation, "number, hole diameter [m], pitch radius [m]", of_group, BY_CODE},
+    {"TIEROD", CARD_MODEL, 3, deck_tierod, "number, diameter [m], pitch radius [m], tension per rod [N] [, elements]",
      deck_tierod_rows, BY_CODE},
-    {"BARS", CARD_MODEL, 2, deck_bars, "number, diameter [m], pitch radius [m], elements", deck_bars_rows, BY_CODE},
-    {"PRELOAD", CARD_MODEL, 2, deck_preload, "axial force [N], tension positive", of_group, BY_CODE},
-    {"DISK", CARD_MODEL, 2, NULL, "position, mass [kg], diametral inertia, polar inertia [kg.m2]", disk, LIST(disk, disk)},
-    {"SPRING", CARD_MODEL, 2, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]", spring,
+    {"BARS", CARD_MODEL, 3, deck_bars, "number, diameter [m], pitch radius [m], elements", deck_bars_rows, BY_CODE},
+    {"PRELOAD", CARD_MODEL, 3, deck_preload, "axial force [N], tension positive", of_group, BY_CODE},
+    {"DISK", CARD_MODEL, 3, NULL, "position, mass [kg], diametral inertia, polar inertia [kg.m2]", disk, LIST(disk, disk)},
+    {"SPRING", CARD_MODEL, 3, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]", spring,
      LIST(spring, spring)},
-    {"SLING", CARD_MODEL, 2, deck_sling, NULL, deck_sling_rows, BY_CODE},
-    {"SENSORS", CARD_MEASURED, 2, deck_sensors, "sensor id, position", nothing, BY_CODE},
-    {"MODES", CARD_MEASURED, 3, deck_modes,
+    {"SLING", CARD_MODEL, 3, deck_sling, NULL, deck_sling_rows, BY_CODE},
+    {"SENSORS", CARD_MEASURED, 3, deck_sensors, "sensor id, position", nothing, BY_CODE},
+    {"MODES", CARD_MEASURED, 4, deck_modes,
      "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", nothing, BY_CODE},
-    {"SHAPE", CARD_MEASURED, 4, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, BY_CODE},
-    {"FREQUENCIES", CARD_MEASURED, 4, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
+    {"SHAPE", CARD_MEASURED, 5, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, BY_CODE},
+    {"FREQUENCIES", CARD_MEASURED, 5, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
      frequencies, BY_CODE},
-    {"MEASURED", CARD_MEASURED, 4, deck_measured, NULL, measured, BY_CODE},
-    {"NOISE", CARD_MEASURED, 3, deck_noise, NULL, deck_noise_rows, BY_CODE},
-    {"CAUSE", CARD_CAUSE, 5, deck_cause, "parameter, value", cause, BY_CODE},
-    {"IDENTIFY", CARD_IDENTIFICATION, 6, deck_identify, "parameter, lower bound, upper bound, start", nothing, BY_CODE},
-    {"FIT", CARD_IDENTIFICATION, 6, deck_fit, NULL, deck_fit_rows, BY_CODE},
-    {"FRF", CARD_FRF, 4, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, BY_CODE},
+    {"MEASURED", CARD_MEASURED, 5, deck_measured, NULL, measured, BY_CODE},
+    {"NOISE", CARD_MEASURED, 4, deck_noise, NULL, deck_noise_rows, BY_CODE},
+    {"CAUSE", CARD_CAUSE, 6, deck_cause, "parameter, value", cause, BY_CODE},
+    {"IDENTIFY", CARD_IDENTIFICATION, 7, deck_identify, "parameter, lower bound, upper bound, start", nothing, BY_CODE},
+    {"FIT", CARD_IDENTIFICATION, 7, deck_fit, NULL, deck_fit_rows, BY_CODE},
+    {"FRF", CARD_FRF, 5, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, BY_CODE},
     {.name = NULL}};
 /* clang-format on */
 

@@ -10,7 +10,7 @@
 #include "deck/deck_frequencies.h"
 #include "rotid.h"
 
-#define LAST_PHASE 6
+#define LAST_PHASE 7
 
 static void check_names(struct deck_reader *reader, const struct card *card)
 {
@@ -45,6 +45,11 @@ static void check_materials(struct deck_reader *reader)
     }
 }
 
+static int makes_group(const struct card *card)
+{
+    return !strcmp(card->name, "SHAFT") || !strcmp(card->name, "BEAM") || !strcmp(card->name, "LAYER");
+}
+
 /* Parameters are addressed by name, so groups, rods, springs, disks and causes share one set of names. */
 static void check_unique(struct deck_reader *reader)
 {
@@ -55,9 +60,8 @@ static void check_unique(struct deck_reader *reader)
             continue;
         for (int d = 0; d < c; d++) {
             const struct card_option *other = card_option(&reader->text.card[d], "NAME");
-            int shafts = (!strcmp(card->name, "SHAFT") || !strcmp(card->name, "BEAM")) &&
-                         (!strcmp(reader->text.card[d].name, "SHAFT") || !strcmp(reader->text.card[d].name, "BEAM"));
-            if (other && strcmp(reader->text.card[d].name, "MATERIAL") && !shafts && same_text(option->value, other->value))
+            int groups = makes_group(card) && makes_group(&reader->text.card[d]); /* which compare their own */
+            if (other && strcmp(reader->text.card[d].name, "MATERIAL") && !groups && same_text(option->value, other->value))
                 deck_error(reader, option->value_place, "the name %s is given twice, expected a new one", option->value);
         }
     }
@@ -70,7 +74,13 @@ static void settle_moduli(struct deck_reader *reader)
     for (int p = 0; p < job->unknowns.nparameter && reader->tie; p++) {
         if (job->unknowns.parameter[p].kind != PARAMETER_E)
             continue;
-        job->rotor.group[job->unknowns.parameter[p].index].material.isotropic = 1;
+        struct group *group = &job->rotor.group[job->unknowns.parameter[p].index];
+        if (group->material.laminated) {
+            deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
+                       "TIE=E:G has no meaning for the sheets of %s, expected a material of another type", group->name);
+            return;
+        }
+        group->material.isotropic = 1;
         for (int q = 0; q < job->unknowns.nparameter; q++)
             if (job->unknowns.parameter[q].kind == PARAMETER_G &&
                 job->unknowns.parameter[q].index == job->unknowns.parameter[p].index) {

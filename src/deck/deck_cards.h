@@ -13,7 +13,7 @@ struct deck_reader {
     struct deck_text text;
     struct job *job;
     int nmaterial;
-    size_t material_room, group_room, segment_room, tierod_room, bars_room, sensor_room, parameter_room;
+    size_t material_room, group_room, segment_room, ring_room, tierod_room, bars_room, sensor_room, parameter_room;
     size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
     struct material *material;
     int *material_complete; /* bit 1: elastic constants, bit 2: density */
@@ -77,6 +77,9 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 /* Index of a material, -1 where there is none of that name. */
 int deck_find_material(const struct deck_reader *reader, const char *name);
 
+/* A new group of NAME and MATERIAL of the card, on the axis: its index, or -1 after an error. */
+int deck_add_group(struct deck_reader *reader, const struct card *card);
+
 #define FRF_MOST_LINES     1000000
 #define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods, of the rotor with its bundles */
 #define DECK_MOST_LINES    10000 /* of a card, and sensors of the rotor: they are compared with each other */
@@ -87,6 +90,7 @@ void deck_elastic(struct deck_reader *reader, const struct card *card);
 void deck_density(struct deck_reader *reader, const struct card *card);
 void deck_shaft(struct deck_reader *reader, const struct card *card);
 void deck_beam(struct deck_reader *reader, const struct card *card);
+void deck_layer(struct deck_reader *reader, const struct card *card);
 void deck_perforation(struct deck_reader *reader, const struct card *card);
 void deck_tierod(struct deck_reader *reader, const struct card *card);
 void deck_bars(struct deck_reader *reader, const struct card *card);

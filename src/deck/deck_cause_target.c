@@ -10,7 +10,7 @@
 static const struct {
     const char *option, *expected;
 } target_of[] = {[TARGET_NONE] = {NULL, "a card without it"},
-                 [TARGET_GROUP] = {"GROUP", "name of a *SHAFT or *BEAM"},
+                 [TARGET_GROUP] = {"GROUP", "name of a *SHAFT, *BEAM or *LAYER"},
                  [TARGET_INTERFACE] = {"BETWEEN", "two groups that follow each other, or AT=the position where they meet"},
                  [TARGET_SPRING] = {"AT", "name of a *SPRING"},
                  [TARGET_TIEROD] = {"AT", "name of a *TIEROD"},
@@ -53,7 +53,7 @@ static int find_group(const struct cause_card *c, const char *name, struct place
     for (*group = 0; *group < rotor->ngroup; (*group)++)
         if (same_text(rotor->group[*group].name, name))
             return 0;
-    deck_error(c->reader, place, "group %s is not defined, expected the name of a *SHAFT or *BEAM", name);
+    deck_error(c->reader, place, "group %s is not defined, expected the name of a *SHAFT, *BEAM or *LAYER", name);
     return 1;
 }
 
@@ -79,7 +79,8 @@ static int read_between(struct cause_card *c, const struct card_option *option)
     }
     if (find_group(c, first ? first : option->value, place, &left) | find_group(c, behind, second, &right))
         return 1;
-    if (right != left + 1 && left != right + 1) {
+    int last = rotor_axis_groups(&c->reader->job->rotor) - 1;
+    if ((right != left + 1 && left != right + 1) || left > last || right > last) {
         deck_error(c->reader, place, "groups %s and %s do not meet, expected %s", c->reader->job->rotor.group[left].name,
                    c->reader->job->rotor.group[right].name, target_of[TARGET_INTERFACE].expected);
         return 1;
@@ -102,7 +103,7 @@ static int read_interface(struct cause_card *c)
                read_between(c, between);
     if (deck_position(c->reader, at->value, at->value_place, "AT", &z))
         return 1;
-    for (int g = 0; g + 1 < rotor->ngroup; g++) {
+    for (int g = 0; g + 1 < rotor_axis_groups(rotor); g++) {
         rotor_group_span(rotor, g, &from, &to);
         if (fabs(z - to) <= 1e-5 * c->reader->length) {
             c->effect.target = g;

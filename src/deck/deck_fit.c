@@ -138,7 +138,7 @@ static void choose_modes(struct deck_reader *reader, const struct card *card)
 
 void deck_fit(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const ties[] = {"E:G", NULL};
+    static const char *const ties[] = {"E:G", NULL}, *const models[] = {"BEAM", "SOLID", NULL};
     struct job *job = reader->job;
     const struct card_option *option;
     if (reader->fit_card) {
@@ -153,6 +153,8 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
     job->options.has_fit = job->options.fit.functional >= 0;
     if ((option = card_option(card, "TIE")) && deck_option_word(reader, option, ties) >= 0)
         reader->tie = option->value;
+    if ((option = card_option(card, "MODEL")))
+        job->options.solid = deck_option_word(reader, option, models) == 1;
     option = card_option(card, "DERIVATIVE"); /* missing where a second *FIT takes the first one's */
     if (job->options.fit.derivative == ROTID_MODAL && job->options.fit.reduction == ROTID_REDUCTION_NONE)
         deck_error(reader, option ? option->value_place : card->place,

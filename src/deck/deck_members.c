@@ -7,14 +7,27 @@
 static struct group *named_group(struct deck_reader *reader, const struct card *card)
 {
     struct rotor *rotor = &reader->job->rotor;
-    const char *name = deck_option(reader, card, "GROUP", "name of a *SHAFT or *BEAM");
+    const char *name = deck_option(reader, card, "GROUP", "name of a *SHAFT, *BEAM or *LAYER");
     for (int g = 0; name && g < rotor->ngroup; g++)
         if (same_text(rotor->group[g].name, name))
             return &rotor->group[g];
     if (name)
         deck_error(reader, card_option(card, "GROUP")->value_place,
-                   "group %s is not defined, expected the name of a *SHAFT or *BEAM", name);
+                   "group %s is not defined, expected the name of a *SHAFT, *BEAM or *LAYER", name);
     return NULL;
+}
+
+/* 0, or 1 after an error */
+static int check_holes(struct deck_reader *reader, const struct data_line *line, const struct group *group, double outer,
+                       double inner)
+{
+    int bad = 2 * group->hole_pitch + group->hole_diameter > outer || 2 * group->hole_pitch - group->hole_diameter < inner;
+    if (bad)
+        deck_error(reader, line->field[2].place,
+                   "holes of %s m on a radius of %s m do not lie within the section, expected them between %.6g and %.6g m "
+                   "of diameter",
+                   line->field[1].text, line->field[2].text, inner, outer);
+    return bad;
 }
 
 void deck_perforation(struct deck_reader *reader, const struct card *card)
@@ -35,16 +48,13 @@ void deck_perforation(struct deck_reader *reader, const struct card *card)
     int bad = deck_read_values(reader, line, deck_perforation_rows, layout, group);
     for (int s = 0; s < reader->job->rotor.nsegment && !bad; s++) {
         const struct segment *segment = &reader->job->rotor.segment[s];
-        if (&reader->job->rotor.group[segment->group] != group)
-            continue;
-        if (2 * group->hole_pitch + group->hole_diameter > segment->outer ||
-            2 * group->hole_pitch - group->hole_diameter < segment->inner) {
-            deck_error(reader, line->field[2].place,
-                       "holes of %s m on a radius of %s m do not lie within the section, expected them between %.6g and %.6g m "
-                       "of diameter",
-                       line->field[1].text, line->field[2].text, segment->inner, segment->outer);
-            return;
-        }
+        if (&reader->job->rotor.group[segment->group] == group)
+            bad = check_holes(reader, line, group, segment->outer, segment->inner);
+    }
+    for (int i = 0; i < reader->job->rotor.nring && !bad; i++) {
+        const struct ring *ring = &reader->job->rotor.ring[i];
+        if (&reader->job->rotor.group[ring->group] == group)
+            bad = check_holes(reader, line, group, ring->outer, ring->inner);
     }
 }
 
@@ -52,6 +62,12 @@ void deck_preload(struct deck_reader *reader, const struct card *card)
 {
     struct group *group = named_group(reader, card);
     double force;
+    if (group && group->layer_of >= 0) {
+        deck_error(reader, card_option(card, "GROUP")->value_place,
+                   "group %s is a *LAYER and an axial force is that of the whole section, expected GROUP=%s", group->name,
+                   reader->job->rotor.group[group->layer_of].name);
+        return;
+    }
     if (!group || deck_lines(reader, card, 1, 1, "axial force [N], tension positive") != 1 ||
         deck_count(reader, &card->line[0], 1, "axial force [N], tension positive"))
         return;

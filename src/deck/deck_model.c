@@ -41,19 +41,51 @@ static struct material *current_material(struct deck_reader *reader, const struc
     return &reader->material[last];
 }
 
+/* Strain energy is positive where 1 - nu_plane - 2 nu_axial^2 E_plane/E > 0, with E_plane = stacking E_sheet, nu_plane = nu_sheet
+ * and nu_axial = nu_sheet E/E_sheet. The shear coefficient of the thinnest ring has its pole at nu_sheet G/E_sheet = 2. */
+static void check_stack(struct deck_reader *reader, const struct data_line *line, const struct material *m)
+{
+    double steel = m->sheet_e / (2 * (1 + m->nu));
+    if (!(m->nu > -1 && m->nu < 0.5))
+        deck_error(reader, line->field[3].place, "Poisson ratio of a sheet is %s, expected above -1 and below 0.5",
+                   line->field[3].text);
+    else if (m->stacking > 1)
+        deck_error(reader, line->field[4].place, "stacking factor is %s, expected a share of the length, at most 1",
+                   line->field[4].text);
+    else if (1 - m->nu - 2 * m->nu * m->nu * m->stacking * m->e / m->sheet_e <= 0)
+        deck_error(reader, line->field[0].place,
+                   "Young's modulus E along the axis is %s Pa with sheets of %s Pa: such a stack would move by itself (negative "
+                   "strain energy), expected less",
+                   line->field[0].text, line->field[2].text);
+    else if (m->g > 1.5 * m->sheet_e)
+        deck_error(reader, line->field[1].place,
+                   "shear modulus G along the axis is %s Pa with sheets of %s Pa, expected less than the %.4g Pa of the sheets",
+                   line->field[1].text, line->field[2].text, steel);
+    else if (m->e > m->sheet_e * (1 + 1e-9) || m->g > steel * (1 + 1e-9))
+        deck_note(reader, line->field[m->e > m->sheet_e * (1 + 1e-9) ? 0 : 1].place,
+                  "the stack is stiffer along the axis than its sheets (E %.4g Pa, G %.4g Pa)", m->sheet_e, steel);
+}
+
 void deck_elastic(struct deck_reader *reader, const struct card *card)
 {
-    static const char *const types[] = {"ISOTROPIC", "SHEAR", NULL};
-    const struct card_option *type = card_option(card, "TYPE");
-    int shear = type && deck_option_word(reader, type, types) == 1;
-    const char *layout = shear ? "E [Pa], G [Pa], nu" : "E [Pa], nu";
+    static const char *const types[] = {"ISOTROPIC", "SHEAR", "LAMINATED", NULL};
+    static const char *const layouts[] = {"E [Pa], nu", "E [Pa], G [Pa], nu",
+                                          "E, G along the axis [Pa], E [Pa], nu of a sheet [, stacking factor]"};
+    static const struct deck_row *const rows[] = {deck_elastic_rows, deck_shear_rows, deck_laminated_rows};
+    const struct card_option *option = card_option(card, "TYPE");
+    int type = option ? deck_option_word(reader, option, types) : 0;
+    const char *layout = layouts[type = type < 0 ? 0 : type];
     struct material *material = current_material(reader, card, 1);
     if (!material || deck_lines(reader, card, 1, 1, layout) != 1)
         return;
     const struct data_line *line = &card->line[0];
-    int last = shear ? 2 : 1, bad = deck_read_values(reader, line, shear ? deck_shear_rows : deck_elastic_rows, layout, material);
-    material->isotropic = !shear;
-    if (!bad && !(material->nu > -1 && material->nu <= 0.5))
+    material->isotropic = type == 0;
+    material->laminated = type == 2;
+    material->stacking = 1;
+    int last = type ? 2 : 1, bad = deck_read_values(reader, line, rows[type], layout, material);
+    if (!bad && material->laminated)
+        check_stack(reader, line, material);
+    else if (!bad && !(material->nu > -1 && material->nu <= 0.5))
         deck_error(reader, line->field[last].place, "Poisson ratio nu is %s, expected above -1 and at most 0.5",
                    line->field[last].text);
 }
@@ -66,8 +98,7 @@ void deck_density(struct deck_reader *reader, const struct card *card)
         (void)deck_read_values(reader, &card->line[0], deck_density_rows, layout, material);
 }
 
-/* A new group, or -1 after an error. */
-static int add_group(struct deck_reader *reader, const struct card *card)
+int deck_add_group(struct deck_reader *reader, const struct card *card)
 {
     struct rotor *rotor = &reader->job->rotor;
     const char *name = deck_option(reader, card, "NAME", "name"),
@@ -85,7 +116,7 @@ static int add_group(struct deck_reader *reader, const struct card *card)
     struct place *place = DECK_APPEND(reader, reader->group_place, rotor->ngroup, reader->group_place_room);
     if (!group || !place)
         return -1;
-    *group = (struct group){.name = name ? name : ""};
+    *group = (struct group){.name = name ? name : "", .layer_of = -1};
     *place = card->place;
     if (material >= 0)
         group->material = reader->material[material];
@@ -107,7 +138,7 @@ static struct segment *add_segment(struct deck_reader *reader, int group)
 void deck_shaft(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
-    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    int group = deck_add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count && group >= 0; i++) {
         const struct data_line *line = &card->line[i];
         struct segment *s = add_segment(reader, group);
@@ -128,7 +159,7 @@ void deck_shaft(struct deck_reader *reader, const struct card *card)
 void deck_beam(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
-    int group = add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
+    int group = deck_add_group(reader, card), count = deck_lines(reader, card, 1, DECK_MOST_LINES, layout);
     for (int i = 0; i < count && group >= 0; i++) {
         struct segment *s = add_segment(reader, group);
         if (!s)

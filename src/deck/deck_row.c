@@ -28,9 +28,12 @@ static int read_option(struct deck_reader *reader, const struct card *card, cons
         if (index < 0)
             deck_error(reader, option->value_place, "material %s is not defined, expected the name of a *MATERIAL",
                        option->value);
+        else if (reader->material[index].laminated)
+            deck_error(reader, option->value_place,
+                       "material %s is a stack of sheets across the axis, expected one that rods are made of", option->value);
         else
             *(struct material *)member = reader->material[index];
-        return index < 0;
+        return index < 0 || reader->material[index].laminated;
     case ROW_WORD:
         index = option ? deck_option_word(reader, option, row->words) : row->standard;
         if (index >= 0)

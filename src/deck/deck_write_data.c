@@ -330,12 +330,14 @@ void deck_write_identify(struct deck_writer *w)
         deck_put_number(w, ", ", start_of(&bounds, w->x ? w->x[p] : bounds.start));
         deck_put(w, "\n");
     }
-    if (!job->options.has_fit && !any_held_out && job->options.fit.reduction == ROTID_REDUCTION_NONE &&
+    if (!job->options.has_fit && !any_held_out && !job->options.solid && job->options.fit.reduction == ROTID_REDUCTION_NONE &&
         job->options.fit.derivative == ROTID_NELSON)
         return;
     deck_put_card(w, "FIT");
     deck_write_options(w, job->options.has_fit ? deck_fit_rows : deck_fit_rows + 1,
                        &job->options.fit); /* the first one: FUNCTIONAL */
+    if (job->options.solid)
+        deck_put_option(w, "MODEL", "SOLID");
     if (any_held_out)
         write_holdout(w);
     deck_put(w, "\n");

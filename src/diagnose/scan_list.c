@@ -31,7 +31,7 @@ static int target_count(const struct rotor *rotor, enum cause_target target)
     case TARGET_GROUP:
         return rotor->ngroup;
     case TARGET_INTERFACE:
-        return rotor->ngroup - 1;
+        return rotor_axis_groups(rotor) - 1;
     case TARGET_SPRING:
         return rotor->nspring;
     case TARGET_TIEROD:

@@ -13,16 +13,14 @@ static double area_of(const struct ross_section *s)
     return pi * (s->outer * s->outer - s->inner * s->inner) / 4;
 }
 
-/* S and I of the mass give (outer^2 + inner^2)/16 = I/S. The outer diameter of the segment is kept where that leaves an inner
+/* S and I of the mass give (outer^2 + inner^2)/16 = I/S. The outer diameter of the section is kept where that leaves an inner
  * one, else the section is solid. */
-static void choose_diameters(const struct segment *segment, const struct element *element, struct ross_section *s)
+static void choose_diameters(int rectangular, const struct element *element, struct ross_section *s)
 {
-    double sum = 16 * element->rhoi / element->rhos, squared = sum - segment->outer * segment->outer;
-    s->outer = segment->outer;
-    s->inner = segment->inner;
-    if (!segment->rectangular && fabs(squared - s->inner * s->inner) <= SAME * sum)
+    double sum = 16 * element->rhoi / element->rhos, squared = sum - s->outer * s->outer;
+    if (!rectangular && fabs(squared - s->inner * s->inner) <= SAME * sum)
         return;
-    if (segment->rectangular || squared < 0) {
+    if (rectangular || squared < 0) {
         s->outer = sqrt(sum);
         s->inner = 0;
     } else {
@@ -42,7 +40,7 @@ static void choose_material(const struct element *element, double nu, struct ros
 
 static const char *add_reason(struct pool *pool, const char *reasons, const char *reason)
 {
-    return reasons ? pool_format(pool, "%s%s%s", reasons, *reasons ? ", " : "", reason) : NULL;
+    return reasons && reason ? pool_format(pool, "%s%s%s", reasons, *reasons ? ", " : "", reason) : NULL;
 }
 
 /* What makes the element other than its card says: NULL without memory, "" for nothing. */
@@ -50,18 +48,33 @@ static const char *reasons_of(struct pool *pool, const struct beam *beam, int e)
 {
     const struct rotor *rotor = &beam->rotor;
     const struct segment *segment = &rotor->segment[beam->mesh.segment[e]];
-    const struct effect_span span = factors_span(beam, e);
+    const struct section_part *part;
+    struct effect_field *unused;
+    int count = factors_parts(beam, e, &part, &unused), holes = 0, sheets = 0;
     const char *reasons = "";
+    for (int i = 0; i < count; i++) {
+        holes |= rotor->group[part[i].group].holes;
+        sheets |= rotor->group[part[i].group].material.laminated;
+    }
     if (segment->rectangular)
         reasons = add_reason(pool, reasons, "rectangular, bending in the measured plane only");
-    if (rotor->group[segment->group].holes)
+    for (int i = 1; i < count; i++)
+        reasons = add_reason(pool, reasons, pool_format(pool, "layer %s", rotor->group[part[i].group].name));
+    if (sheets)
+        reasons = add_reason(pool, reasons, "sheets across the axis");
+    if (holes)
         reasons = add_reason(pool, reasons, "perforated");
     if (!segment->rectangular && segment->stiff_outer != segment->outer)
         reasons = add_reason(pool, reasons, "stiffness diameter");
     for (int i = 0; i < rotor->neffect; i++) {
         const struct effect *effect = &rotor->effect[i];
-        struct effect_field f = {1, 1, 1};
-        if (effect_on_axis(effect, rotor, &span, 1, -1, &f) && (f.e != 1 || f.g != 1 || f.rho != 1))
+        int acts = 0;
+        for (int j = 0; j < count; j++) {
+            const struct effect_span span = factors_span(beam, e, &part[j]);
+            struct effect_field f = {1, 1, 1};
+            acts |= effect_on_axis(effect, rotor, &span, 1, -1, &f) && (f.e != 1 || f.g != 1 || f.rho != 1);
+        }
+        if (acts)
             reasons = add_reason(pool, reasons, effect->name);
     }
     return reasons;
@@ -80,7 +93,9 @@ int ross_axis_section(struct pool *pool, const struct beam *beam, int e, struct 
     if (*reasons) {
         s->equivalent = reasons;
         axis_quantities(beam, e, &element);
-        choose_diameters(segment, &element, s);
+        if (!segment->rectangular)
+            rotor_diameters(&beam->rotor, beam->mesh.segment[e], &s->outer, &s->inner);
+        choose_diameters(segment->rectangular, &element, s);
         choose_material(&element, material->nu, s);
     }
     return ROTID_OK;

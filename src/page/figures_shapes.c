@@ -148,16 +148,21 @@ static void shapes_script(struct document *document, struct figure *figure, cons
 static void shade(struct pool *pool, const rotid_geometry *geometry, const rotid_identification *fit, struct shapes_figure *all)
 {
     all->band = pool_get(pool, MOST_BANDS, sizeof *all->band);
+    int parts = 0;
+    for (int g = 0; geometry && g < geometry->ngroups; g++)
+        parts += !geometry->groups[g].layer_of;
     for (int g = 0; geometry && g < geometry->ngroups && all->band && all->nband < MOST_BANDS; g++) {
-        int is_identified = 0;
+        int is_identified = 0, is_shaded = 0;
         for (int p = 0; p < fit->nparameters; p++)
             is_identified |= geometry_is_of(&geometry->groups[g], fit->parameters[p].name);
-        if (!is_identified)
+        for (int b = 0; b < all->nband; b++) /* a layer where its host is */
+            is_shaded |= all->band[b][0] == geometry->groups[g].from_m;
+        if (!is_identified || is_shaded)
             continue;
         all->band[all->nband][0] = geometry->groups[g].from_m;
         all->band[all->nband++][1] = geometry->groups[g].to_m;
     }
-    all->shaded = all->nband && all->nband < geometry->ngroups ? "identified part" : NULL;
+    all->shaded = all->nband && all->nband < parts ? "identified part" : NULL;
     all->nband = all->shaded ? all->nband : 0; /* the whole rotor is no part to set off */
 }
 

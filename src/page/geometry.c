@@ -46,7 +46,7 @@ int geometry_elements(const rotid_geometry *geometry)
 {
     int elements = 0;
     for (int g = 0; g < geometry->ngroups; g++)
-        for (int s = 0; s < geometry->groups[g].nsegments; s++)
+        for (int s = 0; s < geometry->groups[g].nsegments && !geometry->groups[g].layer_of; s++)
             elements += geometry->groups[g].segments[s].elements;
     return elements;
 }

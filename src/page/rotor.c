@@ -47,11 +47,14 @@ static int draw_segment(struct plot *plot, int object, const rotid_group *group,
            holes = group->perforation ? group->perforation->pitch_radius_m : (double)NAN, from = segment->from_m,
            to = segment->to_m;
     char how[96];
+    double low = group->layer_of ? hollow : -r; /* of a layer the ring alone, on both sides: its host fills the middle */
     (void)snprintf(how, sizeof how, "fs solid border lc rgb INK fc rgb %s lw 0.75", color);
-    rectangle(plot, ++object, from, to, -r, r, how);
-    if (hatched)
-        rectangle(plot, ++object, from, to, -r, r, "fs transparent pattern 4 noborder fc rgb MUTED");
-    if (hollow > 0)
+    for (int side = 1; side >= (group->layer_of ? -1 : 1); side -= 2) {
+        rectangle(plot, ++object, from, to, side * low, side * r, how);
+        if (hatched)
+            rectangle(plot, ++object, from, to, side * low, side * r, "fs transparent pattern 4 noborder fc rgb MUTED");
+    }
+    if (hollow > 0 && !group->layer_of)
         rectangle(plot, ++object, from, to, -hollow, hollow, "fs solid border lc rgb INK fc rgb PAPER lw 0.75");
     if (isfinite(stiff)) /* what carries stiffness */
         rectangle(plot, ++object, from, to, -stiff, stiff, "fs empty border lc rgb MUTED lw 0.75 dt (4,3)");

@@ -14,7 +14,7 @@ static void print_target(FILE *out, const struct rotor *rotor, const struct effe
         (void)fprintf(out, " at %s", rotor->spring[target].name);
     else if (kind->tierod && target >= 0 && target < rotor->ntierod && rotor->tierod[target].name)
         (void)fprintf(out, " at %s", rotor->tierod[target].name);
-    else if (kind->joint && target >= 0 && target + 1 < rotor->ngroup)
+    else if (kind->joint && target >= 0 && target + 1 < rotor_axis_groups(rotor))
         (void)fprintf(out, " between %s and %s", rotor->group[target].name, rotor->group[target + 1].name);
     else if ((kind->field || kind->section) && target >= 0 && target < rotor->ngroup)
         (void)fprintf(out, " in %s", rotor->group[target].name);
@@ -75,8 +75,9 @@ void table_check(FILE *out, const struct result *result, const struct job *job)
         const rotid_group *group = &check->geometry->groups[g];
         const rotid_material *material = &group->material;
         name_cell(out, 12, group->name);
-        (void)fprintf(out, " %10.6f %10.6f  %10.4e  %10.4e  %5.3f  %12.2f\n", group->from_m, group->to_m, material->e_pa,
-                      material->g_pa, material->nu, material->rho_kg_m3);
+        (void)fprintf(out, " %10.6f %10.6f  %10.4e  %10.4e  %5.3f  %12.2f%s%s\n", group->from_m, group->to_m, material->e_pa,
+                      material->g_pa, material->nu, material->rho_kg_m3, group->layer_of ? "  on " : "",
+                      group->layer_of ? group->layer_of : "");
     }
     print_causes(out, job);
 }

@@ -80,7 +80,8 @@ static void print_axis(const struct diagnosis_view *view)
     int sensors = print_sensors(view, columns), local = print_localisation(view, columns);
     strip_open(&strip, geometry->length_m, columns);
     for (int g = 0; g < geometry->ngroups; g++)
-        strip_name(&strip, geometry->groups[g].from_m, geometry->groups[g].to_m, geometry->groups[g].name);
+        if (!geometry->groups[g].layer_of)
+            strip_name(&strip, geometry->groups[g].from_m, geometry->groups[g].to_m, geometry->groups[g].name);
     strip_print(&strip, view->out, LABEL, "  group");
     for (int i = 0; i < nmark && i < MARKS; i++) {
         if (!cause_place(geometry, &mark[i], &place))

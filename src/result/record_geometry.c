@@ -4,8 +4,14 @@
 static const char *const bundles[] = {"RODS", "TUBE", NULL};
 
 static const struct field material_fields[] = {
-    TEXT(rotid_material, name, MAY_BE_NULL), NUMBER(rotid_material, e_pa, FROM_0),      NUMBER(rotid_material, g_pa, FROM_0),
-    NUMBER(rotid_material, nu, 0),           NUMBER(rotid_material, rho_kg_m3, FROM_0), {0},
+    TEXT(rotid_material, name, MAY_BE_NULL),
+    NUMBER(rotid_material, e_pa, FROM_0),
+    NUMBER(rotid_material, g_pa, FROM_0),
+    NUMBER(rotid_material, nu, 0),
+    NUMBER(rotid_material, rho_kg_m3, FROM_0),
+    NUMBER(rotid_material, sheet_e_pa, IF_KNOWN | ABOVE_0),
+    NUMBER(rotid_material, stacking, IF_KNOWN | ABOVE_0),
+    {0},
 };
 static const struct record material_record = RECORD(rotid_material, material_fields);
 
@@ -32,6 +38,7 @@ static const struct record perforation_record = RECORD(rotid_perforation, perfor
 
 static const struct field group_fields[] = {
     TEXT(rotid_group, name, 0),
+    TEXT(rotid_group, layer_of, IF_KNOWN),
     NUMBER(rotid_group, from_m, ROUNDED),
     NUMBER(rotid_group, to_m, ROUNDED),
     STRUCT(rotid_group, material, 0, material_record),

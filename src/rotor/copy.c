@@ -19,14 +19,15 @@ int rotor_copy(struct pool *pool, const struct rotor *rotor, struct rotor *copy)
     *copy = *rotor;
     copy->group = copy_array(pool, rotor->group, rotor->ngroup, sizeof *rotor->group, 0);
     copy->segment = copy_array(pool, rotor->segment, rotor->nsegment, sizeof *rotor->segment, 0);
+    copy->ring = copy_array(pool, rotor->ring, rotor->nring, sizeof *rotor->ring, 0);
     copy->tierod = copy_array(pool, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod, 0);
     copy->bars = copy_array(pool, rotor->bars, rotor->nbars, sizeof *rotor->bars, 0);
     copy->disk = copy_array(pool, rotor->disk, rotor->ndisk, sizeof *rotor->disk, 0);
     copy->spring = copy_array(pool, rotor->spring, rotor->nspring, sizeof *rotor->spring, sling);
     copy->sensor = copy_array(pool, rotor->sensor, rotor->nsensor, sizeof *rotor->sensor, 0);
     copy->effect = copy_array(pool, rotor->effect, rotor->neffect, sizeof *rotor->effect, 0);
-    if (!copy->group || !copy->segment || !copy->tierod || !copy->bars || !copy->disk || !copy->spring || !copy->sensor ||
-        !copy->effect)
+    if (!copy->group || !copy->segment || !copy->ring || !copy->tierod || !copy->bars || !copy->disk || !copy->spring ||
+        !copy->sensor || !copy->effect)
         return ROTID_ERROR_MEMORY;
     if (sling) {
         copy->spring[copy->nspring++] = (struct spring){.name = "sling", .position = 0};
@@ -57,12 +58,28 @@ static int same_segments(const struct rotor *a, const struct rotor *b)
     return 1;
 }
 
+static int same_rings(const struct rotor *a, const struct rotor *b)
+{
+    for (int i = 0; i < a->nring; i++) {
+        const struct ring *x = &a->ring[i], *y = &b->ring[i];
+        if (x->group != y->group || x->segment != y->segment || x->outer != y->outer || x->inner != y->inner)
+            return 0;
+    }
+    return 1;
+}
+
+/* of a material all that no parameter can change */
+static int same_kind(const struct material *a, const struct material *b)
+{
+    return a->isotropic == b->isotropic && a->laminated == b->laminated && a->sheet_e == b->sheet_e && a->stacking == b->stacking;
+}
+
 static int same_groups(const struct rotor *a, const struct rotor *b)
 {
     for (int i = 0; i < a->ngroup; i++) {
         const struct group *x = &a->group[i], *y = &b->group[i];
-        if (x->material.isotropic != y->material.isotropic || x->holes != y->holes || x->hole_diameter != y->hole_diameter ||
-            x->hole_pitch != y->hole_pitch || x->preload != y->preload)
+        if (!same_kind(&x->material, &y->material) || x->layer_of != y->layer_of || x->holes != y->holes ||
+            x->hole_diameter != y->hole_diameter || x->hole_pitch != y->hole_pitch || x->preload != y->preload)
             return 0;
     }
     return 1;
@@ -72,7 +89,7 @@ static int same_tierods(const struct rotor *a, const struct rotor *b)
 {
     for (int i = 0; i < a->ntierod; i++) {
         const struct tierod *x = &a->tierod[i], *y = &b->tierod[i];
-        if (x->material.isotropic != y->material.isotropic || x->from != y->from || x->to != y->to || x->model != y->model ||
+        if (!same_kind(&x->material, &y->material) || x->from != y->from || x->to != y->to || x->model != y->model ||
             x->self_equilibrated != y->self_equilibrated || x->number != y->number || x->elements != y->elements ||
             x->diameter != y->diameter || x->pitch != y->pitch)
             return 0;
@@ -89,9 +106,9 @@ static int same_bars(const struct rotor *a, const struct rotor *b)
 {
     for (int i = 0; i < a->nbars; i++) {
         const struct bars *x = &a->bars[i], *y = &b->bars[i];
-        if (x->material.isotropic != y->material.isotropic || !same_material(&x->material, &y->material) ||
-            x->center != y->center || x->length != y->length || x->model != y->model || x->number != y->number ||
-            x->elements != y->elements || x->diameter != y->diameter || x->pitch != y->pitch)
+        if (!same_kind(&x->material, &y->material) || !same_material(&x->material, &y->material) || x->center != y->center ||
+            x->length != y->length || x->model != y->model || x->number != y->number || x->elements != y->elements ||
+            x->diameter != y->diameter || x->pitch != y->pitch)
             return 0;
     }
     return 1;
@@ -120,10 +137,10 @@ static int same_effects(const struct rotor *a, const struct rotor *b)
 
 int rotor_same_shape(const struct rotor *a, const struct rotor *b)
 {
-    return a->ngroup == b->ngroup && a->nsegment == b->nsegment && a->ntierod == b->ntierod && a->nbars == b->nbars &&
-           a->ndisk == b->ndisk && a->nspring == b->nspring && a->nsensor == b->nsensor && a->neffect == b->neffect &&
-           a->sling == b->sling && same_segments(a, b) && same_groups(a, b) && same_tierods(a, b) && same_bars(a, b) &&
-           same_places(a, b) && same_effects(a, b);
+    return a->ngroup == b->ngroup && a->nsegment == b->nsegment && a->nring == b->nring && a->ntierod == b->ntierod &&
+           a->nbars == b->nbars && a->ndisk == b->ndisk && a->nspring == b->nspring && a->nsensor == b->nsensor &&
+           a->neffect == b->neffect && a->sling == b->sling && same_segments(a, b) && same_rings(a, b) && same_groups(a, b) &&
+           same_tierods(a, b) && same_bars(a, b) && same_places(a, b) && same_effects(a, b);
 }
 
 int rotor_same_values(const struct rotor *a, const struct rotor *b)

@@ -1,5 +1,7 @@
 #include "rotor/rotor.h"
 
+#include <math.h>
+
 #include "rotor/section.h"
 
 double rotor_length(const struct rotor *rotor)
@@ -10,10 +12,30 @@ double rotor_length(const struct rotor *rotor)
     return sum;
 }
 
+int rotor_axis_groups(const struct rotor *rotor)
+{
+    int count = rotor->ngroup;
+    while (count && rotor->group[count - 1].layer_of >= 0)
+        count--;
+    return count;
+}
+
+void rotor_diameters(const struct rotor *rotor, int segment, double *outer, double *inner)
+{
+    *outer = rotor->segment[segment].outer;
+    *inner = rotor->segment[segment].inner;
+    for (int i = 0; i < rotor->nring; i++)
+        if (rotor->ring[i].segment == segment) {
+            *outer = fmax(*outer, rotor->ring[i].outer);
+            *inner = fmin(*inner, rotor->ring[i].inner);
+        }
+}
+
 void rotor_group_span(const struct rotor *rotor, int group, double *from, double *to)
 {
     double z = 0;
-    int found = 0;
+    int found = 0, host = rotor->group[group].layer_of;
+    group = host < 0 ? group : host;
     *from = *to = 0;
     for (int s = 0; s < rotor->nsegment; s++) {
         if (rotor->segment[s].group == group && !found++)
@@ -36,20 +58,30 @@ static double mass_of_rods(const struct material *material, int number, double d
     return material->rho * area * length;
 }
 
+static void add_section(const struct group *group, const struct section *section, double length, double *sum)
+{
+    *sum += group->material.rho * section->mass_area * length;
+    if (group->holes)
+        *sum -= mass_of_rods(&group->material, group->holes, group->hole_diameter, length);
+}
+
 double rotor_mass(const struct rotor *rotor)
 {
     double sum = 0;
     for (int s = 0; s < rotor->nsegment; s++) {
         const struct segment *segment = &rotor->segment[s];
-        const struct group *group = &rotor->group[segment->group];
         struct section section;
         if (segment->rectangular)
             section_rectangular(segment->height, segment->width, &section);
         else
             section_round(segment->outer, segment->inner, segment->stiff_outer, &section);
-        sum += group->material.rho * section.mass_area * segment->length;
-        if (group->holes)
-            sum -= mass_of_rods(&group->material, group->holes, group->hole_diameter, segment->length);
+        add_section(&rotor->group[segment->group], &section, segment->length, &sum);
+    }
+    for (int i = 0; i < rotor->nring; i++) {
+        const struct ring *ring = &rotor->ring[i];
+        struct section section;
+        section_round(ring->outer, ring->inner, ring->outer, &section);
+        add_section(&rotor->group[ring->group], &section, rotor->segment[ring->segment].length, &sum);
     }
     for (int i = 0; i < rotor->ntierod; i++) {
         const struct tierod *rod = &rotor->tierod[i];

@@ -76,7 +76,8 @@ struct sensor {
 struct effect; /* rotor/effect.h */
 
 struct rotor {
-    int ngroup, nsegment, nring, ntierod, nbars, ndisk, nspring, nsensor, neffect;
+    int ngroup; /* those of the axis from left to right, then the layers */
+    int nsegment, nring, ntierod, nbars, ndisk, nspring, nsensor, neffect;
     struct group *group;
     struct segment *segment; /* in order along the axis, those of a group together */
     struct ring *ring;       /* of the layers, those of a segment from the axis outwards */
@@ -91,13 +92,19 @@ struct rotor {
 
 double rotor_length(const struct rotor *rotor);
 
-/* First and last position of a group. */
+/* How many groups are of the axis: the first ones. */
+int rotor_axis_groups(const struct rotor *rotor);
+
+/* Diameters between which a segment lies with its layers, a round one. */
+void rotor_diameters(const struct rotor *rotor, int segment, double *outer, double *inner);
+
+/* First and last position of a group; a layer has those of its host. */
 void rotor_group_span(const struct rotor *rotor, int group, double *from, double *to);
 
 /* G of a material: its own, or E/2(1+nu). */
 double material_shear_modulus(const struct material *material);
 
-/* kg, from the dimensions alone: segments, holes, rods, bars and disks. */
+/* kg, from the dimensions alone: segments, layers, holes, rods, bars and disks. */
 double rotor_mass(const struct rotor *rotor);
 
 /* A copy with arrays of its own; names are shared. A rotor that hangs on a sling gets two springs more, of no stiffness yet.

@@ -51,14 +51,25 @@ void section_rods(int number, double d, double e, double *area, double *own, dou
     *pitch = *area * e * e / 2;
 }
 
+static int perforate(const struct group *group, double stiff_outer, struct section *section)
+{
+    return group->holes ? section_perforate(group->holes, group->hole_diameter, group->hole_pitch, stiff_outer, section)
+                        : ROTID_OK;
+}
+
 int section_of_segment(const struct rotor *rotor, int index, struct section *section)
 {
     const struct segment *segment = &rotor->segment[index];
-    const struct group *group = &rotor->group[segment->group];
     if (segment->rectangular)
         section_rectangular(segment->height, segment->width, section);
     else
         section_round(segment->outer, segment->inner, segment->stiff_outer, section);
-    return group->holes ? section_perforate(group->holes, group->hole_diameter, group->hole_pitch, segment->stiff_outer, section)
-                        : ROTID_OK;
+    return perforate(&rotor->group[segment->group], segment->stiff_outer, section);
+}
+
+int section_of_ring(const struct rotor *rotor, int index, struct section *section)
+{
+    const struct ring *ring = &rotor->ring[index];
+    section_round(ring->outer, ring->inner, ring->outer, section);
+    return perforate(&rotor->group[ring->group], ring->outer, section);
 }

@@ -27,7 +27,9 @@ int section_perforate(int number, double d, double e, double stiff_outer, struct
  * pitch = S e^2/2; own + pitch is the inertia of (7), corrected. */
 void section_rods(int number, double d, double e, double *area, double *own, double *pitch);
 
-/* The section of a segment, with the holes of its group. ROTID_OK or ROTID_ERROR_SECTION. */
+/* The section of a segment without its layers, and of a ring of a layer; each with the holes of its own group. ROTID_OK or
+ * ROTID_ERROR_SECTION. */
 int section_of_segment(const struct rotor *rotor, int segment, struct section *section);
+int section_of_ring(const struct rotor *rotor, int ring, struct section *section);
 
 #endif

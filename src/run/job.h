@@ -93,6 +93,7 @@ struct job_options {
     int has_fit; /* a FIT card states functional or reduction */
     int solid;   /* MODEL=SOLID: a body of revolution in place of a beam */
     rotid_fit_options fit;
+    int solid; /* the rotor as a solid of revolution, not as a beam */
     struct frf_request frf;
 };
 

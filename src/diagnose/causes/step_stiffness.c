@@ -3,7 +3,8 @@
  *
  *     D(z) = min(own stiffness diameter, min over all steps of d_small + 2 |z - z_step| tan(angle))
  *
- * over as many sections as the cone reaches; mass, bores, holes and rectangular parts stay. The shear coefficient stays that of
+ * over as many sections as the cone reaches; mass, bores, holes and rectangular parts stay. A section with layers steps at its
+ * outermost diameter, and the cone cuts off each of its rings as far as they lie outside. The shear coefficient stays that of
  * the section without the cone: it would move by 1 % where a bore is narrow, the diameter decides. */
 #include <math.h>
 
@@ -17,17 +18,36 @@ static const double pi = 3.14159265358979323846;
  * least, and of the area and inertia that the section with its holes has of a full disc. */
 static const double least_wall = 0.1, least_share = 0.02;
 
+static int is_step(const struct rotor *rotor, int s, double *left, double *right)
+{
+    double inner;
+    rotor_diameters(rotor, s, left, &inner);
+    rotor_diameters(rotor, s + 1, right, &inner);
+    return !rotor->segment[s].rectangular && !rotor->segment[s + 1].rectangular && *left != *right;
+}
+
+/* The segment with the diameters of the part that belongs to the group. */
+static struct segment part_of(const struct rotor *rotor, int segment, int group)
+{
+    struct segment part = rotor->segment[segment];
+    for (int i = 0; i < rotor->nring; i++)
+        if (rotor->ring[i].segment == segment && rotor->ring[i].group == group) {
+            part.outer = part.stiff_outer = rotor->ring[i].outer;
+            part.inner = rotor->ring[i].inner;
+        }
+    return part;
+}
+
 /* Steps whose cone may reach below `diameter` somewhere in [from, to]. */
 static int reaching_steps(const struct rotor *rotor, double from, double to, double diameter, double tangent, struct step *step)
 {
     int count = 0;
-    double z = 0;
+    double z = 0, left, right;
     for (int s = 0; s + 1 < rotor->nsegment && count < STEPS_AT_ONCE; s++) {
-        const struct segment *left = &rotor->segment[s], *right = left + 1;
-        z += left->length;
-        if (left->rectangular || right->rectangular || left->outer == right->outer)
+        z += rotor->segment[s].length;
+        if (!is_step(rotor, s, &left, &right))
             continue;
-        double small = fmin(left->outer, right->outer), away = fmax(0, fmax(from - z, z - to));
+        double small = fmin(left, right), away = fmax(0, fmax(from - z, z - to));
         if (small + 2 * away * tangent < diameter)
             step[count++] = (struct step){z, small};
     }
@@ -164,7 +184,7 @@ static void add_point(const struct group *group, const struct segment *segment, 
 static int section(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                    struct effect_section *out)
 {
-    const struct segment *segment = &rotor->segment[span->segment];
+    const struct segment own = part_of(rotor, span->segment, span->group), *segment = &own;
     double angle = effect->value[0] * pi / 180, tangent = tan(angle), cut[CUTS + 2], length = span->to - span->from;
     struct step step[STEPS_AT_ONCE];
     struct means mean = {0, 0, 0, 0};
@@ -196,12 +216,11 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 static int applies(const struct rotor *rotor, int target, const int *identified)
 {
     (void)target, (void)identified;
-    for (int s = 0; s + 1 < rotor->nsegment; s++) {
-        const struct segment *left = &rotor->segment[s], *right = left + 1;
-        if (!left->rectangular && !right->rectangular && left->outer != right->outer)
-            return 1;
-    }
-    return 0;
+    int steps = 0;
+    double left, right;
+    for (int s = 0; s + 1 < rotor->nsegment; s++)
+        steps += is_step(rotor, s, &left, &right);
+    return steps > 0;
 }
 
 static const struct effect_kind kind = {
