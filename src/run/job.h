@@ -91,7 +91,6 @@ struct job_unknowns {
 /* How the commands are to go about it. */
 struct job_options {
     int has_fit; /* a FIT card states functional or reduction */
-    int solid;   /* MODEL=SOLID: a body of revolution in place of a beam */
     rotid_fit_options fit;
     int solid; /* the rotor as a solid of revolution, not as a beam */
     struct frf_request frf;

@@ -1,5 +1,7 @@
 #include "solid/members.h"
 
+#include <math.h>
+
 #include "beam/element.h"
 #include "beam/shear_coefficient.h"
 #include "linalg/matrix.h"
@@ -190,10 +192,13 @@ void members_moments(const struct solid *solid, double moment[3])
         struct member member = member_of(solid, i);
         int from, to;
         solid_mesh_member(rotor, &solid->mesh, i, &from, &to);
-        double a = solid->mesh.z[from], b = solid->mesh.z[to], l = b - a, mass = member.material->rho * member.section.mass_area * l;
+        double a = solid->mesh.z[from], b = solid->mesh.z[to], length = b - a, mass = member.material->rho * member.section.mass_area * length;
         moment[0] += mass;
         moment[1] += mass * (a + b) / 2;
-        moment[2] += mass * ((a + b) * (a + b) / 4 + l * l / 12) + member.material->rho * (member.section.mass_inertia + member.pitch) * l;
+        for (int l = from; l < to && solid_mesh_follows(rotor, i); l++) /* half of it on each of its lines */
+            moment[2] += mass * pow(solid->mesh.z[l + 1] - solid->mesh.z[l], 3) / (6 * length);
+        moment[2] += mass * ((a + b) * (a + b) / 4 + length * length / 12) +
+                     member.material->rho * (member.section.mass_inertia + member.pitch) * length;
     }
 }
 

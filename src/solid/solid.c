@@ -7,6 +7,8 @@
 #include "solid/attached.h"
 #include "solid/field.h"
 
+#define WASHER 2 /* diameters of a rod: what its nut and washer press on */
+
 static int compare_ints(const void *a, const void *b)
 {
     int x = *(const int *)a, y = *(const int *)b;
@@ -40,20 +42,24 @@ static int build_lines(struct pool *pool, struct solid *solid, int *failed)
         for (int l = from; l <= to && !status; l++)
             if (l == from || l == to || solid_mesh_follows(rotor, i))
                 status = hold_on(pool, solid, solid->mesh.z[l]);
+        double pitch = rotor->tierod[i].pitch, reach = WASHER / 2 * rotor->tierod[i].diameter;
+        struct motion *stretch = &solid->stretch[2 * (ptrdiff_t)i];
         if (!status)
-            status = motion_axial(pool, &solid->mesh, from, rotor->tierod[i].pitch, &solid->stretch[2 * (ptrdiff_t)i]);
+            status = motion_axial(pool, &solid->mesh, from, pitch - reach, pitch + reach, &stretch[0]);
         if (!status)
-            status = motion_axial(pool, &solid->mesh, to, rotor->tierod[i].pitch, &solid->stretch[2 * (ptrdiff_t)i + 1]);
+            status = motion_axial(pool, &solid->mesh, to, pitch - reach, pitch + reach, &stretch[1]);
     }
     return status;
 }
 
 static int gather_far(struct pool *pool, struct solid *solid)
 {
-    solid->far = POOL_ARRAY(pool, int, 6 * solid->rotor.ntierod);
+    int n = 0, most = 0;
+    for (int i = 0; i < 2 * solid->rotor.ntierod; i++)
+        most += solid->stretch[i].count;
+    solid->far = POOL_ARRAY(pool, int, most);
     if (!solid->far)
         return ROTID_ERROR_MEMORY;
-    int n = 0;
     for (int i = 0; i < 2 * solid->rotor.ntierod; i++)
         for (int j = 0; j < solid->stretch[i].count; j++)
             solid->far[n++] = solid->stretch[i].dof[j];
