@@ -20,8 +20,12 @@ struct series *series_new(struct document *document, const char *name, int rows,
     struct series *series = POOL_NEW(pool, struct series);
     struct column *kept = POOL_ARRAY(pool, struct column, columns);
     double **value = POOL_ARRAY(pool, double *, columns), *number = POOL_ARRAY(pool, double, (size_t)rows *(size_t)columns);
-    const char **text = POOL_ARRAY(pool, const char *, (size_t)rows *(size_t)columns), *own = pool_copy_text(pool, name);
-    if (!series || !kept || !value || !number || !text || !own) {
+    const char **text = POOL_ARRAY(pool, const char *, (size_t)rows *(size_t)columns),
+               *own = pool_copy_text(pool, name ? name : "");
+    int failed = !series || !kept || !value || !number || !text || !own || !name;
+    for (int j = 0; j < columns; j++)
+        failed |= !column[j].name;
+    if (failed) {
         document->failed = 1;
         return NULL;
     }
@@ -50,6 +54,11 @@ void series_text(struct series *series, int row, int column, const char *text)
     series->text[row * series->columns + column] = text;
 }
 
+int series_rows(const struct series *series)
+{
+    return series ? series->rows : 0;
+}
+
 double *series_values(struct series *series, int column)
 {
     return series ? series->value[column] : NULL;
@@ -63,9 +72,10 @@ static const char *cell_of(const struct series *series, int row, int column)
     double value = series->value[column][row];
     if (text || c->look == AS_TEXT)
         return text;
-    return c->look == AS_FIXED    ? human_fixed(pool, value, c->digits)
-           : c->look == AS_SIGNED ? human_signed(pool, value, c->digits)
-                                  : human_digits(pool, value, c->digits);
+    return c->look == AS_FIXED     ? human_fixed(pool, value, c->digits)
+           : c->look == AS_SIGNED  ? human_signed(pool, value, c->digits)
+           : c->look == AS_TRIMMED ? human_trimmed(pool, value, c->digits)
+                                   : human_digits(pool, value, c->digits);
 }
 
 static int columns_shown(const struct series *series)
