@@ -366,7 +366,7 @@ static void a_parameter_that_stands_again_is_refused(void **state)
     figure_coverage(&document, &result);
     assert_false(document.failed);
     const char *script = document_figures(&document)[0]->script;
-    assert_non_null(strstr(script, "$coverage1 << end\n90 2\n87.5 1\nend\n$coverage2 << end\n90 2\n87.5 1\nend\n"));
+    assert_non_null(strstr(script, "$coverage << end\n2 90 90\n1 87.5 87.5\nend\n"));
 }
 
 /* Memory of the pool that ends after n blocks, while the lines are read and composed. */

@@ -53,8 +53,6 @@ struct plot {
 int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const char *source);
 /* A text of a user within a comment. */
 void plot_comment(struct plot *plot, const char *text);
-/* $name: rows of columns; NaN for what is not finite. Before plot_begin. */
-void plot_data(struct plot *plot, const char *name, int rows, int columns, const double *const column[]);
 /* From here on everything is done once for each layout: W, H [px], COLUMNS and `narrow` are set in the script. */
 void plot_begin(struct plot *plot, const struct plot_layout *layout);
 /* Room of panel i; what was set for the one before is gone. */

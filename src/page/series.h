@@ -28,7 +28,8 @@ struct column {
 
 struct series; /* columns by rows */
 
-/* All NaN, or without a text. name: of the data in the script, as $name. A name that is NULL, of a column too: memory is out. */
+/* All NaN, or without a text. name: of the data in the script, as $name. A name that is NULL, of a column too: memory is out. The
+ * texts of the columns are copied, name is not. */
 struct series *series_new(struct document *document, const char *name, int rows, int columns, const struct column column[]);
 /* The numbers of a row, in the order of the columns without texts. */
 void series_row(struct series *series, int row, const double value[]);
@@ -44,7 +45,7 @@ struct number_table *series_table(const struct series *series);
 /* The rows of several ones, one after the other, under a head of the first one's names and of the others' where they differ:
  * "measured [Hz], or z [m]". They have as many columns that are shown. */
 struct number_table *series_table_of(int count, const struct series *const series[]);
-/* The data with a comment that names the columns, before plot_begin. */
+/* The data with a comment that names the columns, NaN for what is not finite; before plot_begin. */
 void plot_series(struct plot *plot, const struct series *series);
 
 /* Begins the script of a figure: 1, or 0 where memory is out. Ends the script; a figure that lacks a text marks the document. */
