@@ -217,6 +217,17 @@ static void assert_refused(const char *text, const char *says)
     assert_false(page_exists("broken"));
 }
 
+/* What a study leaves that was stopped before its first run ended. */
+static void a_file_of_results_without_a_run_is_told_so(void **state)
+{
+    (void)state;
+    page_make_study("truth", truth_plan);
+    const char *whole = page_read("truth.jsonl");
+    char header[2048];
+    (void)snprintf(header, sizeof header, "%.*s", (int)(strchr(whole, '\n') + 1 - whole), whole);
+    assert_refused(header, "broken.jsonl: is the file of results of a study and holds no run yet, expected the line of a run");
+}
+
 static void broken_lines_are_told_with_their_place(void **state)
 {
     (void)state;
@@ -399,6 +410,7 @@ int main(void)
         cmocka_unit_test(a_summary_says_what_it_does_not_hold),
         cmocka_unit_test(verdicts_are_counted),
         cmocka_unit_test(many_decks_stand_beside_each_other),
+        cmocka_unit_test(a_file_of_results_without_a_run_is_told_so),
         cmocka_unit_test(broken_lines_are_told_with_their_place),
         cmocka_unit_test_setup_teardown(runs_are_sorted_into_series_by_their_modes, open_test_pool, close_test_pool),
         cmocka_unit_test(a_variant_may_be_named_like_an_axis),
