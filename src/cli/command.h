@@ -5,8 +5,8 @@
 #include "deck/deck_text.h"
 #include "ema/ema.h"
 #include "import/measurement.h"
-#include "report/json.h"
 #include "report/terminal.h"
+#include "result/result.h"
 #include "run/job.h"
 
 #define THREADS_MOST 1024
@@ -30,8 +30,6 @@ struct given_option {
     const char *name, *value; /* value: "" where it has none */
 };
 
-struct result;
-
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
     const char *name, *deck, *json, *at, *extended, *output, *format;
@@ -48,10 +46,10 @@ struct command {
 
     struct pool pool;
     struct message_list messages;
-    size_t printed;        /* of the messages */
-    rotid_deck *read;      /* what was read; NULL of commands that read none */
-    const struct job *job; /* of it */
-    struct provenance provenance;
+    size_t printed;          /* of the messages */
+    rotid_deck *read;        /* what was read; NULL of commands that read none */
+    const struct job *job;   /* of it */
+    struct result_head head; /* of its result */
 };
 
 /* Reads the deck of the command; prints its errors. An exit code, EXIT_DONE to go on. */
@@ -63,8 +61,8 @@ void command_print_messages(struct command *command);
 /* The messages of a call of the library go to those of the command. */
 void command_take_messages(struct command *command, int count, const rotid_message *message);
 
-/* The result of the command so far: its head, and the warnings among the messages. ROTID_ERROR_MEMORY. */
-int command_open_result(struct command *command, struct result *result);
+/* Head of the result, from the arguments alone; command_read_deck completes it with the deck. */
+void command_begin_head(struct command *command);
 
 /* The exit code of a status below zero, after saying what happened. */
 int command_fail(struct command *command, int status);
@@ -74,10 +72,8 @@ int command_fail_with(struct command *command, int status, const char *failure);
 /* Tables go to standard output unless that carries JSON or the user wants none. */
 int command_wants_table(const struct command *command);
 
-/* Writes text (may be NULL: out of memory) where --json says and frees it; `code` unless that fails. */
-int command_write_json(struct command *command, char *text, int code);
-/* The same of a result. */
-int command_write_result(struct command *command, const struct result *result, int code);
+/* Writes the result, with the warnings among the messages, where --json says; `code` unless that fails. */
+int command_write_result(struct command *command, struct result *result, int code);
 
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);

@@ -38,6 +38,11 @@ int command_read_deck(struct command *command)
     if (status)
         return command_fail(command, status);
     command->job = deck_job_of(command->read);
+    command->head.deck = command->read->path;
+    command->head.nheading = command->read->nheading;
+    command->head.heading = command->read->heading;
+    command->head.nreferences = command->read->nreferences;
+    command->head.references = command->read->references;
     int refused = arguments_refuse_read(command, command->job->nfile, command->job->file);
     if (refused >= 0)
         return refused;

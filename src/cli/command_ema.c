@@ -90,6 +90,6 @@ int command_ema(struct command *command)
         terminal_say("rotid: %s: not written, there is no mode\n", command->output);
     if (command_wants_table(command))
         table_ema(terminal_out(), &report, command->verbose);
-    char *text = command->json ? json_ema(&command->provenance, &report, &command->messages) : NULL;
-    return command_write_json(command, text, code);
+    struct result result = {.head = command->head, .ema = command->json ? ema_result_of(&command->pool, &report) : NULL};
+    return command_write_result(command, &result, code);
 }

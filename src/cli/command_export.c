@@ -90,11 +90,12 @@ static int write_files(struct command *command, const struct export_files *files
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        table_export(terminal_out(), files, model, ross);
+        table_export(terminal_out(), &command->head, files, model, ross);
         table_notes(terminal_out(), &command->messages);
     }
-    char *text = command->json ? json_export(&command->provenance, files, model, ross, &command->messages) : NULL;
-    return command_write_json(command, text, code);
+    struct result result = {.head = command->head,
+                            .export = command->json ? export_result_of(&command->pool, files, model, ross) : NULL};
+    return command_write_result(command, &result, code);
 }
 
 static int export(struct command *command, const struct identification *identified, int code)
@@ -106,8 +107,7 @@ static int export(struct command *command, const struct identification *identifi
     if (export_format_find(command->format, &format)) /* the arguments have been checked */
         return command_fail(command, ROTID_ERROR_ARGUMENT);
     int wants_condensed = format == EXPORT_MATRIX_MARKET || command->condensed, is_ross = format == EXPORT_ROSS;
-    int status =
-        export_model_open(&command->pool, command->job, identified, command->provenance.version, wants_condensed, &model);
+    int status = export_model_open(&command->pool, command->job, identified, command->head.rotid, wants_condensed, &model);
     if (!status && wants_condensed && judge_condensed(command, &model, format))
         status = ROTID_ERROR_ARGUMENT;
     if (!status)

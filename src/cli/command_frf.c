@@ -34,7 +34,7 @@ static int write_output(struct command *command, const struct frf_view *view, in
         return code;
     int status = output_open(&output, command->output);
     if (!status) {
-        status = frf_write_file(output.stream, command->provenance.version, view);
+        status = frf_write_file(output.stream, command->head.rotid, view);
         if (status)
             output_abandon(&output);
         else
@@ -55,13 +55,13 @@ static int report(struct command *command, const struct frf_view *view, int code
                     "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
                     view->result->ndone, view->result->nline, JSON_FRF_MOST_LINES);
     if (command_wants_table(command)) {
-        status = table_frf(terminal_out(), view);
+        status = table_frf(terminal_out(), &command->head, view);
         table_notes(terminal_out(), &command->messages);
     }
     if (status)
         return command_fail(command, status);
-    char *text = command->json ? json_frf(&command->provenance, view, &command->messages) : NULL;
-    int written = command_write_json(command, text, code);
+    struct result result = {.head = command->head, .frf = command->json ? frf_result_of(view) : NULL};
+    int written = command_write_result(command, &result, code);
     code = write_output(command, view, written);
     return code > written ? code : written;
 }

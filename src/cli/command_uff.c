@@ -7,9 +7,8 @@
 #include "cli/command.h"
 #include "import/convert.h"
 #include "import/listing.h"
-#include "report/json_uff.h"
 #include "report/output.h"
-#include "report/table_uff.h"
+#include "report/report_uff.h"
 
 static int fail_output(const struct command *command)
 {
@@ -73,10 +72,11 @@ int command_uff(struct command *command)
     int code = listing.faulty_count ? EXIT_DOUBTFUL : EXIT_DONE;
     if (command_wants_table(command))
         table_uff(terminal_out(), command->deck, &listing, summary_count, summary, command->verbose);
-    char *text = command->json ? json_uff(&command->provenance, command->deck, &listing, summary_count, summary, command->verbose,
-                                          &command->messages)
-                               : NULL;
-    code = command_write_json(command, text, code);
+    struct result result = {.head = command->head};
+    if (command->json)
+        result.uff =
+            uff_result_of(&command->pool, command->deck, &listing, summary_count, summary, command->verbose, &command->messages);
+    code = command_write_result(command, &result, code);
     if (code == EXIT_INTERNAL || !command->output)
         return code;
     if (listing.faulty_count) {

@@ -14,11 +14,6 @@ static const rotid_reference *reference_of(struct pool *pool, const struct resul
     return quantity ? head_reference(&result->head, quantity) : NULL;
 }
 
-static double reference_value(const rotid_reference *reference, int k)
-{
-    return reference && k < reference->nvalues ? fabs(reference->values[k]) : (double)NAN;
-}
-
 static struct number_table *sensitivity_table(struct pool *pool, const struct result *result)
 {
     const struct sensitivity *s = result->sensitivity;
@@ -37,7 +32,7 @@ static struct number_table *sensitivity_table(struct pool *pool, const struct re
             table_cell(table, k, 1, human_fixed(pool, s->frequency_hz[k], 2));
             table_cell(table, k, 2 + 3 * p, human_digits(pool, parameter->sensitivity[k], 3));
             table_cell(table, k, 3 + 3 * p, human_digits(pool, parameter->derivative[k], 3));
-            table_cell(table, k, 4 + 3 * p, human_digits(pool, reference_value(reference, k), 3));
+            table_cell(table, k, 4 + 3 * p, human_digits(pool, fabs(reference_value(reference, k)), 3));
         }
     }
     return table;
@@ -63,7 +58,7 @@ static int sensitivity_script(struct document *document, struct figure *figure, 
         const rotid_reference *reference = reference_of(pool, result, s->parameters[p].name);
         for (int k = 0; k < m; k++) {
             value[k + (ptrdiff_t)(1 + p) * m] = fabs(s->parameters[p].sensitivity[k]);
-            value[k + (ptrdiff_t)(1 + count + p) * m] = reference_value(reference, k);
+            value[k + (ptrdiff_t)(1 + count + p) * m] = fabs(reference_value(reference, k));
         }
         referenced |= reference != NULL;
         entry[p] = (struct plot_entry){.text = s->parameters[p].name, .style = p + 1, .keys = KEY_MARK | KEY_LINE};

@@ -41,7 +41,8 @@ struct result_reader {
     void (*lines)(const struct json_place *lines, struct result *result);
 };
 
-/* The result as JSON: a text to be freed with json_free of result/json_tree.h, or NULL where memory is out. */
+/* The result as JSON: a text to be freed with json_free of result/json_tree.h; NULL where memory is out, or was when the part of
+ * the command was made and that is NULL. */
 char *result_json(const struct result *result);
 
 /* Reads a file that a command wrote with --json, or a file of results of a study. The structs hang on the pool. ROTID_OK;

@@ -1,15 +1,6 @@
 #include "run/job.h"
 
 #include <math.h>
-#include <string.h>
-
-const struct reference *job_reference(const struct job *job, const char *quantity)
-{
-    for (int i = 0; i < job->nreference; i++)
-        if (!strcmp(job->reference[i].quantity, quantity))
-            return &job->reference[i];
-    return NULL;
-}
 
 int job_knows_frequency_noise(const struct job *job)
 {

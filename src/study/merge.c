@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "file/open.h"
-#include "report/json.h"
 #include "report/output.h"
 #include "result/json_tree.h"
 #include "study/results.h"

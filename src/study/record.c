@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "report/json.h"
 #include "report/output.h"
 #include "result/json_tree.h"
 #include "study/results.h"

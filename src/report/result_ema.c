@@ -1,6 +1,5 @@
 #include <math.h>
 
-#include "report/json_result.h"
 #include "report/report_ema.h"
 #include "result/ema.h"
 
@@ -96,11 +95,12 @@ static struct ema_channel_result *channels(struct pool *pool, const struct ema_r
     return list;
 }
 
-char *json_ema(const struct provenance *provenance, const struct ema_report *r, const struct message_list *notes)
+const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *r)
 {
-    struct pool pool;
-    pool_open(&pool, NULL);
-    const struct ema_result ema = {
+    struct ema_result *out = POOL_NEW(pool, struct ema_result);
+    if (!out)
+        return NULL;
+    *out = (struct ema_result){
         .source = source(r),
         .method = r->options->method == EMA_QUADRATURE ? "quadrature" : "lscf",
         .order = r->ema->order,
@@ -108,17 +108,13 @@ char *json_ema(const struct provenance *provenance, const struct ema_report *r, 
         .std_from = r->ema->std_from_impacts ? "variance" : "residual",
         .output = r->output,
         .nmodes = r->ema->nmode,
-        .modes = modes(&pool, r->ema),
+        .modes = modes(pool, r->ema),
         .mac = r->ema->mac,
         .nstabilisation = r->ema->npole,
-        .stabilisation = poles(&pool, r->ema),
+        .stabilisation = poles(pool, r->ema),
         .nchannels = r->ema->nfrf,
-        .channels = channels(&pool, r),
+        .channels = channels(pool, r),
         .seconds = r->seconds,
     };
-    struct result result = {.ema = &ema};
-    if (ema.modes && ema.stabilisation && ema.channels)
-        return json_result(&pool, provenance, NULL, notes, &result);
-    pool_close(&pool);
-    return NULL;
+    return out->modes && out->stabilisation && out->channels ? out : NULL;
 }
