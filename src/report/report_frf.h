@@ -31,7 +31,6 @@ const struct transfer_result *frf_result_of(const struct frf_view *view);
 int frf_write_file(FILE *stream, const char *version, const struct frf_view *view);
 
 /* "acceleration over force" and so on, its unit, and the word of the card. */
-const char *frf_quantity_text(enum frf_quantity quantity);
 const char *frf_quantity_unit(enum frf_quantity quantity);
 const char *frf_quantity_word(enum frf_quantity quantity);
 

@@ -10,7 +10,7 @@
 #define COLUMNS   88   /* of the plot */
 #define FLIPPED   0.05 /* gain of FRAC with the conjugate that is no accident */
 
-const char *frf_quantity_text(enum frf_quantity quantity)
+static const char *frf_quantity_text(enum frf_quantity quantity)
 {
     return quantity == FRF_DISPLACEMENT ? "displacement over force"
            : quantity == FRF_VELOCITY   ? "velocity over force"

@@ -25,7 +25,6 @@ void json_flag(struct json_tree *tree, cJSON *parent, const char *key, int value
 void json_number(struct json_tree *tree, cJSON *parent, const char *key, double value);
 /* In whatever encoding: what is not UTF-8 becomes U+FFFD; null where there is no text. */
 void json_text(struct json_tree *tree, cJSON *parent, const char *key, const char *text);
-void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
 /* The same with nine significant digits, for what is drawn and not computed with: an array of the length of a mesh takes a third
  * of the room, and one node of the tree. */
 void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
