@@ -32,10 +32,11 @@ struct given_option {
 
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
-    const char *name, *deck, *json, *at, *extended, *output, *format;
+    const char *name, *deck, *json, *at, *extended, *output;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
     int quiet, verbose, threads, no_baseline, points, replicates, start, condensed;
+    int format; /* of --output: enum export_format, or a word of uff */
     unsigned long seed;
     double step, range;
     int ngiven, noverride;

@@ -103,9 +103,7 @@ static int export(struct command *command, const struct identification *identifi
     struct export_model model;
     struct export_files files;
     struct ross_model ross;
-    enum export_format format;
-    if (export_format_find(command->format, &format)) /* the arguments have been checked */
-        return command_fail(command, ROTID_ERROR_ARGUMENT);
+    enum export_format format = (enum export_format)command->format;
     int wants_condensed = format == EXPORT_MATRIX_MARKET || command->condensed, is_ross = format == EXPORT_ROSS;
     int status = export_model_open(&command->pool, command->job, identified, command->head.rotid, wants_condensed, &model);
     if (!status && wants_condensed && judge_condensed(command, &model, format))

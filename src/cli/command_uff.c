@@ -1,6 +1,5 @@
 #include <errno.h>
 #include <stdio.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "cli/arguments.h"
@@ -19,11 +18,11 @@ static int fail_output(const struct command *command)
 /* The file that -o asks for, or none. */
 static int convert(struct command *command)
 {
-    struct convert_options options = {.cancelled = command_cancelled};
+    const struct convert_options options = {.format = arguments_given(command, "format") ? CONVERT_ASCII + command->format
+                                                                                         : CONVERT_OTHER,
+                                            .cancelled = command_cancelled};
     struct convert_result result;
     struct output output;
-    if (command->format)
-        options.format = strcmp(command->format, "ascii") ? CONVERT_BINARY : CONVERT_ASCII;
     int status = output_open(&output, command->output);
     if (status)
         return status == ROTID_ERROR_IO ? fail_output(command) : command_fail(command, status);

@@ -1,29 +1,11 @@
 #include "export/files.h"
 
 #include <errno.h>
-#include <string.h>
 
 #include "export/dmig.h"
 #include "export/matrix_market.h"
 #include "export/ross.h"
 #include "report/output.h"
-
-static const char *const formats[] = {"matrix-market", "dmig", "ross"};
-
-int export_format_find(const char *name, enum export_format *format)
-{
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-        if (!strcmp(name, formats[i])) {
-            *format = (enum export_format)i;
-            return 0;
-        }
-    return 1;
-}
-
-const char *export_format_name(enum export_format format)
-{
-    return formats[format];
-}
 
 /* of Matrix Market, those of the condensed model last */
 static const struct {

@@ -46,7 +46,7 @@ void table_export(FILE *out, const struct result_head *head, const struct export
     (void)fprintf(out, "mass            %.4f kg, centre at %.6f m\n", model->mass.mass, model->mass.center);
     (void)fprintf(out, "matrices        %d nodes, %d degrees of freedom\n", model->k.n / 2, model->k.n);
     if (model->condensed.k)
-        (void)fprintf(out, "condensed       by %s onto %d %s\n", reduction_name(model->condensed.kind), model->condensed.count,
+        (void)fprintf(out, "condensed       by %s onto %d %s\n", reduction_words[model->condensed.kind], model->condensed.count,
                       job->rotor.nsensor ? "sensors" : "nodes");
     (void)fprintf(out, "\nmode   full model %s\n           [Hz]   %s\n",
                   files->format == EXPORT_ROSS ? "  in the script" : "      condensed", "         [Hz]");
@@ -82,7 +82,7 @@ const struct export_result *export_result_of(struct pool *pool, const struct exp
     if (!out)
         return NULL;
     *out = (struct export_result){
-        .format = export_format_name(files->format),
+        .format = export_format_words[files->format],
         .nfiles = files->count,
         .model = model->identified ? "identified" : "stated",
         .status = state_of(model),
@@ -91,7 +91,7 @@ const struct export_result *export_result_of(struct pool *pool, const struct exp
         .center_of_mass_m = model->mass.center,
         .nodes = model->discrete->beam.mesh.nnode,
         .degrees_of_freedom = model->k.n,
-        .reduction = model->condensed.k ? reduction_name(model->condensed.kind) : NULL,
+        .reduction = model->condensed.k ? reduction_words[model->condensed.kind] : NULL,
         .masters = model->condensed.k ? model->condensed.count : ROTID_NONE,
         .nrigid_hz = s->nrigid,
         .rigid_hz = s->rigid_hz,

@@ -30,10 +30,6 @@ const struct transfer_result *frf_result_of(const struct frf_view *view);
 /* Sets 151, 164 (SI), 2411 and a set 58 for each synthesised function. Statuses of uff_write.h, ROTID_ERROR_MEMORY. */
 int frf_write_file(FILE *stream, const char *version, const struct frf_view *view);
 
-/* "acceleration over force" and so on, its unit, and the word of the card. */
-const char *frf_quantity_unit(enum frf_quantity quantity);
-const char *frf_quantity_word(enum frf_quantity quantity);
-
 /* Log magnitude over frequency, and phase below, on `columns` columns: '*' synthesised, 'o' measured (NULL where there is none),
  * '@' both. Of the lines that share a column the largest magnitude is drawn. */
 void frf_plot(FILE *out, int columns, int nline, const double *frequency_hz, const double complex *synthesised,

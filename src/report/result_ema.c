@@ -5,11 +5,10 @@
 
 static struct ema_source source(const struct ema_report *r)
 {
-    static const char *const quantity[] = {"displacement", "velocity", "acceleration"};
     const struct measurement *m = r->measurement;
     struct ema_source out = {
         .file = r->file,
-        .quantity = quantity[m->set.quantity],
+        .quantity = (int)m->set.quantity,
         .transfer_functions = m->set.nfrf,
         .lines = m->set.nline,
         .low_hz = m->set.nline ? m->set.frequency_hz[0] : NAN,
@@ -102,10 +101,10 @@ const struct ema_result *ema_result_of(struct pool *pool, const struct ema_repor
         return NULL;
     *out = (struct ema_result){
         .source = source(r),
-        .method = r->options->method == EMA_QUADRATURE ? "quadrature" : "lscf",
+        .method = r->options->method,
         .order = r->ema->order,
         .refined = r->ema->refined > 0,
-        .std_from = r->ema->std_from_impacts ? "variance" : "residual",
+        .std_from = !r->ema->std_from_impacts, /* variance, residual */
         .output = r->output,
         .nmodes = r->ema->nmode,
         .modes = modes(pool, r->ema),

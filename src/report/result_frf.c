@@ -25,10 +25,6 @@ static int add_parameters(const struct frf_view *view, struct transfer_result *o
 
 static int add_modes(struct pool *pool, const struct frf_result *r, struct transfer_result *out)
 {
-    static const char *const from[] = {[FRF_DAMPING_MEASURED] = "measured",
-                                       [FRF_DAMPING_STATED] = "stated",
-                                       [FRF_DAMPING_SMALLEST] = "smallest_measured",
-                                       [FRF_DAMPING_MEAN] = "mean_measured"};
     const struct synthesis *s = &r->synthesis;
     struct transfer_mode_agreement *agrees = POOL_ARRAY(pool, struct transfer_mode_agreement, r->nband);
     out->modes = POOL_ARRAY(pool, struct transfer_mode, s->nmode);
@@ -41,7 +37,7 @@ static int add_modes(struct pool *pool, const struct frf_result *r, struct trans
                                                .model_hz = sqrt(fmax(s->lambda[m], 0)) / TWO_PI,
                                                .measured_hz = NAN,
                                                .damping = r->zeta[m],
-                                               .damping_from = from[r->damping[m]]};
+                                               .damping_from = transfer_damping_words[r->damping[m]]};
         for (int b = 0; b < r->nband; b++) {
             const struct frf_band *band = &r->band[b];
             if (band->mode != number)
@@ -136,8 +132,8 @@ const struct transfer_result *frf_result_of(const struct frf_view *view)
     *all = agreement(&r->sums, &r->moved);
     *out = (struct transfer_result){
         .complete = r->ndone == r->nrow,
-        .quantity = frf_quantity_word(r->quantity),
-        .unit = frf_quantity_unit(r->quantity),
+        .quantity = transfer_quantity_words[r->quantity],
+        .unit = transfer_unit_words[r->quantity],
         .lines = r->nline,
         .low_hz = r->frequency_hz[0],
         .high_hz = r->frequency_hz[r->nline - 1],

@@ -2,6 +2,7 @@
 #include "result/record.h"
 #include "result/records.h"
 #include "result/study.h"
+#include "run/job.h"
 
 static const char *const run_status_words[] = {"converged", "at_bound", "not_converged", "failed", NULL};
 static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};

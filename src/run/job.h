@@ -113,8 +113,7 @@ int job_knows_shape_noise(const struct job *job);
 /* Whether a likelihood can use shapes: there are some, with their noise. */
 int job_fits_shapes(const struct job *job);
 
-const char *functional_name(int functional);
-const char *reduction_name(int reduction);
-const char *derivative_name(int derivative);
+/* Words of *FIT and of results, in the order of the constants of rotid.h; NULL behind the last. */
+extern const char *const functional_words[], *const reduction_words[], *const derivative_words[];
 
 #endif

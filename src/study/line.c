@@ -110,8 +110,8 @@ static int add_fit(struct pool *pool, const struct experiment *experiment, const
     run->fit = out;
     run->status = !fit->converged ? STUDY_NOT_CONVERGED : fit->any_at_bound ? STUDY_AT_BOUND : STUDY_CONVERGED;
     *out = (struct run_fit){
-        .functional = functional_name(job->options.fit.functional),
-        .reduction = reduction_name(job->options.fit.reduction),
+        .functional = functional_words[job->options.fit.functional],
+        .reduction = reduction_words[job->options.fit.reduction],
         .objective = fit->objective,
         .chi2_per_dof = fit->chi2_per_dof,
         .dof = fit->dof,
