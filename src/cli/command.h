@@ -1,4 +1,4 @@
-/* One run of the program: what the arguments say, and the commands. */
+/* One run of the program: its arguments, and the commands. */
 #ifndef ROTID_CLI_COMMAND_H
 #define ROTID_CLI_COMMAND_H
 
@@ -48,7 +48,7 @@ struct command {
     struct pool pool;
     struct message_list messages;
     size_t printed;          /* of the messages */
-    rotid_deck *read;        /* what was read; NULL of commands that read none */
+    rotid_deck *read;        /* NULL of commands that read none */
     const struct job *job;   /* of it */
     struct result_head head; /* of its result */
 };

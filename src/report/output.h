@@ -7,7 +7,7 @@
 /* Writes text to path, "-" being standard output. ROTID_OK or ROTID_ERROR_IO (errno tells why), ROTID_ERROR_MEMORY. */
 int output_write(const char *path, const char *text);
 
-/* The same for what is written piece by piece: the caller writes to `stream`, then closes or abandons the output. */
+/* The same for a file that is written piece by piece: the caller writes to `stream`, then closes or abandons the output. */
 struct output {
     FILE *stream;
     const char *path; /* of the caller, who keeps it until the end */

@@ -1,4 +1,4 @@
-/* A result as a whole: what the program writes with --json, and what `report` reads. */
+/* A result as a whole: the program writes it with --json, `report` reads it. */
 #ifndef ROTID_RESULT_RESULT_H
 #define ROTID_RESULT_RESULT_H
 
@@ -7,7 +7,7 @@
 #include "result/place.h"
 #include "rotid.h"
 
-/* What an older result does not hold, and what is left out for it. */
+/* A key that an older result does not hold, and the part of the page that is left out for it. */
 struct lacking {
     const char *key, *shows; /* "geometry", "the drawing of the rotor" */
 };

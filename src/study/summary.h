@@ -19,7 +19,7 @@ void summary_table(FILE *out, const struct study_result *summary);
 
 /* Whether two runs are of one cell. */
 int summary_same_cell(const struct study_axes *a, const struct study_axes *b);
-/* Whether the diagnoses of a cell could be held against what was hidden. */
+/* Whether the diagnoses of a cell could be compared with the hidden effects. */
 int summary_is_scored(const struct study_cell_result *cell);
 
 #endif

@@ -15,7 +15,7 @@ int uff_split_blanks(const struct uff_lines *lines, struct uff_field *field, int
 /* What the columns start to start + width - 1 hold, without the blanks around it. */
 struct uff_field uff_cut_column(const struct uff_lines *lines, size_t start, size_t width);
 
-/* The error that this field is: ROTID_ERROR_SYNTAX. `expected` says what the record holds. */
+/* The error that this field is: ROTID_ERROR_SYNTAX. `expected` describes the record. */
 int uff_fail_field(struct uff_lines *lines, const char *what, enum uff_fault fault, struct uff_field field, int is_integer,
                    const char *expected);
 
