@@ -7,7 +7,7 @@
 #include "import/measurement.h"
 #include "report/terminal.h"
 #include "result/result.h"
-#include "run/job.h"
+#include "run/identify.h"
 
 #define THREADS_MOST 1024
 
@@ -78,6 +78,10 @@ int command_write_result(struct command *command, struct result *result, int cod
 
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);
+
+/* Warns of an identification (may be NULL) at whose values the model is `done`, where it did not end well or its reduction is
+ * coarse. An exit code, EXIT_DONE or EXIT_DOUBTFUL. */
+int command_judge_fit(struct command *command, const struct identification *identified, const char *done);
 
 /* Whether somebody would see a line of progress. */
 int command_wants_progress(const struct command *command);

@@ -12,13 +12,8 @@ static int write_modes(struct command *command, const struct measurement *measur
 {
     struct output output;
     int status = output_open(&output, command->output);
-    if (!status) {
-        status = modes_write(output.stream, command->deck, "rotid " ROTID_VERSION, measurement, ema);
-        if (status)
-            output_abandon(&output);
-        else
-            status = output_close(&output);
-    }
+    if (!status)
+        status = output_close(&output, modes_write(output.stream, command->deck, "rotid " ROTID_VERSION, measurement, ema));
     if (status == ROTID_ERROR_IO) {
         terminal_say("rotid: %s: cannot be written: %s\n", command->output, output_error());
         return EXIT_INTERNAL;

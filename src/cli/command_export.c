@@ -11,11 +11,6 @@
 
 #define REDUCTION_DOUBTFUL 1 /* % of a frequency */
 
-static void warn(struct command *command, const char *text)
-{
-    message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0, "%s", text);
-}
-
 /* The fit, where there is something to fit and to fit it to. identified->fit stays NULL where the model is taken as it stands. */
 static int identify(struct command *command, struct identification *identified)
 {
@@ -25,7 +20,8 @@ static int identify(struct command *command, struct identification *identified)
     if (!job->unknowns.nparameter || command->start)
         return ROTID_OK;
     if (!job->measurement.nmode) {
-        warn(command, "no mode was measured: the model is taken as the deck states it, not at identified parameters");
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "no mode was measured: the model is taken as the deck states it, not at identified parameters");
         return ROTID_OK;
     }
     int status = identify_run(&command->pool, job, 0, &environment, &command->messages, identified);
@@ -121,8 +117,7 @@ static int export(struct command *command, const struct identification *identifi
 int command_export(struct command *command)
 {
     struct identification identified = {0};
-    int status = identify(command, &identified), code = EXIT_DONE;
-    const rotid_fit_result *fit = identified.fit;
+    int status = identify(command, &identified);
     if (status)
         return command_fail(command, status);
     if (command_cancelled(NULL)) {
@@ -130,13 +125,7 @@ int command_export(struct command *command)
         rotid_fit_free(identified.fit);
         return EXIT_DOUBTFUL;
     }
-    if (fit && (!fit->converged || fit->any_at_bound || fit->any_undetermined)) {
-        warn(command, "the identification did not end well (not converged, at a bound or undetermined): see rotid identify");
-        code = EXIT_DOUBTFUL;
-    }
-    if (fit)
-        identify_warn_of_reduction(command->job, &identified, "written", &command->messages);
-    code = export(command, fit ? &identified : NULL, code);
+    int code = export(command, identified.fit ? &identified : NULL, command_judge_fit(command, &identified, "written"));
     rotid_fit_free(identified.fit);
     return code;
 }

@@ -26,19 +26,13 @@ static int convert(struct command *command)
     int status = output_open(&output, command->output);
     if (status)
         return status == ROTID_ERROR_IO ? fail_output(command) : command_fail(command, status);
-    status = convert_file(command->deck, &options, output.stream, &command->messages, &result);
-    if (status) {
-        int reason = errno, writing = status == ROTID_ERROR_IO && !command->messages.errors;
-        output_abandon(&output);
-        errno = reason;
-        if (status == ROTID_STOP_CANCELLED) {
-            terminal_say("rotid: interrupted, %s was not written\n", command->output);
-            return EXIT_DOUBTFUL;
-        }
-        return writing ? fail_output(command) : command_fail(command, status);
+    status = output_close(&output, convert_file(command->deck, &options, output.stream, &command->messages, &result));
+    if (status == ROTID_STOP_CANCELLED) {
+        terminal_say("rotid: interrupted, %s was not written\n", command->output);
+        return EXIT_DOUBTFUL;
     }
-    if (output_close(&output))
-        return fail_output(command);
+    if (status)
+        return status == ROTID_ERROR_IO && !command->messages.errors ? fail_output(command) : command_fail(command, status);
     if (command_wants_table(command))
         (void)fprintf(terminal_out(), "\n%s: %d function%s%s, %d other set%s, %d of them copied as they are\n", command->output,
                       result.functions, result.functions == 1 ? "" : "s",

@@ -56,10 +56,8 @@ int export_files_write(struct pool *pool, const struct export_files *files, cons
         status = write_one(pool, files, count, output[count].stream, model, ross);
     }
     if (status) {
-        int reason = errno;
         for (int i = 0; i < count; i++)
             output_abandon(&output[i]);
-        errno = reason;
         return status;
     }
     status = output_close_all(files->count, output, &which);

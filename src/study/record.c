@@ -283,11 +283,8 @@ int record_finish(struct pool *pool, struct study_record *record)
     int reason = errno;
     json_free(first);
     free(text);
-    if (!failed)
-        return output_close(&output);
-    output_abandon(&output);
     errno = reason;
-    return ROTID_ERROR_IO;
+    return output_close(&output, failed ? ROTID_ERROR_IO : ROTID_OK);
 }
 
 void record_close(struct study_record *record)
