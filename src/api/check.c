@@ -20,8 +20,8 @@ static int make_result(struct result_memory *memory, const struct job *job, cons
                        .nrigid_hz = s->nrigid,
                        .rigid_hz = RESULT_COPY(memory, s->rigid_hz, s->nrigid),
                        .measured_modes = job->measurement.nmode,
-                       .functional = functional_name(job->options.fit.functional),
-                       .reduction = reduction_name(job->options.fit.reduction),
+                       .functional = functional_words[job->options.fit.functional],
+                       .reduction = reduction_words[job->options.fit.reduction],
                        .geometry = result_geometry(memory, &job->rotor, s->model),
                        .memory = memory};
     r->nsensors = RESULT_LIST(memory, r->sensors, job->rotor.nsensor);

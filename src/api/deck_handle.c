@@ -61,9 +61,6 @@ static void show(const struct job *job, struct result_memory *own, rotid_deck *d
     }
     for (int p = 0; p < job->unknowns.nparameter && stated; p++)
         stated[p] = *parameter_value(&job->rotor, job->unknowns.parameter[p]);
-    deck->nreferences = RESULT_LIST(own, deck->references, job->nreference);
-    for (int i = 0; i < deck->nreferences; i++)
-        deck->references[i] = (rotid_reference){job->reference[i].quantity, job->reference[i].count, job->reference[i].value};
     deck->nsensor = nsensor;
     deck->sensor_id = id;
     deck->sensor_z = z;
@@ -79,6 +76,8 @@ static void show(const struct job *job, struct result_memory *own, rotid_deck *d
     deck->stated = stated;
     deck->nheading = job->nheading;
     deck->heading = job->heading;
+    deck->nreferences = job->nreference;
+    deck->references = job->reference;
 }
 
 static int read_deck(struct result_memory *own, const struct deck_memory *memory, const char *path, int noverride,

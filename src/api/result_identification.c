@@ -205,9 +205,9 @@ rotid_identification *result_identification(struct result_memory *memory, const 
         *out = (rotid_identification){.status = !fit->converged     ? "not_converged"
                                                 : fit->any_at_bound ? "at_bound"
                                                                     : "converged",
-                                      .functional = functional_name(job->options.fit.functional),
-                                      .reduction = reduction_name(job->options.fit.reduction),
-                                      .derivative = derivative_name(job->options.fit.derivative),
+                                      .functional = functional_words[job->options.fit.functional],
+                                      .reduction = reduction_words[job->options.fit.reduction],
+                                      .derivative = derivative_words[job->options.fit.derivative],
                                       .shapes_fitted = found->shapes_fitted,
                                       .bijection_chi = bijection_chi(job),
                                       .objective = fit->objective,

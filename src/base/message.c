@@ -33,3 +33,13 @@ void message_add(struct message_list *list, enum severity severity, const char *
     }
     list->item[list->count++] = (struct message){severity, place, line, column, copy};
 }
+
+const char **message_warnings(const struct message_list *list, struct pool *pool, int *count)
+{
+    const char **text = POOL_ARRAY(pool, const char *, list->count);
+    *count = 0;
+    for (size_t i = 0; i < list->count && text; i++)
+        if (list->item[i].severity == SEVERITY_WARNING)
+            text[(*count)++] = list->item[i].text;
+    return text;
+}

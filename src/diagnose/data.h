@@ -1,4 +1,4 @@
-/* The job that is judged: copies of the data, and what is found in them. */
+/* The job that is judged: copies of the data, and the faults found in them. */
 #ifndef ROTID_DIAGNOSE_DATA_H
 #define ROTID_DIAGNOSE_DATA_H
 

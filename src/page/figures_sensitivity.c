@@ -14,11 +14,6 @@ static const rotid_reference *reference_of(struct pool *pool, const struct resul
     return quantity ? head_reference(&result->head, quantity) : NULL;
 }
 
-static double reference_value(const rotid_reference *reference, int k)
-{
-    return reference && k < reference->nvalues ? fabs(reference->values[k]) : (double)NAN;
-}
-
 enum { MODE, FREQUENCY, FIRST, STEP = 0, LIMIT, REFERENCE, EACH }; /* columns: the first, then as many of each parameter */
 
 static struct series *collect(struct document *document, const struct result *result)
@@ -50,7 +45,7 @@ static struct series *collect(struct document *document, const struct result *re
             double *its = &row[FIRST + EACH * p];
             its[STEP] = s->parameters[p].sensitivity[k];
             its[LIMIT] = s->parameters[p].derivative[k];
-            its[REFERENCE] = reference_value(reference_of(pool, result, s->parameters[p].name), k);
+            its[REFERENCE] = fabs(reference_value(reference_of(pool, result, s->parameters[p].name), k));
         }
         series_row(series, k, row);
     }

@@ -1,5 +1,6 @@
 #include "result/head.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "result/record.h"
@@ -38,4 +39,9 @@ const rotid_reference *head_reference(const struct result_head *head, const char
         if (!strcmp(head->references[i].quantity, quantity))
             return &head->references[i];
     return NULL;
+}
+
+double reference_value(const rotid_reference *reference, int k)
+{
+    return reference && k < reference->nvalues ? reference->values[k] : NAN;
 }

@@ -42,7 +42,7 @@ enum {
     ELEMENTS_MAY_BE_NULL = 2,
     IF_KNOWN = 4,    /* not known: the key is left out; of FIELD_INLINE all of them */
     SINCE_LATER = 8, /* older results do not have the key */
-    ROUNDED = 16,    /* nine significant digits: for what is drawn */
+    ROUNDED = 16,    /* nine significant digits: for values that are drawn */
     BEHIND_POINTER = 32,
     NOT_EMPTY = 64,
     WHOLE = 128,   /* a whole number in a double: what an int may not hold */

@@ -1,5 +1,6 @@
 #include "result/record.h"
 #include "result/records.h"
+#include "run/job.h"
 
 static const struct field measured_fields[] = {
     INTEGER(rotid_compared_mode, measured_mode, FROM_1 | SINCE_LATER),

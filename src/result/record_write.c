@@ -169,8 +169,3 @@ void record_write(struct json_tree *tree, cJSON *object, const struct record *re
         }
     }
 }
-
-size_t record_size(const struct record *record)
-{
-    return record->size;
-}

@@ -16,12 +16,8 @@ void record_write(struct json_tree *tree, cJSON *object, const struct record *re
  * its place, reader->status tells at the end. */
 void record_read(const struct json_place *at, const struct record *record, void *to);
 
-/* Bytes of the struct that a table describes. */
-size_t record_size(const struct record *record);
-
 /* Words of several of them. */
-extern const char *const functional_words[], *const reduction_words[], *const pairing_words[], *const fit_status_words[],
-                                                                                                   *const verdict_words[];
+extern const char *const pairing_words[], *const fit_status_words[], *const verdict_words[];
 
 extern const struct record provenance_record;     /* struct result_head up to command */
 extern const struct record deck_record;           /* the rest, where the command reads a deck */

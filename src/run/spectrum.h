@@ -1,4 +1,4 @@
-/* The modes of a rotor with what their numbers are worth: full model, condensed model, mesh error. */
+/* The modes of a rotor with the errors of their numbers: full model, condensed model, mesh error. */
 #ifndef ROTID_RUN_SPECTRUM_H
 #define ROTID_RUN_SPECTRUM_H
 
