@@ -410,10 +410,10 @@ static void (*const fills[])(void) = {fill_named,     fill_adequate,       fill_
 
 #define CASES (sizeof fills / sizeof *fills)
 
-/* The result that the library makes of it; the fits in it are not to be freed. */
-static struct result_memory *open_result(struct result *result)
+/* The result that the library makes of it. */
+static struct pool *open_result(struct result *result)
 {
-    struct result_memory *memory = result_memory_new(NULL);
+    struct pool *memory = pool_new(NULL);
     struct diagnosis d = s.d;
     assert_non_null(memory);
     *result = (struct result){.head = {.schema = RESULT_SCHEMA,
@@ -427,7 +427,6 @@ static struct result_memory *open_result(struct result *result)
                                        .nheading = s.deck.nheading,
                                        .heading = s.deck.heading},
                               .diagnose = result_diagnosis(memory, &s.deck, &d)};
-    memory->nfit = 0;
     assert_non_null(result->diagnose);
     return memory;
 }
@@ -435,9 +434,9 @@ static struct result_memory *open_result(struct result *result)
 static char *json_text_of(void)
 {
     struct result result;
-    struct result_memory *memory = open_result(&result);
+    struct pool *memory = open_result(&result);
     char *text = result_json(&result);
-    result_memory_free(memory);
+    pool_free(memory);
     return text;
 }
 
@@ -448,10 +447,10 @@ static void show(int verbose, int width)
     FILE *out = tmpfile();
     assert_non_null(out);
     struct result result;
-    struct result_memory *memory = open_result(&result);
+    struct pool *memory = open_result(&result);
     const struct diagnosis_view view = {out, &result.head, result.diagnose, verbose, width};
     table_diagnose(&view);
-    result_memory_free(memory);
+    pool_free(memory);
     rewind(out);
     size_t length = fread(screen, 1, sizeof screen - 1, out);
     screen[length] = 0;

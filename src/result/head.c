@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 
 static const struct field reference_fields[] = {

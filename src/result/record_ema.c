@@ -1,5 +1,5 @@
+#include "record/record.h"
 #include "result/ema.h"
-#include "result/record.h"
 #include "result/records.h"
 
 const char *const ema_mode_doubts[] = {

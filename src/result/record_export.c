@@ -1,5 +1,5 @@
+#include "record/record.h"
 #include "result/export.h"
-#include "result/record.h"
 #include "result/records.h"
 
 static const char *const formats[] = {"matrix-market", "dmig", "ross", NULL};

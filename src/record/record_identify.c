@@ -1,5 +1,4 @@
-#include "result/record.h"
-#include "result/records.h"
+#include "record/record.h"
 
 const char *const fit_status_words[] = {"converged", "not_converged", "at_bound", NULL};
 const char *const functional_words[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL};
@@ -154,3 +153,11 @@ static const struct field identification_alone_fields[] = {
     {0},
 };
 const struct record identification_alone_record = RECORD(rotid_identification, identification_alone_fields);
+
+static const struct field identification_whole_fields[] = {
+    ROWS(0, identification_record),
+    ROWS(0, identification_alone_record),
+    STRUCTS(rotid_identification, message, 0, message_record),
+    {0},
+};
+const struct record identification_whole_record = RECORD(rotid_identification, identification_whole_fields);
