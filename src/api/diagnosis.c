@@ -11,11 +11,9 @@ static rotid_diagnosis *make_result(struct call *call, const struct job *job, co
 {
     struct pool *pool = &call->entry.scratch;
     char *text = NULL;
-    if (d->sentence && d->base.fit)
+    if (d->result.verdict.sentence && d->base.fit)
         (void)deck_write_extended(pool, d, path, &text);
     rotid_diagnosis *made = result_diagnosis(pool, job, d);
-    if (!made)
-        return NULL;
     made->extended_deck = text;
     made->nmessage = (int)call->notes.count;
     made->message = call->notes.item;
@@ -81,9 +79,4 @@ void rotid_diagnosis_free(rotid_diagnosis *result)
         if (fits[i])
             rotid_fit_free((rotid_fit_result *)fits[i]->fit);
     pool_free(result->memory);
-}
-
-const char *rotid_verdict_name(int kind)
-{
-    return kind >= ROTID_ADEQUATE && kind <= ROTID_UNEXPLAINED ? verdict_name((enum verdict_kind)kind) : "unknown verdict";
 }

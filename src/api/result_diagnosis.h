@@ -5,7 +5,7 @@
 #include "diagnose/diagnose.h"
 
 /* deck: the job as the user states it, whose FIT `today` was fitted with. It leans on both. Without
- * messages and the extended deck. NULL where memory is out. */
+ * messages and the extended deck. The result of `d`; where memory is out the pool says so. */
 rotid_diagnosis *result_diagnosis(struct pool *pool, const struct job *deck, struct diagnosis *d);
 
 #endif

@@ -108,7 +108,7 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
 {
     struct candidate *c = &round->candidate[round->ncandidate];
     double drop = noise_drop(before);
-    if (!(drop > round->threshold / 2))
+    if (!(drop > round->result.threshold / 2))
         return;
     *c = candidate_blank(catalogue_find("noise_level"), "FREQUENCY");
     c->nparameter = 1;
@@ -130,7 +130,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
         c->rejected_because = reason(engine, before, c);
-        if (!c->rejected_because && c->chi2_drop > round->threshold && isfinite(c->holdout_rms))
+        if (!c->rejected_because && c->chi2_drop > round->result.threshold && isfinite(c->holdout_rms))
             predicts = fmin(predicts, c->holdout_rms);
     }
     for (int i = 0; i < round->ncandidate; i++) {
@@ -139,20 +139,21 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         if (!c->rejected_because && isfinite(c->holdout_rms) && predicts < BETTER * c->holdout_rms && more > noise * noise)
             c->rejected_because = pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)",
                                               c->holdout_rms, predicts);
-        if (!c->rejected_because && c->chi2_drop > round->threshold && (!best || candidate_score(c) < candidate_score(best))) {
+        if (!c->rejected_because && c->chi2_drop > round->result.threshold &&
+            (!best || candidate_score(c) < candidate_score(best))) {
             best = c;
             left_frequency = c->chi2_frequency;
         }
     }
     double doubt = engine->coloured ? COLOURED : 1;
-    round->required_margin = best ? LEAST_MARGIN * doubt * dispersion(before, best, left_frequency) : NAN;
+    round->result.required_margin = best ? LEAST_MARGIN * doubt * dispersion(before, best, left_frequency) : NAN;
     for (int i = 0; i < round->ncandidate; i++)
         round->candidate[i].refused = round->candidate[i].rejected_because != NULL;
-    double limit = best ? candidate_score(best) + round->required_margin : 0;
+    double limit = best ? candidate_score(best) + round->result.required_margin : 0;
     const char *name = best ? candidate_label(pool, best) : "";
     if (!name)
         return ROTID_ERROR_MEMORY;
-    round->nset = 0;
+    round->result.set = 0;
     int refused = 0; /* something refused for its size explains the data better than what is left */
     for (int i = 0; i < round->ncandidate && best; i++) {
         struct candidate *c = &round->candidate[i];
@@ -161,8 +162,8 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         if (c->rejected_because)
             continue;
         if (candidate_score(c) <= limit)
-            round->nset++;
-        else if (!(c->chi2_drop > round->threshold))
+            round->result.set++;
+        else if (!(c->chi2_drop > round->result.threshold))
             c->rejected_because = chance(pool, c);
         else
             c->rejected_because = pool_format(pool, "loses to %s by %.3g", name, candidate_score(c) - candidate_score(best));
@@ -179,13 +180,13 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     /* the model as it is counts as one more rival, and noise that happens to look like one cause is the rule among weak ones */
     const struct candidate *first = &round->candidate[0];
     int weak =
-        round->nset &&
+        round->result.set &&
         (before->chi2 - before->beyond_drop + PARAMETER_PENALTY <= limit || /* a bound of the deck may be all that is wrong */
-         !(first->chi2_drop > CLEAR * round->threshold) ||                  /* or its place is open, or little is left over */
-         first->other_chi2 - first->chi2 < round->required_margin || before->dof - free_parameters(first) < LEAST_LEFT);
-    round->kind = round->nset == 0                                           ? VERDICT_UNEXPLAINED
-                  : round->nset > 1 || !engine->confident || refused || weak ? VERDICT_AMBIGUOUS
-                  : round->candidate[0].cause->class != CAUSE_PHYSICAL       ? VERDICT_UNEXPLAINED
-                                                                             : VERDICT_NAMED;
+         !(first->chi2_drop > CLEAR * round->result.threshold) ||           /* or its place is open, or little is left over */
+         first->other_chi2 - first->chi2 < round->result.required_margin || before->dof - free_parameters(first) < LEAST_LEFT);
+    round->result.kind = round->result.set == 0                                           ? ROTID_UNEXPLAINED
+                         : round->result.set > 1 || !engine->confident || refused || weak ? ROTID_AMBIGUOUS
+                         : round->candidate[0].cause->class != CAUSE_PHYSICAL             ? ROTID_UNEXPLAINED
+                                                                                          : ROTID_NAMED;
     return ROTID_OK;
 }

@@ -33,10 +33,10 @@ struct candidate candidate_blank(const struct cause_kind *cause, const char *tar
     return c;
 }
 
-const char *verdict_name(enum verdict_kind kind)
+const char *rotid_verdict_name(int kind)
 {
     static const char *const names[] = {"adequate", "named", "ambiguous", "unexplained"};
-    return names[kind];
+    return kind >= ROTID_ADEQUATE && kind <= ROTID_UNEXPLAINED ? names[kind] : "unknown verdict";
 }
 
 void engine_step(struct engine *engine, const char *name)
@@ -44,12 +44,12 @@ void engine_step(struct engine *engine, const char *name)
     struct diagnosis *out = engine->out;
     double now = clock_seconds();
     int i = 0;
-    while (i < out->nstep && strcmp(out->step[i].name, name) != 0)
+    while (i < out->result.nsteps && strcmp(out->result.steps[i].name, name) != 0)
         i++;
-    if (i == out->nstep && out->nstep < MOST_STEPS)
-        out->step[out->nstep++] = (struct diagnosis_step){name, 0};
+    if (i == out->result.nsteps && out->result.nsteps < MOST_STEPS)
+        out->result.steps[out->result.nsteps++] = (rotid_step){name, 0};
     if (i < MOST_STEPS)
-        out->step[i].seconds += now - engine->clock;
+        out->result.steps[i].seconds += now - engine->clock;
     engine->clock = now;
 }
 

@@ -46,16 +46,16 @@ static cJSON *candidates(int count, const struct candidate *c)
 static cJSON *round_line(const struct diagnosis_round *r)
 {
     cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "kind", verdict_name(r->kind));
-    add_number(o, "chi2", r->chi2);
-    add_number(o, "dof", r->dof);
-    add_number(o, "largest", r->largest);
-    add_number(o, "threshold", r->threshold);
-    add_number(o, "p_scan", r->p_scan);
-    add_number(o, "p_frequency", r->p_frequency);
-    add_number(o, "p_total", r->p_total);
-    add_number(o, "required_margin", r->required_margin);
-    add_number(o, "nset", r->nset);
+    cJSON_AddStringToObject(o, "kind", rotid_verdict_name(r->result.kind));
+    add_number(o, "chi2", r->result.chi2);
+    add_number(o, "dof", r->result.dof);
+    add_number(o, "largest", r->result.largest);
+    add_number(o, "threshold", r->result.threshold);
+    add_number(o, "p_scan", r->result.p_scan);
+    add_number(o, "p_frequency", r->result.p_frequency);
+    add_number(o, "p_total", r->result.p_total);
+    add_number(o, "required_margin", r->result.required_margin);
+    add_number(o, "nset", r->result.set);
     cJSON_AddItemToObject(o, "candidate", candidates(r->ncandidate, r->candidate));
     return o;
 }
@@ -63,19 +63,19 @@ static cJSON *round_line(const struct diagnosis_round *r)
 static void add_diagnosis(cJSON *line, const struct diagnosis *d)
 {
     cJSON *list = cJSON_AddArrayToObject(line, "finding");
-    for (int i = 0; i < d->ndata_finding; i++)
-        cJSON_AddItemToArray(list, cJSON_CreateString(d->data_finding[i].text));
+    for (int i = 0; i < d->result.ndata_findings; i++)
+        cJSON_AddItemToArray(list, cJSON_CreateString(d->result.data_findings[i].text));
     list = cJSON_AddArrayToObject(line, "numerical");
-    for (int i = 0; i < d->nnumerical_finding; i++)
-        cJSON_AddItemToArray(list, cJSON_CreateString(d->numerical_finding[i].text));
-    cJSON_AddStringToObject(line, "sentence", d->sentence ? d->sentence : "");
+    for (int i = 0; i < d->result.nnumerical_findings; i++)
+        cJSON_AddItemToArray(list, cJSON_CreateString(d->result.numerical_findings[i].text));
+    cJSON_AddStringToObject(line, "sentence", d->result.verdict.sentence ? d->result.verdict.sentence : "");
     cJSON_AddItemToObject(line, "named", candidates(d->ncause, d->cause));
     list = cJSON_AddArrayToObject(line, "round");
     for (int r = 0; r < d->nround; r++)
         cJSON_AddItemToArray(list, round_line(&d->round[r]));
     list = cJSON_AddObjectToObject(line, "step");
-    for (int i = 0; i < d->nstep; i++)
-        cJSON_AddNumberToObject(list, d->step[i].name, round(1e3 * d->step[i].seconds) / 1e3);
+    for (int i = 0; i < d->result.nsteps; i++)
+        cJSON_AddNumberToObject(list, d->result.steps[i].name, round(1e3 * d->result.steps[i].seconds) / 1e3);
 }
 
 static void add_score(cJSON *line, const struct hidden_score *s)
