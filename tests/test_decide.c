@@ -40,18 +40,18 @@ static struct candidate *add(const char *id, const char *target, int parameters,
     *c = (struct candidate){.cause = catalogue_find(id),
                             .target = target,
                             .nparameter = parameters,
-                            .predicted_drop = drop,
-                            .refitted = 1,
-                            .chi2 = before.chi2 - drop,
-                            .chi2_drop = drop,
-                            .chi2_frequency = 6,
-                            .p_value = 0.01,
-                            .holdout_rms = NAN,
-                            .mode_out_rms = NAN,
-                            .sensor_out_rms = NAN,
+                            .result.predicted_drop = drop,
+                            .result.refitted = 1,
+                            .result.chi2 = before.chi2 - drop,
+                            .result.chi2_drop = drop,
+                            .result.chi2_frequency = 6,
+                            .result.p_value = 0.01,
+                            .result.holdout_rms = NAN,
+                            .result.mode_out_rms = NAN,
+                            .result.sensor_out_rms = NAN,
                             .other_place = NAN,
                             .other_chi2 = NAN,
-                            .cosine = NAN};
+                            .result.cosine = NAN};
     assert_non_null(c->cause);
     return c;
 }
@@ -62,12 +62,12 @@ static void conclude_as(int kind, int nset)
     if (decided.result.kind != kind || decided.result.set != nset)
         for (int i = 0; i < decided.ncandidate; i++)
             print_error("%s: %s\n", candidates[i].cause->id,
-                        candidates[i].rejected_because ? candidates[i].rejected_because : "in");
+                        candidates[i].result.rejected_because ? candidates[i].result.rejected_because : "in");
     assert_string_equal(rotid_verdict_name(decided.result.kind), rotid_verdict_name(kind));
     assert_int_equal(decided.result.set, nset);
     for (int i = 0; i < decided.ncandidate; i++) {
-        assert_int_equal(candidates[i].rejected_because == NULL, i < nset); /* the set first, a reason for all others */
-        assert_true(candidates[i].refitted == 0 || candidates[i].refitted == 1);
+        assert_int_equal(candidates[i].result.rejected_because == NULL, i < nset); /* the set first, a reason for all others */
+        assert_true(candidates[i].result.refitted == 0 || candidates[i].result.refitted == 1);
     }
 }
 
@@ -83,10 +83,10 @@ static void assert_reason(const char *id, const char *words)
 {
     const struct candidate *c = find(id);
     assert_non_null(c);
-    assert_non_null(c->rejected_because);
-    if (!strstr(c->rejected_because, words))
-        print_error("%s is rejected because it \"%s\", expected \"%s\"\n", id, c->rejected_because, words);
-    assert_non_null(strstr(c->rejected_because, words));
+    assert_non_null(c->result.rejected_because);
+    if (!strstr(c->result.rejected_because, words))
+        print_error("%s is rejected because it \"%s\", expected \"%s\"\n", id, c->result.rejected_because, words);
+    assert_non_null(strstr(c->result.rejected_because, words));
 }
 
 static void one_that_stands_out_is_named(void **state)
@@ -122,11 +122,11 @@ static void rivals_within_the_margin_are_a_set(void **state)
 static void parameters_cost(void **state)
 {
     (void)state;
-    struct candidate c = {.chi2 = 100, .nparameter = 3};
+    struct candidate c = {.result.chi2 = 100, .nparameter = 3};
     assert_close(candidate_score(&c), 100 + 3 * PARAMETER_PENALTY, 1e-15, 0);
     c.fixed[1] = 1;
     assert_close(candidate_score(&c), 100 + 2 * PARAMETER_PENALTY, 1e-15, 0);
-    c = (struct candidate){.chi2 = 100}; /* there or not: a choice too */
+    c = (struct candidate){.result.chi2 = 100}; /* there or not: a choice too */
     assert_close(candidate_score(&c), 100 + PARAMETER_PENALTY, 1e-15, 0);
     open_round();
     add("stiffness_local", "", 3, 63);
@@ -176,10 +176,10 @@ static void what_was_not_fitted_is_no_candidate(void **state)
 {
     (void)state;
     open_round();
-    add("joint", "core|right", 1, 70)->refitted = 0;
+    add("joint", "core|right", 1, 70)->result.refitted = 0;
     add("density", "left", 1, 30);
     struct candidate *failed = add("stiffness", "left", 1, 20);
-    failed->chi2 = failed->chi2_drop = NAN;
+    failed->result.chi2 = failed->result.chi2_drop = NAN;
     conclude_as(ROTID_NAMED, 1);
     assert_string_equal(candidates[0].cause->id, "density");
     assert_reason("joint", "promises too little");
@@ -190,15 +190,15 @@ static void a_size_at_its_bound_is_refused(void **state)
 {
     (void)state;
     open_round();
-    add("added_mass", "", 2, 40)->at_bound = 1;
+    add("added_mass", "", 2, 40)->result.at_bound = 1;
     conclude_as(ROTID_UNEXPLAINED, 0);
     assert_reason("added_mass", "bound");
     open_round(); /* what is refused explains more than what is left: then what is left is no name */
-    add("added_mass", "", 2, 50)->at_bound = 1;
+    add("added_mass", "", 2, 50)->result.at_bound = 1;
     add("density", "left", 1, 20);
     conclude_as(ROTID_AMBIGUOUS, 1);
     open_round();
-    add("added_mass", "", 2, 40)->at_bound = 1;
+    add("added_mass", "", 2, 40)->result.at_bound = 1;
     add("density", "left", 1, 45);
     conclude_as(ROTID_NAMED, 1);
 }
@@ -232,24 +232,24 @@ static void modes_held_out_speak(void **state)
     (void)state;
     open_round(); /* worse than before */
     before.holdout_rms = 1;
-    add("support", "foam", 1, 50)->holdout_rms = 1.2;
+    add("support", "foam", 1, 50)->result.holdout_rms = 1.2;
     conclude_as(ROTID_UNEXPLAINED, 0);
     assert_reason("support", "prediction of held-out modes gets worse");
     open_round(); /* as good as before is allowed */
     before.holdout_rms = 1;
-    add("support", "foam", 1, 50)->holdout_rms = 1.05;
+    add("support", "foam", 1, 50)->result.holdout_rms = 1.05;
     conclude_as(ROTID_NAMED, 1);
     open_round(); /* a rival that fits a little less and predicts much better */
     before.holdout_rms = 14.3;
-    add("stiffness_local", "", 2, 52)->holdout_rms = 7.7;
-    add("step_stiffness", "", 1, 48)->holdout_rms = 5.9;
+    add("stiffness_local", "", 2, 52)->result.holdout_rms = 7.7;
+    add("step_stiffness", "", 1, 48)->result.holdout_rms = 5.9;
     conclude_as(ROTID_NAMED, 1);
     assert_string_equal(candidates[0].cause->id, "step_stiffness");
     assert_reason("stiffness_local", "predicts the modes held out worse");
     open_round(); /* within what noise makes of two predictions nobody wins by it */
     before.holdout_rms = 0.2;
-    add("density", "left", 1, 50)->holdout_rms = 0.09;
-    add("stiffness", "left", 1, 48)->holdout_rms = 0.03;
+    add("density", "left", 1, 50)->result.holdout_rms = 0.09;
+    add("stiffness", "left", 1, 48)->result.holdout_rms = 0.03;
     conclude_as(ROTID_AMBIGUOUS, 2);
 }
 
@@ -259,19 +259,19 @@ static void modes_left_out_in_turn_speak(void **state)
     open_round();
     before.mode_out_rms = 0.6;
     before.sensor_out_rms = 1.2;
-    add("joint", "core|right", 1, 50)->mode_out_rms = 1.4;
+    add("joint", "core|right", 1, 50)->result.mode_out_rms = 1.4;
     conclude_as(ROTID_UNEXPLAINED, 0);
     assert_reason("joint", "left out in turn gets worse");
     open_round(); /* the sensors say otherwise */
     before.mode_out_rms = 0.6;
     before.sensor_out_rms = 1.2;
     struct candidate *c = add("joint", "core|right", 1, 50);
-    c->mode_out_rms = 1.4;
-    c->sensor_out_rms = 1.0;
+    c->result.mode_out_rms = 1.4;
+    c->result.sensor_out_rms = 1.0;
     conclude_as(ROTID_NAMED, 1);
     open_round(); /* twice the noise is no harm */
     before.mode_out_rms = 0.1;
-    add("joint", "core|right", 1, 50)->mode_out_rms = 0.19;
+    add("joint", "core|right", 1, 50)->result.mode_out_rms = 0.19;
     conclude_as(ROTID_NAMED, 1);
 }
 
@@ -288,7 +288,7 @@ static void the_margin_grows_with_what_is_left(void **state)
     open_round(); /* the frequencies alone, which the whole chi2 hides */
     before.chi2_frequency = 200;
     before.chi2 = 700;
-    add("stiffness", "left", 1, 240)->chi2_frequency = 60;
+    add("stiffness", "left", 1, 240)->result.chi2_frequency = 60;
     conclude_as(ROTID_NAMED, 1);
     assert_close(decided.result.required_margin, LEAST_MARGIN * 60 / MODES, 1e-12, 0);
 }
@@ -314,7 +314,7 @@ static void noise_of_the_frequencies_is_a_rival(void **state)
     conclude_as(ROTID_AMBIGUOUS, 2);
     const struct candidate *rival = find("noise_level");
     assert_non_null(rival);
-    assert_close(rival->chi2_drop, drop, 1e-12, 0);
+    assert_close(rival->result.chi2_drop, drop, 1e-12, 0);
     assert_close(rival->effect.value[0], sqrt(8.5), 1e-12, 0);
     open_round();
     before.chi2_frequency = 51;
@@ -350,7 +350,7 @@ static void a_cause_that_fits_as_well_at_another_place_is_not_named(void **state
         open_round();
         struct candidate *mass = add("added_mass", "", 2, 60);
         mass->other_place = 1.2;
-        mass->other_chi2 = mass->chi2 + apart;
+        mass->other_chi2 = mass->result.chi2 + apart;
         add("joint", "core|right", 1, 20);
         conclude_as(apart < 6 ? ROTID_AMBIGUOUS : ROTID_NAMED, 1);
     }
@@ -365,7 +365,7 @@ static void a_name_needs_residuals_that_could_contradict_it(void **state)
         before.chi2 = 66;
         before.chi2_frequency = 66;
         struct candidate *c = add("stiffness_local", "", parameters, 64);
-        c->chi2_frequency = 2;
+        c->result.chi2_frequency = 2;
         conclude_as(parameters == 1 ? ROTID_NAMED : ROTID_AMBIGUOUS, 1);
     }
 }

@@ -276,24 +276,25 @@ static void same_candidate(const struct candidate *a, const struct candidate *b)
     assert_ptr_equal(a->cause, b->cause);
     both_say(a->effect.name, b->effect.name);
     both_say(a->target, b->target);
-    both_say(a->collinear_with, b->collinear_with);
-    both_say(a->collinear_target, b->collinear_target);
-    both_say(a->rejected_because, b->rejected_because);
+    both_say(a->result.collinear_with, b->result.collinear_with);
+    both_say(a->result.collinear_target, b->result.collinear_target);
+    both_say(a->result.rejected_because, b->result.rejected_because);
     SAME_ARRAY(effect.value, EFFECT_MOST_PARAMETERS);
     SAME_ARRAY(std, EFFECT_MOST_PARAMETERS);
     SAME_ARRAY(ci_lower, EFFECT_MOST_PARAMETERS);
     SAME_ARRAY(ci_upper, EFFECT_MOST_PARAMETERS);
-    SAME(predicted_drop, 1);
-    SAME(chi2, 1);
-    SAME(chi2_drop, 1);
-    SAME(chi2_frequency, 1);
-    SAME(bic, 1);
-    SAME(p_value, 1);
-    SAME(holdout_rms, 1);
-    SAME(mode_out_rms, 1);
-    SAME(sensor_out_rms, 1);
-    SAME(cosine, 1);
-    assert_true(a->refitted == b->refitted && a->at_bound == b->at_bound && a->nparameter == b->nparameter);
+    SAME(result.predicted_drop, 1);
+    SAME(result.chi2, 1);
+    SAME(result.chi2_drop, 1);
+    SAME(result.chi2_frequency, 1);
+    SAME(result.bic, 1);
+    SAME(result.p_value, 1);
+    SAME(result.holdout_rms, 1);
+    SAME(result.mode_out_rms, 1);
+    SAME(result.sensor_out_rms, 1);
+    SAME(result.cosine, 1);
+    assert_true(a->result.refitted == b->result.refitted && a->result.at_bound == b->result.at_bound &&
+                a->nparameter == b->nparameter);
 }
 
 static void same_fit(const rotid_fit_result *a, const rotid_fit_result *b)

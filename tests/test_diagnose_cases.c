@@ -195,7 +195,7 @@ static void steel_predicts_modes_it_has_not_seen(void **state)
 static const struct candidate *suspect(const struct diagnosis *d, const char *name)
 {
     for (int i = 0; i < d->round[0].ncandidate; i++)
-        if (d->round[0].candidate[i].suspect && !strcmp(d->round[0].candidate[i].effect.name, name))
+        if (d->round[0].candidate[i].result.suspect && !strcmp(d->round[0].candidate[i].effect.name, name))
             return &d->round[0].candidate[i];
     return NULL;
 }
@@ -213,9 +213,9 @@ static void a_bolted_lap_is_found(void **state)
     assert_true(d->result.gain.holdout_frequency_rms_percent.after <= 0.5 * 14.3);
     const struct candidate *shear = suspect(d, "lap_shear");
     assert_non_null(shear);
-    assert_non_null(shear->rejected_because);
-    assert_non_null(strstr(shear->rejected_because, "modes held out"));
-    assert_true(shear->holdout_rms > d->cause[0].holdout_rms);
+    assert_non_null(shear->result.rejected_because);
+    assert_non_null(strstr(shear->result.rejected_because, "modes held out"));
+    assert_true(shear->result.holdout_rms > d->cause[0].result.holdout_rms);
     check_extended(&r);
     close_run(&r);
 }
@@ -243,10 +243,10 @@ static void supports_are_a_false_lead(void **state)
         if (strcmp(c->cause->id, "support") != 0)
             continue;
         refused++;
-        assert_true(c->chi2_drop > 0.5 * d->round[0].result.chi2); /* they do look good */
-        assert_true(c->holdout_rms > 1.5 * d->result.gain.holdout_frequency_rms_percent.before);
-        assert_non_null(c->rejected_because);
-        assert_non_null(strstr(c->rejected_because, "prediction of held-out modes gets worse"));
+        assert_true(c->result.chi2_drop > 0.5 * d->round[0].result.chi2); /* they do look good */
+        assert_true(c->result.holdout_rms > 1.5 * d->result.gain.holdout_frequency_rms_percent.before);
+        assert_non_null(c->result.rejected_because);
+        assert_non_null(strstr(c->result.rejected_because, "prediction of held-out modes gets worse"));
     }
     assert_int_equal(refused, 2);
     assert_null(find(d->ncause, d->cause, "support"));
@@ -282,8 +282,8 @@ static void six_frequencies_of_the_paper_carry_no_name(void **state)
     assert_int_equal(guyan, 1);
     const struct candidate *mass = find(d->round[0].ncandidate, d->round[0].candidate, "added_mass");
     assert_non_null(mass); /* fits well, and is beyond anything on this rotor */
-    assert_true(mass->at_bound);
-    assert_non_null(mass->rejected_because);
+    assert_true(mass->result.at_bound);
+    assert_non_null(mass->result.rejected_because);
     assert_non_null(find(d->round[0].ncandidate, d->round[0].candidate, "tie_shear"));
     assert_non_null(find(d->round[0].ncandidate, d->round[0].candidate, "step_stiffness"));
     close_run(&r);

@@ -47,7 +47,7 @@ static const struct cause_kind
                  .place = -1,
                  .width = -1};
 
-    struct fit_store {
+struct fit_store {
     rotid_fit_result fit;
     double x[3], std[3], lower[3], upper[3], correlation[9], direction[9], predicted[MODES], mac[MODES], residual[MODES];
     int at_bound[3], identifiable[3], undetermined[3], number[MODES];
@@ -138,19 +138,21 @@ static void fill_candidate(struct candidate *c, const struct cause_kind *cause, 
                             .effect = {.name = "found", .kind = cause->effect, .target = index, .value = {a, b, width}},
                             .target = target,
                             .nparameter = cause->effect->nparameter,
-                            .predicted_drop = 1.05 * drop,
-                            .refitted = 1,
-                            .chi2 = 300 - drop,
-                            .chi2_drop = drop,
-                            .bic = 300 - drop + 5.35 * cause->effect->nparameter,
-                            .p_value = 1e-4,
-                            .holdout_rms = NAN,
-                            .mode_out_rms = 0.14,
-                            .sensor_out_rms = 1.03,
-                            .collinear_with = "joint",
-                            .collinear_target = "core|right",
-                            .cosine = 0.91,
-                            .rejected_because = "it leaves 31 of chi2 that joint core|right explains, more than the margin of 9"};
+                            .result.round = 1,
+                            .result.predicted_drop = 1.05 * drop,
+                            .result.refitted = 1,
+                            .result.chi2 = 300 - drop,
+                            .result.chi2_drop = drop,
+                            .result.bic = 300 - drop + 5.35 * cause->effect->nparameter,
+                            .result.p_value = 1e-4,
+                            .result.holdout_rms = NAN,
+                            .result.mode_out_rms = 0.14,
+                            .result.sensor_out_rms = 1.03,
+                            .result.collinear_with = "joint",
+                            .result.collinear_target = "core|right",
+                            .result.cosine = 0.91,
+                            .result.rejected_because =
+                                "it leaves 31 of chi2 that joint core|right explains, more than the margin of 9"};
     for (int p = 0; p < c->nparameter; p++) {
         c->std[p] = 0.05 * c->effect.value[p];
         c->ci_lower[p] = 0.9 * c->effect.value[p];
@@ -218,14 +220,16 @@ static void fill_named(void)
         .error_percent = s.error,
         .text = "the condensation to the sensors exceeds the noise in modes 4 to 6; the full model is used"};
     fill_candidate(&s.candidate[0], &joint, "core|right", 1, 2.13e-10, 0, 0, 98);
-    s.candidate[0].rejected_because = NULL;
-    s.candidate[0].collinear_with = "stiffness_local";
-    s.candidate[0].collinear_target = "";
+    s.candidate[0].result.rejected_because = NULL;
+    s.candidate[0].result.collinear_with = "stiffness_local";
+    s.candidate[0].result.collinear_target = "";
     fill_candidate(&s.candidate[1], &soft, "", -1, 0.42, 1.38, 0.06, 67);
     fill_candidate(&s.candidate[2], &stiffness, "right", 2, 0.93, 0, 0, 41);
     fill_candidate(&s.candidate[3], &added, "", -1, 3.4, 1.9, 0, 20);
-    s.candidate[3].refitted = 0;
-    s.candidate[3].p_value = s.candidate[3].chi2_drop = NAN;
+    s.candidate[3].result.refitted = 0;
+    rotid_candidate *untried = &s.candidate[3].result;
+    untried->p_value = untried->chi2 = untried->chi2_frequency = untried->chi2_drop = untried->bic = untried->mode_out_rms =
+        untried->sensor_out_rms = NAN;
     s.round[0] = (struct diagnosis_round){.result.round = 1,
                                           .ncandidate = 4,
                                           .candidate = s.candidate,
@@ -357,7 +361,7 @@ static void fill_ambiguous(void)
     s.d.ncause = 0;
     s.d.nalternative = 2;
     s.d.alternative = s.candidate;
-    s.candidate[1].rejected_because = NULL;
+    s.candidate[1].result.rejected_because = NULL;
     s.round[0].result.kind = ROTID_AMBIGUOUS;
     s.round[0].result.set = 2;
     s.d.nround = 1;
@@ -373,7 +377,7 @@ static void fill_unexplained(void)
     s.d.result.verdict.next_measurement = NULL;
     s.d.nalternative = s.round[0].result.set = 0;
     for (int i = 0; i < 4; i++)
-        s.candidate[i].rejected_because = "what it predicts of modes left out is worse than without it";
+        s.candidate[i].result.rejected_because = "what it predicts of modes left out is worse than without it";
 }
 
 static void without_shapes(void)
@@ -421,8 +425,8 @@ static void everything_nan(void)
         s.local[i].indicator = NAN;
     for (int i = 0; i < 4; i++) {
         struct candidate *c = &s.candidate[i];
-        c->predicted_drop = c->chi2 = c->chi2_frequency = c->chi2_drop = c->bic = c->p_value = c->mode_out_rms =
-            c->sensor_out_rms = c->cosine = NAN;
+        c->result.predicted_drop = c->result.chi2 = c->result.chi2_frequency = c->result.chi2_drop = c->result.bic =
+            c->result.p_value = c->result.mode_out_rms = c->result.sensor_out_rms = c->result.cosine = NAN;
         for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
             c->effect.value[p] = c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
     }

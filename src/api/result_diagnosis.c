@@ -6,11 +6,6 @@
 #include "api/result_identification.h"
 #include "diagnose/items.h"
 
-static double if_known(int known, double value)
-{
-    return known ? value : (double)NAN;
-}
-
 static rotid_cause cause_of(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
@@ -43,29 +38,6 @@ static void fill_verdict(struct pool *pool, const struct diagnosis *d, rotid_ver
         out->alternatives[i] = d->alternative[i].cause->id;
 }
 
-static rotid_candidate candidate_of(struct pool *pool, int round, const struct candidate *c)
-{
-    int is_fitted = c->refitted;
-    return (rotid_candidate){.round = round,
-                             .cause = cause_of(pool, c),
-                             .suspect = c->suspect,
-                             .refitted = is_fitted,
-                             .predicted_drop = c->predicted_drop,
-                             .chi2 = if_known(is_fitted, c->chi2),
-                             .chi2_frequency = if_known(is_fitted, c->chi2_frequency),
-                             .chi2_drop = if_known(is_fitted, c->chi2_drop),
-                             .bic = if_known(is_fitted, c->bic),
-                             .holdout_rms = if_known(is_fitted, c->holdout_rms),
-                             .mode_out_rms = if_known(is_fitted, c->mode_out_rms),
-                             .sensor_out_rms = if_known(is_fitted, c->sensor_out_rms),
-                             .p_value = c->p_value,
-                             .at_bound = c->at_bound,
-                             .collinear_with = c->collinear_with,
-                             .collinear_target = c->collinear_target,
-                             .cosine = if_known(c->collinear_with != NULL, c->cosine),
-                             .rejected_because = c->rejected_because};
-}
-
 static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diagnosis *out)
 {
     int count = 0;
@@ -77,8 +49,10 @@ static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diag
     for (int i = 0; i < out->nrounds; i++) {
         const struct diagnosis_round *round = &d->round[i];
         out->rounds[i] = round->result;
-        for (int k = 0; k < round->ncandidate; k++)
-            out->candidates[out->ncandidates++] = candidate_of(pool, i + 1, &round->candidate[k]);
+        for (int k = 0; k < round->ncandidate; k++) {
+            out->candidates[out->ncandidates] = round->candidate[k].result;
+            out->candidates[out->ncandidates++].cause = cause_of(pool, &round->candidate[k]);
+        }
     }
 }
 

@@ -28,7 +28,7 @@ static int run_rounds(struct engine *engine, struct round_result *last)
             return status;
         round->result.round = ++out->nround;
         for (int i = 0; i < round->ncandidate; i++)
-            round->candidate[i].round = out->nround;
+            round->candidate[i].result.round = out->nround;
         if (out->nround == 1)
             status = localise(engine, &last->scan);
         if (status || round->result.kind != ROTID_NAMED || out->ncause == DIAGNOSE_MOST_CAUSES)

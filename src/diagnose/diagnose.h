@@ -17,31 +17,16 @@ struct diagnose_options {
 
 /* A cause at one target (for those with a place: at its best place), with what became of it. */
 struct candidate {
+    rotid_candidate result; /* `cause` is put there at the end, from the following members up to the intervals */
     const struct cause_kind *cause;
     struct effect effect; /* at the best values found; effect.name is that of the card it would get */
     const char *target;   /* "core", "core|right", name of a spring or tie rod, "" */
-    int suspect;          /* the user asked for it */
-    int round;            /* in which it was one, from 1 */
     int nparameter;       /* of the effect, in use */
     int fixed[EFFECT_MOST_PARAMETERS];
     double std[EFFECT_MOST_PARAMETERS], ci_lower[EFFECT_MOST_PARAMETERS], ci_upper[EFFECT_MOST_PARAMETERS]; /* NaN: not stated */
-    double predicted_drop;  /* of chi2, from the linear scan */
-    int refit;              /* index of that fit in the round, -1 where there is none */
-    int refitted;           /* the following come from the nonlinear fit; NaN else */
-    double chi2, chi2_drop; /* against the model of this round */
-    double chi2_frequency;  /* the part of chi2 that the frequencies have */
-    double bic;             /* chi2 + ln(residuals) * parameters */
-    double p_value;         /* that the best of the whole family is this good by chance */
-    double holdout_rms;     /* relative frequency error of the modes the deck holds out, percent; NaN where there are none */
-    double mode_out_rms;    /* of modes left out in turn, percent */
-    double sensor_out_rms;  /* standardised shape residual of sensors left out in turn */
+    int refit;                      /* index of the fit in the round, -1 where there is none */
     double other_place, other_chi2; /* the best fit of it at quite another place, NaN where all starts led to one */
-    int at_bound;
-    const char *collinear_with; /* id of the candidate that looks most like it among those refitted, or NULL */
-    const char *collinear_target;
-    double cosine;
-    int refused;                  /* for a reason of its own (no fit, physical bound, held-out modes), whatever the others do */
-    const char *rejected_because; /* NULL: named, or in the ambiguous set */
+    int refused;                    /* for a reason of its own (no fit, physical bound, held-out modes), whatever the others do */
 };
 
 struct diagnosis_round {

@@ -7,27 +7,27 @@
 
 const char *candidate_label(struct pool *pool, const struct candidate *c)
 {
-    if (c->suspect)
+    if (c->result.suspect)
         return pool_format(pool, "%s, a %s", c->effect.name, c->cause->id);
     return pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
 }
 
 struct candidate candidate_blank(const struct cause_kind *cause, const char *target)
 {
-    struct candidate c = {.cause = cause,
+    struct candidate c = {.result = {.chi2 = NAN,
+                                     .chi2_drop = NAN,
+                                     .chi2_frequency = NAN,
+                                     .bic = NAN,
+                                     .p_value = NAN,
+                                     .holdout_rms = NAN,
+                                     .mode_out_rms = NAN,
+                                     .sensor_out_rms = NAN,
+                                     .cosine = NAN},
+                          .cause = cause,
                           .target = target,
                           .refit = -1,
-                          .chi2 = NAN,
-                          .chi2_drop = NAN,
-                          .chi2_frequency = NAN,
-                          .bic = NAN,
-                          .p_value = NAN,
-                          .holdout_rms = NAN,
-                          .mode_out_rms = NAN,
-                          .sensor_out_rms = NAN,
                           .other_place = NAN,
-                          .other_chi2 = NAN,
-                          .cosine = NAN};
+                          .other_chi2 = NAN};
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c.std[p] = c.ci_lower[p] = c.ci_upper[p] = NAN;
     return c;

@@ -85,7 +85,7 @@ static const char *describe(struct pool *pool, const struct candidate *c)
 {
     const struct cause_kind *cause = c->cause;
     const char *text = candidate_label(pool, c);
-    if (text && isfinite(c->other_chi2) && c->other_chi2 - c->chi2 < LEAST_MARGIN)
+    if (text && isfinite(c->other_chi2) && c->other_chi2 - c->result.chi2 < LEAST_MARGIN)
         text = pool_format(pool, "%s, as well at z = %.3g m", text, c->other_place);
     if (!cause->effect) /* a rival that is no part of a model */
         return text ? pool_format(pool, "%s (%s %.3g)", text, cause->value.name, c->effect.value[0]) : NULL;

@@ -70,9 +70,10 @@ static double left_over(const struct diagnosis_round *last)
     if (last->result.kind == ROTID_ADEQUATE)
         return 0;
     for (int i = 0; i < last->ncandidate && last->result.kind == ROTID_AMBIGUOUS; i++)
-        if (last->candidate[i].refitted && last->candidate[i].cause->class == CAUSE_PHYSICAL && last->candidate[i].chi2 < chi2) {
-            chi2 = last->candidate[i].chi2;
-            frequency = last->candidate[i].chi2_frequency;
+        if (last->candidate[i].result.refitted && last->candidate[i].cause->class == CAUSE_PHYSICAL &&
+            last->candidate[i].result.chi2 < chi2) {
+            chi2 = last->candidate[i].result.chi2;
+            frequency = last->candidate[i].result.chi2_frequency;
         }
     double whole = beyond_noise(chi2, last->result.dof), block = beyond_noise(frequency, f);
     double scan =
@@ -87,7 +88,7 @@ static double margin_of(const struct diagnosis_round *round)
     double margin = INFINITY;
     for (int i = 1; i < round->ncandidate; i++) {
         const struct candidate *c = &round->candidate[i];
-        if (c->refitted && isfinite(c->chi2) && !c->refused)
+        if (c->result.refitted && isfinite(c->result.chi2) && !c->refused)
             margin = fmin(margin, candidate_score(c) - candidate_score(first));
     }
     return margin;
@@ -106,11 +107,11 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
     for (int pass = 0; pass < 3; pass++)
         for (int i = 0; i < round->ncandidate; i++) {
             const struct candidate *c = &round->candidate[i];
-            if (taken[i] || !c->refitted || !(c->chi2_drop > round->result.threshold / 2))
+            if (taken[i] || !c->result.refitted || !(c->result.chi2_drop > round->result.threshold / 2))
                 continue;
             int near = candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
-            taken[i] = pass == 0   ? i < round->result.set || (near && !c->refused && c->chi2_drop > round->result.threshold)
-                       : pass == 1 ? near && c->at_bound
+            taken[i] = pass == 0 ? i < round->result.set || (near && !c->refused && c->result.chi2_drop > round->result.threshold)
+                       : pass == 1 ? near && c->result.at_bound
                                    : !c->refused && out->nalternative < 2;
             if (taken[i])
                 out->alternative[out->nalternative++] = *c;

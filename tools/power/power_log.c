@@ -23,14 +23,14 @@ static cJSON *candidate_line(const struct candidate *c)
         add_number(o, c->effect.kind->parameter[p].name, c->effect.value[p]);
     if (c->cause->variant[0] && c->effect.kind)
         cJSON_AddStringToObject(o, "variant", c->cause->variant[c->effect.variant]);
-    add_number(o, "predicted", c->predicted_drop);
-    if (c->refitted) {
-        add_number(o, "drop", c->chi2_drop);
-        add_number(o, "mode_out", c->mode_out_rms);
-        add_number(o, "sensor_out", c->sensor_out_rms);
+    add_number(o, "predicted", c->result.predicted_drop);
+    if (c->result.refitted) {
+        add_number(o, "drop", c->result.chi2_drop);
+        add_number(o, "mode_out", c->result.mode_out_rms);
+        add_number(o, "sensor_out", c->result.sensor_out_rms);
     }
-    if (c->rejected_because)
-        cJSON_AddStringToObject(o, "rejected", c->rejected_because);
+    if (c->result.rejected_because)
+        cJSON_AddStringToObject(o, "rejected", c->result.rejected_because);
     return o;
 }
 
@@ -38,7 +38,7 @@ static cJSON *candidates(int count, const struct candidate *c)
 {
     cJSON *list = cJSON_CreateArray();
     for (int i = 0; i < count; i++)
-        if (c[i].refitted || !c[i].rejected_because || i < 3)
+        if (c[i].result.refitted || !c[i].result.rejected_because || i < 3)
             cJSON_AddItemToArray(list, candidate_line(&c[i]));
     return list;
 }

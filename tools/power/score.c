@@ -267,7 +267,7 @@ static int measure_chi2(struct pool *pool, const struct diagnosis *d, const stru
     s->drop = fitted_chi2(pool, d, &quiet);
     for (int i = 0, tried = 0; s->class == HIDDEN_OUTSIDE && d->nround && i < d->round[0].ncandidate && tried < BEST; i++) {
         const struct candidate *c = &d->round[0].candidate[i];
-        if (!c->refitted || !c->cause->effect || !isfinite(c->chi2))
+        if (!c->result.refitted || !c->cause->effect || !isfinite(c->result.chi2))
             continue;
         tried++;
         status = job_with_effect(pool, &quiet, NULL, &c->effect, c->cause, c->fixed, &with);
@@ -285,8 +285,8 @@ static double margin(const struct diagnosis *d, const cJSON *truth)
         for (int i = 0; i < d->round[r].ncandidate; i++) {
             const struct candidate *c = &d->round[r].candidate[i];
             double *best = which(&d->job, c, truth) >= 0 ? &right : &other;
-            if (c->refitted && isfinite(c->chi2))
-                *best = fmin(*best, c->chi2);
+            if (c->result.refitted && isfinite(c->result.chi2))
+                *best = fmin(*best, c->result.chi2);
         }
         if (isfinite(right))
             return fmin(other - right, 1e9);
