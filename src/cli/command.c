@@ -13,7 +13,7 @@ void command_print_messages(struct command *command)
 {
     static const char *const words[] = {"note: ", "warning: ", ""};
     for (; command->printed < command->messages.count; command->printed++) {
-        const struct message *m = &command->messages.item[command->printed];
+        const rotid_message *m = &command->messages.item[command->printed];
         if (m->severity != SEVERITY_ERROR && (command->quiet || (m->severity == SEVERITY_NOTE && !command->verbose)))
             continue;
         if (m->file)

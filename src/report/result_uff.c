@@ -154,7 +154,7 @@ static int add_errors(struct pool *pool, const struct message_list *messages, st
 {
     out->errors = POOL_ARRAY(pool, struct listed_error, messages->count);
     for (size_t i = 0; i < messages->count && out->errors; ++i) {
-        const struct message *message = &messages->item[i];
+        const rotid_message *message = &messages->item[i];
         if (message->severity == SEVERITY_ERROR)
             out->errors[out->nerrors++] = (struct listed_error){message->line, message->column, message->text};
     }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 
 static const struct field reference_fields[] = {

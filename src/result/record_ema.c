@@ -1,5 +1,5 @@
+#include "record/record.h"
 #include "result/ema.h"
-#include "result/record.h"
 #include "result/records.h"
 #include "result/transfer.h"
 

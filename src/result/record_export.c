@@ -1,5 +1,5 @@
+#include "record/record.h"
 #include "result/export.h"
-#include "result/record.h"
 #include "result/records.h"
 
 const char *const export_format_words[] = {"matrix-market", "dmig", "ross", NULL};

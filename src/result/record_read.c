@@ -1,8 +1,10 @@
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-#include "result/record.h"
+#include "record/record.h"
+#include "result/records.h"
 
 #define WORDS_MOST 512
 

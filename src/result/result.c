@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 
 /* Rows of the parts that results are made of. */

@@ -2,10 +2,6 @@
 
 #include <math.h>
 
-const char *const functional_words[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL};
-const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
-const char *const derivative_words[] = {"NELSON", "MODAL", NULL};
-
 int job_knows_frequency_noise(const struct job *job)
 {
     for (int k = 0; k < job->measurement.nmode; k++)

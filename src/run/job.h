@@ -6,6 +6,7 @@
 #include "base/message.h"
 #include "base/pool.h"
 #include "model/models.h"
+#include "record/words.h"
 #include "rotid.h"
 #include "rotor/parameter.h"
 #include "signal/frf.h"
@@ -112,8 +113,5 @@ int job_knows_frequency_noise(const struct job *job);
 int job_knows_shape_noise(const struct job *job);
 /* Whether a likelihood can use shapes: there are some, with their noise. */
 int job_fits_shapes(const struct job *job);
-
-/* Words of *FIT and of results, in the order of the constants of rotid.h; NULL behind the last. */
-extern const char *const functional_words[], *const reduction_words[], *const derivative_words[];
 
 #endif

@@ -7,9 +7,9 @@
 #include "rotid.h"
 
 struct spectrum {
-    int nrigid, count, nmaster; /* count: elastic modes */
-    int nnode;                  /* of the axis */
-    double rigid_hz[2];
+    int nrigid, count, nmaster;      /* count: elastic modes */
+    int nnode;                       /* of the axis */
+    double *rigid_hz;                /* [nrigid] */
     double *full_hz;                 /* [count] */
     double *reduced_hz;              /* [count] NaN where the masters are too few, or more than 1000 */
     double *reduction_error_percent; /* [count] reduced against full */

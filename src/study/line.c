@@ -183,21 +183,21 @@ static int add_diagnosis(struct pool *pool, const struct experiment *experiment,
         return 0;
     run->diagnosis = out;
     *out = (struct run_diagnosis){
-        .verdict = {.kind = (int)d->kind,
-                    .adequate_after = d->adequate_after,
-                    .p_value = d->p_value,
+        .verdict = {.kind = d->result.verdict.kind,
+                    .adequate_after = d->result.verdict.adequate_after,
+                    .p_value = d->result.verdict.p_value,
                     .ncauses = d->ncause,
                     .causes = causes(pool, d->ncause, d->cause),
                     .nalternatives = d->nalternative,
                     .alternatives = causes(pool, d->nalternative, d->alternative)},
-        .data_findings = POOL_ARRAY(pool, struct run_finding, d->ndata_finding),
+        .data_findings = POOL_ARRAY(pool, struct run_finding, d->result.ndata_findings),
         .score = experiment->made_by ? (int)score_make(experiment, d) : -1,
         .false_findings = experiment->made_by ? score_false_findings(experiment, d) : ROTID_NONE,
     };
-    for (int i = 0; i < d->ndata_finding && out->data_findings; i++) {
-        struct data_finding *finding = &d->data_finding[i];
+    for (int i = 0; i < d->result.ndata_findings && out->data_findings; i++) {
+        const rotid_data_finding *finding = &d->result.data_findings[i];
         out->data_findings[out->ndata_findings++] =
-            (struct run_finding){finding->cause->id, finding->nsensor, finding->sensor, finding->block, finding->value};
+            (struct run_finding){finding->id, finding->nsensors, finding->sensors, finding->block, finding->value};
     }
     return out->verdict.causes && out->verdict.alternatives && out->data_findings;
 }

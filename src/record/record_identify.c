@@ -1,7 +1,8 @@
-#include "result/record.h"
-#include "result/records.h"
-#include "run/job.h"
+#include "record/record.h"
 
+const char *const functional_words[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL};
+const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
+const char *const derivative_words[] = {"NELSON", "MODAL", NULL};
 const char *const fit_status_words[] = {"converged", "not_converged", "at_bound", NULL};
 const char *const pairing_words[] = {"shape", "number", NULL};
 static const char *const algorithms[] = {"LN_BOBYQA", "LN_SBPLX", "LD_SLSQP", NULL};
@@ -152,3 +153,11 @@ static const struct field identification_alone_fields[] = {
     {0},
 };
 const struct record identification_alone_record = RECORD(rotid_identification, identification_alone_fields);
+
+static const struct field identification_whole_fields[] = {
+    ROWS(0, identification_record),
+    ROWS(0, identification_alone_record),
+    STRUCTS(rotid_identification, message, 0, message_record),
+    {0},
+};
+const struct record identification_whole_record = RECORD(rotid_identification, identification_whole_fields);
