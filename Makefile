@@ -82,7 +82,7 @@ LIBRARY_LIBS := $(shell pkg-config --libs lapacke) $(BLAS_LIBS) $(if $(filter 1,
 PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(LIBRARY_LIBS)
 
 # the rooms that public routines reach, and those of the program alone
-LIBRARY_ROOMS := base linalg rotor beam solid model modal fit run diagnose/causes diagnose file uff deck api
+LIBRARY_ROOMS := base record linalg rotor beam solid model modal fit run diagnose/causes diagnose file uff deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
 PROGRAM_SOURCES := $(foreach room,signal ema import result report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
@@ -290,7 +290,7 @@ coverage:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 -g --coverage' LDFLAGS=--coverage test
 	@sh tools/coverage $(BUILD)/coverage
 
-# docs/schema, from the tables of src/result and the comments of the structs that they describe
+# docs/schema, from the tables of src/record and src/result and the comments of the structs that they describe
 SCHEMA_HEADERS := include/rotid.h $(wildcard src/result/*.h) src/run/growth.h src/run/sensitivity.h
 $(BUILD)/tools/schema/%.o: ALL_CFLAGS += -Itools/schema
 $(BUILD)/schema: $(call OBJECTS_OF,$(wildcard tools/schema/*.c)) $(PROGRAM_OBJECTS) $(OBJECTS)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "record/record.h"
 #include "result/records.h"
 #include "support.h"
 

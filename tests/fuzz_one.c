@@ -9,6 +9,7 @@
 
 #include "deck/deck.h"
 #include "result/json_tree.h"
+#include "result/result.h"
 #include "study/plan.h"
 #include "study/stamp.h"
 #include "study/summary.h"
@@ -211,8 +212,9 @@ static void read_results(const uint8_t *bytes, size_t count)
     int status = summary_read(&pool, path, &messages, &header, &summary);
     require((status == ROTID_OK) == (messages.errors == 0));
     if (status == ROTID_OK) {
-        const struct provenance provenance = {"study", "0", "0", "", 1, 1};
-        char *text = summary_json(&provenance, &summary);
+        const struct result result = {
+            .head = {.rotid = "0", .commit = "0", .blas = "", .seed = 1, .threads = 1, .command = "study"}, .study = &summary};
+        char *text = result_json(&result);
         FILE *nowhere = fopen("/dev/null", "wb");
         require(text && nowhere);
         summary_table(nowhere, &summary);

@@ -49,7 +49,7 @@ static int diagnose(struct pool *pool, const struct hidden_case *c, const char *
                 snprintf(s->failure, sizeof s->failure, "%s: %s", rotid_status_name(status), messages.item[i].text);
         return status;
     }
-    if (d.interrupted) {
+    if (d.result.interrupted) {
         diagnose_free(&d);
         return ROTID_STOP_CANCELLED;
     }

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "picture_check.h"
+#include "study_bench.h"
 #include "support.h"
 
 static char directory[] = "/tmp/test_page_XXXXXX";
@@ -316,6 +317,32 @@ cJSON *page_json(const char *name)
     cJSON *json = cJSON_Parse(page_read(name));
     assert_non_null(json);
     return json;
+}
+
+void page_make_study(const char *name, const char *plan)
+{
+    char path[64];
+    (void)snprintf(path, sizeof path, "%s.plan", name);
+    if (page_exists(path))
+        return;
+    page_write_file("beam.inp", BENCH_DECK);
+    page_write_file(path, plan);
+    assert_int_equal(
+        page_run("cd %s; %s study %s.plan -o %s.jsonl --quiet --json %s.json", page_path(""), ROTID_PROGRAM, name, name, name),
+        0);
+}
+
+cJSON *page_runs(const char *name)
+{
+    const char *text = strchr(page_read(name), '\n') + 1, *end;
+    cJSON *list = cJSON_CreateArray();
+    while (*text) {
+        cJSON *line = cJSON_ParseWithOpts(text, &end, 0);
+        assert_non_null(line);
+        cJSON_AddItemToArray(list, line);
+        text = end + 1;
+    }
+    return list;
 }
 
 void page_write_json(const char *name, const cJSON *json)

@@ -18,6 +18,10 @@ int page_exists(const char *name);
 /* The same as JSON; what page_json gives is to be deleted. */
 cJSON *page_json(const char *name);
 void page_write_json(const char *name, const cJSON *json);
+/* `rotid study` of BENCH_DECK, beam.inp, by a plan: NAME.jsonl and the summary NAME.json, unless the plan is there already. */
+void page_make_study(const char *name, const char *plan);
+/* The runs of a file of results, without its header; to be deleted. */
+cJSON *page_runs(const char *name);
 /* Entries of the folder whose names begin with `prefix`. */
 int page_count(const char *folder, const char *prefix);
 

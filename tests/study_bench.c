@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "json_value.h"
-#include "report/json.h"
 #include "result/json_tree.h"
 #include "study/run.h"
 #include "support.h"

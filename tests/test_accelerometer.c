@@ -140,27 +140,27 @@ static void judge(const struct simulation *s, const char *cards, struct job *job
     diagnose(job, notes, out);
 }
 
-static const struct data_finding *finding_of(const struct diagnosis *d, const char *id)
+static const rotid_data_finding *finding_of(const struct diagnosis *d, const char *id)
 {
-    for (int i = 0; i < d->ndata_finding; i++)
-        if (!strcmp(d->data_finding[i].cause->id, id))
-            return &d->data_finding[i];
+    for (int i = 0; i < d->result.ndata_findings; i++)
+        if (!strcmp(d->result.data_findings[i].id, id))
+            return &d->result.data_findings[i];
     return NULL;
 }
 
-static const struct detectable *detectable_of(const struct diagnosis *d)
+static const rotid_detectable *detectable_of(const struct diagnosis *d)
 {
-    for (int i = 0; i < d->ndetectable; i++)
-        if (!strcmp(d->detectable[i].cause->id, "accelerometer_mass"))
-            return &d->detectable[i];
+    for (int i = 0; i < d->result.ndetectable; i++)
+        if (!strcmp(d->result.detectable[i].id, "accelerometer_mass"))
+            return &d->result.detectable[i];
     return NULL;
 }
 
 static void show(const struct diagnosis *d)
 {
-    for (int i = 0; i < d->ndata_finding; i++)
-        print_message("  %s: %s\n", d->data_finding[i].cause->id, d->data_finding[i].text);
-    print_message("  %s\n", d->sentence);
+    for (int i = 0; i < d->result.ndata_findings; i++)
+        print_message("  %s: %s\n", d->result.data_findings[i].id, d->result.data_findings[i].text);
+    print_message("  %s\n", d->result.verdict.sentence);
 }
 
 /* Half-widths of the 95 % intervals that the truth is away. */
@@ -183,7 +183,7 @@ static void thirty_grams_on_six_kilograms_are_found(void **state)
         judge(&s, "", &job, &notes, &d);
         message_open(&quiet, &test_pool);
         assert_status(identify_run(&test_pool, &job, 0, NULL, &quiet, &loaded), ROTID_OK); /* without the mass */
-        const struct data_finding *f = finding_of(&d, "accelerometer_mass");
+        const rotid_data_finding *f = finding_of(&d, "accelerometer_mass");
         assert_non_null(f);
         print_message("seed %lu: %.3f +- %.3f g; E off by %+.2f half-widths, G %+.2f; without it %+.1f and %+.1f (E %+.3f %%, G "
                       "%+.3f %%)\n",
@@ -196,7 +196,7 @@ static void thirty_grams_on_six_kilograms_are_found(void **state)
         worst[0] = fmax(worst[0], fabs(away(d.base.fit, 0, YOUNG)));
         worst[1] = fmax(worst[1], fabs(away(d.base.fit, 1, SHEAR)));
         assert_true(fabs(away(loaded.fit, 0, YOUNG)) > 3);
-        named += d.kind != VERDICT_ADEQUATE;
+        named += d.result.verdict.kind != ROTID_ADEQUATE;
         assert_null(detectable_of(&d)); /* in the model: not looked for a second time */
         /* the deck that is written gives the fit again, and nothing more is found in it */
         const struct deck_write_options options = {.x = d.base.fit->x};
@@ -232,9 +232,9 @@ static void without_a_mass_none_is_found_and_the_smallest_is_listed(void **state
         struct diagnosis d;
         struct job job;
         judge(&s, "", &job, &notes, &d);
-        const struct detectable *listed = detectable_of(&d);
+        const rotid_detectable *listed = detectable_of(&d);
         assert_null(finding_of(&d, "accelerometer_mass"));
-        assert_true(d.kind == VERDICT_ADEQUATE && listed && !listed->beyond);
+        assert_true(d.result.verdict.kind == ROTID_ADEQUATE && listed && !listed->beyond);
         if (seed == 1)
             print_message("smallest accelerometer: %.3g g\n", 1e3 * listed->smallest);
         assert_true(listed->smallest > 2e-4 && listed->smallest < 2e-3);
@@ -252,7 +252,7 @@ static void a_drift_is_a_drift(void **state)
         struct job job;
         judge(&s, "", &job, &notes, &d);
         show(&d);
-        const struct data_finding *drift = finding_of(&d, "noise_level"), *mass = finding_of(&d, "accelerometer_mass");
+        const rotid_data_finding *drift = finding_of(&d, "noise_level"), *mass = finding_of(&d, "accelerometer_mass");
         assert_non_null(drift);
         assert_non_null(strstr(drift->text, "drift of the frequencies over the test"));
         assert_string_equal(drift->block, "FREQUENCY");
@@ -270,7 +270,7 @@ static void missing_and_bad_readings_do_no_harm(void **state)
     struct job job;
     judge(&s, "", &job, &notes, &d);
     show(&d);
-    const struct data_finding *f = finding_of(&d, "accelerometer_mass");
+    const rotid_data_finding *f = finding_of(&d, "accelerometer_mass");
     assert_non_null(f);
     assert_close(f->value, 0.03, 0, 3 * f->std);
     assert_true(fabs(away(d.base.fit, 0, YOUNG)) < 1.5);
@@ -353,8 +353,8 @@ static void on_a_ton_it_is_below_the_noise_and_listed(void **state)
         }
         struct diagnosis d;
         diagnose(&job, &messages, &d);
-        const struct detectable *listed = detectable_of(&d);
-        const struct data_finding *f = finding_of(&d, "accelerometer_mass");
+        const rotid_detectable *listed = detectable_of(&d);
+        const rotid_data_finding *f = finding_of(&d, "accelerometer_mass");
         print_message("998 kg, noise %g a reading: found %.3g kg, smallest %.3g kg\n", noise[i], f ? f->value : NAN,
                       listed ? listed->smallest : NAN);
         if (noise[i] < 8e-4) { /* 408 readings do weigh it */

@@ -215,11 +215,11 @@ static void judge(struct passage *c, struct diagnosis *out)
     assert_int_equal(diagnose_run(&c->pool, &c->job, &options, NULL, &c->messages, out), 0);
 }
 
-static const struct data_finding *finding_of(const struct diagnosis *d, const char *id)
+static const rotid_data_finding *finding_of(const struct diagnosis *d, const char *id)
 {
-    for (int i = 0; i < d->ndata_finding; i++)
-        if (!strcmp(d->data_finding[i].cause->id, id))
-            return &d->data_finding[i];
+    for (int i = 0; i < d->result.ndata_findings; i++)
+        if (!strcmp(d->result.data_findings[i].id, id))
+            return &d->result.data_findings[i];
     return NULL;
 }
 
@@ -248,13 +248,13 @@ static void an_accelerometer_of_30_g_on_a_beam_of_6_kg_is_weighed(void **state)
                 assert_close(c.ema.mode[k].point_frequency_hz[p], truth, 3e-5, 6 * c.ema.mode[k].point_frequency_std[p]);
         }
     judge(&c, &d);
-    const struct data_finding *mass = finding_of(&d, "accelerometer_mass");
+    const rotid_data_finding *mass = finding_of(&d, "accelerometer_mass");
     assert_non_null(mass);
     print_message("mass %.3f g, std %.4f g; verdict %s; E off %+.2f std, G off %+.2f std\n", 1e3 * mass->value, 1e3 * mass->std,
-                  verdict_name(d.kind), (d.base.fit->x[0] - truth_of(&test, "bar.E")) / d.base.fit->std[0],
+                  rotid_verdict_name(d.result.verdict.kind), (d.base.fit->x[0] - truth_of(&test, "bar.E")) / d.base.fit->std[0],
                   (d.base.fit->x[1] - truth_of(&test, "bar.G")) / d.base.fit->std[1]);
     assert_close(mass->value, 0.03, 0, 5e-5);
-    assert_int_equal(d.kind, VERDICT_ADEQUATE);
+    assert_int_equal(d.result.verdict.kind, ROTID_ADEQUATE);
     assert_int_equal(d.ncause, 0);
     for (int p = 0; p < 2; p++) {
         assert_close(d.base.fit->x[p], truth_of(&test, c.job.unknowns.bounds[p].name), 0, 4 * d.base.fit->std[p]);
@@ -286,13 +286,14 @@ static void on_a_rotor_of_998_kg_it_is_below_the_noise_and_listed(void **state)
     judge(&c, &d);
     assert_null(finding_of(&d, "accelerometer_mass"));
     double smallest = NAN;
-    for (int i = 0; i < d.ndetectable; i++)
-        if (!strcmp(d.detectable[i].cause->id, "accelerometer_mass"))
-            smallest = d.detectable[i].smallest;
-    print_message("smallest mass that would show: %.0f g; verdict %s\n", 1e3 * smallest, verdict_name(d.kind));
+    for (int i = 0; i < d.result.ndetectable; i++)
+        if (!strcmp(d.result.detectable[i].id, "accelerometer_mass"))
+            smallest = d.result.detectable[i].smallest;
+    print_message("smallest mass that would show: %.0f g; verdict %s\n", 1e3 * smallest,
+                  rotid_verdict_name(d.result.verdict.kind));
     assert_true(smallest > 0.03 && smallest < 0.2);
     /* it may be suspected, and nothing else may be named in its place */
-    assert_true(d.kind != VERDICT_NAMED || (d.ncause == 1 && !strcmp(d.cause[0].cause->id, "accelerometer_mass")));
+    assert_true(d.result.verdict.kind != ROTID_NAMED || (d.ncause == 1 && !strcmp(d.cause[0].cause->id, "accelerometer_mass")));
     diagnose_free(&d);
     pool_close(&c.pool);
     close_test(&bench, &test);
@@ -327,11 +328,11 @@ static void faults_of_channels_are_seen_on_the_way(void **state)
             seen += c.measurement.set.frf[k].response_node == 40;
     assert_int_equal(seen, 1);
     judge(&c, &d);
-    const struct data_finding *sign = finding_of(&d, "sensor_sign"), *gain = finding_of(&d, "sensor_gain");
+    const rotid_data_finding *sign = finding_of(&d, "sensor_sign"), *gain = finding_of(&d, "sensor_gain");
     assert_non_null(sign);
     assert_non_null(gain);
-    assert_int_equal(sign->sensor[0], 15);
-    assert_int_equal(gain->sensor[0], 55);
+    assert_int_equal(sign->sensors[0], 15);
+    assert_int_equal(gain->sensors[0], 55);
     assert_close(gain->value, 1.3, 0.03, 0);
     diagnose_free(&d);
     pool_close(&c.pool);

@@ -301,44 +301,13 @@ static void probes_leave_no_trace(void **state)
     assert_true(relative_difference((size_t)in_turn.nrow, column, own) < 1e-12);
 }
 
-/* Reading d more than the truth moves the residual by minus the column, exactly: shapes are linear once the scale is chosen. */
-static void column_of_a_sensor(void **state)
-{
-    (void)state;
-    struct job *job = open_job(BUNDLE_TUBE);
-    struct columns c, changed;
-    const int s = 2;
-    double d[MODES], column[MOST], moved[MOST];
-    open_columns(job, NULL, &c);
-    for (int k = 0; k < MODES; k++)
-        d[k] = 1e-3 * (k + 1);
-    columns_sensor(&c, s, d, column);
-    for (int k = 0; k < MODES; k++) { /* shapes are scaled to a largest component of 1 inside, the change as well */
-        double largest = 0;
-        for (int i = 0; i < SENSORS; i++)
-            largest = fmax(largest, isfinite(bench.shape[i + k * SENSORS]) ? fabs(bench.shape[i + k * SENSORS]) : 0);
-        assert_true(fabs(bench.shape[s + k * SENSORS]) < 0.95 * largest);
-        bench.shape[s + k * SENSORS] += d[k] * largest;
-    }
-    open_columns(job, NULL, &changed);
-    for (int i = 0; i < c.nrow; i++)
-        moved[i] = c.r[i] - changed.r[i];
-    assert_true(relative_difference((size_t)c.nrow, column, moved) < 1e-9);
-    for (int i = 0; i < c.nmode; i++)
-        assert_close(column[i], 0, 0, 0);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
-        TEST(columns_of_own_parameters_are_the_jacobian),
-        TEST(frequencies_alone_have_one_row_each),
-        TEST(columns_with_effects_in_the_model),
-        TEST(columns_of_causes_are_derivatives_at_neutral),
-        TEST(columns_of_causes_beside_an_accepted_one),
-        TEST(probes_leave_no_trace),
-        TEST(column_of_a_sensor),
+        TEST(columns_of_own_parameters_are_the_jacobian), TEST(frequencies_alone_have_one_row_each),
+        TEST(columns_with_effects_in_the_model),          TEST(columns_of_causes_are_derivatives_at_neutral),
+        TEST(columns_of_causes_beside_an_accepted_one),   TEST(probes_leave_no_trace),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

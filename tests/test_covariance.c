@@ -384,9 +384,22 @@ static void test_no_degree_of_freedom_left_states_nothing(void **state)
     assert_true(!s.result.any_undetermined && isfinite(s.result.condition_number));
 }
 
+static void limits_of_chi_square_are_those_of_its_table(void **state)
+{
+    (void)state;
+    /* NIST/SEMATECH e-Handbook, table 1.3.6.7.4: upper 5 % */
+    static const struct {
+        int dof;
+        double x;
+    } table[] = {{1, 3.841}, {2, 5.991}, {6, 12.592}, {10, 18.307}, {100, 124.342}};
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        assert_close(chi_square_limit(0.05, table[i].dof), table[i].x, 0, 6e-4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(limits_of_chi_square_are_those_of_its_table),
         cmocka_unit_test(test_unknown_noise_comes_from_the_residuals_with_student_intervals),
         cmocka_unit_test(test_likelihood_takes_the_stated_noise_and_is_not_narrowed),
         cmocka_unit_test(test_misfit_beyond_the_noise_widens_the_intervals_and_says_so),

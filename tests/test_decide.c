@@ -24,7 +24,7 @@ static void open_round(void)
     engine.job.measurement.nmode = MODES;
     engine.job.measurement.frequency_std = noise;
     memset(candidates, 0, sizeof candidates);
-    decided = (struct diagnosis_round){.candidate = candidates, .threshold = 13};
+    decided = (struct diagnosis_round){.candidate = candidates, .result.threshold = 13};
     before = (struct before){.dof = 400,
                              .nfrequency = MODES,
                              .chi2 = 460,
@@ -40,34 +40,34 @@ static struct candidate *add(const char *id, const char *target, int parameters,
     *c = (struct candidate){.cause = catalogue_find(id),
                             .target = target,
                             .nparameter = parameters,
-                            .predicted_drop = drop,
-                            .refitted = 1,
-                            .chi2 = before.chi2 - drop,
-                            .chi2_drop = drop,
-                            .chi2_frequency = 6,
-                            .p_value = 0.01,
-                            .holdout_rms = NAN,
-                            .mode_out_rms = NAN,
-                            .sensor_out_rms = NAN,
+                            .result.predicted_drop = drop,
+                            .result.refitted = 1,
+                            .result.chi2 = before.chi2 - drop,
+                            .result.chi2_drop = drop,
+                            .result.chi2_frequency = 6,
+                            .result.p_value = 0.01,
+                            .result.holdout_rms = NAN,
+                            .result.mode_out_rms = NAN,
+                            .result.sensor_out_rms = NAN,
                             .other_place = NAN,
                             .other_chi2 = NAN,
-                            .cosine = NAN};
+                            .result.cosine = NAN};
     assert_non_null(c->cause);
     return c;
 }
 
-static void conclude_as(enum verdict_kind kind, int nset)
+static void conclude_as(int kind, int nset)
 {
     assert_status(decide(&engine, &before, &decided), ROTID_OK);
-    if (decided.kind != kind || decided.nset != nset)
+    if (decided.result.kind != kind || decided.result.set != nset)
         for (int i = 0; i < decided.ncandidate; i++)
             print_error("%s: %s\n", candidates[i].cause->id,
-                        candidates[i].rejected_because ? candidates[i].rejected_because : "in");
-    assert_string_equal(verdict_name(decided.kind), verdict_name(kind));
-    assert_int_equal(decided.nset, nset);
+                        candidates[i].result.rejected_because ? candidates[i].result.rejected_because : "in");
+    assert_string_equal(rotid_verdict_name(decided.result.kind), rotid_verdict_name(kind));
+    assert_int_equal(decided.result.set, nset);
     for (int i = 0; i < decided.ncandidate; i++) {
-        assert_int_equal(candidates[i].rejected_because == NULL, i < nset); /* the set first, a reason for all others */
-        assert_true(candidates[i].refitted == 0 || candidates[i].refitted == 1);
+        assert_int_equal(candidates[i].result.rejected_because == NULL, i < nset); /* the set first, a reason for all others */
+        assert_true(candidates[i].result.refitted == 0 || candidates[i].result.refitted == 1);
     }
 }
 
@@ -83,10 +83,10 @@ static void assert_reason(const char *id, const char *words)
 {
     const struct candidate *c = find(id);
     assert_non_null(c);
-    assert_non_null(c->rejected_because);
-    if (!strstr(c->rejected_because, words))
-        print_error("%s is rejected because it \"%s\", expected \"%s\"\n", id, c->rejected_because, words);
-    assert_non_null(strstr(c->rejected_because, words));
+    assert_non_null(c->result.rejected_because);
+    if (!strstr(c->result.rejected_because, words))
+        print_error("%s is rejected because it \"%s\", expected \"%s\"\n", id, c->result.rejected_because, words);
+    assert_non_null(strstr(c->result.rejected_because, words));
 }
 
 static void one_that_stands_out_is_named(void **state)
@@ -95,9 +95,9 @@ static void one_that_stands_out_is_named(void **state)
     open_round();
     add("joint", "core|right", 1, 40);
     add("stiffness_gradient", "core", 1, 60);
-    conclude_as(VERDICT_NAMED, 1);
+    conclude_as(ROTID_NAMED, 1);
     assert_string_equal(candidates[0].cause->id, "stiffness_gradient");
-    assert_close(decided.required_margin, LEAST_MARGIN, 1e-12, 0);
+    assert_close(decided.result.required_margin, LEAST_MARGIN, 1e-12, 0);
     assert_reason("joint", "loses to stiffness_gradient of core by 20");
 }
 
@@ -111,7 +111,7 @@ static void rivals_within_the_margin_are_a_set(void **state)
         add("density", "left", 1, 60 - apart);
         add("stiffness", "left", 1, 60);
         add("tie_tension", "ties", 1, 14);
-        conclude_as(apart < 6 ? VERDICT_AMBIGUOUS : VERDICT_NAMED, apart < 6 ? 2 : 1);
+        conclude_as(apart < 6 ? ROTID_AMBIGUOUS : ROTID_NAMED, apart < 6 ? 2 : 1);
         if (apart)
             assert_string_equal(candidates[0].cause->id, "stiffness");
         assert_reason("tie_tension", "loses to");
@@ -122,21 +122,21 @@ static void rivals_within_the_margin_are_a_set(void **state)
 static void parameters_cost(void **state)
 {
     (void)state;
-    struct candidate c = {.chi2 = 100, .nparameter = 3};
+    struct candidate c = {.result.chi2 = 100, .nparameter = 3};
     assert_close(candidate_score(&c), 100 + 3 * PARAMETER_PENALTY, 1e-15, 0);
     c.fixed[1] = 1;
     assert_close(candidate_score(&c), 100 + 2 * PARAMETER_PENALTY, 1e-15, 0);
-    c = (struct candidate){.chi2 = 100}; /* there or not: a choice too */
+    c = (struct candidate){.result.chi2 = 100}; /* there or not: a choice too */
     assert_close(candidate_score(&c), 100 + PARAMETER_PENALTY, 1e-15, 0);
     open_round();
     add("stiffness_local", "", 3, 63);
     add("joint", "core|right", 1, 60);
-    conclude_as(VERDICT_AMBIGUOUS, 2);
+    conclude_as(ROTID_AMBIGUOUS, 2);
     assert_string_equal(candidates[0].cause->id, "joint");
     open_round();
     add("stiffness_local", "", 3, 52);
     add("joint", "core|right", 1, 60);
-    conclude_as(VERDICT_NAMED, 1);
+    conclude_as(ROTID_NAMED, 1);
 }
 
 static void chance_names_nothing(void **state)
@@ -145,11 +145,11 @@ static void chance_names_nothing(void **state)
     open_round();
     add("joint", "core|right", 1, 12.9);
     add("density", "left", 1, 5);
-    conclude_as(VERDICT_UNEXPLAINED, 0);
+    conclude_as(ROTID_UNEXPLAINED, 0);
     assert_reason("joint", "no more than chance");
     assert_reason("density", "no more than chance");
     open_round();
-    conclude_as(VERDICT_UNEXPLAINED, 0); /* nothing to choose from */
+    conclude_as(ROTID_UNEXPLAINED, 0); /* nothing to choose from */
 }
 
 /* The threshold says that the best is more than noise. It does not tell a rival from it that misses the threshold by little. */
@@ -160,15 +160,15 @@ static void a_rival_too_weak_alone_still_makes_a_name_doubtful(void **state)
     add("added_mass", "", 2, 13.3);
     add("density", "core", 1, 9.7);
     assert_status(decide(&engine, &before, &decided), ROTID_OK);
-    assert_string_equal(verdict_name(decided.kind), "ambiguous");
+    assert_string_equal(rotid_verdict_name(decided.result.kind), "ambiguous");
     assert_non_null(find("added_mass"));
     open_round(); /* alone, but hardly above chance: the model as it is counts as a rival */
     add("added_mass", "", 2, 13.3);
-    conclude_as(VERDICT_AMBIGUOUS, 1);
+    conclude_as(ROTID_AMBIGUOUS, 1);
     open_round();
     add("added_mass", "", 2, 40);
     add("density", "core", 1, 9.7);
-    conclude_as(VERDICT_NAMED, 1);
+    conclude_as(ROTID_NAMED, 1);
     assert_reason("density", "no more than chance");
 }
 
@@ -176,11 +176,11 @@ static void what_was_not_fitted_is_no_candidate(void **state)
 {
     (void)state;
     open_round();
-    add("joint", "core|right", 1, 70)->refitted = 0;
+    add("joint", "core|right", 1, 70)->result.refitted = 0;
     add("density", "left", 1, 30);
     struct candidate *failed = add("stiffness", "left", 1, 20);
-    failed->chi2 = failed->chi2_drop = NAN;
-    conclude_as(VERDICT_NAMED, 1);
+    failed->result.chi2 = failed->result.chi2_drop = NAN;
+    conclude_as(ROTID_NAMED, 1);
     assert_string_equal(candidates[0].cause->id, "density");
     assert_reason("joint", "promises too little");
     assert_reason("stiffness", "no fit");
@@ -190,17 +190,17 @@ static void a_size_at_its_bound_is_refused(void **state)
 {
     (void)state;
     open_round();
-    add("added_mass", "", 2, 40)->at_bound = 1;
-    conclude_as(VERDICT_UNEXPLAINED, 0);
+    add("added_mass", "", 2, 40)->result.at_bound = 1;
+    conclude_as(ROTID_UNEXPLAINED, 0);
     assert_reason("added_mass", "bound");
     open_round(); /* what is refused explains more than what is left: then what is left is no name */
-    add("added_mass", "", 2, 50)->at_bound = 1;
+    add("added_mass", "", 2, 50)->result.at_bound = 1;
     add("density", "left", 1, 20);
-    conclude_as(VERDICT_AMBIGUOUS, 1);
+    conclude_as(ROTID_AMBIGUOUS, 1);
     open_round();
-    add("added_mass", "", 2, 40)->at_bound = 1;
+    add("added_mass", "", 2, 40)->result.at_bound = 1;
     add("density", "left", 1, 45);
-    conclude_as(VERDICT_NAMED, 1);
+    conclude_as(ROTID_NAMED, 1);
 }
 
 /* Nothing is named as long as the parameters that end at bounds of the deck would do as much beyond them. */
@@ -210,11 +210,11 @@ static void a_bound_of_the_deck_is_a_rival(void **state)
     open_round();
     before.beyond_drop = 38;
     add("density", "left", 1, 40);
-    conclude_as(VERDICT_AMBIGUOUS, 1);
+    conclude_as(ROTID_AMBIGUOUS, 1);
     open_round();
     before.beyond_drop = 20;
     add("density", "left", 1, 40);
-    conclude_as(VERDICT_NAMED, 1);
+    conclude_as(ROTID_NAMED, 1);
 }
 
 static void what_makes_the_fit_worse_is_refused(void **state)
@@ -223,7 +223,7 @@ static void what_makes_the_fit_worse_is_refused(void **state)
     open_round();
     add("tie_shear", "ties", 0, -237);
     add("density", "left", 1, 40);
-    conclude_as(VERDICT_NAMED, 1);
+    conclude_as(ROTID_NAMED, 1);
     assert_reason("tie_shear", "worse with this cause");
 }
 
@@ -232,25 +232,25 @@ static void modes_held_out_speak(void **state)
     (void)state;
     open_round(); /* worse than before */
     before.holdout_rms = 1;
-    add("support", "foam", 1, 50)->holdout_rms = 1.2;
-    conclude_as(VERDICT_UNEXPLAINED, 0);
+    add("support", "foam", 1, 50)->result.holdout_rms = 1.2;
+    conclude_as(ROTID_UNEXPLAINED, 0);
     assert_reason("support", "prediction of held-out modes gets worse");
     open_round(); /* as good as before is allowed */
     before.holdout_rms = 1;
-    add("support", "foam", 1, 50)->holdout_rms = 1.05;
-    conclude_as(VERDICT_NAMED, 1);
+    add("support", "foam", 1, 50)->result.holdout_rms = 1.05;
+    conclude_as(ROTID_NAMED, 1);
     open_round(); /* a rival that fits a little less and predicts much better */
     before.holdout_rms = 14.3;
-    add("stiffness_local", "", 2, 52)->holdout_rms = 7.7;
-    add("step_stiffness", "", 1, 48)->holdout_rms = 5.9;
-    conclude_as(VERDICT_NAMED, 1);
+    add("stiffness_local", "", 2, 52)->result.holdout_rms = 7.7;
+    add("step_stiffness", "", 1, 48)->result.holdout_rms = 5.9;
+    conclude_as(ROTID_NAMED, 1);
     assert_string_equal(candidates[0].cause->id, "step_stiffness");
     assert_reason("stiffness_local", "predicts the modes held out worse");
     open_round(); /* within what noise makes of two predictions nobody wins by it */
     before.holdout_rms = 0.2;
-    add("density", "left", 1, 50)->holdout_rms = 0.09;
-    add("stiffness", "left", 1, 48)->holdout_rms = 0.03;
-    conclude_as(VERDICT_AMBIGUOUS, 2);
+    add("density", "left", 1, 50)->result.holdout_rms = 0.09;
+    add("stiffness", "left", 1, 48)->result.holdout_rms = 0.03;
+    conclude_as(ROTID_AMBIGUOUS, 2);
 }
 
 static void modes_left_out_in_turn_speak(void **state)
@@ -259,20 +259,20 @@ static void modes_left_out_in_turn_speak(void **state)
     open_round();
     before.mode_out_rms = 0.6;
     before.sensor_out_rms = 1.2;
-    add("joint", "core|right", 1, 50)->mode_out_rms = 1.4;
-    conclude_as(VERDICT_UNEXPLAINED, 0);
+    add("joint", "core|right", 1, 50)->result.mode_out_rms = 1.4;
+    conclude_as(ROTID_UNEXPLAINED, 0);
     assert_reason("joint", "left out in turn gets worse");
     open_round(); /* the sensors say otherwise */
     before.mode_out_rms = 0.6;
     before.sensor_out_rms = 1.2;
     struct candidate *c = add("joint", "core|right", 1, 50);
-    c->mode_out_rms = 1.4;
-    c->sensor_out_rms = 1.0;
-    conclude_as(VERDICT_NAMED, 1);
+    c->result.mode_out_rms = 1.4;
+    c->result.sensor_out_rms = 1.0;
+    conclude_as(ROTID_NAMED, 1);
     open_round(); /* twice the noise is no harm */
     before.mode_out_rms = 0.1;
-    add("joint", "core|right", 1, 50)->mode_out_rms = 0.19;
-    conclude_as(VERDICT_NAMED, 1);
+    add("joint", "core|right", 1, 50)->result.mode_out_rms = 0.19;
+    conclude_as(ROTID_NAMED, 1);
 }
 
 /* What is left far above noise widens the margin: a wrong model makes differences larger than noise would. */
@@ -283,14 +283,14 @@ static void the_margin_grows_with_what_is_left(void **state)
     before.chi2 = 2000;
     add("density", "left", 1, 790);
     add("stiffness", "left", 1, 800);
-    conclude_as(VERDICT_AMBIGUOUS, 2);
-    assert_close(decided.required_margin, LEAST_MARGIN * 1200 / 399, 1e-12, 0);
+    conclude_as(ROTID_AMBIGUOUS, 2);
+    assert_close(decided.result.required_margin, LEAST_MARGIN * 1200 / 399, 1e-12, 0);
     open_round(); /* the frequencies alone, which the whole chi2 hides */
     before.chi2_frequency = 200;
     before.chi2 = 700;
-    add("stiffness", "left", 1, 240)->chi2_frequency = 60;
-    conclude_as(VERDICT_NAMED, 1);
-    assert_close(decided.required_margin, LEAST_MARGIN * 60 / MODES, 1e-12, 0);
+    add("stiffness", "left", 1, 240)->result.chi2_frequency = 60;
+    conclude_as(ROTID_NAMED, 1);
+    assert_close(decided.result.required_margin, LEAST_MARGIN * 60 / MODES, 1e-12, 0);
 }
 
 static void neighbours_that_share_their_noise_double_the_margin(void **state)
@@ -299,8 +299,8 @@ static void neighbours_that_share_their_noise_double_the_margin(void **state)
     open_round();
     engine.coloured = 1;
     add("stiffness", "left", 1, 60);
-    conclude_as(VERDICT_NAMED, 1);
-    assert_close(decided.required_margin, 2 * LEAST_MARGIN, 1e-12, 0);
+    conclude_as(ROTID_NAMED, 1);
+    assert_close(decided.result.required_margin, 2 * LEAST_MARGIN, 1e-12, 0);
 }
 
 /* Frequencies noisier than stated are a rival of what shows in the frequencies alone. */
@@ -311,25 +311,25 @@ static void noise_of_the_frequencies_is_a_rival(void **state)
     open_round();
     before.chi2_frequency = 51;
     add("tie_stiffness", "ties", 1, drop + 4);
-    conclude_as(VERDICT_AMBIGUOUS, 2);
+    conclude_as(ROTID_AMBIGUOUS, 2);
     const struct candidate *rival = find("noise_level");
     assert_non_null(rival);
-    assert_close(rival->chi2_drop, drop, 1e-12, 0);
+    assert_close(rival->result.chi2_drop, drop, 1e-12, 0);
     assert_close(rival->effect.value[0], sqrt(8.5), 1e-12, 0);
     open_round();
     before.chi2_frequency = 51;
     add("tie_stiffness", "ties", 1, drop + 8);
-    conclude_as(VERDICT_NAMED, 1);
+    conclude_as(ROTID_NAMED, 1);
     assert_reason("noise_level", "loses to tie_stiffness");
     open_round(); /* nothing else: the frequencies are noisy, and that is no physical name */
     before.chi2_frequency = 51;
     add("tie_stiffness", "ties", 1, 5);
-    conclude_as(VERDICT_UNEXPLAINED, 1);
+    conclude_as(ROTID_UNEXPLAINED, 1);
     assert_string_equal(candidates[0].cause->id, "noise_level");
     open_round(); /* ten times the variance is beyond any misjudgement */
     before.chi2_frequency = 60;
     add("tie_stiffness", "ties", 1, 50);
-    conclude_as(VERDICT_NAMED, 1);
+    conclude_as(ROTID_NAMED, 1);
     assert_null(find("noise_level"));
 }
 
@@ -340,7 +340,7 @@ static void too_little_data_name_nothing(void **state)
     engine.confident = 0;
     add("stiffness_gradient", "core", 1, 60);
     add("joint", "core|right", 1, 20);
-    conclude_as(VERDICT_AMBIGUOUS, 1);
+    conclude_as(ROTID_AMBIGUOUS, 1);
 }
 
 static void a_cause_that_fits_as_well_at_another_place_is_not_named(void **state)
@@ -350,9 +350,9 @@ static void a_cause_that_fits_as_well_at_another_place_is_not_named(void **state
         open_round();
         struct candidate *mass = add("added_mass", "", 2, 60);
         mass->other_place = 1.2;
-        mass->other_chi2 = mass->chi2 + apart;
+        mass->other_chi2 = mass->result.chi2 + apart;
         add("joint", "core|right", 1, 20);
-        conclude_as(apart < 6 ? VERDICT_AMBIGUOUS : VERDICT_NAMED, 1);
+        conclude_as(apart < 6 ? ROTID_AMBIGUOUS : ROTID_NAMED, 1);
     }
 }
 
@@ -365,8 +365,8 @@ static void a_name_needs_residuals_that_could_contradict_it(void **state)
         before.chi2 = 66;
         before.chi2_frequency = 66;
         struct candidate *c = add("stiffness_local", "", parameters, 64);
-        c->chi2_frequency = 2;
-        conclude_as(parameters == 1 ? VERDICT_NAMED : VERDICT_AMBIGUOUS, 1);
+        c->result.chi2_frequency = 2;
+        conclude_as(parameters == 1 ? ROTID_NAMED : ROTID_AMBIGUOUS, 1);
     }
 }
 

@@ -202,12 +202,12 @@ static void every_kind_of_parameter_is_identified_by_its_name(void **state)
 static void the_heading_keeps_its_text_and_gives_references(void **state)
 {
     (void)state;
-    const struct reference *paper = job_reference(&every.job, "error_percent");
-    assert_true(every.job.nheading == 2 && paper);
+    const rotid_reference *paper = every.job.reference;
+    assert_true(every.job.nheading == 2 && every.job.nreference == 1);
+    assert_string_equal(paper->quantity, "error_percent");
     assert_string_equal(every.job.heading[0], "A rotor that has everything");
     assert_string_equal(every.job.heading[1], "second line, with a comma");
-    assert_true(paper->count == 3 && paper->value[0] == 1.5 && paper->value[1] == -2 && paper->value[2] == 3);
-    assert_null(job_reference(&every.job, "predicted_hz"));
+    assert_true(paper->nvalues == 3 && paper->values[0] == 1.5 && paper->values[1] == -2 && paper->values[2] == 3);
     assert_string_equal(every.job.deck, EVERY_CARD);
 }
 

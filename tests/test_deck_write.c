@@ -192,8 +192,8 @@ static void assert_job(const struct job *a, const struct job *b)
     assert_int_equal(a->nreference, b->nreference);
     for (int i = 0; i < a->nreference; i++) {
         assert_text(a->reference[i].quantity, b->reference[i].quantity);
-        assert_int_equal(a->reference[i].count, b->reference[i].count);
-        assert_doubles(a->reference[i].count, a->reference[i].value, b->reference[i].value);
+        assert_int_equal(a->reference[i].nvalues, b->reference[i].nvalues);
+        assert_doubles(a->reference[i].nvalues, a->reference[i].values, b->reference[i].values);
     }
     assert_rotor(&a->rotor, &b->rotor);
     assert_data(a, b);

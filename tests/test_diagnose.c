@@ -168,38 +168,39 @@ static int says(const struct run *r, const char *words)
     return 0;
 }
 
-static const struct data_finding *found(const struct run *r, const char *id)
+static const rotid_data_finding *found(const struct run *r, const char *id)
 {
-    for (int i = 0; i < r->d.ndata_finding; i++)
-        if (!strcmp(r->d.data_finding[i].cause->id, id))
-            return &r->d.data_finding[i];
+    for (int i = 0; i < r->d.result.ndata_findings; i++)
+        if (!strcmp(r->d.result.data_findings[i].id, id))
+            return &r->d.result.data_findings[i];
     return NULL;
 }
 
 static void print_verdict(const struct run *r)
 {
-    print_error("%s: %s\n", verdict_name(r->d.kind), r->d.sentence);
+    print_error("%s: %s\n", rotid_verdict_name(r->d.result.verdict.kind), r->d.result.verdict.sentence);
     for (size_t i = 0; i < r->notes.count; i++)
         print_error("note: %s\n", r->notes.item[i].text);
-    for (int i = 0; i < r->d.ndata_finding; i++)
-        print_error("finding: %s\n", r->d.data_finding[i].text);
+    for (int i = 0; i < r->d.result.ndata_findings; i++)
+        print_error("finding: %s\n", r->d.result.data_findings[i].text);
 }
 
 /* Done, with a sentence, and no other name than the truth (NULL: nothing is wrong, or nothing that could be named). */
 static void assert_honest(const struct run *r, const char *truth)
 {
     assert_status(r->status, ROTID_OK);
-    assert_false(r->d.interrupted);
-    assert_non_null(r->d.sentence);
+    assert_false(r->d.result.interrupted);
+    assert_non_null(r->d.result.verdict.sentence);
     int right = 1;
     for (int c = 0; c < r->d.ncause; c++)
         right = right && truth && !strcmp(r->d.cause[c].cause->id, truth);
-    if (!right || (r->d.kind == VERDICT_NAMED && !r->d.ncause))
+    if (!right || (r->d.result.verdict.kind == ROTID_NAMED && !r->d.ncause))
         print_verdict(r);
     assert_true(right);
-    if (r->d.kind == VERDICT_AMBIGUOUS || r->d.kind == VERDICT_UNEXPLAINED) /* open: what would settle it is said */
-        assert_non_null(r->d.next_measurement);
-    assert_true((r->d.kind == VERDICT_NAMED) == (r->d.ncause > 0));
+    if (r->d.result.verdict.kind == ROTID_AMBIGUOUS ||
+        r->d.result.verdict.kind == ROTID_UNEXPLAINED) /* open: what would settle it is said */
+        assert_non_null(r->d.result.verdict.next_measurement);
+    assert_true((r->d.result.verdict.kind == ROTID_NAMED) == (r->d.ncause > 0));
 }
 
 /* ---- what it does with good data ---- */
@@ -213,12 +214,12 @@ static void nothing_hidden_is_adequate(void **state)
     usual_deck(&d);
     run_with(&r, 1, 1);
     assert_honest(&r, NULL);
-    if (r.d.kind != VERDICT_ADEQUATE)
+    if (r.d.result.verdict.kind != ROTID_ADEQUATE)
         print_verdict(&r);
-    assert_int_equal(r.d.kind, VERDICT_ADEQUATE);
-    assert_true(r.d.adequate_after && r.d.nround == 1 && !r.d.extended.fit);
-    assert_memory_equal(&r.d.before, &r.d.after, sizeof r.d.before);
-    assert_true(r.d.ndetectable > 5);
+    assert_int_equal(r.d.result.verdict.kind, ROTID_ADEQUATE);
+    assert_true(r.d.result.verdict.adequate_after && r.d.nround == 1 && !r.d.extended.fit);
+    assert_true(isfinite(r.d.result.gain.chi2_per_dof.before) && isnan(r.d.result.gain.chi2_per_dof.after));
+    assert_true(r.d.result.ndetectable > 5);
     close_run(&r);
 }
 
@@ -231,19 +232,19 @@ static void what_is_hidden_is_named_and_measured(void **state)
     usual_deck(&d);
     run_with(&r, 2, 1);
     assert_honest(&r, "stiffness_gradient");
-    if (r.d.kind != VERDICT_NAMED)
+    if (r.d.result.verdict.kind != ROTID_NAMED)
         print_verdict(&r);
-    assert_int_equal(r.d.kind, VERDICT_NAMED);
+    assert_int_equal(r.d.result.verdict.kind, ROTID_NAMED);
     assert_int_equal(r.d.ncause, 1);
     const struct candidate *c = &r.d.cause[0];
     assert_string_equal(c->target, "core");
     assert_true(c->ci_lower[0] < 0.3 && 0.3 < c->ci_upper[0]);
     assert_close(c->effect.value[0], 0.3, 0, 0.1);
-    assert_true(r.d.adequate_after && r.d.p_value < 0.01);
-    assert_true(r.d.after.chi2_per_dof < r.d.before.chi2_per_dof);
-    assert_true(r.d.after.frequency_rms_percent < r.d.before.frequency_rms_percent);
-    assert_true(r.d.after.mode_out_frequency_rms_percent < r.d.before.mode_out_frequency_rms_percent);
-    assert_true(r.d.after.sensor_out_shape_rms < r.d.before.sensor_out_shape_rms);
+    assert_true(r.d.result.verdict.adequate_after && r.d.result.verdict.p_value < 0.01);
+    assert_true(r.d.result.gain.chi2_per_dof.after < r.d.result.gain.chi2_per_dof.before);
+    assert_true(r.d.result.gain.frequency_rms_percent.after < r.d.result.gain.frequency_rms_percent.before);
+    assert_true(r.d.result.gain.mode_out_frequency_rms_percent.after < r.d.result.gain.mode_out_frequency_rms_percent.before);
+    assert_true(r.d.result.gain.sensor_out_shape_rms.after < r.d.result.gain.sensor_out_shape_rms.before);
     assert_int_equal(r.d.extended_job.rotor.neffect, 1);
     assert_int_equal(r.d.extended_job.unknowns.nparameter, 3);
     assert_close(r.d.extended_job.rotor.effect[0].value[0], r.d.extended.fit->x[2], 0, 0);
@@ -275,24 +276,25 @@ static void same_candidate(const struct candidate *a, const struct candidate *b)
     assert_ptr_equal(a->cause, b->cause);
     both_say(a->effect.name, b->effect.name);
     both_say(a->target, b->target);
-    both_say(a->collinear_with, b->collinear_with);
-    both_say(a->collinear_target, b->collinear_target);
-    both_say(a->rejected_because, b->rejected_because);
+    both_say(a->result.collinear_with, b->result.collinear_with);
+    both_say(a->result.collinear_target, b->result.collinear_target);
+    both_say(a->result.rejected_because, b->result.rejected_because);
     SAME_ARRAY(effect.value, EFFECT_MOST_PARAMETERS);
     SAME_ARRAY(std, EFFECT_MOST_PARAMETERS);
     SAME_ARRAY(ci_lower, EFFECT_MOST_PARAMETERS);
     SAME_ARRAY(ci_upper, EFFECT_MOST_PARAMETERS);
-    SAME(predicted_drop, 1);
-    SAME(chi2, 1);
-    SAME(chi2_drop, 1);
-    SAME(chi2_frequency, 1);
-    SAME(bic, 1);
-    SAME(p_value, 1);
-    SAME(holdout_rms, 1);
-    SAME(mode_out_rms, 1);
-    SAME(sensor_out_rms, 1);
-    SAME(cosine, 1);
-    assert_true(a->refitted == b->refitted && a->at_bound == b->at_bound && a->nparameter == b->nparameter);
+    SAME(result.predicted_drop, 1);
+    SAME(result.chi2, 1);
+    SAME(result.chi2_drop, 1);
+    SAME(result.chi2_frequency, 1);
+    SAME(result.bic, 1);
+    SAME(result.p_value, 1);
+    SAME(result.holdout_rms, 1);
+    SAME(result.mode_out_rms, 1);
+    SAME(result.sensor_out_rms, 1);
+    SAME(result.cosine, 1);
+    assert_true(a->result.refitted == b->result.refitted && a->result.at_bound == b->result.at_bound &&
+                a->nparameter == b->nparameter);
 }
 
 static void same_fit(const rotid_fit_result *a, const rotid_fit_result *b)
@@ -312,37 +314,42 @@ static void same_fit(const rotid_fit_result *a, const rotid_fit_result *b)
 
 static void same_diagnosis(const struct diagnosis *a, const struct diagnosis *b)
 {
-    assert_int_equal(a->kind, b->kind);
-    both_say(a->sentence, b->sentence);
-    both_say(a->next_measurement, b->next_measurement);
+    assert_int_equal(a->result.verdict.kind, b->result.verdict.kind);
+    both_say(a->result.verdict.sentence, b->result.verdict.sentence);
+    both_say(a->result.verdict.next_measurement, b->result.verdict.next_measurement);
     assert_true(a->nround == b->nround && a->ncause == b->ncause && a->nalternative == b->nalternative);
-    assert_true(a->ndata_finding == b->ndata_finding && a->nnumerical_finding == b->nnumerical_finding);
-    assert_true(a->adequate_after == b->adequate_after && a->ndetectable == b->ndetectable && a->nlocal == b->nlocal);
-    SAME(p_value, 1);
+    assert_true(a->result.ndata_findings == b->result.ndata_findings &&
+                a->result.nnumerical_findings == b->result.nnumerical_findings);
+    assert_true(a->result.verdict.adequate_after == b->result.verdict.adequate_after &&
+                a->result.ndetectable == b->result.ndetectable && a->result.nlocalisation == b->result.nlocalisation);
+    SAME(result.verdict.p_value, 1);
     same_fit(a->today.fit, b->today.fit);
     same_fit(a->base.fit, b->base.fit);
     same_fit(a->extended.fit, b->extended.fit);
-    same((const double *)&a->before, (const double *)&b->before, sizeof a->before / sizeof(double), "before");
-    same((const double *)&a->after, (const double *)&b->after, sizeof a->after / sizeof(double), "after");
-    SAME_ARRAY(mode_z, a->job.measurement.nmode);
-    SAME_ARRAY(sensor_rms, a->job.rotor.nsensor);
-    SAME_ARRAY(local, a->nlocal);
-    SAME_ARRAY(local_z, a->nlocal);
-    for (int i = 0; i < a->ndata_finding; i++)
-        both_say(a->data_finding[i].text, b->data_finding[i].text);
-    for (int i = 0; i < a->nnumerical_finding; i++)
-        both_say(a->numerical_finding[i].text, b->numerical_finding[i].text);
+    same(&a->result.gain.frequency_rms_percent.before, &b->result.gain.frequency_rms_percent.before,
+         offsetof(rotid_gain, nparameters) / sizeof(double), "gain");
+    SAME_ARRAY(result.modes_standardised, a->result.nmodes_standardised);
+    for (int i = 0; i < a->result.nsensors; i++)
+        SAME(result.sensors[i].rms, 1);
+    for (int i = 0; i < a->result.nlocalisation; i++) {
+        SAME(result.localisation[i].z_m, 1);
+        SAME(result.localisation[i].indicator, 1);
+    }
+    for (int i = 0; i < a->result.ndata_findings; i++)
+        both_say(a->result.data_findings[i].text, b->result.data_findings[i].text);
+    for (int i = 0; i < a->result.nnumerical_findings; i++)
+        both_say(a->result.numerical_findings[i].text, b->result.numerical_findings[i].text);
     for (int r = 0; r < a->nround; r++) {
-        SAME(round[r].chi2, 1);
-        SAME(round[r].chi2_frequency, 1);
-        SAME(round[r].largest, 1);
-        SAME(round[r].threshold, 1);
-        SAME(round[r].p_scan, 1);
-        SAME(round[r].p_frequency, 1);
-        SAME(round[r].p_total, 1);
-        SAME(round[r].required_margin, 1);
-        assert_true(a->round[r].ncandidate == b->round[r].ncandidate && a->round[r].nset == b->round[r].nset);
-        assert_int_equal(a->round[r].kind, b->round[r].kind);
+        SAME(round[r].result.chi2, 1);
+        SAME(round[r].result.chi2_frequency, 1);
+        SAME(round[r].result.largest, 1);
+        SAME(round[r].result.threshold, 1);
+        SAME(round[r].result.p_scan, 1);
+        SAME(round[r].result.p_frequency, 1);
+        SAME(round[r].result.p_total, 1);
+        SAME(round[r].result.required_margin, 1);
+        assert_true(a->round[r].ncandidate == b->round[r].ncandidate && a->round[r].result.set == b->round[r].result.set);
+        assert_int_equal(a->round[r].result.kind, b->round[r].result.kind);
         for (int i = 0; i < a->round[r].ncandidate; i++)
             same_candidate(&a->round[r].candidate[i], &b->round[r].candidate[i]);
     }
@@ -350,11 +357,11 @@ static void same_diagnosis(const struct diagnosis *a, const struct diagnosis *b)
         same_candidate(&a->cause[i], &b->cause[i]);
     for (int i = 0; i < a->nalternative; i++)
         same_candidate(&a->alternative[i], &b->alternative[i]);
-    for (int i = 0; i < a->ndetectable; i++) {
-        SAME(detectable[i].smallest, 1);
-        SAME(detectable[i].worst, 1);
-        SAME(detectable[i].z, 1);
-        assert_int_equal(a->detectable[i].beyond, b->detectable[i].beyond);
+    for (int i = 0; i < a->result.ndetectable; i++) {
+        SAME(result.detectable[i].smallest, 1);
+        SAME(result.detectable[i].worst, 1);
+        SAME(result.detectable[i].z_m, 1);
+        assert_int_equal(a->result.detectable[i].beyond, b->result.detectable[i].beyond);
     }
 }
 
@@ -428,7 +435,7 @@ static int run_in(const struct job *job, struct failing_allocator *failing, stru
     message_open(&notes, &pool);
     int status = diagnose_run(&pool, job, &options, &environment, &notes, &d);
     if (interrupted)
-        *interrupted = d.interrupted;
+        *interrupted = d.result.interrupted;
     diagnose_free(&d); /* harmless behind an error */
     pool_close(&pool);
     assert_int_equal(failing->in_use, 0);
@@ -612,7 +619,7 @@ static void noise_not_stated_or_zero(void **state)
     (void)folder_write("deck.inp", text);
     run_with(&r, 1, 1);
     assert_honest(&r, NULL); /* relative statements only: nothing is named */
-    assert_true(r.d.frequency_noise_assumed);
+    assert_true(r.d.result.noise.frequency_assumed);
     assert_true(says(&r, "the deck states no noise"));
     close_run(&r);
     text[0] = 0;
@@ -695,9 +702,9 @@ static void a_mode_missing_from_the_count(void **state)
         assert_honest(&r, NULL);
         if (shapes) {
             assert_non_null(found(&r, "mode_pairing"));
-            if (r.d.kind != VERDICT_ADEQUATE)
+            if (r.d.result.verdict.kind != ROTID_ADEQUATE)
                 print_verdict(&r);
-            assert_int_equal(r.d.kind, VERDICT_ADEQUATE); /* once they are paired rightly nothing is wrong */
+            assert_int_equal(r.d.result.verdict.kind, ROTID_ADEQUATE); /* once they are paired rightly nothing is wrong */
         }
         close_run(&r);
     }
@@ -727,9 +734,9 @@ static void a_mode_measured_twice(void **state)
     assert_honest(&r, NULL);
     assert_non_null(found(&r, "mode_pairing"));
     assert_int_equal(r.d.job.measurement.nmode, MODES);
-    if (r.d.kind != VERDICT_ADEQUATE)
+    if (r.d.result.verdict.kind != ROTID_ADEQUATE)
         print_verdict(&r);
-    assert_int_equal(r.d.kind, VERDICT_ADEQUATE);
+    assert_int_equal(r.d.result.verdict.kind, ROTID_ADEQUATE);
     close_run(&r);
 }
 
@@ -746,7 +753,7 @@ static void nothing_to_identify(void **state)
     run_with(&r, 1, 1);
     assert_honest(&r, "stiffness_gradient");
     assert_int_equal(r.d.base.fit->n, 0);
-    assert_false(r.d.has_today);
+    assert_false(r.d.today.fit);
     close_run(&r);
 }
 

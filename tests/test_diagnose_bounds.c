@@ -37,10 +37,11 @@ static void assert_nested(const struct diagnosis *d)
     for (int r = 0; r < d->nround; r++)
         for (int i = 0; i < d->round[r].ncandidate; i++) {
             const struct candidate *c = &d->round[r].candidate[i];
-            if (c->chi2_drop < -0.01 && (c->cause->effect->nparameter || !c->rejected_because || i < d->round[r].nset))
-                fail_msg("round %d: %s %s changes chi2 by %+g", r + 1, c->cause->id, c->target, -c->chi2_drop);
-            if (c->refitted && isnan(c->chi2))
-                assert_says(c->rejected_because, "no fit of this cause reached a smaller chi2");
+            if (c->result.chi2_drop < -0.01 &&
+                (c->cause->effect->nparameter || !c->result.rejected_because || i < d->round[r].result.set))
+                fail_msg("round %d: %s %s changes chi2 by %+g", r + 1, c->cause->id, c->target, -c->result.chi2_drop);
+            if (c->result.refitted && isnan(c->result.chi2))
+                assert_says(c->result.rejected_because, "no fit of this cause reached a smaller chi2");
         }
 }
 
@@ -60,7 +61,7 @@ static void diagnose(const char *text, struct run *r)
     assert_status(deck_read(&r->pool, path, 0, NULL, &r->messages, &r->job), ROTID_OK);
     message_open(&r->messages, &r->pool);
     assert_status(diagnose_run(&r->pool, &r->job, &options, NULL, &r->messages, &r->d), ROTID_OK);
-    print_message("%s\n", r->d.sentence);
+    print_message("%s\n", r->d.result.verdict.sentence);
     assert_true(r->d.base.fit->at_bound[0]);
     assert_nested(&r->d);
     int noted = 0;
@@ -78,11 +79,11 @@ static void close_run(struct run *r)
 /* The cause is one, and with it the bound is no matter any more. */
 static void assert_named(const struct diagnosis *d, const char *id)
 {
-    assert_string_equal(verdict_name(d->kind), "named");
+    assert_string_equal(rotid_verdict_name(d->result.verdict.kind), "named");
     assert_int_equal(d->ncause, 1);
     assert_string_equal(d->cause[0].cause->id, id);
     assert_false(d->extended.fit->any_at_bound);
-    assert_null(strstr(d->sentence, "bound"));
+    assert_null(strstr(d->result.verdict.sentence, "bound"));
 }
 
 static void a_modulus_at_a_tight_bound_gets_off_it_with_the_cause(void **state)
@@ -150,8 +151,9 @@ static void a_bound_that_keeps_the_truth_out_is_no_cause(void **state)
     struct run r;
     (void)state;
     diagnose_paper("core.E, 1.1e11, 2.3e11, 1.5e11", 12, "core.E=1.0e11", NULL, &r);
-    assert_true(r.d.kind == VERDICT_AMBIGUOUS || r.d.kind == VERDICT_UNEXPLAINED);
-    assert_says(r.d.sentence, "core.E ends at its lower bound 1.1e+11 Pa, which may be the cause itself: widen it");
+    assert_true(r.d.result.verdict.kind == ROTID_AMBIGUOUS || r.d.result.verdict.kind == ROTID_UNEXPLAINED);
+    assert_says(r.d.result.verdict.sentence,
+                "core.E ends at its lower bound 1.1e+11 Pa, which may be the cause itself: widen it");
     close_run(&r);
 }
 

@@ -59,14 +59,14 @@ static void diagnose(struct run *r, const char *path)
     read_deck(&r->pool, &r->messages, path, &r->job);
     message_open(&r->notes, &r->pool);
     assert_status(diagnose_run(&r->pool, &r->job, &options, NULL, &r->notes, &r->d), ROTID_OK);
-    assert_non_null(r->d.sentence);
+    assert_non_null(r->d.result.verdict.sentence);
 }
 
-static void assert_kind(const struct run *r, enum verdict_kind kind)
+static void assert_kind(const struct run *r, int kind)
 {
-    if (r->d.kind != kind)
-        print_error("%s\n", r->d.sentence);
-    assert_string_equal(verdict_name(r->d.kind), verdict_name(kind));
+    if (r->d.result.verdict.kind != kind)
+        print_error("%s\n", r->d.result.verdict.sentence);
+    assert_string_equal(rotid_verdict_name(r->d.result.verdict.kind), rotid_verdict_name(kind));
 }
 
 static void close_run(struct run *r)
@@ -86,7 +86,7 @@ static const struct candidate *find(int count, const struct candidate *candidate
 static void solid_rotor(struct run *r, const char *file)
 {
     diagnose(r, changed_deck(INPUT "solid_rotor.inp", "solid_rotor_uniform.uff", file, ""));
-    assert_kind(r, VERDICT_NAMED);
+    assert_kind(r, ROTID_NAMED);
     assert_string_equal(r->d.cause[0].cause->id, "step_stiffness");
 }
 
@@ -127,14 +127,14 @@ static void a_solid_has_corners_that_carry_nothing(void **state)
     solid_rotor(&r, "solid_rotor_uniform.uff");
     const struct diagnosis *d = &r.d;
     assert_int_equal(d->ncause, 1);
-    assert_true(d->adequate_after && d->nalternative == 0);
-    assert_true(d->before.frequency_rms_percent > 1.8);
-    assert_true(d->after.frequency_rms_percent <= 0.6);
+    assert_true(d->result.verdict.adequate_after && d->nalternative == 0);
+    assert_true(d->result.gain.frequency_rms_percent.before > 1.8);
+    assert_true(d->result.gain.frequency_rms_percent.after <= 0.6);
     assert_close(d->extended.fit->x[0], 1.05e11, 0.05, 0);
     assert_close(d->extended.fit->x[1], 0.47e11, 0.05, 0);
     assert_true(d->base.fit->x[0] < 0.85 * 1.05e11); /* what the moduli had to absorb */
-    assert_true(d->after.mode_out_frequency_rms_percent < 0.5 * d->before.mode_out_frequency_rms_percent);
-    assert_true(d->after.sensor_out_shape_rms < d->before.sensor_out_shape_rms);
+    assert_true(d->result.gain.mode_out_frequency_rms_percent.after < 0.5 * d->result.gain.mode_out_frequency_rms_percent.before);
+    assert_true(d->result.gain.sensor_out_shape_rms.after < d->result.gain.sensor_out_shape_rms.before);
     check_extended(&r);
     close_run(&r);
 }
@@ -160,7 +160,7 @@ static void check_second(const char *file, const char *truth)
     if (d->ncause > 1) {
         assert_int_equal(d->ncause, 2);
         assert_string_equal(d->cause[1].cause->id, truth);
-    } else if (!d->adequate_after)
+    } else if (!d->result.verdict.adequate_after)
         assert_non_null(find(d->nalternative, d->alternative, truth));
     close_run(&r);
 }
@@ -184,10 +184,10 @@ static void steel_predicts_modes_it_has_not_seen(void **state)
     diagnose(&r, changed_deck(INPUT "solid_steel.inp", NULL, NULL,
                               "\n*NOISE, FREQUENCY=0.003, SHAPE=0.02\n*FIT, MODES=1-3, HOLDOUT=4-6\n"));
     const struct diagnosis *d = &r.d;
-    assert_kind(&r, VERDICT_NAMED);
+    assert_kind(&r, ROTID_NAMED);
     assert_int_equal(d->ncause, 1);
     assert_string_equal(d->cause[0].cause->id, "step_stiffness");
-    assert_true(d->after.holdout_frequency_rms_percent < 0.1 * d->before.holdout_frequency_rms_percent);
+    assert_true(d->result.gain.holdout_frequency_rms_percent.after < 0.1 * d->result.gain.holdout_frequency_rms_percent.before);
     check_extended(&r);
     close_run(&r);
 }
@@ -195,7 +195,7 @@ static void steel_predicts_modes_it_has_not_seen(void **state)
 static const struct candidate *suspect(const struct diagnosis *d, const char *name)
 {
     for (int i = 0; i < d->round[0].ncandidate; i++)
-        if (d->round[0].candidate[i].suspect && !strcmp(d->round[0].candidate[i].effect.name, name))
+        if (d->round[0].candidate[i].result.suspect && !strcmp(d->round[0].candidate[i].effect.name, name))
             return &d->round[0].candidate[i];
     return NULL;
 }
@@ -206,16 +206,16 @@ static void a_bolted_lap_is_found(void **state)
     struct run r;
     diagnose(&r, INPUT "brake_reuss_lap.inp");
     const struct diagnosis *d = &r.d;
-    assert_kind(&r, VERDICT_NAMED);
+    assert_kind(&r, ROTID_NAMED);
     assert_int_equal(d->ncause, 1);
     assert_string_equal(d->cause[0].effect.name, "lap");
     assert_close(d->cause[0].effect.value[1], 0.36, 0, 0.06);
-    assert_true(d->after.holdout_frequency_rms_percent <= 0.5 * 14.3);
+    assert_true(d->result.gain.holdout_frequency_rms_percent.after <= 0.5 * 14.3);
     const struct candidate *shear = suspect(d, "lap_shear");
     assert_non_null(shear);
-    assert_non_null(shear->rejected_because);
-    assert_non_null(strstr(shear->rejected_because, "modes held out"));
-    assert_true(shear->holdout_rms > d->cause[0].holdout_rms);
+    assert_non_null(shear->result.rejected_because);
+    assert_non_null(strstr(shear->result.rejected_because, "modes held out"));
+    assert_true(shear->result.holdout_rms > d->cause[0].result.holdout_rms);
     check_extended(&r);
     close_run(&r);
 }
@@ -226,8 +226,8 @@ static void the_monolithic_beam_leaves_what_it_is_measured_by(void **state)
     (void)state;
     struct run r;
     diagnose(&r, INPUT "brake_reuss_beam.inp");
-    assert_close(r.d.before.holdout_frequency_rms_percent, 14.3, 0, 0.3);
-    assert_int_not_equal(r.d.kind, VERDICT_NAMED); /* the deck states no noise */
+    assert_close(r.d.result.gain.holdout_frequency_rms_percent.before, 14.3, 0, 0.3);
+    assert_int_not_equal(r.d.result.verdict.kind, ROTID_NAMED); /* the deck states no noise */
     close_run(&r);
 }
 
@@ -243,10 +243,10 @@ static void supports_are_a_false_lead(void **state)
         if (strcmp(c->cause->id, "support") != 0)
             continue;
         refused++;
-        assert_true(c->chi2_drop > 0.5 * d->round[0].chi2); /* they do look good */
-        assert_true(c->holdout_rms > 1.5 * d->before.holdout_frequency_rms_percent);
-        assert_non_null(c->rejected_because);
-        assert_non_null(strstr(c->rejected_because, "prediction of held-out modes gets worse"));
+        assert_true(c->result.chi2_drop > 0.5 * d->round[0].result.chi2); /* they do look good */
+        assert_true(c->result.holdout_rms > 1.5 * d->result.gain.holdout_frequency_rms_percent.before);
+        assert_non_null(c->result.rejected_because);
+        assert_non_null(strstr(c->result.rejected_because, "prediction of held-out modes gets worse"));
     }
     assert_int_equal(refused, 2);
     assert_null(find(d->ncause, d->cause, "support"));
@@ -259,10 +259,10 @@ static void few_modes_of_a_slender_beam_leave_G_open(void **state)
     (void)state;
     struct run r;
     diagnose(&r, INPUT "roving_hammer_beam.inp");
-    assert_kind(&r, VERDICT_ADEQUATE);
-    assert_int_equal(r.d.undetermined, 1);
-    assert_non_null(strstr(r.d.sentence, "The data do not determine beam.G separately from beam.E"));
-    assert_non_null(strstr(r.d.sentence, "its 95 % interval is"));
+    assert_kind(&r, ROTID_ADEQUATE);
+    assert_int_equal(r.d.result.verdict.undetermined_parameters, 1);
+    assert_non_null(strstr(r.d.result.verdict.sentence, "The data do not determine beam.G separately from beam.E"));
+    assert_non_null(strstr(r.d.result.verdict.sentence, "its 95 % interval is"));
     close_run(&r);
 }
 
@@ -272,18 +272,18 @@ static void six_frequencies_of_the_paper_carry_no_name(void **state)
     struct run r;
     diagnose(&r, INPUT "paper_rotor.inp");
     const struct diagnosis *d = &r.d;
-    assert_true(d->kind == VERDICT_AMBIGUOUS || d->kind == VERDICT_UNEXPLAINED);
-    assert_non_null(d->next_measurement);
+    assert_true(d->result.verdict.kind == ROTID_AMBIGUOUS || d->result.verdict.kind == ROTID_UNEXPLAINED);
+    assert_non_null(d->result.verdict.next_measurement);
     assert_int_equal(d->ncause, 0);
-    assert_close(d->before.frequency_rms_percent, 4.8, 0, 0.1);
+    assert_close(d->result.gain.frequency_rms_percent.before, 4.8, 0, 0.1);
     int guyan = 0;
-    for (int i = 0; i < d->nnumerical_finding; i++)
-        guyan += !strcmp(d->numerical_finding[i].cause->id, "guyan_reduction");
+    for (int i = 0; i < d->result.nnumerical_findings; i++)
+        guyan += !strcmp(d->result.numerical_findings[i].id, "guyan_reduction");
     assert_int_equal(guyan, 1);
     const struct candidate *mass = find(d->round[0].ncandidate, d->round[0].candidate, "added_mass");
     assert_non_null(mass); /* fits well, and is beyond anything on this rotor */
-    assert_true(mass->at_bound);
-    assert_non_null(mass->rejected_because);
+    assert_true(mass->result.at_bound);
+    assert_non_null(mass->result.rejected_because);
     assert_non_null(find(d->round[0].ncandidate, d->round[0].candidate, "tie_shear"));
     assert_non_null(find(d->round[0].ncandidate, d->round[0].candidate, "step_stiffness"));
     close_run(&r);

@@ -77,7 +77,7 @@ static const struct {
 #define COUNT ((int)(sizeof table / sizeof *table))
 
 struct seen { /* of one diagnosis, while it is there */
-    enum verdict_kind kind;
+    int kind;
     int adequate_after, ncause, nfinding, tension_beyond;
     char cause[64], finding[64];
 };
@@ -91,17 +91,17 @@ static void look(void *context, const struct hidden_case *c, const struct diagno
 {
     struct seen *s = (struct seen *)context + c->number;
     (void)truth, (void)unused;
-    s->kind = d->kind;
-    s->adequate_after = d->adequate_after;
+    s->kind = d->result.verdict.kind;
+    s->adequate_after = d->result.verdict.adequate_after;
     s->ncause = d->ncause;
-    s->nfinding = d->ndata_finding;
+    s->nfinding = d->result.ndata_findings;
     if (d->ncause)
         snprintf(s->cause, sizeof s->cause, "%s", d->cause[0].cause->id);
-    if (d->ndata_finding)
-        snprintf(s->finding, sizeof s->finding, "%s", d->data_finding[0].cause->id);
-    for (int i = 0; i < d->ndetectable; i++)
-        if (!strcmp(d->detectable[i].cause->id, "tie_tension"))
-            s->tension_beyond = d->detectable[i].beyond;
+    if (d->result.ndata_findings)
+        snprintf(s->finding, sizeof s->finding, "%s", d->result.data_findings[0].id);
+    for (int i = 0; i < d->result.ndetectable; i++)
+        if (!strcmp(d->result.detectable[i].id, "tie_tension"))
+            s->tension_beyond = d->result.detectable[i].beyond;
 }
 
 static int run_one(void *deck, int i, int worker)
@@ -153,7 +153,7 @@ static int is_as_expected(int i)
         wrong = s->outcome == HIDDEN_WRONG;
     switch (table[i].expected) {
     case NAMED:
-        return d->kind == VERDICT_NAMED && d->ncause == 1 && is_of(d->cause, effect[0]) && d->adequate_after &&
+        return d->kind == ROTID_NAMED && d->ncause == 1 && is_of(d->cause, effect[0]) && d->adequate_after &&
                values_are_covered(s) && (!effect[1] || (d->nfinding == 1 && is_of(d->finding, effect[1])));
     case CLEAR:
         return found && !s->accused;
@@ -205,7 +205,7 @@ static void the_tension_of_the_rods_is_a_blind_spot_and_said_to_be_one(void **st
     (void)state;
     for (int i = 0; i < COUNT; i++)
         if (table[i].effect[0] && is_of("tie_tension", table[i].effect[0])) {
-            assert_int_equal(seen[i].kind, VERDICT_ADEQUATE);
+            assert_int_equal(seen[i].kind, ROTID_ADEQUATE);
             assert_true(seen[i].tension_beyond);
         }
 }

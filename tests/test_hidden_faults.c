@@ -29,7 +29,7 @@ static const struct {
 #define COUNT ((int)(sizeof table / sizeof *table))
 
 struct seen { /* of one diagnosis, while it is there */
-    enum verdict_kind kind;
+    int kind;
     int ncause, nfinding, sensor[2];
     char id[64], text[300];
     double value;
@@ -43,12 +43,13 @@ static void look(void *context, const struct hidden_case *c, const struct diagno
 {
     struct seen *s = (struct seen *)context + c->number;
     (void)truth, (void)score;
-    *s = (struct seen){.kind = d->kind, .ncause = d->ncause, .nfinding = d->ndata_finding};
-    if (d->ndata_finding) {
-        const struct data_finding *f = &d->data_finding[0];
-        snprintf(s->id, sizeof s->id, "%s", f->cause->id);
+    *s = (struct seen){.kind = d->result.verdict.kind, .ncause = d->ncause, .nfinding = d->result.ndata_findings};
+    if (d->result.ndata_findings) {
+        const rotid_data_finding *f = &d->result.data_findings[0];
+        snprintf(s->id, sizeof s->id, "%s", f->id);
         snprintf(s->text, sizeof s->text, "%s", f->text);
-        memcpy(s->sensor, f->sensor, sizeof s->sensor);
+        for (int i = 0; i < f->nsensors && i < 2; i++)
+            s->sensor[i] = f->sensors[i];
         s->value = f->value;
     }
 }
@@ -84,7 +85,7 @@ static void faults_are_found_by_number_and_not_taken_for_physics(void **state)
     for (int i = 0; i < COUNT; i++) {
         const int *expected = table[i].sensor, *sensor = seen[i].sensor;
         print_message("%s: %s\n", table[i].effect, seen[i].text);
-        assert_int_equal(seen[i].kind, VERDICT_ADEQUATE);
+        assert_int_equal(seen[i].kind, ROTID_ADEQUATE);
         assert_int_equal(seen[i].ncause, 0);
         assert_int_equal(seen[i].nfinding, 1);
         assert_string_equal(seen[i].id, table[i].id);

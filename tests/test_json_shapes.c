@@ -8,7 +8,6 @@
 
 #include "base/random.h"
 #include "json_deck.h"
-#include "report/json.h"
 #include "result/json_tree.h"
 #include "run/spectrum.h"
 

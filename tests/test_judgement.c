@@ -11,12 +11,16 @@
 static void errors_of_fitted_modes_and_of_those_held_out_stand_apart(void **state)
 {
     (void)state;
-    rotid_compared_mode modes[] = {{.error_percent = 3}, {.error_percent = -4}, {.error_percent = 12, .holdout = 1}};
-    const rotid_identification fit = {.nmodes = 3, .modes = modes}, fitted = {.nmodes = 2, .modes = modes};
+    rotid_compared_mode modes[] = {
+        {.error_percent = NAN}, {.error_percent = 3}, {.error_percent = -4}, {.error_percent = 12, .holdout = 1}};
+    const rotid_identification fit = {.nmodes = 4, .modes = modes}, fitted = {.nmodes = 3, .modes = modes},
+                               unknown = {.nmodes = 1, .modes = modes};
     assert_close(fit_rms_percent(&fit, 0), sqrt((9 + 16) / 2.0), 1e-15, 0);
     assert_close(fit_rms_percent(&fit, 1), 12, 1e-15, 0);
     assert_true(isnan(fit_rms_percent(&fitted, 1)));
-    assert_int_equal(fit_worst_mode(&fit), 1); /* whatever its sign, and not the one held out */
+    assert_int_equal(fit_worst_mode(&fit), 2); /* whatever its sign, and not the one held out */
+    assert_true(isnan(fit_rms_percent(&unknown, 0)));
+    assert_int_equal(fit_worst_mode(&unknown), -1);
 }
 
 /* Of two degrees of freedom the tail is exp(-chi2/2). */

@@ -6,7 +6,6 @@
 
 #include <cJSON.h>
 
-#include "fit/quantile.h"
 #include "json_value.h"
 #include "page/figures_diagnosis.h"
 #include "page/result.h"
@@ -389,18 +388,6 @@ static void places_are_found_on_the_rotor(void **state)
     assert_false(cause_place(NULL, &ring, &place));
 }
 
-static void limits_of_chi_square_are_those_of_its_table(void **state)
-{
-    (void)state;
-    /* NIST/SEMATECH e-Handbook, table 1.3.6.7.4: upper 5 % */
-    static const struct {
-        int dof;
-        double x;
-    } table[] = {{1, 3.841}, {2, 5.991}, {6, 12.592}, {10, 18.307}, {100, 124.342}};
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-        assert_close(chi_square_limit(0.05, table[i].dof), table[i].x, 0, 6e-4);
-}
-
 static void the_real_gnuplot_draws_them(void **state)
 {
     (void)state;
@@ -436,7 +423,6 @@ int main(void)
         cmocka_unit_test(a_result_that_lacks_something_says_what),
         cmocka_unit_test_setup_teardown(leads_are_those_of_the_decision, open_test_pool, close_test_pool),
         cmocka_unit_test(places_are_found_on_the_rotor),
-        cmocka_unit_test(limits_of_chi_square_are_those_of_its_table),
         cmocka_unit_test(the_real_gnuplot_draws_them),
     };
     return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);

@@ -8,9 +8,15 @@
 #include "page/page.h"
 #include "page_bench.h"
 #include "plotted.h"
+#include "study_bench.h"
 #include "support.h"
 
 #define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
+#define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
+
+static const char *const truth_plan =
+    "*STUDY, REPLICATES=25\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1.8e11, 2.2e11\nleft.E, 2e11\n"
+    "*NOISE\n0.001\n0.003\n";
 
 static struct {
     struct pool pool;
@@ -18,23 +24,29 @@ static struct {
     cJSON *json;
 } bench;
 
-static void open_bench(const char *command, const char *deck)
+/* The figures of a result in the folder, compared with the JSON of one there: of a study the result is its file of results. */
+static void open_result(const char *name, const char *json)
 {
     static struct message_list messages;
     static struct result result;
-    char name[64];
-    (void)snprintf(name, sizeof name, "%s.json", command);
-    if (!page_exists(name))
-        assert_int_equal(page_run("%s %s %s --quiet %s --json %s", ROTID_PROGRAM, command, deck,
-                                  strcmp(command, "diagnose") ? "" : "--replicates 200", page_path(name)),
-                         0);
     pool_open(&bench.pool, NULL);
     message_open(&messages, &bench.pool);
     assert_status(page_result_read(&bench.pool, page_path(name), &messages, &result), ROTID_OK);
     document_open(&bench.document, &bench.pool);
     page_compose(&bench.document, 1, &result);
     assert_false(bench.document.failed);
-    bench.json = page_json(name);
+    bench.json = json ? page_json(json) : page_runs(name);
+}
+
+static void open_bench(const char *command, const char *deck)
+{
+    char name[64];
+    (void)snprintf(name, sizeof name, "%s.json", command);
+    if (!page_exists(name))
+        assert_int_equal(page_run("cd %s; %s %s %s --quiet %s --json %s", page_path(""), ROTID_PROGRAM, command, deck,
+                                  strcmp(command, "diagnose") ? "" : "--replicates 200", name),
+                         0);
+    open_result(name, name);
 }
 
 static void close_bench(void)
@@ -218,6 +230,175 @@ static void bars_of_the_evidence_are_as_long_as_the_drops(void **state)
     close_bench();
 }
 
+static void sensitivities_are_plotted_as_they_are(void **state)
+{
+    (void)state;
+    static const struct expected expected[] = {
+        {"sensitivity", "sensitivity", "frequency [Hz]", "frequency_hz[]", 1},
+        {"sensitivity", "sensitivity", "core.E, 1.0\xc2\xa0% step [1]", "parameters[0].sensitivity[]", 1},
+        {"sensitivity", "sensitivity", "core.G, 1.0\xc2\xa0% step [1]", "parameters[1].sensitivity[]", 1},
+        {"sensitivity", "sensitivity", "core.G, limit [1]", "parameters[1].derivative[]", 1},
+        {"sensitivity", "sensitivity", "core.G, reference [1]", "references[3].values[]", 1},
+        {"sensitivity-curves", "curves", "value over reference [1]", "relative_value[]", 1},
+        {"sensitivity-curves", "curves", "core.E, mode 1 [1]", "parameters[0].curves[0][]", 1},
+        {"sensitivity-curves", "curves", "core.G, mode 3 [1]", "parameters[1].curves[2][]", 1},
+        {"growth", "growth", "\xce\xb5\xc2\xb2 [1]", "functional_growth.epsilon_squared[]", 1},
+        {"growth", "growth", "f(E) [1]", "functional_growth.hybrid.objective[]", 1},
+        {"growth", "growth", "f(F) [1]", "functional_growth.hybrid_f.objective[]", 1},
+        {"growth", "growth", "f(E), shapes alone [1]", "functional_growth.shapes_alone[]", 1},
+    };
+    open_bench("sensitivity", PAPER);
+    compare(sizeof expected / sizeof *expected, expected);
+    close_bench();
+}
+
+/* Fewer lines than the picture has room for are all drawn; the functions of one damping stand for measured ones of another. */
+static void transfer_functions_are_plotted_as_they_are(void **state)
+{
+    (void)state;
+    static const struct expected lines[] = {
+        {"transfer-5-1", "synthesised", "frequency [Hz]", "functions[1].frequency_hz[]", 1},
+        {"transfer-5-1", "measured", "frequency [Hz]", "functions[1].frequency_hz[]", 1},
+    };
+    static double size[PLOTTED_MOST], phase[PLOTTED_MOST], re[PLOTTED_MOST], im[PLOTTED_MOST];
+    static const char *const curve[] = {"synthesised", "measured"};
+    page_write_file("source.inp", BENCH_DECK "*FRF, DAMPING=0.01, LINES=801\n1, 1\n5, 1\n");
+    page_write_file("frf.inp", BENCH_DECK "*FRF, FILE=source.unv, DAMPING=0.02\n");
+    assert_int_equal(page_run("cd %s; %s frf source.inp -o source.unv --quiet", page_path(""), ROTID_PROGRAM), 0);
+    open_bench("frf", "frf.inp");
+    compare(sizeof lines / sizeof *lines, lines);
+    for (int c = 0; c < 2; c++) {
+        char path[64];
+        (void)snprintf(path, sizeof path, "functions[1].%s_re[]", curve[c]);
+        int n = numbers_at(bench.json, path, re), turned = 0;
+        (void)snprintf(path, sizeof path, "functions[1].%s_im[]", curve[c]);
+        assert_int_equal(numbers_at(bench.json, path, im), n);
+        assert_int_equal(plotted(script_of("transfer-5-1"), curve[c], "magnitude [m/(s2 N)]", size), n);
+        assert_int_equal(plotted(script_of("transfer-5-1"), curve[c], "phase [\xc2\xb0]", phase), n);
+        for (int l = 0; l < n; l++) {
+            assert_close(size[l], hypot(re[l], im[l]), 1e-6, 0);
+            turned += isnan(phase[l]);
+            if (!isnan(phase[l]))
+                assert_close(phase[l], atan2(im[l], re[l]) * 180 / acos(-1), 1e-6, 0);
+        }
+        assert_true(n == 801 && turned < 20); /* none where the phase turns over */
+    }
+    close_bench();
+}
+
+static void studies_are_plotted_as_they_are(void **state)
+{
+    (void)state;
+    static const struct expected starts[] = {
+        {"starts", "runs", "start, core.E [GPa]", "[].parameters[0].start", 1e-9},
+        {"starts", "runs", "start, left.E [GPa]", "[].parameters[1].start", 1e-9},
+        {"starts", "runs", "end, core.E [GPa]", "[].parameters[0].value", 1e-9},
+        {"starts", "runs", "end, left.E [GPa]", "[].parameters[1].value", 1e-9},
+    };
+    static const struct expected modes[] = {
+        {"parameters-by-modes", "p1_1", "core.E [GPa]", "cells[].parameters[0].mean", 1e-9},
+        {"parameters-by-modes", "p2_1", "left.E [GPa]", "cells[].parameters[1].mean", 1e-9},
+        {"parameters-by-modes", "p2_1", "its stated standard deviation [GPa]", "cells[].parameters[1].mean_stated_std", 1e-9},
+    };
+    static const struct expected coverage[] = {
+        {"coverage", "coverage", "core.E [%]", "cells[].parameters[0].coverage95", 100},
+        {"coverage", "coverage", "left.E [%]", "cells[].parameters[1].coverage95", 100},
+    };
+    static const struct expected decks[] = {
+        {"decks", "decks", "core.E [GPa]", "[].parameters[0].value", 1e-9},
+        {"decks", "decks", "95 % from [GPa]", "[].parameters[0].ci95[0]", 1e-9},
+        {"decks", "decks", "to [GPa]", "[].parameters[0].ci95[1]", 1e-9},
+    };
+    page_make_study("starts", "*STUDY\n*DECKS\nbeam.inp\n*STARTS, SPREAD=0.5, GRID=3\n");
+    open_result("starts.jsonl", NULL);
+    compare(sizeof starts / sizeof *starts, starts);
+    close_bench();
+    page_make_study("modes", "*STUDY\n*DECKS\nbeam.inp\n*MODES\n1-3\n1-4\n1-6\n");
+    open_result("modes.jsonl", "modes.json");
+    compare(sizeof modes / sizeof *modes, modes);
+    close_bench();
+    page_make_study("truth", truth_plan);
+    open_result("truth.jsonl", "truth.json");
+    compare(sizeof coverage / sizeof *coverage, coverage);
+    close_bench();
+    assert_int_equal(page_run("cd %s; for i in 1 2 3; do cp beam.inp deck$i.inp; done; %s study deck?.inp -o decks.jsonl --quiet",
+                              page_path(""), ROTID_PROGRAM),
+                     0);
+    open_result("decks.jsonl", NULL);
+    compare(sizeof decks / sizeof *decks, decks);
+    close_bench();
+}
+
+static void verdicts_are_plotted_as_they_are(void **state)
+{
+    (void)state;
+    static const struct expected runs = {"verdicts", "verdicts", "runs [1]", "cells[].diagnoses.count", 1};
+    static const char *const scores[][2] = {{"right [1]", "right"},
+                                            {"quiet: nothing was hidden, nothing found [1]", "quiet"},
+                                            {"in the set that cannot be told apart [1]", "in_set"},
+                                            {"in another set [1]", "other_set"},
+                                            {"silent: judged adequate [1]", "silent"},
+                                            {"unexplained [1]", "unexplained"},
+                                            {"wrong [1]", "wrong"},
+                                            {"false alarm [1]", "false_alarm"}};
+    static double is[PLOTTED_MOST], has_to_be[PLOTTED_MOST];
+    int drawn = 0;
+    page_make_study("hidden",
+                    "*STUDY, COMMAND=DIAGNOSE, REPLICATES=3, BOOTSTRAP=100\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*NOISE\n"
+                    "0.001, 0.01\n*HIDE, TYPE=NONE, NAME=control\n*HIDE, TYPE=DENSITY, NAME=a, GROUP=core\nfactor, 1.2\n");
+    open_result("hidden.jsonl", "hidden.json");
+    compare(1, &runs);
+    for (size_t k = 0; k < sizeof scores / sizeof *scores; k++) {
+        char path[64];
+        (void)snprintf(path, sizeof path, "cells[].diagnoses.scores.%s", scores[k][1]);
+        double sum = 0;
+        int n = numbers_at(bench.json, path, has_to_be), found = plotted(script_of("verdicts"), "verdicts", scores[k][0], is);
+        for (int i = 0; i < n; i++)
+            sum += has_to_be[i];
+        assert_int_equal(found, sum > 0 ? n : -1); /* what occurs nowhere is left out */
+        for (int i = 0; i < found; i++)
+            assert_close(is[i], has_to_be[i], 0, 0);
+        drawn += found > 0;
+    }
+    assert_true(drawn >= 1);
+    close_bench();
+}
+
+/* Means over the square of the number of modes; errors over their stated deviations, counted in bins of a half. */
+static void what_is_computed_of_a_study_is_that_of_its_definition(void **state)
+{
+    (void)state;
+    static double is[PLOTTED_MOST], m[PLOTTED_MOST], x[PLOTTED_MOST];
+    page_make_study("modes", "*STUDY\n*DECKS\nbeam.inp\n*MODES\n1-3\n1-4\n1-6\n");
+    open_result("modes.jsonl", NULL);
+    assert_int_equal(plotted(script_of("functional-by-modes"), "variant1", "fitted modes m [1]", m), 3);
+    assert_int_equal(plotted(script_of("functional-by-modes"), "variant1", "mean functional f/m\xc2\xb2 [1]", is), 3);
+    assert_int_equal(numbers_at(bench.json, "[].objective", x), 3);
+    for (int i = 0; i < 3; i++) {
+        assert_close(m[i], i < 2 ? 3 + i : 6, 0, 0);
+        assert_close(is[i], x[i] / (m[i] * m[i]), 1e-6, 0);
+    }
+    close_bench();
+    page_make_study("truth", truth_plan);
+    open_result("truth.jsonl", NULL);
+    double bin[16] = {0};
+    const cJSON *run;
+    cJSON_ArrayForEach(run, bench.json)
+    {
+        const cJSON *left = cJSON_GetArrayItem(get(run, "parameters"), 1);
+        double error = (number_of(left, "value") - number_of(left, "truth")) / number_of(left, "std");
+        if (number_of(get(run, "cell"), "noise_frequency") < 0.002)
+            bin[(int)fmin(fmax(floor(2 * (error + 4)), 0), 15)] += 1;
+    }
+    assert_int_equal(plotted(script_of("errors-of-runs"), "errors", "middle of the bin [1]", m), 16);
+    assert_int_equal(plotted(script_of("errors-of-runs"), "errors", "runs, left.E [1]", is), 16);
+    for (int b = 0; b < 16; b++) {
+        assert_close(m[b], -3.75 + 0.5 * b, 1e-6, 0);
+        assert_close(is[b], bin[b], 0, 0);
+    }
+    close_bench();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -225,6 +406,11 @@ int main(void)
         cmocka_unit_test(what_is_computed_for_a_plot_is_that_of_its_definition),
         cmocka_unit_test(a_diagnosis_is_plotted_as_it_is),
         cmocka_unit_test(bars_of_the_evidence_are_as_long_as_the_drops),
+        cmocka_unit_test(sensitivities_are_plotted_as_they_are),
+        cmocka_unit_test(transfer_functions_are_plotted_as_they_are),
+        cmocka_unit_test(studies_are_plotted_as_they_are),
+        cmocka_unit_test(verdicts_are_plotted_as_they_are),
+        cmocka_unit_test(what_is_computed_of_a_study_is_that_of_its_definition),
     };
     return cmocka_run_group_tests(tests, page_bench_open, page_bench_close);
 }

@@ -234,6 +234,27 @@ static cJSON *item_at(cJSON *at, const char *path)
     return at;
 }
 
+/* A number that is not known is NaN; nothing stands for a text or a flag that is not. */
+static void null_stands_for_numbers_alone(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path, *says;
+    } nulls[] = {{"/functional", "functional: is null, expected a value"},
+                 {"/modes.holdout", "modes[0].holdout: is null, expected a value"},
+                 {"/modes.error_percent", NULL}};
+    make_results();
+    for (size_t i = 0; i < sizeof nulls / sizeof *nulls; i++) {
+        cJSON *json = page_json("identify.json"), *null = cJSON_CreateNull();
+        swap_value(item_at(json, nulls[i].path), null);
+        page_write_json("wrong.json", json);
+        cJSON_Delete(null);
+        cJSON_Delete(json);
+        int code = page_run("%s report %s -o %s", ROTID_PROGRAM, page_path("wrong.json"), page_path("nulls"));
+        assert_true(nulls[i].says ? code == 2 && strstr(page_err, nulls[i].says) : code < 2);
+    }
+}
+
 /* What no single value is wrong in. */
 static void a_result_that_contradicts_itself_is_refused(void **state)
 {
@@ -361,6 +382,7 @@ int main(void)
         cmocka_unit_test(files_that_are_no_result_are_refused_with_their_place),
         cmocka_unit_test(all_files_are_judged_and_one_bad_one_is_enough),
         cmocka_unit_test(every_value_that_is_wrong_is_refused_or_does_no_harm),
+        cmocka_unit_test(null_stands_for_numbers_alone),
         cmocka_unit_test(a_result_that_contradicts_itself_is_refused),
         cmocka_unit_test(a_value_out_of_its_range_is_refused),
         cmocka_unit_test(a_file_cut_off_anywhere_is_refused),

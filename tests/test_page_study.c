@@ -17,33 +17,6 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 
-static void make_study(const char *name, const char *plan)
-{
-    char path[64];
-    (void)snprintf(path, sizeof path, "%s.plan", name);
-    if (page_exists(path))
-        return;
-    page_write_file("beam.inp", BENCH_DECK);
-    page_write_file(path, plan);
-    assert_int_equal(
-        page_run("cd %s; %s study %s.plan -o %s.jsonl --quiet --json %s.json", page_path(""), ROTID_PROGRAM, name, name, name),
-        0);
-}
-
-/* The runs of a file, without its header; to be deleted. */
-static cJSON *runs_of(const char *name)
-{
-    const char *text = strchr(page_read(name), '\n') + 1, *end;
-    cJSON *list = cJSON_CreateArray();
-    while (*text) {
-        cJSON *line = cJSON_ParseWithOpts(text, &end, 0);
-        assert_non_null(line);
-        cJSON_AddItemToArray(list, line);
-        text = end + 1;
-    }
-    return list;
-}
-
 static const cJSON *parameter(const cJSON *run, int p)
 {
     const cJSON *item = cJSON_GetArrayItem(get(run, "parameters"), p);
@@ -58,8 +31,8 @@ static const char *const starts_plan = "*STUDY\n*DECKS\nbeam.inp\n*VARIANT, NAME
 static void starts_and_numbers_of_modes_are_drawn_with_their_ends(void **state)
 {
     (void)state;
-    make_study("starts", starts_plan);
-    cJSON *runs = runs_of("starts.jsonl"), *run;
+    page_make_study("starts", starts_plan);
+    cJSON *runs = page_runs("starts.jsonl"), *run;
     const char *html = page_made("starts.jsonl");
     assert_int_equal(cJSON_GetArraySize(runs), 2 * 3 * 9);
     page_says(html, "<h1>Study starts.plan</h1>");
@@ -112,8 +85,8 @@ static const char *const truth_plan =
 static void intervals_are_counted_against_the_truth(void **state)
 {
     (void)state;
-    make_study("truth", truth_plan);
-    cJSON *runs = runs_of("truth.jsonl"), *run;
+    page_make_study("truth", truth_plan);
+    cJSON *runs = page_runs("truth.jsonl"), *run;
     const char *html = page_made("truth.jsonl");
     int held[2] = {0, 0}, all = 0, count = 0;
     double sum = 0;
@@ -146,7 +119,7 @@ static void intervals_are_counted_against_the_truth(void **state)
 static void a_summary_says_what_it_does_not_hold(void **state)
 {
     (void)state;
-    make_study("truth", truth_plan);
+    page_make_study("truth", truth_plan);
     const char *html = page_made("truth.json");
     page_says(html, "truth.json is a summary.");
     page_says(html, "<figure id=\"coverage\">");
@@ -168,10 +141,10 @@ static void verdicts_are_counted(void **state)
     static const char *const score[] = {"right", "quiet", "in_set", "silent", "wrong", "false_alarm"};
     static const char *const says[] = {"right",  "rightly quiet", "in the set that cannot be told apart",
                                        "silent", "wrong",         "false alarms"};
-    make_study("hidden",
-               "*STUDY, COMMAND=DIAGNOSE, REPLICATES=3, BOOTSTRAP=100\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*NOISE\n"
-               "0.001, 0.01\n*HIDE, TYPE=NONE, NAME=control\n*HIDE, TYPE=DENSITY, NAME=a <core>, GROUP=core\nfactor, 1.2\n");
-    cJSON *runs = runs_of("hidden.jsonl"), *run;
+    page_make_study("hidden",
+                    "*STUDY, COMMAND=DIAGNOSE, REPLICATES=3, BOOTSTRAP=100\n*DECKS\nbeam.inp\n*DATA, SOURCE=MODEL\n*NOISE\n"
+                    "0.001, 0.01\n*HIDE, TYPE=NONE, NAME=control\n*HIDE, TYPE=DENSITY, NAME=a <core>, GROUP=core\nfactor, 1.2\n");
+    cJSON *runs = page_runs("hidden.jsonl"), *run;
     const char *html = page_made("hidden.jsonl");
     int kinds = 0;
     page_says(html, "Of 6 diagnoses: ");
@@ -244,10 +217,21 @@ static void assert_refused(const char *text, const char *says)
     assert_false(page_exists("broken"));
 }
 
+/* What a study leaves that was stopped before its first run ended. */
+static void a_file_of_results_without_a_run_is_told_so(void **state)
+{
+    (void)state;
+    page_make_study("truth", truth_plan);
+    const char *whole = page_read("truth.jsonl");
+    char header[2048];
+    (void)snprintf(header, sizeof header, "%.*s", (int)(strchr(whole, '\n') + 1 - whole), whole);
+    assert_refused(header, "broken.jsonl: is the file of results of a study and holds no run yet, expected the line of a run");
+}
+
 static void broken_lines_are_told_with_their_place(void **state)
 {
     (void)state;
-    make_study("truth", truth_plan);
+    page_make_study("truth", truth_plan);
     static const struct {
         const char *from, *to, *says;
     } wrong[] = {
@@ -325,8 +309,8 @@ static void runs_are_sorted_into_series_by_their_modes(void **state)
 static void a_variant_may_be_named_like_an_axis(void **state)
 {
     (void)state;
-    make_study("named", "*STUDY\n*DECKS\nbeam.inp\n*VARIANT, NAME=xmodes 1\n*VARIANT, NAME=of "
-                        "likelihood\nFIT.FUNCTIONAL=HYBRID_F\n*MODES\n1-3\n1-4\n");
+    page_make_study("named", "*STUDY\n*DECKS\nbeam.inp\n*VARIANT, NAME=xmodes 1\n*VARIANT, NAME=of "
+                             "likelihood\nFIT.FUNCTIONAL=HYBRID_F\n*MODES\n1-3\n1-4\n");
     const char *html = page_made("named.jsonl"),
                *caption = strstr(html, "Mean functional for each pair of modes at the optimum: xmodes 1 ");
     assert_non_null(caption);
@@ -341,7 +325,7 @@ static void a_parameter_that_stands_again_is_refused(void **state)
 {
     (void)state;
     enum { AGAIN = 2000 };
-    make_study("truth", truth_plan);
+    page_make_study("truth", truth_plan);
     cJSON *json = page_json("truth.json"), *first = cJSON_GetArrayItem(get(json, "cells"), 0),
           *list = cJSON_GetObjectItem(first, "parameters");
     for (int i = 0; i < AGAIN; i++)
@@ -366,7 +350,7 @@ static void a_parameter_that_stands_again_is_refused(void **state)
     figure_coverage(&document, &result);
     assert_false(document.failed);
     const char *script = document_figures(&document)[0]->script;
-    assert_non_null(strstr(script, "$coverage1 << end\n90 2\n87.5 1\nend\n$coverage2 << end\n90 2\n87.5 1\nend\n"));
+    assert_non_null(strstr(script, "$coverage << end\n2 90 90\n1 87.5 87.5\nend\n"));
 }
 
 /* Memory of the pool that ends after n blocks, while the lines are read and composed. */
@@ -374,7 +358,7 @@ static void memory_that_runs_out_is_survived(void **state)
 {
     (void)state;
     long served = 0;
-    make_study("starts", starts_plan);
+    page_make_study("starts", starts_plan);
     for (long n = 0; n == 0 || n <= served; n += 1 + n / 9) { /* 0: counts */
         struct failing_allocator failing;
         struct pool pool;
@@ -407,8 +391,8 @@ static void the_real_gnuplot_draws_them(void **state)
         skip();
     }
     static const char *const names[] = {"starts", "truth", "hidden", "decks"};
-    make_study("starts", starts_plan);
-    make_study("truth", truth_plan);
+    page_make_study("starts", starts_plan);
+    page_make_study("truth", truth_plan);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[64];
         assert_int_equal(page_run("cd %s; %s report %s.jsonl -o real-%s", page_path(""), ROTID_PROGRAM, names[i], names[i]), 0);
@@ -426,6 +410,7 @@ int main(void)
         cmocka_unit_test(a_summary_says_what_it_does_not_hold),
         cmocka_unit_test(verdicts_are_counted),
         cmocka_unit_test(many_decks_stand_beside_each_other),
+        cmocka_unit_test(a_file_of_results_without_a_run_is_told_so),
         cmocka_unit_test(broken_lines_are_told_with_their_place),
         cmocka_unit_test_setup_teardown(runs_are_sorted_into_series_by_their_modes, open_test_pool, close_test_pool),
         cmocka_unit_test(a_variant_may_be_named_like_an_axis),

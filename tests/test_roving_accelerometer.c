@@ -34,7 +34,7 @@ static void fill_readings(struct table *t, double mass, double drift, double noi
     for (int k = 0; k < MODES; k++)
         for (int j = 0; j < POINTS; j++) {
             int at = j + POINTS * k;
-            t->hz[at] = 100 * (k + 1) * moving_mass_ratio(mass, t->square[at], t->others[at], 0) *
+            t->hz[at] = 100 * (k + 1) * sqrt(1 - moving_mass_shift(mass, t->square[at], t->others[at], 0)) *
                         (1 + drift * t->order[j] + noise * random_normal(stream));
             t->std[at] = 100 * (k + 1) * noise;
         }
@@ -80,7 +80,7 @@ static void a_mass_comes_back_and_lies_within_its_interval(void **state)
     assert_true(sqrt(square) > 0.88 && sqrt(square) < 1.08);
     fill_readings(&t, 0.03, 0, 1e-4, &stream); /* exact without noise */
     for (int i = 0; i < POINTS * MODES; i++)
-        t.hz[i] = 100 * (1 + (i - i % POINTS) / (double)POINTS) * moving_mass_ratio(0.03, t.square[i], t.others[i], 0);
+        t.hz[i] = 100 * (1 + (i - i % POINTS) / (double)POINTS) * sqrt(1 - moving_mass_shift(0.03, t.square[i], t.others[i], 0));
     assert_close(run(&t, MODES).mass, 0.03, 1e-8, 0);
     for (int i = 0; i < POINTS * MODES; i++)
         t.others[i] = 0;

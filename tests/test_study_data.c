@@ -276,9 +276,8 @@ static void a_fault_is_found_where_its_sensors_are(void **state)
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         char plan[500];
-        struct data_finding finding = {
-            .cause = catalogue_find(table[i].id), .nsensor = 2, .sensor = {table[i].sensor[0], table[i].sensor[1]}};
-        const struct diagnosis d = {.kind = VERDICT_ADEQUATE, .ndata_finding = 1, .data_finding = &finding};
+        rotid_data_finding finding = {.id = table[i].id, .nsensors = 2, .sensors = (int *)table[i].sensor};
+        const struct diagnosis d = {.result = {.verdict.kind = ROTID_ADEQUATE, .ndata_findings = 1, .data_findings = &finding}};
         (void)snprintf(plan, sizeof plan, MODEL "*NOISE\n0.001, 0.01\n*HIDE, TYPE=%s\n", table[i].card);
         open_study(plan);
         struct experiment e = make(0);

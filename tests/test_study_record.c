@@ -501,7 +501,7 @@ static void a_line_that_is_wrong_is_never_kept(void **state)
         {"\"ci95\":[0,4]", "\"ci95\":4", "parameters[0].ci95: is a number, expected a list"},
         {"\"status\":\"converged\"", "\"status\":\"fine\"",
          "status: is 'fine', expected converged, at_bound, not_converged or failed"},
-        {"\"replicate\":1", "\"replicate\":null", "replicate: is null, expected a number"},
+        {"\"replicate\":1", "\"replicate\":null", "replicate: is null, expected a value"},
         {"\"run\":1,", "\"run\":1.5,", "run: is 1.5, expected a whole number"},
         {"\"run\":1,", "\"run\":\"1\",", "run: is a text, expected a number"},
         {"\"cell\":" CELL, "\"cell\":null", "cell: is null, expected an object"},

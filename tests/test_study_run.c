@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "json_value.h"
-#include "report/json.h"
 #include "result/json_tree.h"
 #include "study/run.h"
 #include "study_bench.h"

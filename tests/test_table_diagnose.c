@@ -45,9 +45,7 @@ static const struct cause_kind
                  .target = TARGET_GROUP,
                  .effect = &stiffness_effect,
                  .place = -1,
-                 .width = -1},
-    gain = {.id = "sensor_gain", .class = CAUSE_DATA, .target = TARGET_SENSOR, .place = -1, .width = -1, .value = {"gain", "1"}},
-    guyan = {.id = "guyan_reduction", .class = CAUSE_NUMERICAL, .place = -1, .width = -1};
+                 .width = -1};
 
 struct fit_store {
     rotid_fit_result fit;
@@ -65,15 +63,17 @@ static struct store {
     struct segment segment[3];
     struct sensor sensor[SENSORS];
     rotid_parameter bounds[3];
-    double hz[MODES], mode_z[MODES], sensor_rms[SENSORS], local_z[LOCAL], local[LOCAL], error[MODES];
-    int number[MODES], holdout[MODES], mode[MODES];
+    double hz[MODES], mode_z[MODES], error[MODES];
+    rotid_sensor_residual sensor_rms[SENSORS];
+    rotid_localisation local[LOCAL];
+    int number[MODES], holdout[MODES], mode[MODES], faulty;
     struct fit_store today, base, extended;
-    struct data_finding data;
-    struct numerical_finding numerical;
+    rotid_data_finding data;
+    rotid_numerical_finding numerical;
     struct candidate candidate[4];
     struct diagnosis_round round[2];
-    struct detectable detectable[5];
-    struct diagnosis_step step[2];
+    rotid_detectable detectable[5];
+    rotid_step step[2];
 } s;
 
 static const double measured_hz[MODES] = {435.55, 735.16, 1159.4, 1802, 2425.8, 2918.4};
@@ -138,19 +138,21 @@ static void fill_candidate(struct candidate *c, const struct cause_kind *cause, 
                             .effect = {.name = "found", .kind = cause->effect, .target = index, .value = {a, b, width}},
                             .target = target,
                             .nparameter = cause->effect->nparameter,
-                            .predicted_drop = 1.05 * drop,
-                            .refitted = 1,
-                            .chi2 = 300 - drop,
-                            .chi2_drop = drop,
-                            .bic = 300 - drop + 5.35 * cause->effect->nparameter,
-                            .p_value = 1e-4,
-                            .holdout_rms = NAN,
-                            .mode_out_rms = 0.14,
-                            .sensor_out_rms = 1.03,
-                            .collinear_with = "joint",
-                            .collinear_target = "core|right",
-                            .cosine = 0.91,
-                            .rejected_because = "it leaves 31 of chi2 that joint core|right explains, more than the margin of 9"};
+                            .result.round = 1,
+                            .result.predicted_drop = 1.05 * drop,
+                            .result.refitted = 1,
+                            .result.chi2 = 300 - drop,
+                            .result.chi2_drop = drop,
+                            .result.bic = 300 - drop + 5.35 * cause->effect->nparameter,
+                            .result.p_value = 1e-4,
+                            .result.holdout_rms = NAN,
+                            .result.mode_out_rms = 0.14,
+                            .result.sensor_out_rms = 1.03,
+                            .result.collinear_with = "joint",
+                            .result.collinear_target = "core|right",
+                            .result.cosine = 0.91,
+                            .result.rejected_because =
+                                "it leaves 31 of chi2 that joint core|right explains, more than the margin of 9"};
     for (int p = 0; p < c->nparameter; p++) {
         c->std[p] = 0.05 * c->effect.value[p];
         c->ci_lower[p] = 0.9 * c->effect.value[p];
@@ -172,11 +174,12 @@ static void fill_named(void)
     }
     for (int i = 0; i < SENSORS; i++) {
         s.sensor[i] = (struct sensor){i + 1, LENGTH * i / (SENSORS - 1)};
-        s.sensor_rms[i] = 1 + 3 * exp(-pow((s.sensor[i].position - 1.4) / 0.15, 2));
+        double z = LENGTH * i / (SENSORS - 1);
+        s.sensor_rms[i] = (rotid_sensor_residual){i + 1, z, 1 + 3 * exp(-pow((z - 1.4) / 0.15, 2))};
     }
     for (int i = 0; i < LOCAL; i++) {
-        s.local_z[i] = LENGTH * i / (LOCAL - 1);
-        s.local[i] = exp(-pow((s.local_z[i] - 1.4) / 0.12, 2));
+        double z = LENGTH * i / (LOCAL - 1);
+        s.local[i] = (rotid_localisation){z, exp(-pow((z - 1.4) / 0.12, 2))};
     }
     for (int k = 0; k < MODES; k++) {
         s.hz[k] = measured_hz[k];
@@ -200,155 +203,193 @@ static void fill_named(void)
         .unknowns.nparameter = 2,
         .unknowns.bounds = s.bounds,
         .options.fit = {.size = sizeof(rotid_fit_options), .functional = ROTID_HYBRID, .reduction = ROTID_GUYAN}};
+    s.faulty = 23;
     s.data =
-        (struct data_finding){.cause = &gain,
-                              .nsensor = 1,
-                              .sensor = {23, 0},
-                              .value = 1.4,
-                              .std = 0.03,
-                              .chi2_drop = 180,
-                              .text = "sensor 23 reads 1.40 times what its neighbours say; its readings were divided by that"};
-    s.numerical = (struct numerical_finding){
-        .cause = &guyan,
-        .nmode = MODES,
-        .mode = s.mode,
+        (rotid_data_finding){.id = "sensor_gain",
+                             .nsensors = 1,
+                             .sensors = &s.faulty,
+                             .unit = "1",
+                             .value = 1.4,
+                             .std = 0.03,
+                             .chi2_drop = 180,
+                             .text = "sensor 23 reads 1.40 times what its neighbours say; its readings were divided by that"};
+    s.numerical = (rotid_numerical_finding){
+        .id = "guyan_reduction",
+        .nmodes = MODES,
+        .modes = s.mode,
         .error_percent = s.error,
         .text = "the condensation to the sensors exceeds the noise in modes 4 to 6; the full model is used"};
     fill_candidate(&s.candidate[0], &joint, "core|right", 1, 2.13e-10, 0, 0, 98);
-    s.candidate[0].rejected_because = NULL;
-    s.candidate[0].collinear_with = "stiffness_local";
-    s.candidate[0].collinear_target = "";
+    s.candidate[0].result.rejected_because = NULL;
+    s.candidate[0].result.collinear_with = "stiffness_local";
+    s.candidate[0].result.collinear_target = "";
     fill_candidate(&s.candidate[1], &soft, "", -1, 0.42, 1.38, 0.06, 67);
     fill_candidate(&s.candidate[2], &stiffness, "right", 2, 0.93, 0, 0, 41);
     fill_candidate(&s.candidate[3], &added, "", -1, 3.4, 1.9, 0, 20);
-    s.candidate[3].refitted = 0;
-    s.candidate[3].p_value = s.candidate[3].chi2_drop = NAN;
-    s.round[0] = (struct diagnosis_round){.ncandidate = 4,
+    s.candidate[3].result.refitted = 0;
+    rotid_candidate *untried = &s.candidate[3].result;
+    untried->p_value = untried->chi2 = untried->chi2_frequency = untried->chi2_drop = untried->bic = untried->mode_out_rms =
+        untried->sensor_out_rms = NAN;
+    s.round[0] = (struct diagnosis_round){.result.round = 1,
+                                          .ncandidate = 4,
                                           .candidate = s.candidate,
-                                          .chi2 = 300,
-                                          .chi2_frequency = 95,
-                                          .dof = 202,
-                                          .nfrequency = MODES,
-                                          .largest = 103,
-                                          .threshold = 10.4,
-                                          .p_scan = 1e-3,
-                                          .p_frequency = 0.0003,
-                                          .p_total = 1e-6,
-                                          .required_margin = 9,
-                                          .kind = VERDICT_NAMED,
-                                          .nset = 1};
-    s.round[1] = (struct diagnosis_round){.chi2 = 202,
-                                          .chi2_frequency = 5,
-                                          .dof = 201,
-                                          .nfrequency = MODES,
-                                          .largest = 4.1,
-                                          .threshold = 10.2,
-                                          .p_scan = 0.61,
-                                          .p_frequency = 0.52,
-                                          .p_total = 0.44,
-                                          .required_margin = NAN,
-                                          .kind = VERDICT_ADEQUATE};
-    s.detectable[0] = (struct detectable){&joint, "left|core", "flexibility", "rad/(N.m)", 7.1e-11, NAN, NAN, 0};
-    s.detectable[1] = (struct detectable){&joint, "core|right", "flexibility", "rad/(N.m)", 6.4e-11, NAN, NAN, 0};
-    s.detectable[2] = (struct detectable){&added, "", "mass", "kg", 0.11, 2.03, 9.6, 0};
-    s.detectable[3] = (struct detectable){&stiffness, "left", "factor", "1", 0.021, NAN, NAN, 0};
-    s.detectable[4] = (struct detectable){&stiffness, "right", "factor", "1", NAN, NAN, NAN, 1};
-    s.step[0] = (struct diagnosis_step){"base fit", 0.04};
-    s.step[1] = (struct diagnosis_step){"refits", 1.3};
+                                          .result.chi2 = 300,
+                                          .result.chi2_frequency = 95,
+                                          .result.dof = 202,
+                                          .result.frequencies = MODES,
+                                          .result.largest = 103,
+                                          .result.threshold = 10.4,
+                                          .result.p_scan = 1e-3,
+                                          .result.p_frequency = 0.0003,
+                                          .result.p_total = 1e-6,
+                                          .result.required_margin = 9,
+                                          .result.kind = ROTID_NAMED,
+                                          .result.set = 1};
+    s.round[1] = (struct diagnosis_round){.result.round = 2,
+                                          .result.chi2 = 202,
+                                          .result.chi2_frequency = 5,
+                                          .result.dof = 201,
+                                          .result.frequencies = MODES,
+                                          .result.largest = 4.1,
+                                          .result.threshold = 10.2,
+                                          .result.p_scan = 0.61,
+                                          .result.p_frequency = 0.52,
+                                          .result.p_total = 0.44,
+                                          .result.required_margin = NAN,
+                                          .result.kind = ROTID_ADEQUATE};
+    s.detectable[0] = (rotid_detectable){"joint", "left|core", "flexibility", 7.1e-11, "rad/(N.m)", NAN, NAN, 0};
+    s.detectable[1] = (rotid_detectable){"joint", "core|right", "flexibility", 6.4e-11, "rad/(N.m)", NAN, NAN, 0};
+    s.detectable[2] = (rotid_detectable){"added_mass", "", "mass", 0.11, "kg", 2.03, 9.6, 0};
+    s.detectable[3] = (rotid_detectable){"stiffness", "left", "factor", 0.021, "1", NAN, NAN, 0};
+    s.detectable[4] = (rotid_detectable){"stiffness", "right", "factor", NAN, "1", NAN, NAN, 1};
+    s.step[0] = (rotid_step){"base fit", 0.04};
+    s.step[1] = (rotid_step){"refits", 1.3};
     s.d = (struct diagnosis){
+        .result = {.verdict = {.kind = ROTID_NAMED,
+                               .adequate_after = 1,
+                               .p_value = 1e-6,
+                               .sentence = "A joint between core and right is softer than continuous material: flexibility "
+                                           "2.13e-10 rad/(N.m); every rival leaves more of the misfit."},
+                   .ndata_findings = 1,
+                   .data_findings = &s.data,
+                   .nnumerical_findings = 1,
+                   .numerical_findings = &s.numerical,
+                   .gain = {{0.41, 0.05},
+                            {0.83, 0.08},
+                            {0.021, 0.015},
+                            {1.485, 1.005},
+                            {0.985, 0.995},
+                            {NAN, NAN},
+                            {NAN, NAN},
+                            {0.62, 0.07},
+                            {0.024, 0.016},
+                            {0.025, 0.015}},
+                   .nmodes_standardised = MODES,
+                   .modes_standardised = s.mode_z,
+                   .nsensors = SENSORS,
+                   .sensors = s.sensor_rms,
+                   .nlocalisation = LOCAL,
+                   .localisation = s.local,
+                   .ndetectable = 5,
+                   .detectable = s.detectable,
+                   .noise = {.frequency = 0.001, .shape = 0.015},
+                   .nsteps = 2,
+                   .steps = s.step},
         .job = s.deck,
-        .frequency_noise = 0.001,
-        .shape_noise = 0.015,
-        .has_today = 1,
         .today = s.today.result,
-        .ndata_finding = 1,
-        .data_finding = &s.data,
-        .nnumerical_finding = 1,
-        .numerical_finding = &s.numerical,
         .base = s.base.result,
-        .mode_z = s.mode_z,
-        .sensor_rms = s.sensor_rms,
-        .nlocal = LOCAL,
-        .local_z = s.local_z,
-        .local = s.local,
         .nround = 2,
         .round = s.round,
-        .kind = VERDICT_NAMED,
-        .adequate_after = 1,
-        .p_value = 1e-6,
         .ncause = 1,
         .cause = s.candidate,
-        .sentence = "A joint between core and right is softer than continuous material: flexibility 2.13e-10 rad/(N.m); "
-                    "every rival leaves more of the misfit.",
         .extended_job = s.deck,
         .extended = s.extended.result,
-        .before = {0.41, 0.83, 0.021, 1.485, 0.985, NAN, NAN, 0.62, 0.024, 0.025},
-        .after = {0.05, 0.08, 0.015, 1.005, 0.995, NAN, NAN, 0.07, 0.016, 0.015},
-        .ndetectable = 5,
-        .detectable = s.detectable,
-        .nstep = 2,
-        .step = s.step,
     };
     s.d.job.options.fit = (rotid_fit_options){.size = sizeof(rotid_fit_options), .functional = ROTID_LIKELIHOOD};
     s.d.extended_job.options.fit = s.d.job.options.fit;
     s.d.extended_job.unknowns.nparameter = 3;
 }
 
+static const rotid_pair unknown = {NAN, NAN};
+
+static rotid_pair *pair(int i)
+{
+    rotid_gain *g = &s.d.result.gain;
+    rotid_pair *const pairs[] = {&g->frequency_rms_percent,
+                                 &g->frequency_max_percent,
+                                 &g->shape_rms,
+                                 &g->chi2_per_dof,
+                                 &g->nco_min,
+                                 &g->holdout_frequency_rms_percent,
+                                 &g->holdout_shape_rms,
+                                 &g->mode_out_frequency_rms_percent,
+                                 &g->mode_out_shape_rms,
+                                 &g->sensor_out_shape_rms};
+    return i < (int)(sizeof pairs / sizeof *pairs) ? pairs[i] : NULL;
+}
+
+static void without_extended(void)
+{
+    s.d.extended = (struct identification){0};
+    s.d.extended_job = s.d.job;
+    for (int i = 0; pair(i); i++)
+        pair(i)->after = NAN;
+}
+
 static void fill_adequate(void)
 {
     fill_named();
-    s.d.kind = VERDICT_ADEQUATE;
-    s.d.sentence = "The model is adequate for these data.";
-    s.d.p_value = 0.37;
-    s.d.ncause = s.d.ndata_finding = s.d.nnumerical_finding = s.d.has_today = 0;
-    s.d.today = s.d.extended = (struct identification){0};
-    s.d.extended_job = s.d.job;
-    s.d.after = s.d.before;
+    s.d.result.verdict.kind = ROTID_ADEQUATE;
+    s.d.result.verdict.sentence = "The model is adequate for these data.";
+    s.d.result.verdict.p_value = 0.37;
+    s.d.ncause = s.d.result.ndata_findings = s.d.result.nnumerical_findings = 0;
+    s.d.today = (struct identification){0};
+    without_extended();
     s.d.nround = 1;
     s.round[0] = s.round[1];
+    s.round[0].result.round = 1;
 }
 
 static void fill_ambiguous(void)
 {
     fill_named();
-    s.d.kind = VERDICT_AMBIGUOUS;
-    s.d.sentence = "Two causes explain the misfit equally well.";
-    s.d.next_measurement =
+    s.d.result.verdict.kind = ROTID_AMBIGUOUS;
+    s.d.result.verdict.sentence = "Two causes explain the misfit equally well.";
+    s.d.result.verdict.next_measurement =
         "measure the shapes at 1.30, 1.40 and 1.50 m with a roving sensor, or strike the rotor after the joint "
         "has been tightened: the frequency of mode 4 separates the two by five times its noise";
     s.d.ncause = 0;
     s.d.nalternative = 2;
     s.d.alternative = s.candidate;
-    s.candidate[1].rejected_because = NULL;
-    s.round[0].kind = VERDICT_AMBIGUOUS;
-    s.round[0].nset = 2;
+    s.candidate[1].result.rejected_because = NULL;
+    s.round[0].result.kind = ROTID_AMBIGUOUS;
+    s.round[0].result.set = 2;
     s.d.nround = 1;
-    s.d.adequate_after = 0;
-    s.d.extended = (struct identification){0};
-    s.d.extended_job = s.d.job;
+    s.d.result.verdict.adequate_after = 0;
+    without_extended();
 }
 
 static void fill_unexplained(void)
 {
     fill_ambiguous();
-    s.d.kind = s.round[0].kind = VERDICT_UNEXPLAINED;
-    s.d.sentence = "The misfit is real and nothing in the catalogue earns its parameters; it acts at z = 1.4 m.";
-    s.d.next_measurement = NULL;
-    s.d.nalternative = s.round[0].nset = 0;
+    s.d.result.verdict.kind = s.round[0].result.kind = ROTID_UNEXPLAINED;
+    s.d.result.verdict.sentence = "The misfit is real and nothing in the catalogue earns its parameters; it acts at z = 1.4 m.";
+    s.d.result.verdict.next_measurement = NULL;
+    s.d.nalternative = s.round[0].result.set = 0;
     for (int i = 0; i < 4; i++)
-        s.candidate[i].rejected_because = "what it predicts of modes left out is worse than without it";
+        s.candidate[i].result.rejected_because = "what it predicts of modes left out is worse than without it";
 }
 
 static void without_shapes(void)
 {
     fill_named();
-    s.d.sensor_rms = NULL;
+    s.d.result.nsensors = 0;
     s.deck.rotor.nsensor = s.d.job.rotor.nsensor = s.d.extended_job.rotor.nsensor = 0;
-    s.d.nlocal = 0;
-    s.d.shape_noise = s.d.before.shape_rms = s.d.after.shape_rms = s.d.before.nco_min = s.d.after.nco_min = NAN;
-    s.d.before.mode_out_shape_rms = s.d.after.mode_out_shape_rms = s.d.before.sensor_out_shape_rms =
-        s.d.after.sensor_out_shape_rms = NAN;
-    s.d.frequency_noise_assumed = 1;
+    s.d.result.nlocalisation = 0;
+    rotid_gain *g = &s.d.result.gain;
+    g->shape_rms = g->nco_min = g->mode_out_shape_rms = g->sensor_out_shape_rms = unknown;
+    s.d.result.noise.shape = NAN;
+    s.d.result.noise.frequency_assumed = 1;
     for (int k = 0; k < MODES; k++)
         s.base.mac[k] = s.base.nco[k] = s.today.mac[k] = s.today.nco[k] = NAN;
 }
@@ -379,30 +420,36 @@ static void everything_nan(void)
     for (int k = 0; k < MODES; k++)
         s.mode_z[k] = s.error[k] = NAN;
     for (int i = 0; i < SENSORS; i++)
-        s.sensor_rms[i] = NAN;
+        s.sensor_rms[i].rms = NAN;
     for (int i = 0; i < LOCAL; i++)
-        s.local[i] = NAN;
+        s.local[i].indicator = NAN;
     for (int i = 0; i < 4; i++) {
         struct candidate *c = &s.candidate[i];
-        c->predicted_drop = c->chi2 = c->chi2_frequency = c->chi2_drop = c->bic = c->p_value = c->mode_out_rms =
-            c->sensor_out_rms = c->cosine = NAN;
+        c->result.predicted_drop = c->result.chi2 = c->result.chi2_frequency = c->result.chi2_drop = c->result.bic =
+            c->result.p_value = c->result.mode_out_rms = c->result.sensor_out_rms = c->result.cosine = NAN;
         for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
             c->effect.value[p] = c->std[p] = c->ci_lower[p] = c->ci_upper[p] = NAN;
     }
     for (int i = 0; i < 2; i++)
-        s.round[i].chi2 = s.round[i].chi2_frequency = s.round[i].largest = s.round[i].threshold = s.round[i].p_scan =
-            s.round[i].p_frequency = s.round[i].p_total = s.round[i].required_margin = NAN;
+        s.round[i].result.chi2 = s.round[i].result.chi2_frequency = s.round[i].result.largest = s.round[i].result.threshold =
+            s.round[i].result.p_scan = s.round[i].result.p_frequency = s.round[i].result.p_total =
+                s.round[i].result.required_margin = NAN;
     for (int i = 0; i < 5; i++)
-        s.detectable[i].smallest = s.detectable[i].z = s.detectable[i].worst = NAN;
-    s.data.value = s.data.std = s.data.chi2_drop = s.d.p_value = s.d.frequency_noise = s.d.shape_noise = NAN;
-    s.d.before = s.d.after = (struct fit_quality){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+        s.detectable[i].smallest = s.detectable[i].z_m = s.detectable[i].worst = NAN;
+    s.data.value = s.data.std = s.data.chi2_drop = s.d.result.verdict.p_value = s.d.result.noise.frequency =
+        s.d.result.noise.shape = NAN;
+    for (int i = 0; pair(i); i++)
+        *pair(i) = unknown;
 }
 
 /* Stopped before the base fit: next to nothing is there. */
 static void interrupted_at_once(void)
 {
     fill_named();
-    s.d = (struct diagnosis){.interrupted = 1};
+    s.d = (struct diagnosis){
+        .result = {.interrupted = 1, .verdict = {.kind = -1, .p_value = NAN}, .noise = {.frequency = NAN, .shape = NAN}}};
+    for (int i = 0; pair(i); i++)
+        *pair(i) = unknown;
 }
 
 static void (*const fills[])(void) = {fill_named,     fill_adequate,       fill_ambiguous, fill_unexplained,
@@ -410,11 +457,12 @@ static void (*const fills[])(void) = {fill_named,     fill_adequate,       fill_
 
 #define CASES (sizeof fills / sizeof *fills)
 
-/* The result that the library makes of it; the fits in it are not to be freed. */
-static struct result_memory *open_result(struct result *result)
+/* The result that the library makes of it. */
+static struct pool *open_result(struct result *result)
 {
-    struct result_memory *memory = result_memory_new(NULL);
-    struct diagnosis d = s.d;
+    struct pool *memory = pool_new(NULL);
+    static struct diagnosis d;
+    d = s.d;
     assert_non_null(memory);
     *result = (struct result){.head = {.schema = RESULT_SCHEMA,
                                        .rotid = "0.1.0",
@@ -427,7 +475,6 @@ static struct result_memory *open_result(struct result *result)
                                        .nheading = s.deck.nheading,
                                        .heading = s.deck.heading},
                               .diagnose = result_diagnosis(memory, &s.deck, &d)};
-    memory->nfit = 0;
     assert_non_null(result->diagnose);
     return memory;
 }
@@ -435,9 +482,9 @@ static struct result_memory *open_result(struct result *result)
 static char *json_text_of(void)
 {
     struct result result;
-    struct result_memory *memory = open_result(&result);
+    struct pool *memory = open_result(&result);
     char *text = result_json(&result);
-    result_memory_free(memory);
+    pool_free(memory);
     return text;
 }
 
@@ -448,10 +495,10 @@ static void show(int verbose, int width)
     FILE *out = tmpfile();
     assert_non_null(out);
     struct result result;
-    struct result_memory *memory = open_result(&result);
+    struct pool *memory = open_result(&result);
     const struct diagnosis_view view = {out, &result.head, result.diagnose, verbose, width};
     table_diagnose(&view);
-    result_memory_free(memory);
+    pool_free(memory);
     rewind(out);
     size_t length = fread(screen, 1, sizeof screen - 1, out);
     screen[length] = 0;

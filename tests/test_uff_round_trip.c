@@ -131,31 +131,6 @@ static void geometry(void **state)
     at_end(reader);
 }
 
-static void systems(void **state)
-{
-    (void)state;
-    const double c = cos(0.7), s = sin(0.7);
-    const struct uff_system system = {
-        .id = 4, .type = 1, .color = 8, .name = "tilted", .origin = {1234.5, -0.25, 3}, .matrix = {c, s, 0, -s, c, 0, 0, 0, 1}};
-    for (int set = 18; set; set = set == 18 ? 2420 : 0) {
-        struct uff_system *read;
-        int count;
-        FILE *stream = open_file();
-        assert_status(uff_write_systems(stream, set, 1, &system), ROTID_OK);
-        struct uff_reader *reader = reader_of(stream, set);
-        assert_status(uff_read_systems(reader, &test_pool, &count, &read), ROTID_OK);
-        assert_int_equal(count, 1);
-        assert_int_equal(read->id, 4);
-        assert_int_equal(read->type, 1);
-        assert_string_equal(read->name, "tilted");
-        for (int i = 0; i < 9; i++)
-            assert_close(read->matrix[i], system.matrix[i], 0, set == 18 ? 2e-5 : 1e-15);
-        for (int i = 0; i < 3; i++)
-            assert_close(read->origin[i], system.origin[i], set == 18 ? 5e-6 : 0, 0);
-        at_end(reader);
-    }
-}
-
 static void shapes(void **state)
 {
     (void)state;
@@ -338,7 +313,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(header_and_units, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(geometry, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(systems, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(shapes, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(analyses, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(functions, open_test_pool, close_test_pool),

@@ -84,30 +84,6 @@ static void nodes_stand_in_columns(void **state)
                     "    -1\n");
 }
 
-static void systems_are_points_or_a_matrix(void **state)
-{
-    (void)state;
-    const struct uff_system system = {
-        .id = 1, .type = 0, .color = 8, .name = "CS1", .origin = {1200, 0, 0.5}, .matrix = {0, 1, 0, -1, 0, 0, 0, 0, 1}};
-    FILE *stream = open_text();
-    assert_status(uff_write_systems(stream, 18, 1, &system), ROTID_OK);
-    /* the origin at 1200, the points 10000 away from it */
-    is_text(stream, "    -1\n    18\n"
-                    "         1         0         0         8         1\nCS1\n"
-                    "  1.20000E+03  0.00000E+00  5.00000E-01  1.20000E+03  1.00000E+04  5.00000E-01\n"
-                    "  1.20000E+03  0.00000E+00  1.00005E+04\n"
-                    "    -1\n");
-    stream = open_text();
-    assert_status(uff_write_systems(stream, 2420, 1, &system), ROTID_OK);
-    is_text(stream, "    -1\n  2420\n         1\nNONE\n"
-                    "         1         0         8\nCS1\n"
-                    "   0.0000000000000000E+00   1.0000000000000000E+00   0.0000000000000000E+00\n"
-                    "  -1.0000000000000000E+00   0.0000000000000000E+00   0.0000000000000000E+00\n"
-                    "   0.0000000000000000E+00   0.0000000000000000E+00   1.0000000000000000E+00\n"
-                    "   1.2000000000000000E+03   0.0000000000000000E+00   5.0000000000000000E-01\n"
-                    "    -1\n");
-}
-
 static void beams_have_a_record_more(void **state)
 {
     (void)state;
@@ -346,11 +322,15 @@ static int forget_text(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_header_has_seven_records),  cmocka_unit_test(units_keep_seventeen_digits),
-        cmocka_unit_test(nodes_stand_in_columns),        cmocka_unit_test(systems_are_points_or_a_matrix),
-        cmocka_unit_test(beams_have_a_record_more),      cmocka_unit_test(a_trace_has_eight_nodes_a_line),
-        cmocka_unit_test(shapes_say_their_analysis),     cmocka_unit_test(text_has_the_columns_of_each_case),
-        cmocka_unit_test(binary_has_its_bytes_in_order), cmocka_unit_test(what_the_format_cannot_hold_is_refused),
+        cmocka_unit_test(the_header_has_seven_records),
+        cmocka_unit_test(units_keep_seventeen_digits),
+        cmocka_unit_test(nodes_stand_in_columns),
+        cmocka_unit_test(beams_have_a_record_more),
+        cmocka_unit_test(a_trace_has_eight_nodes_a_line),
+        cmocka_unit_test(shapes_say_their_analysis),
+        cmocka_unit_test(text_has_the_columns_of_each_case),
+        cmocka_unit_test(binary_has_its_bytes_in_order),
+        cmocka_unit_test(what_the_format_cannot_hold_is_refused),
         cmocka_unit_test(a_full_disk_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, forget_text);

@@ -59,7 +59,7 @@ void uff_fixture_refuses(struct uff_fixture *fixture, int status, int line, int 
 {
     assert_status(status, ROTID_ERROR_SYNTAX);
     assert_true(fixture->messages.count > 0);
-    const struct message *last = &fixture->messages.item[fixture->messages.count - 1];
+    const rotid_message *last = &fixture->messages.item[fixture->messages.count - 1];
     if (last->severity != SEVERITY_ERROR || last->line != line || (column && last->column != column) ||
         !strstr(last->text, part)) {
         print_messages(fixture);

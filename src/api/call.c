@@ -41,7 +41,7 @@ static void explain(const struct call *call, char *failure)
 {
     size_t length = 0;
     for (size_t i = 0; i < call->notes.count; i++) {
-        const struct message *m = &call->notes.item[i];
+        const rotid_message *m = &call->notes.item[i];
         char place[64];
         if (m->severity != SEVERITY_ERROR)
             continue;

@@ -1,37 +1,33 @@
 /* What a deck says, for hosts. */
 #include "api/deck_handle.h"
+#include "api/keep.h"
 #include "api/result_geometry.h"
 #include "run/spectrum.h"
 
-static int make_result(struct result_memory *memory, const struct job *job, const struct spectrum *s, rotid_check **result)
+static rotid_check *make_result(struct call *call, const struct job *job, const struct spectrum *s)
 {
+    struct pool *pool = &call->entry.scratch;
     struct mass_properties mass;
-    rotid_check *r = memory ? RESULT_NEW(memory, rotid_check) : NULL;
-    if (!r)
-        return ROTID_ERROR_MEMORY;
     model_mass_properties(s->model, &mass);
-    *r = (rotid_check){.length_m = rotor_length(&job->rotor),
-                       .mass_kg = mass.mass,
-                       .center_of_mass_m = mass.center,
-                       .inertia_kg_m2 = mass.inertia,
-                       .nodes = s->nnode,
-                       .elements = s->nnode - 1,
-                       .rigid_modes = s->nrigid,
-                       .nrigid_hz = s->nrigid,
-                       .rigid_hz = RESULT_COPY(memory, s->rigid_hz, s->nrigid),
-                       .measured_modes = job->measurement.nmode,
-                       .functional = functional_name(job->options.fit.functional),
-                       .reduction = reduction_name(job->options.fit.reduction),
-                       .geometry = result_geometry(memory, &job->rotor, s->model),
-                       .memory = memory};
-    r->nsensors = RESULT_LIST(memory, r->sensors, job->rotor.nsensor);
-    for (int i = 0; i < r->nsensors; i++)
-        r->sensors[i] = (rotid_sensor){job->rotor.sensor[i].id, job->rotor.sensor[i].position};
-    r->nparameters = RESULT_LIST(memory, r->parameters, job->unknowns.nparameter);
-    for (int p = 0; p < r->nparameters; p++)
-        r->parameters[p] = result_text(memory, job->unknowns.bounds[p].name);
-    *result = r;
-    return memory->missing ? ROTID_ERROR_MEMORY : ROTID_OK;
+    rotid_check r = {.length_m = rotor_length(&job->rotor),
+                     .mass_kg = mass.mass,
+                     .center_of_mass_m = mass.center,
+                     .inertia_kg_m2 = mass.inertia,
+                     .nodes = s->nnode,
+                     .elements = s->nnode - 1,
+                     .rigid_modes = s->nrigid,
+                     .nrigid_hz = s->nrigid,
+                     .rigid_hz = s->rigid_hz,
+                     .measured_modes = job->measurement.nmode,
+                     .functional = functional_words[job->options.fit.functional],
+                     .reduction = reduction_words[job->options.fit.reduction],
+                     .geometry = result_geometry(pool, &job->rotor, s->model)};
+    r.nsensors = r.geometry ? r.geometry->nsensors : 0;
+    r.sensors = r.geometry ? r.geometry->sensors : NULL;
+    r.nparameters = POOL_LIST(pool, r.parameters, job->unknowns.nparameter);
+    for (int p = 0; p < r.nparameters; p++)
+        r.parameters[p] = job->unknowns.bounds[p].name;
+    return call_keep(call, &check_record, &r, &r.memory);
 }
 
 int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environment, char *failure, rotid_check **check)
@@ -45,19 +41,13 @@ int rotid_deck_check(const rotid_deck *deck, const rotid_environment *environmen
     if (!status)
         status = job ? spectrum_compute(&call.entry.scratch, job->models, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, 1, &found)
                      : ROTID_ERROR_ARGUMENT;
-    if (!status) {
-        struct result_memory *memory = result_memory_new(&call.environment);
-        status = make_result(memory, job, &found, check);
-        if (status) {
-            result_memory_free(memory);
-            *check = NULL;
-        }
-    }
+    if (!status)
+        status = (*check = make_result(&call, job, &found)) ? ROTID_OK : ROTID_ERROR_MEMORY;
     return call_close(&call, status);
 }
 
 void rotid_check_free(rotid_check *check)
 {
     if (check)
-        result_memory_free(check->memory);
+        pool_free(check->memory);
 }

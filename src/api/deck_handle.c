@@ -3,23 +3,22 @@
 
 #include <math.h>
 
-#include "api/result_memory.h"
 #include "base/host.h"
 #include "deck/deck.h"
 #include "model/model.h"
 
 struct deck_handle {
-    struct result_memory *own;
+    struct pool *own;
     int usable; /* without errors */
     struct job job;
 };
 
-static int parse_overrides(struct result_memory *own, int count, const char *const *text, struct message_list *messages,
+static int parse_overrides(struct pool *own, int count, const char *const *text, struct message_list *messages,
                            struct override *override)
 {
     for (int i = 0; i < count; i++) {
-        const char *copy = result_text(own, text[i]); /* parts of it become part of the job */
-        int status = copy ? override_parse(&own->pool, copy, &override[i]) : ROTID_ERROR_MEMORY;
+        const char *copy = pool_copy_text(own, text[i]); /* parts of it become part of the job */
+        int status = copy ? override_parse(own, copy, &override[i]) : ROTID_ERROR_MEMORY;
         if (status == ROTID_ERROR_SYNTAX)
             message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "override %s: expected CARD.OPTION=VALUE", copy);
         if (status)
@@ -51,19 +50,16 @@ static int weigh(const struct job *job, const rotid_environment *environment, ro
 }
 
 /* The job lives as long as the deck: what it holds as arrays is not copied. */
-static void show(const struct job *job, struct result_memory *own, rotid_deck *deck)
+static void show(const struct job *job, struct pool *own, rotid_deck *deck)
 {
-    int nsensor = job->rotor.nsensor, *id = result_room(own, nsensor, sizeof *id);
-    double *z = result_room(own, nsensor, sizeof *z), *stated = result_room(own, job->unknowns.nparameter, sizeof *stated);
+    int nsensor = job->rotor.nsensor, *id = POOL_ARRAY(own, int, nsensor);
+    double *z = POOL_ARRAY(own, double, nsensor), *stated = POOL_ARRAY(own, double, job->unknowns.nparameter);
     for (int s = 0; s < nsensor && id && z; s++) {
         id[s] = job->rotor.sensor[s].id;
         z[s] = job->rotor.sensor[s].position;
     }
     for (int p = 0; p < job->unknowns.nparameter && stated; p++)
         stated[p] = *parameter_value(&job->rotor, job->unknowns.parameter[p]);
-    deck->nreferences = RESULT_LIST(own, deck->references, job->nreference);
-    for (int i = 0; i < deck->nreferences; i++)
-        deck->references[i] = (rotid_reference){job->reference[i].quantity, job->reference[i].count, job->reference[i].value};
     deck->nsensor = nsensor;
     deck->sensor_id = id;
     deck->sensor_z = z;
@@ -79,25 +75,27 @@ static void show(const struct job *job, struct result_memory *own, rotid_deck *d
     deck->stated = stated;
     deck->nheading = job->nheading;
     deck->heading = job->heading;
+    deck->nreferences = job->nreference;
+    deck->references = job->reference;
 }
 
-static int read_deck(struct result_memory *own, const struct deck_memory *memory, const char *path, int noverride,
-                     const char *const *text, struct call *call, rotid_deck *deck)
+static int read_deck(struct pool *own, const struct deck_memory *memory, const char *path, int noverride, const char *const *text,
+                     struct call *call, rotid_deck *deck)
 {
-    struct pool *pool = &own->pool;
     struct message_list *messages = &call->notes;
-    struct deck_handle *handle = POOL_NEW(pool, struct deck_handle);
-    struct override *override = POOL_ARRAY(pool, struct override, noverride);
+    message_open(messages, own); /* they stay with the deck */
+    struct deck_handle *handle = POOL_NEW(own, struct deck_handle);
+    struct override *override = POOL_ARRAY(own, struct override, noverride);
     if (!handle || !override)
         return ROTID_ERROR_MEMORY;
     *handle = (struct deck_handle){.own = own};
     deck->memory = handle;
-    deck->path = result_text(own, path);
+    deck->path = pool_copy_text(own, path);
     deck->length = deck->mass = deck->centre = NAN;
     int status = parse_overrides(own, noverride, text, messages, override);
     if (!status)
-        status = memory ? deck_read_memory(pool, memory, noverride, override, messages, &handle->job)
-                        : deck_read(pool, path, noverride, override, messages, &handle->job);
+        status = memory ? deck_read_memory(own, memory, noverride, override, messages, &handle->job)
+                        : deck_read(own, path, noverride, override, messages, &handle->job);
     if (!status)
         status = weigh(&handle->job, &call->environment, deck);
     if (!status)
@@ -105,8 +103,8 @@ static int read_deck(struct result_memory *own, const struct deck_memory *memory
     handle->usable = status == ROTID_OK;
     deck->nmessage = (int)messages->count;
     deck->nerror = messages->errors;
-    deck->message = result_messages(own, messages);
-    return own->missing ? ROTID_ERROR_MEMORY : status;
+    deck->message = messages->item;
+    return own->out_of_memory ? ROTID_ERROR_MEMORY : status;
 }
 
 static int make_deck(struct call *call, const struct deck_memory *memory, const char *path, int noverride,
@@ -119,13 +117,15 @@ static int make_deck(struct call *call, const struct deck_memory *memory, const 
     for (int i = 0; i < noverride; i++)
         if (!override[i])
             return refuse(call->entry.failure, "override[%d] is NULL, expected CARD.OPTION=VALUE", i);
-    struct result_memory *own = result_memory_new(&call->environment);
-    rotid_deck *made = own ? POOL_NEW(&own->pool, rotid_deck) : NULL;
+    struct pool *own = pool_new(call->environment.allocator);
+    rotid_deck *made = own ? POOL_NEW(own, rotid_deck) : NULL;
     int status = made ? read_deck(own, memory, path, noverride, override, call, made) : ROTID_ERROR_MEMORY;
-    if (status == ROTID_ERROR_MEMORY)
-        result_memory_free(own);
-    else
+    if (status == ROTID_ERROR_MEMORY) {
+        message_open(&call->notes, &call->entry.scratch);
+        pool_free(own);
+    } else {
         *deck = made;
+    }
     return status;
 }
 
@@ -161,7 +161,7 @@ int rotid_deck_read_text(size_t length, const char *text, const char *name, cons
 void rotid_deck_free(rotid_deck *deck)
 {
     if (deck)
-        result_memory_free(((struct deck_handle *)deck->memory)->own);
+        pool_free(((struct deck_handle *)deck->memory)->own);
 }
 
 const struct job *deck_job_of(const rotid_deck *deck)

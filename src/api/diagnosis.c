@@ -1,30 +1,23 @@
 /* The diagnosis of a deck, for hosts. */
 #include "api/deck_handle.h"
+#include "api/keep.h"
 #include "api/result_diagnosis.h"
 #include "base/parallel.h"
 #include "base/sized.h"
 #include "deck/deck_extended.h"
 #include "diagnose/diagnose.h"
 
-/* The deck is written on the scratch of the call. */
-static int make_result(struct result_memory *memory, struct call *call, const struct job *job, const char *path,
-                       struct diagnosis *d, rotid_diagnosis **result)
+static rotid_diagnosis *make_result(struct call *call, const struct job *job, const char *path, struct diagnosis *d)
 {
+    struct pool *pool = &call->entry.scratch;
     char *text = NULL;
-    int status = memory ? ROTID_OK : ROTID_ERROR_MEMORY;
-    if (!status && d->sentence && d->base.fit)
-        status = deck_write_extended(&call->entry.scratch, d, path, &text);
-    rotid_diagnosis *made = status == ROTID_ERROR_MEMORY ? NULL : result_diagnosis(memory, job, d);
-    if (!made)
-        return ROTID_ERROR_MEMORY;
-    made->extended_deck = result_text(memory, text);
+    if (d->result.verdict.sentence && d->base.fit)
+        (void)deck_write_extended(pool, d, path, &text);
+    rotid_diagnosis *made = result_diagnosis(pool, job, d);
+    made->extended_deck = text;
     made->nmessage = (int)call->notes.count;
-    made->message = result_messages(memory, &call->notes);
-    made->memory = memory;
-    if (memory->missing)
-        return ROTID_ERROR_MEMORY;
-    *result = made;
-    return ROTID_OK;
+    made->message = call->notes.item;
+    return call_keep(call, &diagnosis_whole_record, made, &made->memory);
 }
 
 /* 0 takes the default. */
@@ -58,12 +51,11 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
     status = diagnose_run(&call->entry.scratch, job, &options, &call->environment, &call->notes, &d);
     if (status)
         return status;
-    struct result_memory *memory = result_memory_new(&call->environment);
-    status = make_result(memory, call, job, deck->path, &d, result);
-    if (status)
-        result_memory_free(memory);
-    diagnose_free(&d); /* what did not go over into the result */
-    return status;
+    *result = make_result(call, job, deck->path, &d);
+    if (*result)
+        return ROTID_OK;
+    diagnose_free(&d);
+    return ROTID_ERROR_MEMORY;
 }
 
 int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options, const rotid_environment *environment,
@@ -80,11 +72,11 @@ int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options
 
 void rotid_diagnosis_free(rotid_diagnosis *result)
 {
-    if (result)
-        result_memory_free(result->memory);
-}
-
-const char *rotid_verdict_name(int kind)
-{
-    return kind >= ROTID_ADEQUATE && kind <= ROTID_UNEXPLAINED ? verdict_name((enum verdict_kind)kind) : "unknown verdict";
+    if (!result)
+        return;
+    const rotid_identification *fits[] = {result->today, result->base, result->extended};
+    for (size_t i = 0; i < sizeof fits / sizeof *fits; i++)
+        if (fits[i])
+            rotid_fit_free((rotid_fit_result *)fits[i]->fit);
+    pool_free(result->memory);
 }

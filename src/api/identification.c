@@ -1,24 +1,20 @@
 /* The identification of a deck, for hosts. */
-#include "api/call.h"
 #include "api/deck_handle.h"
+#include "api/keep.h"
 #include "api/result_geometry.h"
 #include "api/result_identification.h"
 
-static int make_result(struct result_memory *memory, const struct job *job, const struct message_list *notes,
-                       struct identification *found, rotid_identification **result)
+static rotid_identification *make_result(struct call *call, const struct job *job, const struct identification *found)
 {
-    rotid_identification *made = memory ? result_identification(memory, job, found) : NULL;
+    struct pool *pool = &call->entry.scratch;
+    rotid_identification *made = result_identification(pool, job, found);
     if (!made)
-        return ROTID_ERROR_MEMORY;
-    made->noise = result_noise(memory, job, made->fit);
-    made->geometry = result_geometry(memory, &job->rotor, found->spectrum.model);
-    made->nmessage = (int)notes->count;
-    made->message = result_messages(memory, notes);
-    made->memory = memory;
-    if (memory->missing)
-        return ROTID_ERROR_MEMORY;
-    *result = made;
-    return ROTID_OK;
+        return NULL;
+    made->noise = result_noise(pool, job, found->fit);
+    made->geometry = result_geometry(pool, &job->rotor, found->spectrum.model);
+    made->nmessage = (int)call->notes.count;
+    made->message = call->notes.item;
+    return call_keep(call, &identification_whole_record, made, &made->memory);
 }
 
 static int identify(struct call *call, const rotid_deck *deck, int baseline, rotid_identification **result)
@@ -31,12 +27,11 @@ static int identify(struct call *call, const rotid_deck *deck, int baseline, rot
     if (status)
         return status;
     identify_warn_of_mesh(job, &found, &call->notes);
-    struct result_memory *memory = result_memory_new(&call->environment);
-    status = make_result(memory, job, &call->notes, &found, result);
-    if (status)
-        result_memory_free(memory);
-    rotid_fit_free(found.fit); /* NULL where the result has it */
-    return status;
+    *result = make_result(call, job, &found);
+    if (*result)
+        return ROTID_OK;
+    rotid_fit_free(found.fit);
+    return ROTID_ERROR_MEMORY;
 }
 
 int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment *environment, char *failure,
@@ -53,6 +48,8 @@ int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment
 
 void rotid_identification_free(rotid_identification *result)
 {
-    if (result) /* one that belongs to a diagnosis has no memory of its own */
-        result_memory_free(result->memory);
+    if (!result || !result->memory) /* one that belongs to a diagnosis */
+        return;
+    rotid_fit_free((rotid_fit_result *)result->fit);
+    pool_free(result->memory);
 }

@@ -4,9 +4,9 @@
 
 #include "diagnose/causes/catalogue.h"
 
-static rotid_material material_of(struct result_memory *memory, const struct material *material)
+static rotid_material material_of(const struct material *material)
 {
-    return (rotid_material){.name = result_text(memory, material->name),
+    return (rotid_material){.name = material->name,
                             .e_pa = material->e,
                             .g_pa = material_shear_modulus(material),
                             .nu = material->nu,
@@ -37,7 +37,7 @@ static rotid_segment ring_of(const struct ring *ring, rotid_segment host)
     return host;
 }
 
-static void fill_group(struct result_memory *memory, const struct rotor *rotor, int g, rotid_group *out)
+static void fill_group(struct pool *pool, const struct rotor *rotor, int g, rotid_group *out)
 {
     const struct group *group = &rotor->group[g];
     double z = 0;
@@ -46,12 +46,12 @@ static void fill_group(struct result_memory *memory, const struct rotor *rotor, 
         count += rotor->segment[s].group == g;
     for (int i = 0; i < rotor->nring; i++)
         count += rotor->ring[i].group == g;
-    *out = (rotid_group){.name = result_text(memory, group->name), .material = material_of(memory, &group->material)};
+    *out = (rotid_group){.name = group->name, .material = material_of(&group->material)};
     if (group->layer_of >= 0)
-        out->layer_of = result_text(memory, rotor->group[group->layer_of].name);
+        out->layer_of = rotor->group[group->layer_of].name;
     out->preload_n = group->preload;
     rotor_group_span(rotor, g, &out->from_m, &out->to_m);
-    out->nsegments = RESULT_LIST(memory, out->segments, count);
+    out->nsegments = POOL_LIST(pool, out->segments, count);
     for (int s = 0; s < rotor->nsegment && out->nsegments; z += rotor->segment[s++].length) {
         rotid_segment own = segment_of(&rotor->segment[s], z);
         if (rotor->segment[s].group == g)
@@ -60,7 +60,7 @@ static void fill_group(struct result_memory *memory, const struct rotor *rotor, 
             if (rotor->ring[i].segment == s && rotor->ring[i].group == g)
                 out->segments[next++] = ring_of(&rotor->ring[i], own);
     }
-    out->perforation = group->holes ? RESULT_NEW(memory, rotid_perforation) : NULL;
+    out->perforation = group->holes ? POOL_NEW(pool, rotid_perforation) : NULL;
     if (out->perforation)
         *out->perforation = (rotid_perforation){group->holes, group->hole_diameter, group->hole_pitch};
 }
@@ -70,15 +70,15 @@ static const char *bundle_name(enum bundle_model model)
     return model == BUNDLE_RODS ? "RODS" : "TUBE";
 }
 
-static void fill_members(struct result_memory *memory, const struct rotor *rotor, rotid_geometry *out)
+static void fill_members(struct pool *pool, const struct rotor *rotor, rotid_geometry *out)
 {
-    out->ntierods = RESULT_LIST(memory, out->tierods, rotor->ntierod);
+    out->ntierods = POOL_LIST(pool, out->tierods, rotor->ntierod);
     for (int i = 0; i < out->ntierods; i++) {
         const struct tierod *rod = &rotor->tierod[i];
-        out->tierods[i] = (rotid_tierods){.name = result_text(memory, rod->name),
+        out->tierods[i] = (rotid_tierods){.name = rod->name,
                                           .from_m = rod->from,
                                           .to_m = rod->to,
-                                          .material = material_of(memory, &rod->material),
+                                          .material = material_of(&rod->material),
                                           .number = rod->number,
                                           .diameter_m = rod->diameter,
                                           .pitch_radius_m = rod->pitch,
@@ -87,14 +87,14 @@ static void fill_members(struct result_memory *memory, const struct rotor *rotor
                                           .tension_n = rod->tension,
                                           .self_equilibrated = rod->self_equilibrated};
     }
-    out->nbars = RESULT_LIST(memory, out->bars, rotor->nbars);
+    out->nbars = POOL_LIST(pool, out->bars, rotor->nbars);
     for (int i = 0; i < out->nbars; i++) {
         const struct bars *bars = &rotor->bars[i];
-        out->bars[i] = (rotid_bars){.name = result_text(memory, bars->name),
+        out->bars[i] = (rotid_bars){.name = bars->name,
                                     .from_m = bars->center - bars->length / 2,
                                     .to_m = bars->center + bars->length / 2,
                                     .center_m = bars->center,
-                                    .material = material_of(memory, &bars->material),
+                                    .material = material_of(&bars->material),
                                     .number = bars->number,
                                     .diameter_m = bars->diameter,
                                     .pitch_radius_m = bars->pitch,
@@ -103,60 +103,57 @@ static void fill_members(struct result_memory *memory, const struct rotor *rotor
     }
 }
 
-static void fill_attached(struct result_memory *memory, const struct rotor *rotor, rotid_geometry *out)
+static void fill_attached(struct pool *pool, const struct rotor *rotor, rotid_geometry *out)
 {
-    out->ndisks = RESULT_LIST(memory, out->disks, rotor->ndisk);
+    out->ndisks = POOL_LIST(pool, out->disks, rotor->ndisk);
     for (int i = 0; i < out->ndisks; i++) {
         const struct disk *disk = &rotor->disk[i];
-        out->disks[i] = (rotid_disk){result_text(memory, disk->name), disk->position, disk->mass, disk->diametral, disk->polar};
+        out->disks[i] = (rotid_disk){disk->name, disk->position, disk->mass, disk->diametral, disk->polar};
     }
-    out->nsprings = RESULT_LIST(memory, out->springs, rotor->nspring);
+    out->nsprings = POOL_LIST(pool, out->springs, rotor->nspring);
     for (int i = 0; i < out->nsprings; i++) {
         const struct spring *spring = &rotor->spring[i];
-        out->springs[i] =
-            (rotid_spring){result_text(memory, spring->name), spring->position, spring->lateral, spring->rotational};
+        out->springs[i] = (rotid_spring){spring->name, spring->position, spring->lateral, spring->rotational};
     }
     out->sling_m = rotor->sling > 0 ? rotor->sling : (double)NAN;
-    out->nsensors = RESULT_LIST(memory, out->sensors, rotor->nsensor);
+    out->nsensors = POOL_LIST(pool, out->sensors, rotor->nsensor);
     for (int s = 0; s < out->nsensors; s++)
         out->sensors[s] = (rotid_sensor){rotor->sensor[s].id, rotor->sensor[s].position};
 }
 
-static void fill_cause(struct result_memory *memory, const struct rotor *rotor, const struct effect *effect,
-                       rotid_model_cause *out)
+static void fill_cause(struct pool *pool, const struct rotor *rotor, const struct effect *effect, rotid_model_cause *out)
 {
     const struct cause_kind *cause = catalogue_of(effect);
-    const char *target = cause ? cause_target_name(&memory->pool, rotor, cause, effect->target) : "";
+    const char *target = cause ? cause_target_name(pool, rotor, cause, effect->target) : "";
     int at_sensor = cause && cause->target == TARGET_SENSOR && effect->target >= 0;
-    memory->missing |= !target;
-    *out = (rotid_model_cause){.name = result_text(memory, effect->name),
+    *out = (rotid_model_cause){.name = effect->name,
                                .id = effect->kind->id,
-                               .target = result_text(memory, target),
+                               .target = target,
                                .sensor = at_sensor ? rotor->sensor[effect->target].id : ROTID_NONE,
                                .variant = cause && cause->variant_option ? cause->variant[effect->variant] : NULL};
-    out->nparameters = RESULT_LIST(memory, out->parameters, effect_parameters(effect));
+    out->nparameters = POOL_LIST(pool, out->parameters, effect_parameters(effect));
     for (int p = 0; p < out->nparameters; p++)
         out->parameters[p] =
             (rotid_cause_parameter){effect->kind->parameter[p].name, effect->kind->parameter[p].unit, effect->value[p]};
 }
 
-rotid_geometry *result_geometry(struct result_memory *memory, const struct rotor *rotor, const struct rotor_model *model)
+rotid_geometry *result_geometry(struct pool *pool, const struct rotor *rotor, const struct rotor_model *model)
 {
-    rotid_geometry *out = RESULT_NEW(memory, rotid_geometry);
+    rotid_geometry *out = POOL_NEW(pool, rotid_geometry);
     if (!out)
         return NULL;
     if (model)
         rotor = model->rotor;
     out->length_m = rotor_length(rotor);
-    out->ngroups = RESULT_LIST(memory, out->groups, rotor->ngroup);
+    out->ngroups = POOL_LIST(pool, out->groups, rotor->ngroup);
     for (int g = 0; g < out->ngroups; g++)
-        fill_group(memory, rotor, g, &out->groups[g]);
-    fill_members(memory, rotor, out);
-    fill_attached(memory, rotor, out);
-    out->ncauses = RESULT_LIST(memory, out->causes, rotor->neffect);
+        fill_group(pool, rotor, g, &out->groups[g]);
+    fill_members(pool, rotor, out);
+    fill_attached(pool, rotor, out);
+    out->ncauses = POOL_LIST(pool, out->causes, rotor->neffect);
     for (int i = 0; i < out->ncauses; i++)
-        fill_cause(memory, rotor, &rotor->effect[i], &out->causes[i]);
-    out->nodes_z_m = model ? RESULT_COPY(memory, model->z, model->naxis) : NULL;
-    out->nnodes_z_m = out->nodes_z_m ? model->naxis : 0;
+        fill_cause(pool, rotor, &rotor->effect[i], &out->causes[i]);
+    out->nodes_z_m = model ? (double *)model->z : NULL;
+    out->nnodes_z_m = model ? model->naxis : 0;
     return out;
 }

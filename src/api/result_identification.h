@@ -2,17 +2,15 @@
 #ifndef ROTID_API_RESULT_IDENTIFICATION_H
 #define ROTID_API_RESULT_IDENTIFICATION_H
 
-#include "api/result_memory.h"
 #include "run/identify.h"
 
-/* The fit of `found`, if there is one, goes over into the memory of the result. Without noise, geometry and messages. NULL where
- * there is no fit, or memory is out. */
-rotid_identification *result_identification(struct result_memory *memory, const struct job *job, struct identification *found);
+/* Leans on the job and on what was found. Without noise, geometry and messages. NULL where there is no fit, or memory is out. */
+rotid_identification *result_identification(struct pool *pool, const struct job *job, const struct identification *found);
 
 /* Measured mode k beside the frequency predicted for its partner. Without residual, which is NaN. */
 rotid_compared_mode result_compared_mode(const struct job *job, const struct comparison *compared, int k, double predicted_hz);
 
 /* Typical noise of the data of a job, and what the intervals of the fit rest on. NULL where memory is out. */
-rotid_noise *result_noise(struct result_memory *memory, const struct job *job, const rotid_fit_result *fit);
+rotid_noise *result_noise(struct pool *pool, const struct job *job, const rotid_fit_result *fit);
 
 #endif

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "api/deck_handle.h"
+#include "api/keep.h"
 #include "api/result_geometry.h"
 #include "api/result_identification.h"
 #include "run/compare.h"
@@ -26,45 +27,34 @@ static int compute(const struct job *job, const double *x, int nmode, struct ent
 }
 
 /* compared NULL: the measured modes could not be paired */
-static void fill_modes(struct result_memory *memory, const struct job *job, const struct spectrum *s,
-                       const struct comparison *compared, rotid_spectrum *out)
+static rotid_spectrum *make_result(struct call *call, const struct job *job, const struct spectrum *s,
+                                   const struct comparison *compared)
 {
-    out->nmodes = RESULT_LIST(memory, out->modes, s->count);
-    for (int j = 0; j < out->nmodes; j++) {
-        rotid_model_mode *mode = &out->modes[j];
+    struct pool *pool = &call->entry.scratch;
+    rotid_spectrum r = {.reduction = job->options.fit.reduction == ROTID_IRS ? "IRS" : "GUYAN",
+                        .nrigid_hz = s->nrigid,
+                        .rigid_hz = s->rigid_hz,
+                        .nsensor_z_m = s->nmaster,
+                        .sensor_z_m = s->master_z,
+                        .geometry = result_geometry(pool, &job->rotor, s->model),
+                        .master_mass = s->mass,
+                        .nmessage = (int)call->notes.count,
+                        .message = call->notes.item};
+    r.nmodes = POOL_LIST(pool, r.modes, s->count);
+    for (int j = 0; j < r.nmodes; j++) {
+        rotid_model_mode *mode = &r.modes[j];
         *mode = (rotid_model_mode){.mode = j + 1,
                                    .full_hz = s->full_hz[j],
                                    .reduced_hz = s->reduced_hz[j],
                                    .reduction_error_percent = s->reduction_error_percent[j],
                                    .mesh_error_percent = s->mesh_error_percent[j],
-                                   .nshape = s->nmaster};
-        mode->shape = RESULT_COPY(memory, s->shape + (ptrdiff_t)j * s->nmaster, s->nmaster);
+                                   .nshape = s->nmaster,
+                                   .shape = s->shape + (ptrdiff_t)j * s->nmaster};
         for (int k = 0; compared && k < compared->nmode; k++)
-            if (compared->number[k] == j + 1 && (mode->measured = RESULT_NEW(memory, rotid_compared_mode)))
+            if (compared->number[k] == j + 1 && (mode->measured = POOL_NEW(pool, rotid_compared_mode)))
                 *mode->measured = result_compared_mode(job, compared, k, s->full_hz[j]);
     }
-}
-
-static int make_result(struct result_memory *memory, struct call *call, const struct job *job, const struct spectrum *s,
-                       const struct comparison *compared, rotid_spectrum **result)
-{
-    rotid_spectrum *r = memory ? RESULT_NEW(memory, rotid_spectrum) : NULL;
-    if (!r)
-        return ROTID_ERROR_MEMORY;
-    ptrdiff_t masters = s->nmaster;
-    *r = (rotid_spectrum){.reduction = job->options.fit.reduction == ROTID_IRS ? "IRS" : "GUYAN",
-                          .nrigid_hz = s->nrigid,
-                          .rigid_hz = RESULT_COPY(memory, s->rigid_hz, s->nrigid),
-                          .nsensor_z_m = s->nmaster,
-                          .sensor_z_m = RESULT_COPY(memory, s->master_z, masters),
-                          .geometry = result_geometry(memory, &job->rotor, s->model),
-                          .master_mass = RESULT_COPY(memory, s->mass, masters * masters),
-                          .nmessage = (int)call->notes.count,
-                          .message = result_messages(memory, &call->notes),
-                          .memory = memory};
-    fill_modes(memory, job, s, compared, r);
-    *result = r;
-    return memory->missing ? ROTID_ERROR_MEMORY : ROTID_OK;
+    return call_keep(call, &spectrum_whole_record, &r, &r.memory);
 }
 
 static int run(struct call *call, const struct job *job, const double *x, int nmode, rotid_spectrum **result)
@@ -82,13 +72,8 @@ static int run(struct call *call, const struct job *job, const double *x, int nm
     paired = comparison_make(&call->entry.scratch, job, &found, &call->notes, &compared);
     if (paired && paired != ROTID_ERROR_UNPAIRED)
         return paired;
-    struct result_memory *memory = result_memory_new(&call->environment);
-    status = make_result(memory, call, job, &found, paired ? NULL : &compared, result);
-    if (status) {
-        result_memory_free(memory);
-        *result = NULL;
-    }
-    return status;
+    *result = make_result(call, job, &found, paired ? NULL : &compared);
+    return *result ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
 int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
@@ -107,5 +92,5 @@ int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, c
 void rotid_spectrum_free(rotid_spectrum *spectrum)
 {
     if (spectrum)
-        result_memory_free(spectrum->memory);
+        pool_free(spectrum->memory);
 }

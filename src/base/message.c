@@ -22,7 +22,7 @@ void message_add(struct message_list *list, enum severity severity, const char *
     list->errors += is_error;
     if ((is_error ? errors : list->count - errors) >= MESSAGE_LIMIT)
         return;
-    struct message *grown = pool_grow(list->pool, list->item, list->count, &list->capacity, sizeof *grown);
+    rotid_message *grown = pool_grow(list->pool, list->item, list->count, &list->capacity, sizeof *grown);
     if (grown)
         list->item = grown; /* now: the capacity already is that of the new array */
     char *copy = grown ? pool_copy_text(list->pool, text) : NULL;
@@ -31,5 +31,15 @@ void message_add(struct message_list *list, enum severity severity, const char *
         list->out_of_memory = 1;
         return;
     }
-    list->item[list->count++] = (struct message){severity, place, line, column, copy};
+    list->item[list->count++] = (rotid_message){severity, line, column, place, copy};
+}
+
+const char **message_warnings(const struct message_list *list, struct pool *pool, int *count)
+{
+    const char **text = POOL_ARRAY(pool, const char *, list->count);
+    *count = 0;
+    for (size_t i = 0; i < list->count && text; i++)
+        if (list->item[i].severity == SEVERITY_WARNING)
+            text[(*count)++] = list->item[i].text;
+    return text;
 }

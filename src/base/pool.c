@@ -16,6 +16,7 @@ void pool_open(struct pool *pool, const rotid_allocator *allocator)
 {
     pool->allocator = allocator;
     pool->last = NULL;
+    pool->out_of_memory = 0;
 }
 
 void pool_close(struct pool *pool)
@@ -32,9 +33,28 @@ void pool_close(struct pool *pool)
     pool->last = NULL;
 }
 
+struct pool *pool_new(const rotid_allocator *allocator)
+{
+    struct pool pool;
+    pool_open(&pool, allocator);
+    struct pool *made = POOL_NEW(&pool, struct pool);
+    if (made)
+        *made = pool;
+    return made;
+}
+
+void pool_free(struct pool *pool)
+{
+    struct pool blocks = {0};
+    if (pool)
+        blocks = *pool; /* it goes with its own blocks */
+    pool_close(&blocks);
+}
+
 void pool_absorb(struct pool *pool, struct pool *other)
 {
     union header *oldest = other->last;
+    pool->out_of_memory |= other->out_of_memory;
     while (oldest && oldest->previous)
         oldest = oldest->previous;
     if (!oldest)
@@ -46,13 +66,16 @@ void pool_absorb(struct pool *pool, struct pool *other)
 
 void *pool_get(struct pool *pool, size_t count, size_t size)
 {
-    if (size && count > (SIZE_MAX - sizeof(union header)) / size)
-        return NULL;
-    size_t bytes = sizeof(union header) + count * size;
+    int fits = !size || count <= (SIZE_MAX - sizeof(union header)) / size;
+    size_t bytes = fits ? sizeof(union header) + count * size : 0;
     /* calloc knows which memory is new, and zero: a large block costs what is used of it */
-    union header *block = pool->allocator ? pool->allocator->allocate(pool->allocator->context, bytes) : calloc(1, bytes);
-    if (!block)
+    union header *block = !fits             ? NULL
+                          : pool->allocator ? pool->allocator->allocate(pool->allocator->context, bytes)
+                                            : calloc(1, bytes);
+    if (!block) {
+        pool->out_of_memory = 1;
         return NULL;
+    }
     if (pool->allocator)
         memset(block, 0, bytes);
     block->previous = pool->last;

@@ -10,10 +10,16 @@
 struct pool {
     const rotid_allocator *allocator; /* NULL: malloc and free */
     void *last;                       /* newest block, each linked to the one before */
+    int out_of_memory;                /* some room was not to be had: many requests need one check */
 };
 
 void pool_open(struct pool *pool, const rotid_allocator *allocator);
 void pool_close(struct pool *pool);
+
+/* A pool that is the first of its own blocks, for what outlives the call that makes it; NULL where memory is out. */
+struct pool *pool_new(const rotid_allocator *allocator);
+/* NULL is allowed. */
+void pool_free(struct pool *pool);
 
 /* The pool takes over the blocks of another one, which is empty then; both have the same allocator. */
 void pool_absorb(struct pool *pool, struct pool *other);
@@ -24,6 +30,8 @@ void *pool_get(struct pool *pool, size_t count, size_t size);
 
 #define POOL_NEW(pool, type)          ((type *)pool_get((pool), 1, sizeof(type)))
 #define POOL_ARRAY(pool, type, count) ((type *)pool_get((pool), (size_t)(count), sizeof(type)))
+/* The list gets room for count elements. Its length: 0 where memory is out, so that a loop that fills it is safe. */
+#define POOL_LIST(pool, list, count) (((list) = pool_get((pool), (size_t)(count), sizeof *(list))) ? (int)(count) : 0)
 
 /* Room for one more element in a growing array of *capacity elements of which count are used: doubles it (copying) when
  * full. Returns the array, or NULL when memory is out (the old one stays valid). */

@@ -18,7 +18,7 @@ int text_is_control(const char *text, unsigned *code);
 /* Bytes of the character that begins here, 0 where that is a control character or no UTF-8: nothing to be shown as it is. */
 size_t text_visible(const char *text);
 
-/* In the place of what is not shown: U+FFFD, one column. */
+/* In the place of a character that is not shown: U+FFFD, one column. */
 #define TEXT_REPLACEMENT "\xef\xbf\xbd"
 
 #endif

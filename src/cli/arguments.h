@@ -41,7 +41,7 @@ int arguments_same_file(const char *a, const char *b);
 /* Whether an option would write one of these files, which are read: -1, or the exit code after saying so. */
 int arguments_refuse_read(const struct command *command, int count, const char *const *file);
 
-/* Says what is wrong with the arguments: the format has one %s. Returns the exit code. */
+/* Reports a mistake in the arguments: the format has one %s. Returns the exit code. */
 int arguments_wrong(const char *format, const char *value);
 
 /* The options of a command, or, for NULL, the commands. */

@@ -6,6 +6,7 @@
 #include "cli/arguments.h"
 #include "cli/options.h"
 #include "export/files.h"
+#include "result/export.h"
 
 int arguments_same_file(const char *a, const char *b)
 {
@@ -68,12 +69,12 @@ static int refuse_files(const struct command *command)
 
 static int refuse_export(const struct command *command)
 {
-    if (!command->format)
+    if (!arguments_given(command, "format"))
         return arguments_wrong("%s: expected --format matrix-market, dmig or ross", command->name);
     if (!command->output)
         return arguments_wrong("%s: expected --output FILE as well", command->name);
-    if (command->condensed && strcmp(command->format, export_format_name(EXPORT_DMIG)) != 0)
-        return arguments_wrong("--condensed is an option of --format dmig, not of %s", command->format);
+    if (command->condensed && command->format != EXPORT_DMIG)
+        return arguments_wrong("--condensed is an option of --format dmig, not of %s", export_format_words[command->format]);
     return -1;
 }
 
@@ -106,7 +107,7 @@ int arguments_refuse(const struct command *command, const struct command_entry *
         refused = refuse_study(command);
     else if (!strcmp(command->name, "report") && !command->output)
         return arguments_wrong("%s: expected -o FOLDER", command->name);
-    else if (command->format && !command->output)
-        return arguments_wrong("--format %s: expected --output as well", command->format);
+    else if (arguments_given(command, "format") && !command->output)
+        return arguments_wrong("--format %s: expected --output as well", arguments_given(command, "format"));
     return refused >= 0 ? refused : refuse_files(command);
 }

@@ -8,13 +8,12 @@
 #include "base/clock.h"
 #include "report/output.h"
 #include "result/json_tree.h"
-#include "result/result.h"
 
 void command_print_messages(struct command *command)
 {
     static const char *const words[] = {"note: ", "warning: ", ""};
     for (; command->printed < command->messages.count; command->printed++) {
-        const struct message *m = &command->messages.item[command->printed];
+        const rotid_message *m = &command->messages.item[command->printed];
         if (m->severity != SEVERITY_ERROR && (command->quiet || (m->severity == SEVERITY_NOTE && !command->verbose)))
             continue;
         if (m->file)
@@ -68,48 +67,25 @@ int command_write_file(struct command *command, const char *path, const char *te
     return EXIT_INTERNAL;
 }
 
-int command_write_json(struct command *command, char *text, int code)
+void command_begin_head(struct command *command)
+{
+    command->head = (struct result_head){.schema = RESULT_SCHEMA,
+                                         .rotid = ROTID_VERSION,
+                                         .commit = build_commit,
+                                         .blas = build_blas(),
+                                         .seed = (double)command->seed,
+                                         .threads = command->threads,
+                                         .command = command->name};
+}
+
+int command_write_result(struct command *command, struct result *result, int code)
 {
     if (!command->json)
         return code;
-    char *line = text ? pool_format(&command->pool, "%s\n", text) : NULL;
+    result->warnings = message_warnings(&command->messages, &command->pool, &result->nwarnings);
+    char *text = result->warnings ? result_json(result) : NULL, *line = text ? pool_format(&command->pool, "%s\n", text) : NULL;
     json_free(text);
     return command_write_file(command, command->json, line, code);
-}
-
-int command_open_result(struct command *command, struct result *result)
-{
-    const struct provenance *p = &command->provenance;
-    const rotid_deck *deck = command->read;
-    int count = 0;
-    const char **warnings = POOL_ARRAY(&command->pool, const char *, (int)command->messages.count);
-    if (!warnings)
-        return ROTID_ERROR_MEMORY;
-    for (size_t i = 0; i < command->messages.count; i++)
-        if (command->messages.item[i].severity == SEVERITY_WARNING)
-            warnings[count++] = command->messages.item[i].text;
-    *result = (struct result){.head = {.schema = RESULT_SCHEMA,
-                                       .rotid = p->version,
-                                       .commit = p->commit,
-                                       .blas = p->blas,
-                                       .seed = (double)p->seed,
-                                       .threads = p->threads,
-                                       .command = p->command},
-                              .nwarnings = count,
-                              .warnings = warnings};
-    if (deck) {
-        result->head.deck = deck->path;
-        result->head.nheading = deck->nheading;
-        result->head.heading = deck->heading;
-        result->head.nreferences = deck->nreferences;
-        result->head.references = deck->references;
-    }
-    return ROTID_OK;
-}
-
-int command_write_result(struct command *command, const struct result *result, int code)
-{
-    return command->json ? command_write_json(command, result_json(result), code) : code;
 }
 
 int command_wants_progress(const struct command *command)

@@ -1,13 +1,13 @@
-/* One run of the program: what the arguments say, and the commands. */
+/* One run of the program: its arguments, and the commands. */
 #ifndef ROTID_CLI_COMMAND_H
 #define ROTID_CLI_COMMAND_H
 
 #include "deck/deck_text.h"
 #include "ema/ema.h"
 #include "import/measurement.h"
-#include "report/json.h"
 #include "report/terminal.h"
-#include "run/job.h"
+#include "result/result.h"
+#include "run/identify.h"
 
 #define THREADS_MOST 1024
 
@@ -30,14 +30,13 @@ struct given_option {
     const char *name, *value; /* value: "" where it has none */
 };
 
-struct result;
-
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
-    const char *name, *deck, *json, *at, *extended, *output, *format;
+    const char *name, *deck, *json, *at, *extended, *output;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
     int quiet, verbose, threads, no_baseline, points, replicates, start, condensed;
+    int format; /* of --output: enum export_format, or a word of uff */
     unsigned long seed;
     double step, range;
     int ngiven, noverride;
@@ -48,10 +47,10 @@ struct command {
 
     struct pool pool;
     struct message_list messages;
-    size_t printed;        /* of the messages */
-    rotid_deck *read;      /* what was read; NULL of commands that read none */
-    const struct job *job; /* of it */
-    struct provenance provenance;
+    size_t printed;          /* of the messages */
+    rotid_deck *read;        /* NULL of commands that read none */
+    const struct job *job;   /* of it */
+    struct result_head head; /* of its result */
 };
 
 /* Reads the deck of the command; prints its errors. An exit code, EXIT_DONE to go on. */
@@ -63,8 +62,8 @@ void command_print_messages(struct command *command);
 /* The messages of a call of the library go to those of the command. */
 void command_take_messages(struct command *command, int count, const rotid_message *message);
 
-/* The result of the command so far: its head, and the warnings among the messages. ROTID_ERROR_MEMORY. */
-int command_open_result(struct command *command, struct result *result);
+/* Head of the result, from the arguments alone; command_read_deck completes it with the deck. */
+void command_begin_head(struct command *command);
 
 /* The exit code of a status below zero, after saying what happened. */
 int command_fail(struct command *command, int status);
@@ -74,13 +73,15 @@ int command_fail_with(struct command *command, int status, const char *failure);
 /* Tables go to standard output unless that carries JSON or the user wants none. */
 int command_wants_table(const struct command *command);
 
-/* Writes text (may be NULL: out of memory) where --json says and frees it; `code` unless that fails. */
-int command_write_json(struct command *command, char *text, int code);
-/* The same of a result. */
-int command_write_result(struct command *command, const struct result *result, int code);
+/* Writes the result, with the warnings among the messages, where --json says; `code` unless that fails. */
+int command_write_result(struct command *command, struct result *result, int code);
 
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);
+
+/* Warns of an identification (may be NULL) at whose values the model is `done`, where it did not end well or its reduction is
+ * coarse. An exit code, EXIT_DONE or EXIT_DOUBTFUL. */
+int command_judge_fit(struct command *command, const struct identification *identified, const char *done);
 
 /* Whether somebody would see a line of progress. */
 int command_wants_progress(const struct command *command);

@@ -3,10 +3,7 @@
 
 static int show(struct command *command, rotid_check *check)
 {
-    struct result result;
-    if (command_open_result(command, &result))
-        return command_fail(command, ROTID_ERROR_MEMORY);
-    result.check = check;
+    struct result result = {.head = command->head, .check = check};
     if (command_wants_table(command)) {
         table_check(terminal_out(), &result, command->job);
         table_notes(terminal_out(), &command->messages);

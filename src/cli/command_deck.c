@@ -1,4 +1,4 @@
-/* The deck of a command. */
+/* The deck of a command, and the fit of its model. */
 #include <string.h>
 
 #include "api/deck_handle.h"
@@ -38,6 +38,11 @@ int command_read_deck(struct command *command)
     if (status)
         return command_fail(command, status);
     command->job = deck_job_of(command->read);
+    command->head.deck = command->read->path;
+    command->head.nheading = command->read->nheading;
+    command->head.heading = command->read->heading;
+    command->head.nreferences = command->read->nreferences;
+    command->head.references = command->read->references;
     int refused = arguments_refuse_read(command, command->job->nfile, command->job->file);
     if (refused >= 0)
         return refused;
@@ -48,4 +53,17 @@ int command_read_deck(struct command *command)
     message_open(&command->messages, &command->pool);
     command->printed = 0;
     return EXIT_DONE;
+}
+
+int command_judge_fit(struct command *command, const struct identification *identified, const char *done)
+{
+    const rotid_fit_result *fit = identified ? identified->fit : NULL;
+    if (!fit)
+        return EXIT_DONE;
+    int doubtful = fit->n && (!fit->converged || fit->any_at_bound || fit->any_undetermined);
+    if (doubtful)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "the identification did not end well (not converged, at a bound or undetermined): see rotid identify");
+    identify_warn_of_reduction(command->job, identified, done, &command->messages);
+    return doubtful ? EXIT_DOUBTFUL : EXIT_DONE;
 }

@@ -21,12 +21,9 @@ static int write_extended(struct command *command, const rotid_diagnosis *diagno
 
 static int show(struct command *command, rotid_diagnosis *diagnosis)
 {
-    struct result result;
+    struct result result = {.head = command->head, .diagnose = diagnosis};
     int code = EXIT_DONE, written;
     command_take_messages(command, diagnosis->nmessage, diagnosis->message);
-    if (command_open_result(command, &result))
-        return command_fail(command, ROTID_ERROR_MEMORY);
-    result.diagnose = diagnosis;
     if (command_wants_table(command)) {
         const struct diagnosis_view view = {terminal_out(), &result.head, diagnosis, command->verbose, WIDTH};
         table_diagnose(&view);
@@ -46,7 +43,7 @@ int command_diagnose(struct command *command)
     char failure[ROTID_FAILURE_LENGTH];
     double last = 0;
     if (!command->seed) /* of which the library takes its default: the result states the one that was used */
-        command->provenance.seed = command->seed = 1;
+        command->head.seed = (double)(command->seed = 1);
     const rotid_diagnose_options options = {
         .size = sizeof options, .threads = command->threads, .replicates = command->replicates, .seed = (long)command->seed};
     const rotid_environment environment = command_environment(command, &last);

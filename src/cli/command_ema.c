@@ -12,13 +12,8 @@ static int write_modes(struct command *command, const struct measurement *measur
 {
     struct output output;
     int status = output_open(&output, command->output);
-    if (!status) {
-        status = modes_write(output.stream, command->deck, "rotid " ROTID_VERSION, measurement, ema);
-        if (status)
-            output_abandon(&output);
-        else
-            status = output_close(&output);
-    }
+    if (!status)
+        status = output_close(&output, modes_write(output.stream, command->deck, "rotid " ROTID_VERSION, measurement, ema));
     if (status == ROTID_ERROR_IO) {
         terminal_say("rotid: %s: cannot be written: %s\n", command->output, output_error());
         return EXIT_INTERNAL;
@@ -90,6 +85,6 @@ int command_ema(struct command *command)
         terminal_say("rotid: %s: not written, there is no mode\n", command->output);
     if (command_wants_table(command))
         table_ema(terminal_out(), &report, command->verbose);
-    char *text = command->json ? json_ema(&command->provenance, &report, &command->messages) : NULL;
-    return command_write_json(command, text, code);
+    struct result result = {.head = command->head, .ema = command->json ? ema_result_of(&command->pool, &report) : NULL};
+    return command_write_result(command, &result, code);
 }

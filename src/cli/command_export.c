@@ -11,11 +11,6 @@
 
 #define REDUCTION_DOUBTFUL 1 /* % of a frequency */
 
-static void warn(struct command *command, const char *text)
-{
-    message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0, "%s", text);
-}
-
 /* The fit, where there is something to fit and to fit it to. identified->fit stays NULL where the model is taken as it stands. */
 static int identify(struct command *command, struct identification *identified)
 {
@@ -25,7 +20,8 @@ static int identify(struct command *command, struct identification *identified)
     if (!job->unknowns.nparameter || command->start)
         return ROTID_OK;
     if (!job->measurement.nmode) {
-        warn(command, "no mode was measured: the model is taken as the deck states it, not at identified parameters");
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "no mode was measured: the model is taken as the deck states it, not at identified parameters");
         return ROTID_OK;
     }
     int status = identify_run(&command->pool, job, 0, &environment, &command->messages, identified);
@@ -90,11 +86,12 @@ static int write_files(struct command *command, const struct export_files *files
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command)) {
-        table_export(terminal_out(), files, model, ross);
+        table_export(terminal_out(), &command->head, files, model, ross);
         table_notes(terminal_out(), &command->messages);
     }
-    char *text = command->json ? json_export(&command->provenance, files, model, ross, &command->messages) : NULL;
-    return command_write_json(command, text, code);
+    struct result result = {.head = command->head,
+                            .export = command->json ? export_result_of(&command->pool, files, model, ross) : NULL};
+    return command_write_result(command, &result, code);
 }
 
 static int export(struct command *command, const struct identification *identified, int code)
@@ -102,12 +99,9 @@ static int export(struct command *command, const struct identification *identifi
     struct export_model model;
     struct export_files files;
     struct ross_model ross;
-    enum export_format format;
-    if (export_format_find(command->format, &format)) /* the arguments have been checked */
-        return command_fail(command, ROTID_ERROR_ARGUMENT);
+    enum export_format format = (enum export_format)command->format;
     int wants_condensed = format == EXPORT_MATRIX_MARKET || command->condensed, is_ross = format == EXPORT_ROSS;
-    int status =
-        export_model_open(&command->pool, command->job, identified, command->provenance.version, wants_condensed, &model);
+    int status = export_model_open(&command->pool, command->job, identified, command->head.rotid, wants_condensed, &model);
     if (!status && wants_condensed && judge_condensed(command, &model, format))
         status = ROTID_ERROR_ARGUMENT;
     if (!status)
@@ -123,8 +117,7 @@ static int export(struct command *command, const struct identification *identifi
 int command_export(struct command *command)
 {
     struct identification identified = {0};
-    int status = identify(command, &identified), code = EXIT_DONE;
-    const rotid_fit_result *fit = identified.fit;
+    int status = identify(command, &identified);
     if (status)
         return command_fail(command, status);
     if (command_cancelled(NULL)) {
@@ -132,13 +125,7 @@ int command_export(struct command *command)
         rotid_fit_free(identified.fit);
         return EXIT_DOUBTFUL;
     }
-    if (fit && (!fit->converged || fit->any_at_bound || fit->any_undetermined)) {
-        warn(command, "the identification did not end well (not converged, at a bound or undetermined): see rotid identify");
-        code = EXIT_DOUBTFUL;
-    }
-    if (fit)
-        identify_warn_of_reduction(command->job, &identified, "written", &command->messages);
-    code = export(command, fit ? &identified : NULL, code);
+    int code = export(command, identified.fit ? &identified : NULL, command_judge_fit(command, &identified, "written"));
     rotid_fit_free(identified.fit);
     return code;
 }

@@ -33,13 +33,8 @@ static int write_output(struct command *command, const struct frf_view *view, in
     if (!command->output)
         return code;
     int status = output_open(&output, command->output);
-    if (!status) {
-        status = frf_write_file(output.stream, command->provenance.version, view);
-        if (status)
-            output_abandon(&output);
-        else
-            status = output_close(&output);
-    }
+    if (!status)
+        status = output_close(&output, frf_write_file(output.stream, command->head.rotid, view));
     if (!status)
         return code;
     terminal_say("rotid: cannot write %s: %s\n", command->output,
@@ -55,13 +50,13 @@ static int report(struct command *command, const struct frf_view *view, int code
                     "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
                     view->result->ndone, view->result->nline, JSON_FRF_MOST_LINES);
     if (command_wants_table(command)) {
-        status = table_frf(terminal_out(), view);
+        status = table_frf(terminal_out(), &command->head, view);
         table_notes(terminal_out(), &command->messages);
     }
     if (status)
         return command_fail(command, status);
-    char *text = command->json ? json_frf(&command->provenance, view, &command->messages) : NULL;
-    int written = command_write_json(command, text, code);
+    struct result result = {.head = command->head, .frf = command->json ? frf_result_of(view) : NULL};
+    int written = command_write_result(command, &result, code);
     code = write_output(command, view, written);
     return code > written ? code : written;
 }
@@ -93,13 +88,7 @@ int command_frf(struct command *command)
         rotid_fit_free(identified.fit);
         return command_fail(command, status);
     }
-    if (fit && fit->n && (!fit->converged || fit->any_at_bound || fit->any_undetermined)) {
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "the identification did not end well (not converged, at a bound or undetermined): see rotid identify");
-        code = EXIT_DOUBTFUL;
-    }
-    if (fit)
-        identify_warn_of_reduction(job, &identified, "synthesised", &command->messages);
+    code = command_judge_fit(command, &identified, "synthesised");
     if (result.ndone < result.nrow || command_cancelled(NULL)) {
         terminal_say("rotid: interrupted; %d of %d transfer functions were finished\n", result.ndone, result.nrow);
         code = EXIT_DOUBTFUL;

@@ -3,13 +3,10 @@
 
 static int show(struct command *command, rotid_spectrum *spectrum)
 {
-    struct result result;
+    struct result result = {.head = command->head, .modes = spectrum};
     command_take_messages(command, spectrum->nmessage, spectrum->message);
     if (command->messages.errors) /* no pairing */
         return command_fail(command, ROTID_ERROR_UNPAIRED);
-    if (command_open_result(command, &result))
-        return command_fail(command, ROTID_ERROR_MEMORY);
-    result.modes = spectrum;
     if (command_wants_table(command)) {
         table_modes(terminal_out(), &result, command->verbose);
         table_notes(terminal_out(), &command->messages);

@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "report/table.h"
+#include "run/sensitivity.h"
 
 #define MODES_WITHOUT_DATA 6
 
@@ -81,7 +82,8 @@ int command_sensitivity(struct command *command)
 {
     const struct job *job = command->job;
     struct selection selection;
-    struct sensitivity result;
+    struct sensitivity found;
+    struct result result = {.head = command->head, .sensitivity = &found};
     struct sensitivity_options options = {.step = command->step,
                                           .range = command->range,
                                           .points = command->points,
@@ -94,11 +96,10 @@ int command_sensitivity(struct command *command)
     int status = select_parameters(command, &selection);
     if (!status)
         status = sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.named, selection.x, &options,
-                                 &result);
+                                 &found);
     if (status)
         return command_fail(command, status);
     if (command_wants_table(command))
-        table_sensitivity(terminal_out(), job, &result);
-    char *text = command->json ? json_sensitivity(&command->provenance, job, &result) : NULL;
-    return command_write_json(command, text, EXIT_DONE);
+        table_sensitivity(terminal_out(), &result);
+    return command_write_result(command, &result, EXIT_DONE);
 }

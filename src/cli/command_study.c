@@ -64,10 +64,11 @@ static int report(struct command *command, const char *path, int code)
         return refuse(command, status);
     if (command_wants_table(command))
         summary_table(terminal_out(), &summary);
-    command->provenance.seed = header.seed;
+    command->head.seed = (double)header.seed;
     if (summary.failed || summary.missing)
         code = code > EXIT_DOUBTFUL ? code : EXIT_DOUBTFUL;
-    return command_write_json(command, command->json ? summary_json(&command->provenance, &summary) : NULL, code);
+    struct result result = {.head = command->head, .study = &summary};
+    return command_write_result(command, &result, code);
 }
 
 int study_prepare(struct command *command, struct study *study)
@@ -97,7 +98,7 @@ int study_prepare(struct command *command, struct study *study)
     if (refused >= 0)
         return refused;
     command_print_messages(command);
-    command->provenance.seed = study->seed;
+    command->head.seed = (double)study->seed;
     return EXIT_DONE;
 }
 
@@ -115,7 +116,7 @@ static int finish(struct command *command, struct study_record *record, int code
 int study_conduct(struct command *command, const struct study *study, study_compute *compute, void *context)
 {
     const struct study_arguments *arguments = &command->study;
-    const struct header header = header_of(study, command->provenance.version, command->provenance.commit,
+    const struct header header = header_of(study, command->head.rotid, command->head.commit,
                                            arguments->shards ? arguments->shard : 1, arguments->shards ? arguments->shards : 1);
     struct sigaction ignore = {.sa_handler = SIG_IGN};
     struct study_record record;

@@ -1,15 +1,13 @@
 #include <errno.h>
 #include <stdio.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "import/convert.h"
 #include "import/listing.h"
-#include "report/json_uff.h"
 #include "report/output.h"
-#include "report/table_uff.h"
+#include "report/report_uff.h"
 
 static int fail_output(const struct command *command)
 {
@@ -20,27 +18,21 @@ static int fail_output(const struct command *command)
 /* The file that -o asks for, or none. */
 static int convert(struct command *command)
 {
-    struct convert_options options = {.cancelled = command_cancelled};
+    const struct convert_options options = {.format = arguments_given(command, "format") ? CONVERT_ASCII + command->format
+                                                                                         : CONVERT_OTHER,
+                                            .cancelled = command_cancelled};
     struct convert_result result;
     struct output output;
-    if (command->format)
-        options.format = strcmp(command->format, "ascii") ? CONVERT_BINARY : CONVERT_ASCII;
     int status = output_open(&output, command->output);
     if (status)
         return status == ROTID_ERROR_IO ? fail_output(command) : command_fail(command, status);
-    status = convert_file(command->deck, &options, output.stream, &command->messages, &result);
-    if (status) {
-        int reason = errno, writing = status == ROTID_ERROR_IO && !command->messages.errors;
-        output_abandon(&output);
-        errno = reason;
-        if (status == ROTID_STOP_CANCELLED) {
-            terminal_say("rotid: interrupted, %s was not written\n", command->output);
-            return EXIT_DOUBTFUL;
-        }
-        return writing ? fail_output(command) : command_fail(command, status);
+    status = output_close(&output, convert_file(command->deck, &options, output.stream, &command->messages, &result));
+    if (status == ROTID_STOP_CANCELLED) {
+        terminal_say("rotid: interrupted, %s was not written\n", command->output);
+        return EXIT_DOUBTFUL;
     }
-    if (output_close(&output))
-        return fail_output(command);
+    if (status)
+        return status == ROTID_ERROR_IO && !command->messages.errors ? fail_output(command) : command_fail(command, status);
     if (command_wants_table(command))
         (void)fprintf(terminal_out(), "\n%s: %d function%s%s, %d other set%s, %d of them copied as they are\n", command->output,
                       result.functions, result.functions == 1 ? "" : "s",
@@ -73,10 +65,11 @@ int command_uff(struct command *command)
     int code = listing.faulty_count ? EXIT_DOUBTFUL : EXIT_DONE;
     if (command_wants_table(command))
         table_uff(terminal_out(), command->deck, &listing, summary_count, summary, command->verbose);
-    char *text = command->json ? json_uff(&command->provenance, command->deck, &listing, summary_count, summary, command->verbose,
-                                          &command->messages)
-                               : NULL;
-    code = command_write_json(command, text, code);
+    struct result result = {.head = command->head};
+    if (command->json)
+        result.uff =
+            uff_result_of(&command->pool, command->deck, &listing, summary_count, summary, command->verbose, &command->messages);
+    code = command_write_result(command, &result, code);
     if (code == EXIT_INTERNAL || !command->output)
         return code;
     if (listing.faulty_count) {

@@ -31,8 +31,7 @@ static int run(struct command *command)
             return EXIT_INTERNAL;
         command->threads = processes ? command->threads : room;
     }
-    command->provenance =
-        (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, command->threads};
+    command_begin_head(command);
     build_set_threads(parallel ? 1 : command->threads);
     int code = c->flags & READS_DECK ? command_read_deck(command) : EXIT_DONE;
     return code ? code : c->run(command);

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "result/ema.h"
+#include "result/export.h"
 
 #define DECKS       "check modes sensitivity identify diagnose frf export"
 #define UNIVERSAL   "unv|uff|uf"
@@ -10,8 +12,7 @@
 #define FROM(A, B)  .least = (A), .most = (B)
 #define OUTPUT(...) .name = "output", .letter = 'o', .kind = OPTION_WRITES, AT(output), __VA_ARGS__
 
-static const char *const formats[] = {"ascii", "binary", NULL}, *const models[] = {"matrix-market", "dmig", "ross", NULL},
-                         *const methods[] = {"lscf", "quadrature", NULL}, *const estimators[] = {"H1", "H2", "HV", NULL};
+static const char *const formats[] = {"ascii", "binary", NULL}, *const estimators[] = {"H1", "H2", "HV", NULL};
 
 /* clang-format off */
 const struct option_row option_table[] = {
@@ -56,7 +57,7 @@ const struct option_row option_table[] = {
     {OUTPUT(.commands = "ema", .value = "FILE", .files = UNIVERSAL, .help = "the modes as a universal file, for *MEASURED")},
     {.name = "band", .commands = "ema", .kind = OPTION_BAND, AT(ema.options), FROM(0, 1e7), .value = "LOW,HIGH",
      .help = "in hertz (default: all lines)"},
-    {.name = "method", .commands = "ema", .kind = OPTION_WORD, AT(ema.options.method), .words = methods,
+    {.name = "method", .commands = "ema", .kind = OPTION_WORD, AT(ema.options.method), .words = ema_method_words,
      .help = "how poles are found: least-squares complex frequency (default) or quadrature"},
     {.name = "order", .commands = "ema", .kind = OPTION_WHOLE, AT(ema.options.order), FROM(2, 400), .value = "N",
      .help = "highest order of the denominator (default: from the band)"},
@@ -89,7 +90,7 @@ const struct option_row option_table[] = {
 
     {OUTPUT(.commands = "export", .value = "FILE", .files = "mtx|dmig|bdf|py",
             .help = "the model; of matrix-market the beginning of the names")},
-    {.name = "format", .commands = "export", .kind = OPTION_TEXT, AT(format), .words = models,
+    {.name = "format", .commands = "export", .kind = OPTION_WORD, AT(format), .words = export_format_words,
      .help = "for SciPy and others, for Nastran, for ROSS"},
     {.name = "start", .commands = "export", .kind = OPTION_SWITCH, AT(start),
      .help = "the model as the deck states it, not at identified parameters"},
@@ -97,7 +98,7 @@ const struct option_row option_table[] = {
      .help = "dmig: the model condensed onto the sensors"},
 
     {OUTPUT(.commands = "uff", .value = "FILE", .files = UNIVERSAL, .help = "the file anew, its functions in the other format")},
-    {.name = "format", .commands = "uff", .kind = OPTION_TEXT, AT(format), .words = formats,
+    {.name = "format", .commands = "uff", .kind = OPTION_WORD, AT(format), .words = formats,
      .help = "with --output: of the functions in it"},
 
     {OUTPUT(.commands = "report", .value = "FOLDER", .files = "/",

@@ -109,7 +109,7 @@ int option_take(struct command *command, const struct option_row *row, const cha
         return 0;
     case OPTION_TEXT:
     case OPTION_WRITES:
-        *(const char **)member = row->words ? row->words[index] : text;
+        *(const char **)member = text;
         return 0;
     case OPTION_WORD:
         *(int *)member = index;

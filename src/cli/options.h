@@ -49,7 +49,7 @@ int option_of(const struct option_row *row, const char *command);
 /* The row of this name that a command has, or NULL. */
 const struct option_row *option_find(const char *name, const char *command);
 
-/* Sets members to what they are without an option. */
+/* Sets members to their defaults. */
 void option_set_standards(struct command *command);
 
 /* Takes the value of an option, "" where it has none, into its member. 0, or the exit code after saying what was expected. */

@@ -4,8 +4,6 @@
 
 static const char *const models[] = {"RODS", "TUBE", NULL}, *const axes[] = {"X", "Y", "Z", NULL},
                          *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL},
-                         *const functionals[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL},
-                         *const reductions[] = {"NONE", "GUYAN", "IRS", NULL}, *const derivatives[] = {"NELSON", "MODAL", NULL},
                          *const ties[] = {"E:G", NULL}, *const discretisations[] = {"BEAM", "SOLID", NULL};
 
 /* clang-format off */
@@ -91,11 +89,11 @@ const struct deck_row deck_noise_rows[] = {
     {.option = "FLOOR_SHAPE", FROM_0(struct deck_reader, floor_shape, "(0)"), OPTIONAL},
     LAST};
 const struct deck_row deck_fit_rows[] = {
-    {.option = "FUNCTIONAL", WORD(rotid_fit_options, functional, functionals), OPTIONAL, .standard = -1},
-    {.option = "REDUCTION", WORD(rotid_fit_options, reduction, reductions), OPTIONAL},
+    {.option = "FUNCTIONAL", WORD(rotid_fit_options, functional, functional_words), OPTIONAL, .standard = -1},
+    {.option = "REDUCTION", WORD(rotid_fit_options, reduction, reduction_words), OPTIONAL},
     OTHER("MODES", .what = ""),
     OTHER("HOLDOUT", .what = ""),
-    {.option = "DERIVATIVE", WORD(rotid_fit_options, derivative, derivatives), OPTIONAL},
+    {.option = "DERIVATIVE", WORD(rotid_fit_options, derivative, derivative_words), OPTIONAL},
     OTHER("TIE", .words = ties, .standard = -1),
     OTHER("MODEL", .words = discretisations),
     LAST};

@@ -18,8 +18,8 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *d, const char
     *text = NULL;
     if (!extra)
         return ROTID_ERROR_MEMORY;
-    extra[0] = pool_format(pool, "rotid %s from %s, verdict %s", ROTID_VERSION, from, verdict_name(d->kind));
-    extra[1] = d->sentence;
+    extra[0] = pool_format(pool, "rotid %s from %s, verdict %s", ROTID_VERSION, from, rotid_verdict_name(d->result.verdict.kind));
+    extra[1] = d->result.verdict.sentence;
     for (int i = 0; i < d->nalternative; i++) {
         const struct candidate *other = &d->alternative[i];
         extra[2 + i] = pool_format(pool, "cannot be told apart: %s%s%s", other->cause->id,

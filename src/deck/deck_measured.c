@@ -17,25 +17,25 @@ static int read_reference(struct deck_reader *reader, const struct data_line *li
         begin++;
     while (end > begin && end[-1] == ' ')
         end--;
-    struct reference *reference = &job->reference[job->nreference];
+    rotid_reference *reference = &job->reference[job->nreference];
     reference->quantity = pool_format(reader->pool, "%.*s", (int)(end - begin), begin);
-    reference->value = POOL_ARRAY(reader->pool, double, line->count);
-    reader->out_of_memory |= !reference->quantity || !reference->value;
+    reference->values = POOL_ARRAY(reader->pool, double, line->count);
+    reader->out_of_memory |= !reference->quantity || !reference->values;
     if (reader->out_of_memory)
         return 1;
     for (int i = 0; i < line->count; i++) {
         const char *text = i ? line->field[i].text : equals + 1;
         char *rest;
-        reference->value[i] = strtod(text, &rest);
+        reference->values[i] = strtod(text, &rest);
         while (*rest == ' ' || (!i && *rest == ','))
             rest = *rest == ',' ? "" : rest + 1;
-        if (rest == text || *rest || !isfinite(reference->value[i])) {
+        if (rest == text || *rest || !isfinite(reference->values[i])) {
             deck_error(reader, line->field[i].place,
                        "the reference has a value that is not a number, expected paper QUANTITY = number, number, ...");
             return 1;
         }
     }
-    reference->count = line->count;
+    reference->nvalues = line->count;
     job->nreference++;
     return 1;
 }
@@ -48,7 +48,7 @@ void deck_heading(struct deck_reader *reader, const struct card *card)
         return;
     }
     job->heading = POOL_ARRAY(reader->pool, const char *, card->nline);
-    job->reference = POOL_ARRAY(reader->pool, struct reference, card->nline);
+    job->reference = POOL_ARRAY(reader->pool, rotid_reference, card->nline);
     reader->out_of_memory |= !job->heading || !job->reference;
     for (int i = 0; i < card->nline && !reader->out_of_memory; i++)
         if (!read_reference(reader, &card->line[i]))

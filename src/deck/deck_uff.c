@@ -352,7 +352,7 @@ void deck_measured(struct deck_reader *reader, const struct card *card)
     if (status == ROTID_ERROR_MEMORY)
         reader->out_of_memory = 1;
     for (size_t i = 0; i < found.count; i++) {
-        const struct message *m = &found.item[i];
+        const rotid_message *m = &found.item[i];
         if (status == ROTID_ERROR_IO && m->severity == SEVERITY_ERROR)
             deck_error(reader, card_option(card, "FILE")->value_place, "%s %s, expected a universal file", import.path, m->text);
         else

@@ -43,8 +43,8 @@ static void write_heading(struct deck_writer *w, const struct deck_write_options
     for (int i = 0; i < job->nreference; i++) {
         size_t begin = w->length;
         deck_put(w, "paper %s", job->reference[i].quantity);
-        for (int j = 0; j < job->reference[i].count; j++)
-            deck_put_number(w, j ? ", " : " = ", job->reference[i].value[j]);
+        for (int j = 0; j < job->reference[i].nvalues; j++)
+            deck_put_number(w, j ? ", " : " = ", job->reference[i].values[j]);
         if (w->length - begin > DECK_LINE_LENGTH) /* numbers may have become longer: only printed beside results */
             w->length = begin;
         else

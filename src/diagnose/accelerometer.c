@@ -146,8 +146,8 @@ static int add_mass(struct engine *engine, const struct weighing *w)
     if (!effect.name || !drift)
         return ROTID_ERROR_MEMORY;
     int corrected = loaded_shapes_correct(job, w, moving->mass);
-    const struct data_finding finding = {
-        .cause = cause,
+    const rotid_data_finding finding = {
+        .id = cause->id,
         .value = moving->mass,
         .std = moving->std,
         .chi2_drop = moving->chi2_drop,

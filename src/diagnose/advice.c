@@ -74,7 +74,7 @@ const char *advise(struct engine *engine, const struct diagnosis_round *round, c
     const struct job *job = &engine->job;
     struct future future[MOST_SET];
     const struct candidate *member[MOST_SET];
-    int count = 0, highest = 0, set = round->nset > 1 ? round->nset : 2;
+    int count = 0, highest = 0, set = round->result.set > 1 ? round->result.set : 2;
     for (int k = 0; k < job->measurement.nmode; k++)
         highest = engine->number[k] > highest ? engine->number[k] : highest;
     int modes = highest + MORE_MODES < 32 ? highest + MORE_MODES : 32;
@@ -88,7 +88,7 @@ const char *advise(struct engine *engine, const struct diagnosis_round *round, c
             member[count++] = &round->candidate[i];
         pool_close(&scratch);
     }
-    if (count < 2 || !round->nset)
+    if (count < 2 || !round->result.set)
         return pool_format(engine->pool, "%smore modes and more points along the rotor; %s", shapes_missing(job),
                            count ? member[0]->cause->check : "the geometry, masses and materials of the deck are worth checking");
     int best_mode = highest;

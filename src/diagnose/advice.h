@@ -1,4 +1,4 @@
-/* Which measurement separates what these data leave ambiguous. */
+/* The measurement that would separate the causes that these data leave ambiguous. */
 #ifndef ROTID_DIAGNOSE_ADVICE_H
 #define ROTID_DIAGNOSE_ADVICE_H
 

@@ -29,7 +29,7 @@ static int add_numerical(struct engine *engine, const char *id, int count, const
         mode[k] = k + 1;
         copy[k] = error[k];
     }
-    out->numerical_finding[out->nnumerical_finding++] = (struct numerical_finding){catalogue_find(id), count, mode, copy, text};
+    out->result.numerical_findings[out->result.nnumerical_findings++] = (rotid_numerical_finding){id, count, mode, copy, text};
     return ROTID_OK;
 }
 
@@ -70,7 +70,7 @@ int base_note_reduction(struct engine *engine)
     const struct diagnosis *out = engine->out;
     const struct spectrum *s = &out->today.spectrum;
     int at;
-    if (!out->has_today || out->today.fit == NULL || engine->user_reduction == ROTID_REDUCTION_NONE)
+    if (!out->today.fit || engine->user_reduction == ROTID_REDUCTION_NONE)
         return ROTID_OK;
     double ratio = against_noise(engine, s->reduction_error_percent, s->count, &at);
     if (!(ratio > 1))
@@ -194,7 +194,7 @@ static int weigh_accelerometer(struct engine *engine)
     struct diagnosis *out = engine->out;
     const struct job came = engine->job;
     double mass = 0;
-    int status = ROTID_OK, changed = 1, nfinding = out->ndata_finding;
+    int status = ROTID_OK, changed = 1, nfinding = out->result.ndata_findings;
     for (int pass = 0; pass < MOST_WEIGHED && changed && !status; pass++) {
         const double *x = engine->fit->x;
         struct job job = came;
@@ -202,7 +202,7 @@ static int weigh_accelerometer(struct engine *engine)
         if (!status)
             status = data_copy(engine->pool, &job);
         engine->job = job;
-        out->ndata_finding = nfinding;
+        out->result.ndata_findings = nfinding;
         if (!status)
             status = data_weigh_accelerometer(engine, &changed);
         if (status || !changed)
@@ -267,34 +267,33 @@ int base_prepare(struct engine *engine)
 
 int base_residuals(struct engine *engine)
 {
-    struct diagnosis *out = engine->out;
+    rotid_diagnosis *out = &engine->out->result;
     const struct job *job = &engine->job;
     const rotid_fit_result *fit = engine->fit;
     int nsensor = job->rotor.nsensor, row = 0, shapes = job_fits_shapes(job);
-    out->mode_z = POOL_ARRAY(engine->pool, double, job->measurement.nmode);
-    out->sensor_rms = POOL_ARRAY(engine->pool, double, nsensor);
     int *count = POOL_ARRAY(engine->pool, int, nsensor);
-    if (!out->mode_z || !out->sensor_rms || !count)
+    out->nmodes_standardised = POOL_LIST(engine->pool, out->modes_standardised, job->measurement.nmode);
+    out->nsensors = POOL_LIST(engine->pool, out->sensors, nsensor);
+    if (!out->modes_standardised || !out->sensors || !count)
         return ROTID_ERROR_MEMORY;
     for (int k = 0; k < job->measurement.nmode; k++) {
-        out->mode_z[k] = fit->residual[k];
+        out->modes_standardised[k] = fit->residual[k];
         row += !engine->holdout[k];
     }
     for (int k = 0; k < job->measurement.nmode && shapes; k++)
         for (int s = 0; s < nsensor && !engine->holdout[k]; s++)
             if (isfinite(job->measurement.shape[s + (ptrdiff_t)k * nsensor])) {
-                out->sensor_rms[s] += fit->r[row] * fit->r[row];
+                out->sensors[s].rms += fit->r[row] * fit->r[row];
                 count[s]++;
                 row++;
             }
     for (int s = 0; s < nsensor; s++)
-        out->sensor_rms[s] = count[s] ? sqrt(out->sensor_rms[s] / count[s]) : NAN;
-    out->frequency_noise = NAN;
-    out->shape_noise = NAN;
+        out->sensors[s] = (rotid_sensor_residual){job->rotor.sensor[s].id, job->rotor.sensor[s].position,
+                                                  count[s] ? sqrt(out->sensors[s].rms / count[s]) : (double)NAN};
     if (job->measurement.nmode)
-        out->frequency_noise = job->measurement.frequency_std[0];
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)nsensor * job->measurement.nmode && shapes && !isfinite(out->shape_noise); i++)
-        out->shape_noise = job->measurement.shape_std[i];
+        out->noise.frequency = job->measurement.frequency_std[0];
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)nsensor * job->measurement.nmode && shapes && !isfinite(out->noise.shape); i++)
+        out->noise.shape = job->measurement.shape_std[i];
     return ROTID_OK;
 }
 

@@ -82,21 +82,24 @@ static int correct_fault(struct engine *engine, const struct sensor_fault *fault
     struct job *job = &engine->job;
     enum sensor_fault_kind kind = fault->kind == FAULT_GAIN && fault->value < 0 ? FAULT_SIGN : fault->kind;
     int two = fault->other >= 0, nsensor = job->rotor.nsensor;
-    struct data_finding finding = {.cause = catalogue_find(fault_id[kind]),
-                                   .nsensor = 1 + two,
-                                   .value = kind == FAULT_GAIN || kind == FAULT_POSITION ? fault->value : NAN,
-                                   .std = fault->std,
-                                   .chi2_drop = fault->chi2_drop};
-    finding.sensor[0] = job->rotor.sensor[fault->sensor].id;
-    finding.sensor[1] = two ? job->rotor.sensor[fault->other].id : 0;
-    finding.text = describe(engine->pool, kind, fault->value, finding.sensor);
+    rotid_data_finding finding = {.id = fault_id[kind],
+                                  .nsensors = 1 + two,
+                                  .sensors = POOL_ARRAY(engine->pool, int, 2),
+                                  .value = kind == FAULT_GAIN || kind == FAULT_POSITION ? fault->value : NAN,
+                                  .std = fault->std,
+                                  .chi2_drop = fault->chi2_drop};
+    if (!finding.sensors)
+        return ROTID_ERROR_MEMORY;
+    finding.sensors[0] = job->rotor.sensor[fault->sensor].id;
+    finding.sensors[1] = two ? job->rotor.sensor[fault->other].id : 0;
+    finding.text = describe(engine->pool, kind, fault->value, finding.sensors);
     if (kind == FAULT_DEAD) { /* nothing to put right: as if it had not been there */
         for (int k = 0; k < job->measurement.nmode; k++)
             job->measurement.shape[fault->sensor + (ptrdiff_t)k * nsensor] = NAN;
         return data_add_finding(engine, &finding);
     }
     struct correction correction = {.nsensor = 1 + two,
-                                    .sensor = {finding.sensor[0], finding.sensor[1]},
+                                    .sensor = {finding.sensors[0], finding.sensors[1]},
                                     .value = isfinite(finding.value) ? finding.value : 1};
     return data_correct(engine, &finding, &correction);
 }

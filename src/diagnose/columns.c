@@ -220,17 +220,3 @@ int columns_residual(struct columns *c, const double *x, double *r)
 {
     return functional_residual(&c->functional, x, r);
 }
-
-void columns_sensor(const struct columns *c, int s, const double *d, double *column)
-{
-    int row = c->nmode;
-    memset(column, 0, (size_t)c->nrow * sizeof *column);
-    for (int m = 0; m < c->nmode; m++) {
-        const struct columns_mode *mode = &c->mode[m];
-        for (int i = 0; i < mode->sensors; i++)
-            if (mode->sensor[i] == s)
-                column[row + i] = d[m] / c->measured.shape_std[s + (ptrdiff_t)mode->k * c->model.equations.nmaster];
-        project_scale(mode, column + row);
-        row += mode->sensors;
-    }
-}

@@ -52,7 +52,4 @@ int columns_probe(struct columns *c, const struct effect *effect);
  * needs is lost with it. */
 int columns_residual(struct columns *c, const double *x, double *r);
 
-/* column [nrow] for a change of what sensor s reads of mode m (an index into c->mode): d [nmode] in units of the scaled shape. */
-void columns_sensor(const struct columns *c, int s, const double *d, double *column);
-
 #endif

@@ -7,12 +7,12 @@
 #include "diagnose/causes/sensor.h"
 #include "diagnose/data.h"
 
-int data_correct(struct engine *engine, const struct data_finding *finding, const struct correction *found)
+int data_correct(struct engine *engine, const rotid_data_finding *finding, const struct correction *found)
 {
     struct job *job = &engine->job;
     struct correction *more = POOL_ARRAY(engine->pool, struct correction, job->measurement.ncorrection + 1), correction = *found;
     correction.name = pool_format(engine->pool, "fault_%d", job->measurement.ncorrection + 1);
-    correction.id = finding->cause->id;
+    correction.id = finding->id;
     int status = more && correction.name ? data_add_finding(engine, finding) : ROTID_ERROR_MEMORY;
     if (!status)
         status = corrections_keep_raw(engine->pool, job);
@@ -29,8 +29,8 @@ int data_correct(struct engine *engine, const struct data_finding *finding, cons
 
 int data_correct_noise(struct engine *engine, const char *block, double factor, double std, const char *text)
 {
-    const struct data_finding finding = {
-        .cause = catalogue_find("noise_level"), .block = block, .value = factor, .std = std, .chi2_drop = NAN, .text = text};
+    const rotid_data_finding finding = {
+        .id = "noise_level", .block = block, .value = factor, .std = std, .chi2_drop = NAN, .text = text};
     const struct correction correction = {.block = block, .value = factor};
     return data_correct(engine, &finding, &correction);
 }

@@ -68,28 +68,29 @@ int data_copy(struct pool *pool, struct job *job)
     return job->measurement.raw ? copy_raw(pool, job) : ROTID_OK;
 }
 
-int data_add_finding(struct engine *engine, const struct data_finding *finding)
+int data_add_finding(struct engine *engine, const rotid_data_finding *finding)
 {
     struct diagnosis *out = engine->out;
-    struct data_finding *more = POOL_ARRAY(engine->pool, struct data_finding, out->ndata_finding + 1);
+    rotid_data_finding *more = POOL_ARRAY(engine->pool, rotid_data_finding, out->result.ndata_findings + 1);
     if (!more || !finding->text)
         return ROTID_ERROR_MEMORY;
-    if (out->ndata_finding)
-        memcpy(more, out->data_finding, (size_t)out->ndata_finding * sizeof *more);
-    more[out->ndata_finding++] = *finding;
-    out->data_finding = more;
+    if (out->result.ndata_findings)
+        memcpy(more, out->result.data_findings, (size_t)out->result.ndata_findings * sizeof *more);
+    more[out->result.ndata_findings] = *finding;
+    more[out->result.ndata_findings++].unit = catalogue_find(finding->id)->value.unit;
+    out->result.data_findings = more;
     return ROTID_OK;
 }
 
 int data_add_pairing(struct engine *engine, int first, int second, const char *text)
 {
-    const struct data_finding finding = {.cause = catalogue_find("mode_pairing"),
-                                         .nmode = second ? 2 : 1,
-                                         .mode = {first, second},
-                                         .value = NAN,
-                                         .std = NAN,
-                                         .chi2_drop = NAN,
-                                         .text = text};
+    int *mode = POOL_ARRAY(engine->pool, int, 2);
+    if (!mode)
+        return ROTID_ERROR_MEMORY;
+    mode[0] = first;
+    mode[1] = second;
+    const rotid_data_finding finding = {
+        .id = "mode_pairing", .nmodes = second ? 2 : 1, .modes = mode, .value = NAN, .std = NAN, .chi2_drop = NAN, .text = text};
     return data_add_finding(engine, &finding);
 }
 
@@ -200,7 +201,7 @@ static void judge_amount(struct engine *engine)
                     "%d fitted mode%s cannot carry a name for what is wrong, expected at least %d", count_fitted(job),
                     count_fitted(job) == 1 ? "" : "s", LEAST_MODES);
     }
-    if (engine->out->frequency_noise_assumed) {
+    if (engine->out->result.noise.frequency_assumed) {
         engine->confident = 0;
         message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
                     "the deck states no noise of the frequencies (*NOISE, FREQUENCY=): %.2g %% are assumed, so only relative "
@@ -240,7 +241,7 @@ int data_prepare(struct engine *engine, const struct job *job)
     judged->options.fit.reduction = ROTID_REDUCTION_NONE;
     judged->options.fit.derivative = ROTID_NELSON;
     if (!job_knows_frequency_noise(job)) {
-        out->frequency_noise_assumed = 1;
+        out->result.noise.frequency_assumed = 1;
         for (int k = 0; k < judged->measurement.nmode; k++)
             if (!isfinite(judged->measurement.frequency_std[k]))
                 judged->measurement.frequency_std[k] = ASSUMED_FREQUENCY_NOISE;

@@ -29,15 +29,16 @@ static int free_parameters(const struct candidate *c)
 
 double candidate_score(const struct candidate *c)
 {
-    return c->chi2 + PARAMETER_PENALTY * free_parameters(c);
+    return c->result.chi2 + PARAMETER_PENALTY * free_parameters(c);
 }
 
 static int compare(const void *left, const void *right)
 {
     const struct candidate *a = left, *b = right;
-    if (a->refitted != b->refitted)
-        return b->refitted - a->refitted;
-    double x = a->refitted ? candidate_score(a) : -a->predicted_drop, y = b->refitted ? candidate_score(b) : -b->predicted_drop;
+    if (a->result.refitted != b->result.refitted)
+        return b->result.refitted - a->result.refitted;
+    double x = a->result.refitted ? candidate_score(a) : -a->result.predicted_drop,
+           y = b->result.refitted ? candidate_score(b) : -b->result.predicted_drop;
     return (x > y) - (x < y);
 }
 
@@ -46,8 +47,8 @@ static int compare(const void *left, const void *right)
 static double dispersion(const struct before *before, const struct candidate *best, double left_frequency)
 {
     int dof = before->dof - best->nparameter;
-    double whole = dof > 0 ? best->chi2 / dof : 1, block = left_frequency / before->nfrequency;
-    double factor = dof > 0 && chi_square_tail(best->chi2, dof) < 0.01 ? whole : 1;
+    double whole = dof > 0 ? best->result.chi2 / dof : 1, block = left_frequency / before->nfrequency;
+    double factor = dof > 0 && chi_square_tail(best->result.chi2, dof) < 0.01 ? whole : 1;
     if (chi_square_tail(left_frequency, before->nfrequency) < 0.01)
         factor = fmax(factor, block);
     return fmax(1, factor);
@@ -72,8 +73,8 @@ static double frequency_noise(const struct job *job)
 
 static const char *chance(struct pool *pool, const struct candidate *c)
 {
-    return isfinite(c->p_value) ? pool_format(pool, "gains no more than chance (p = %.2g)", c->p_value)
-                                : "gains no more than chance";
+    return isfinite(c->result.p_value) ? pool_format(pool, "gains no more than chance (p = %.2g)", c->result.p_value)
+                                       : "gains no more than chance";
 }
 
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
@@ -81,25 +82,25 @@ static const char *chance(struct pool *pool, const struct candidate *c)
 static const char *reason(const struct engine *engine, const struct before *before, const struct candidate *c)
 {
     struct pool *pool = engine->pool;
-    if (!c->refitted)
+    if (!c->result.refitted)
         return "promises too little";
-    if (!isfinite(c->chi2))
+    if (!isfinite(c->result.chi2))
         return "no fit of this cause reached a smaller chi2 than the model without the cause";
-    if (c->chi2_drop < -REFIT_WORSE) /* it replaces something, or its size is fixed: no part of the model before */
+    if (c->result.chi2_drop < -REFIT_WORSE) /* it replaces something, or its size is fixed: no part of the model before */
         return "the model is worse with this cause";
-    if (c->at_bound)
+    if (c->result.at_bound)
         return pool_format(pool, "its size ends at the physical bound");
     double most = fmax(0, engine->moving.mass) + SURE * engine->moving.std;
     if (engine->moving.usable && is_moving_accelerometer(&c->effect) && c->effect.value[0] > most)
         return pool_format(pool, "the frequencies at single sensors allow no more than %.2g kg", most);
-    if (isfinite(c->holdout_rms) && c->holdout_rms > WORSE * before->holdout_rms)
-        return pool_format(pool, "the prediction of held-out modes gets worse: %.2g %% after %.2g %%", c->holdout_rms,
+    if (isfinite(c->result.holdout_rms) && c->result.holdout_rms > WORSE * before->holdout_rms)
+        return pool_format(pool, "the prediction of held-out modes gets worse: %.2g %% after %.2g %%", c->result.holdout_rms,
                            before->holdout_rms);
-    int worse = isfinite(c->mode_out_rms) && c->mode_out_rms > WORSE * before->mode_out_rms,
-        no_better = !(isfinite(c->sensor_out_rms) && c->sensor_out_rms < before->sensor_out_rms);
-    if (worse && c->mode_out_rms > 2 * frequency_noise(&engine->job) && no_better)
-        return pool_format(pool, "the prediction of modes left out in turn gets worse: %.2g %% after %.2g %%", c->mode_out_rms,
-                           before->mode_out_rms);
+    int worse = isfinite(c->result.mode_out_rms) && c->result.mode_out_rms > WORSE * before->mode_out_rms,
+        no_better = !(isfinite(c->result.sensor_out_rms) && c->result.sensor_out_rms < before->sensor_out_rms);
+    if (worse && c->result.mode_out_rms > 2 * frequency_noise(&engine->job) && no_better)
+        return pool_format(pool, "the prediction of modes left out in turn gets worse: %.2g %% after %.2g %%",
+                           c->result.mode_out_rms, before->mode_out_rms);
     return NULL;
 }
 
@@ -108,15 +109,15 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
 {
     struct candidate *c = &round->candidate[round->ncandidate];
     double drop = noise_drop(before);
-    if (!(drop > round->threshold / 2))
+    if (!(drop > round->result.threshold / 2))
         return;
     *c = candidate_blank(catalogue_find("noise_level"), "FREQUENCY");
     c->nparameter = 1;
-    c->refitted = 1;
-    c->predicted_drop = c->chi2_drop = drop;
-    c->chi2 = before->chi2 - drop;
-    c->chi2_frequency = before->nfrequency;
-    c->bic = before->chi2 - drop + log(before->dof);
+    c->result.refitted = 1;
+    c->result.predicted_drop = c->result.chi2_drop = drop;
+    c->result.chi2 = before->chi2 - drop;
+    c->result.chi2_frequency = before->nfrequency;
+    c->result.bic = before->chi2 - drop + log(before->dof);
     c->effect.value[0] = sqrt(before->chi2_frequency / before->nfrequency);
     round->ncandidate++;
 }
@@ -129,63 +130,69 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     double left_frequency = 0, predicts = INFINITY, noise = frequency_noise(&engine->job);
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
-        c->rejected_because = reason(engine, before, c);
-        if (!c->rejected_because && c->chi2_drop > round->threshold && isfinite(c->holdout_rms))
-            predicts = fmin(predicts, c->holdout_rms);
+        c->result.rejected_because = reason(engine, before, c);
+        if (!c->result.rejected_because && c->result.chi2_drop > round->result.threshold && isfinite(c->result.holdout_rms))
+            predicts = fmin(predicts, c->result.holdout_rms);
     }
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
-        double more = c->holdout_rms * c->holdout_rms - predicts * predicts; /* beyond what noise makes of two predictions */
-        if (!c->rejected_because && isfinite(c->holdout_rms) && predicts < BETTER * c->holdout_rms && more > noise * noise)
-            c->rejected_because = pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)",
-                                              c->holdout_rms, predicts);
-        if (!c->rejected_because && c->chi2_drop > round->threshold && (!best || candidate_score(c) < candidate_score(best))) {
+        double more =
+            c->result.holdout_rms * c->result.holdout_rms - predicts * predicts; /* beyond what noise makes of two predictions */
+        if (!c->result.rejected_because && isfinite(c->result.holdout_rms) && predicts < BETTER * c->result.holdout_rms &&
+            more > noise * noise)
+            c->result.rejected_because =
+                pool_format(pool, "predicts the modes held out worse (%.2g %%) than another one does (%.2g %%)",
+                            c->result.holdout_rms, predicts);
+        if (!c->result.rejected_because && c->result.chi2_drop > round->result.threshold &&
+            (!best || candidate_score(c) < candidate_score(best))) {
             best = c;
-            left_frequency = c->chi2_frequency;
+            left_frequency = c->result.chi2_frequency;
         }
     }
     double doubt = engine->coloured ? COLOURED : 1;
-    round->required_margin = best ? LEAST_MARGIN * doubt * dispersion(before, best, left_frequency) : NAN;
+    round->result.required_margin = best ? LEAST_MARGIN * doubt * dispersion(before, best, left_frequency) : NAN;
     for (int i = 0; i < round->ncandidate; i++)
-        round->candidate[i].refused = round->candidate[i].rejected_because != NULL;
-    double limit = best ? candidate_score(best) + round->required_margin : 0;
+        round->candidate[i].refused = round->candidate[i].result.rejected_because != NULL;
+    double limit = best ? candidate_score(best) + round->result.required_margin : 0;
     const char *name = best ? candidate_label(pool, best) : "";
     if (!name)
         return ROTID_ERROR_MEMORY;
-    round->nset = 0;
+    round->result.set = 0;
     int refused = 0; /* something refused for its size explains the data better than what is left */
     for (int i = 0; i < round->ncandidate && best; i++) {
         struct candidate *c = &round->candidate[i];
-        if (c->refitted && c->at_bound && candidate_score(c) < candidate_score(best))
+        if (c->result.refitted && c->result.at_bound && candidate_score(c) < candidate_score(best))
             refused = 1;
-        if (c->rejected_because)
+        if (c->result.rejected_because)
             continue;
         if (candidate_score(c) <= limit)
-            round->nset++;
-        else if (!(c->chi2_drop > round->threshold))
-            c->rejected_because = chance(pool, c);
+            round->result.set++;
+        else if (!(c->result.chi2_drop > round->result.threshold))
+            c->result.rejected_because = chance(pool, c);
         else
-            c->rejected_because = pool_format(pool, "loses to %s by %.3g", name, candidate_score(c) - candidate_score(best));
+            c->result.rejected_because =
+                pool_format(pool, "loses to %s by %.3g", name, candidate_score(c) - candidate_score(best));
     }
     for (int i = 0; i < round->ncandidate && !best; i++)
-        if (!round->candidate[i].rejected_because)
-            round->candidate[i].rejected_because = chance(pool, &round->candidate[i]);
+        if (!round->candidate[i].result.rejected_because)
+            round->candidate[i].result.rejected_because = chance(pool, &round->candidate[i]);
     for (int i = 0; i < round->ncandidate; i++) /* the set first, in the order of the scores */
-        if (!round->candidate[i].rejected_because && round->candidate[i].refitted)
-            round->candidate[i].refitted = 2;
+        if (!round->candidate[i].result.rejected_because && round->candidate[i].result.refitted)
+            round->candidate[i].result.refitted = 2;
     qsort(round->candidate, (size_t)round->ncandidate, sizeof *round->candidate, compare);
     for (int i = 0; i < round->ncandidate; i++)
-        round->candidate[i].refitted = round->candidate[i].refitted != 0;
+        round->candidate[i].result.refitted = round->candidate[i].result.refitted != 0;
     /* the model as it is counts as one more rival, and noise that happens to look like one cause is the rule among weak ones */
     const struct candidate *first = &round->candidate[0];
     int weak =
-        round->nset &&
+        round->result.set &&
         (before->chi2 - before->beyond_drop + PARAMETER_PENALTY <= limit || /* a bound of the deck may be all that is wrong */
-         !(first->chi2_drop > CLEAR * round->threshold) ||                  /* or its place is open, or little is left over */
-         first->other_chi2 - first->chi2 < round->required_margin || before->dof - free_parameters(first) < LEAST_LEFT);
-    round->kind = round->nset == 0                                           ? VERDICT_UNEXPLAINED
-                  : round->nset > 1 || !engine->confident || refused || weak ? VERDICT_AMBIGUOUS
-                  : round->candidate[0].cause->class != CAUSE_PHYSICAL       ? VERDICT_UNEXPLAINED
-                                                                             : VERDICT_NAMED;
+         !(first->result.chi2_drop > CLEAR * round->result.threshold) ||    /* or its place is open, or little is left over */
+         first->other_chi2 - first->result.chi2 < round->result.required_margin ||
+         before->dof - free_parameters(first) < LEAST_LEFT);
+    round->result.kind = round->result.set == 0                                           ? ROTID_UNEXPLAINED
+                         : round->result.set > 1 || !engine->confident || refused || weak ? ROTID_AMBIGUOUS
+                         : round->candidate[0].cause->class != CAUSE_PHYSICAL             ? ROTID_UNEXPLAINED
+                                                                                          : ROTID_NAMED;
     return ROTID_OK;
 }

@@ -17,7 +17,7 @@ static double size_for(const struct scan_item *item, double threshold)
 }
 
 /* Best and worst over the places, each with the width that shows best. */
-static void over_places(const struct scan *scan, const struct scan_candidate *c, double threshold, struct detectable *d)
+static void over_places(const struct scan *scan, const struct scan_candidate *c, double threshold, rotid_detectable *d)
 {
     int place = c->cause->place;
     double smallest = INFINITY, worst = 0;
@@ -29,7 +29,7 @@ static void over_places(const struct scan *scan, const struct scan_candidate *c,
         i = j;
         if (here < smallest) {
             smallest = here;
-            d->z = z;
+            d->z_m = z;
         }
         worst = fmax(worst, here);
     }
@@ -40,8 +40,8 @@ static void over_places(const struct scan *scan, const struct scan_candidate *c,
 int detectable_sizes(struct engine *engine, const struct round_result *last)
 {
     const struct scan *scan = &last->scan;
-    struct diagnosis *out = engine->out;
-    out->detectable = POOL_ARRAY(engine->pool, struct detectable, scan->ncandidate);
+    rotid_diagnosis *out = &engine->out->result;
+    out->detectable = POOL_ARRAY(engine->pool, rotid_detectable, scan->ncandidate);
     if (!out->detectable)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < scan->ncandidate; i++) {
@@ -49,8 +49,8 @@ int detectable_sizes(struct engine *engine, const struct round_result *last)
         const struct cause_kind *cause = c->cause;
         if (c->suspect || !c->count)
             continue;
-        struct detectable *d = &out->detectable[out->ndetectable++];
-        *d = (struct detectable){.cause = cause, .target = c->target, .z = NAN, .worst = NAN};
+        rotid_detectable *d = &out->detectable[out->ndetectable++];
+        *d = (rotid_detectable){.id = cause->id, .target = c->target, .z_m = NAN, .worst = NAN};
         over_places(scan, c, last->bootstrap.threshold, d);
         if (engine->moving.usable && is_moving_accelerometer(&c->effect)) /* by the frequencies at single sensors */
             d->smallest = fmin(d->smallest, engine->moving.smallest);
@@ -75,14 +75,13 @@ int detectable_sizes(struct engine *engine, const struct round_result *last)
 
 int localise(struct engine *engine, const struct scan *scan)
 {
-    struct diagnosis *out = engine->out;
+    rotid_diagnosis *out = &engine->out->result;
     int count = 0;
     for (int i = 0; i < scan->ncandidate; i++)
         if (scan->candidate[i].cause->place >= 0 && !scan->candidate[i].suspect && scan->candidate[i].count > count)
             count = scan->candidate[i].count;
-    out->local_z = POOL_ARRAY(engine->pool, double, count);
-    out->local = POOL_ARRAY(engine->pool, double, count);
-    if (!out->local_z || !out->local)
+    out->localisation = POOL_ARRAY(engine->pool, rotid_localisation, count);
+    if (!out->localisation)
         return ROTID_ERROR_MEMORY;
     double largest = 0;
     for (int i = 0; i < scan->nitem; i++) {
@@ -92,17 +91,17 @@ int localise(struct engine *engine, const struct scan *scan)
             continue;
         double z = item->effect.value[c->cause->place];
         int at = 0;
-        while (at < out->nlocal && out->local_z[at] != z)
+        while (at < out->nlocalisation && out->localisation[at].z_m != z)
             at++;
-        if (at == out->nlocal) {
-            if (out->nlocal == count)
+        if (at == out->nlocalisation) {
+            if (out->nlocalisation == count)
                 continue;
-            out->local_z[out->nlocal++] = z;
+            out->localisation[out->nlocalisation++].z_m = z;
         }
-        out->local[at] = fmax(out->local[at], item->drop);
+        out->localisation[at].indicator = fmax(out->localisation[at].indicator, item->drop);
         largest = fmax(largest, item->drop);
     }
-    for (int i = 0; i < out->nlocal && largest > 0; i++)
-        out->local[i] /= largest;
+    for (int i = 0; i < out->nlocalisation && largest > 0; i++)
+        out->localisation[i].indicator /= largest;
     return ROTID_OK;
 }

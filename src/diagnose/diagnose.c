@@ -26,12 +26,12 @@ static int run_rounds(struct engine *engine, struct round_result *last)
         int status = round_run(engine, round, last);
         if (status)
             return status;
-        out->nround++;
+        round->result.round = ++out->nround;
         for (int i = 0; i < round->ncandidate; i++)
-            round->candidate[i].round = out->nround;
+            round->candidate[i].result.round = out->nround;
         if (out->nround == 1)
             status = localise(engine, &last->scan);
-        if (status || round->kind != VERDICT_NAMED || out->ncause == DIAGNOSE_MOST_CAUSES)
+        if (status || round->result.kind != ROTID_NAMED || out->ncause == DIAGNOSE_MOST_CAUSES)
             return status;
         status = accept_cause(engine, round, last);
         if (status)
@@ -50,7 +50,6 @@ static int run(struct engine *engine, const struct job *job, struct round_result
         status = engine_stage(engine, "fit as the deck states it", 1);
     if (!status && job->unknowns.nparameter) { /* what the user does today; should that fail, there is still the judged model */
         int today = identify_run(engine->pool, job, 0, engine->environment, &quiet, &out->today);
-        out->has_today = !today;
         int ends = today == ROTID_ERROR_MEMORY || (!today && out->today.fit->status == ROTID_STOP_CANCELLED);
         status = !ends ? ROTID_OK : today ? today : ROTID_STOP_CANCELLED;
     }
@@ -69,6 +68,13 @@ static int run(struct engine *engine, const struct job *job, struct round_result
     return status ? status : finalise(engine, last);
 }
 
+/* Before a verdict. */
+static const rotid_diagnosis nothing = {
+    .verdict = {.kind = -1, .p_value = NAN},
+    .gain =
+        {{NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}},
+    .noise = {.frequency = NAN, .shape = NAN}};
+
 int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose_options *options,
                  const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
 {
@@ -84,10 +90,10 @@ int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose
                             .clock = clock_seconds()};
     struct round_result last = {0};
     engine.user_reduction = job->options.fit.reduction;
-    *out = (struct diagnosis){0};
-    out->step = POOL_ARRAY(pool, struct diagnosis_step, MOST_STEPS);
-    out->numerical_finding = POOL_ARRAY(pool, struct numerical_finding, 2);
-    if (!out->step || !out->numerical_finding)
+    *out = (struct diagnosis){.result = nothing};
+    out->result.steps = POOL_ARRAY(pool, rotid_step, MOST_STEPS);
+    out->result.numerical_findings = POOL_ARRAY(pool, rotid_numerical_finding, 2);
+    if (!out->result.steps || !out->result.numerical_findings)
         return ROTID_ERROR_MEMORY;
     struct job judged = *job;
     judged.models = models_for_run(pool, job->models);
@@ -98,7 +104,10 @@ int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose
     if (engine.fit != out->base.fit)
         rotid_fit_free(engine.fit);
     if (status == ROTID_STOP_CANCELLED) {
-        out->interrupted = 1;
+        out->result.interrupted = 1;
+        out->result.verdict.kind = nothing.verdict.kind;
+        out->result.verdict.p_value = nothing.verdict.p_value;
+        out->result.gain = nothing.gain;
         return ROTID_OK;
     }
     if (status)

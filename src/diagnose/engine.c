@@ -7,36 +7,36 @@
 
 const char *candidate_label(struct pool *pool, const struct candidate *c)
 {
-    if (c->suspect)
+    if (c->result.suspect)
         return pool_format(pool, "%s, a %s", c->effect.name, c->cause->id);
     return pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
 }
 
 struct candidate candidate_blank(const struct cause_kind *cause, const char *target)
 {
-    struct candidate c = {.cause = cause,
+    struct candidate c = {.result = {.chi2 = NAN,
+                                     .chi2_drop = NAN,
+                                     .chi2_frequency = NAN,
+                                     .bic = NAN,
+                                     .p_value = NAN,
+                                     .holdout_rms = NAN,
+                                     .mode_out_rms = NAN,
+                                     .sensor_out_rms = NAN,
+                                     .cosine = NAN},
+                          .cause = cause,
                           .target = target,
                           .refit = -1,
-                          .chi2 = NAN,
-                          .chi2_drop = NAN,
-                          .chi2_frequency = NAN,
-                          .bic = NAN,
-                          .p_value = NAN,
-                          .holdout_rms = NAN,
-                          .mode_out_rms = NAN,
-                          .sensor_out_rms = NAN,
                           .other_place = NAN,
-                          .other_chi2 = NAN,
-                          .cosine = NAN};
+                          .other_chi2 = NAN};
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c.std[p] = c.ci_lower[p] = c.ci_upper[p] = NAN;
     return c;
 }
 
-const char *verdict_name(enum verdict_kind kind)
+const char *rotid_verdict_name(int kind)
 {
     static const char *const names[] = {"adequate", "named", "ambiguous", "unexplained"};
-    return names[kind];
+    return kind >= ROTID_ADEQUATE && kind <= ROTID_UNEXPLAINED ? names[kind] : "unknown verdict";
 }
 
 void engine_step(struct engine *engine, const char *name)
@@ -44,12 +44,12 @@ void engine_step(struct engine *engine, const char *name)
     struct diagnosis *out = engine->out;
     double now = clock_seconds();
     int i = 0;
-    while (i < out->nstep && strcmp(out->step[i].name, name) != 0)
+    while (i < out->result.nsteps && strcmp(out->result.steps[i].name, name) != 0)
         i++;
-    if (i == out->nstep && out->nstep < MOST_STEPS)
-        out->step[out->nstep++] = (struct diagnosis_step){name, 0};
+    if (i == out->result.nsteps && out->result.nsteps < MOST_STEPS)
+        out->result.steps[out->result.nsteps++] = (rotid_step){name, 0};
     if (i < MOST_STEPS)
-        out->step[i].seconds += now - engine->clock;
+        out->result.steps[i].seconds += now - engine->clock;
     engine->clock = now;
 }
 

@@ -38,7 +38,7 @@ static void take_parameters(const struct refit *refit, int own, struct candidate
         if (!isfinite(fit->std[p])) /* fmax and fmin prefer the number */
             c->ci_lower[component] = c->ci_upper[component] = NAN;
         if (component == c->cause->size)
-            c->at_bound = ends_at_bound(&refit->job.unknowns.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
+            c->result.at_bound = ends_at_bound(&refit->job.unknowns.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
     }
 }
 
@@ -80,11 +80,11 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     const struct refit *refit = number < 0 ? NULL : &result->refit[number];
     *c = candidate_blank(s->cause, s->target);
     c->effect = s->effect;
-    c->suspect = s->suspect;
+    c->result.suspect = s->suspect;
     c->nparameter = cause_parameters(&s->effect);
-    c->predicted_drop = scan_best_drop(scan, index);
+    c->result.predicted_drop = scan_best_drop(scan, index);
     memcpy(c->fixed, s->fixed, sizeof c->fixed);
-    c->p_value = bootstrap_p(bootstrap, c->predicted_drop);
+    c->result.p_value = bootstrap_p(bootstrap, c->result.predicted_drop);
     if (s->best >= 0) { /* where the scan sees it */
         c->effect = scan->item[s->best].effect;
         if (!s->fixed[s->cause->size])
@@ -92,22 +92,22 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     }
     if (!refit)
         return ROTID_OK;
-    c->refitted = 1;
+    c->result.refitted = 1;
     if (!refit->fit)
         return ROTID_OK;
     c->refit = number;
     c->other_place = refit->other_place;
     c->other_chi2 = refit->other_chi2;
     double unused, shape;
-    c->chi2 = refit->chi2;
-    c->chi2_drop = engine->fit->chi2 - refit->chi2;
-    c->bic = refit->chi2 + log(scan->nrow) * refit->job.unknowns.nparameter;
-    c->p_value = bootstrap_p(bootstrap, c->chi2_drop);
-    c->chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
+    c->result.chi2 = refit->chi2;
+    c->result.chi2_drop = engine->fit->chi2 - refit->chi2;
+    c->result.bic = refit->chi2 + log(scan->nrow) * refit->job.unknowns.nparameter;
+    c->result.p_value = bootstrap_p(bootstrap, c->result.chi2_drop);
+    c->result.chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
     take_parameters(refit, engine->job.unknowns.nparameter, c);
     mend_intervals(scan, s, c);
-    fitted_errors(&refit->job, engine->holdout, refit->fit, 1, &c->holdout_rms, &unused, &shape);
-    return sensor_out(engine->pool, &refit->job, engine->holdout, refit->fit, &c->sensor_out_rms, &shape);
+    fitted_errors(&refit->job, engine->holdout, refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
+    return sensor_out(engine->pool, &refit->job, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
 }
 
 struct leave_out {
@@ -165,12 +165,12 @@ static int leave_modes_out(struct engine *engine, struct round_result *result, s
     double error[MOST_OUT + 1], shape[MOST_OUT + 1], best = INFINITY;
     int who[MOST_OUT + 1], count = 1;
     for (int i = 0; i < result->nrefit; i++)
-        if (isfinite(candidate[i].chi2))
+        if (isfinite(candidate[i].result.chi2))
             best = fmin(best, candidate_score(&candidate[i]));
     for (double least = -INFINITY; count <= MOST_OUT;) { /* in the order of the scores */
         int next = -1;
         for (int i = 0; i < result->nrefit; i++) {
-            double score = isfinite(candidate[i].chi2) ? candidate_score(&candidate[i]) : INFINITY;
+            double score = isfinite(candidate[i].result.chi2) ? candidate_score(&candidate[i]) : INFINITY;
             if (score > least && score < best + OUT_MARGIN && (next < 0 || score < candidate_score(&candidate[next])))
                 next = i;
         }
@@ -186,7 +186,7 @@ static int leave_modes_out(struct engine *engine, struct round_result *result, s
     engine->mode_out_rms = error[0];
     engine->mode_out_shape = shape[0];
     for (int m = 1; m < count; m++)
-        candidate[who[m]].mode_out_rms = error[m];
+        candidate[who[m]].result.mode_out_rms = error[m];
     return ROTID_OK;
 }
 
@@ -202,10 +202,10 @@ static void find_twins(const struct round_result *result, struct candidate *cand
             double cosine = 0;
             for (int k = 0; k < scan->nrow; k++)
                 cosine += scan->column[k + (ptrdiff_t)a * scan->nrow] * scan->column[k + (ptrdiff_t)b * scan->nrow];
-            if (!(fabs(cosine) <= candidate[i].cosine)) {
-                candidate[i].cosine = fmin(1, fabs(cosine));
-                candidate[i].collinear_with = candidate[j].cause->id;
-                candidate[i].collinear_target = candidate[j].target;
+            if (!(fabs(cosine) <= candidate[i].result.cosine)) {
+                candidate[i].result.cosine = fmin(1, fabs(cosine));
+                candidate[i].result.collinear_with = candidate[j].cause->id;
+                candidate[i].result.collinear_target = candidate[j].target;
             }
         }
 }

@@ -16,23 +16,33 @@
 #define WIDE     0.15 /* of a parameter, half its interval: wider says little about a modulus */
 #define SEPARATE 0.7  /* correlation beyond which two parameters are known by a combination only */
 
-static int quality(struct engine *engine, const struct job *job, const struct identification *identified, struct fit_quality *q)
+static double *side(rotid_pair *pair, int is_after)
 {
+    return is_after ? &pair->after : &pair->before;
+}
+
+static int quality(struct engine *engine, const struct job *job, const struct identification *identified, int is_after)
+{
+    rotid_gain *gain = &engine->out->result.gain;
     const rotid_fit_result *fit = identified->fit;
-    double unused, standardised;
-    *q = (struct fit_quality){.nco_min = NAN};
-    fitted_errors(job, engine->holdout, fit, 0, &q->frequency_rms_percent, &q->frequency_max_percent, &q->shape_rms);
-    fitted_errors(job, engine->holdout, fit, 1, &q->holdout_frequency_rms_percent, &unused, &q->holdout_shape_rms);
-    q->chi2_per_dof = fit->chi2_per_dof;
+    double unused, standardised, *nco_min = side(&gain->nco_min, is_after);
+    fitted_errors(job, engine->holdout, fit, 0, side(&gain->frequency_rms_percent, is_after),
+                  side(&gain->frequency_max_percent, is_after), side(&gain->shape_rms, is_after));
+    fitted_errors(job, engine->holdout, fit, 1, side(&gain->holdout_frequency_rms_percent, is_after), &unused,
+                  side(&gain->holdout_shape_rms, is_after));
+    *side(&gain->chi2_per_dof, is_after) = fit->chi2_per_dof;
     for (int k = 0; k < job->measurement.nmode; k++)
         if (isfinite(identified->compared.nco[k]))
-            q->nco_min = fmin(isfinite(q->nco_min) ? q->nco_min : 2, identified->compared.nco[k]);
+            *nco_min = fmin(isfinite(*nco_min) ? *nco_min : 2, identified->compared.nco[k]);
     struct job started;
     int status = job_started_at(engine->pool, job, fit->x, &started);
     const struct job *models[1] = {&started};
     if (!status)
-        status = modes_in_turn(engine, 1, models, &q->mode_out_frequency_rms_percent, &q->mode_out_shape_rms);
-    return status ? status : sensor_out(engine->pool, job, engine->holdout, fit, &standardised, &q->sensor_out_shape_rms);
+        status = modes_in_turn(engine, 1, models, side(&gain->mode_out_frequency_rms_percent, is_after),
+                               side(&gain->mode_out_shape_rms, is_after));
+    return status
+               ? status
+               : sensor_out(engine->pool, job, engine->holdout, fit, &standardised, side(&gain->sensor_out_shape_rms, is_after));
 }
 
 /* Parameter p of the final fit, which belongs to the cause: its interval, unless the round found out that the fit's own says too
@@ -75,7 +85,7 @@ static const char *describe(struct pool *pool, const struct candidate *c)
 {
     const struct cause_kind *cause = c->cause;
     const char *text = candidate_label(pool, c);
-    if (text && isfinite(c->other_chi2) && c->other_chi2 - c->chi2 < LEAST_MARGIN)
+    if (text && isfinite(c->other_chi2) && c->other_chi2 - c->result.chi2 < LEAST_MARGIN)
         text = pool_format(pool, "%s, as well at z = %.3g m", text, c->other_place);
     if (!cause->effect) /* a rival that is no part of a model */
         return text ? pool_format(pool, "%s (%s %.3g)", text, cause->value.name, c->effect.value[0]) : NULL;
@@ -119,7 +129,7 @@ static const char *open_parameters(struct engine *engine)
     const rotid_parameter *parameter = out->extended.fit ? out->extended_job.unknowns.bounds : out->job.unknowns.bounds;
     const char *text = "";
     for (int p = 0; p < fit->n && p < out->job.unknowns.nparameter && text; p++) {
-        if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->kind != VERDICT_ADEQUATE)
+        if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->result.verdict.kind != ROTID_ADEQUATE)
             text = pool_format(engine->pool, "%s %s ends at its %s bound %.4g %s, which may be the cause itself: widen it.", text,
                                parameter[p].name, base_bound_side(engine, p), out->base.fit->x[p], parameter[p].unit);
         if (!text)
@@ -132,7 +142,7 @@ static const char *open_parameters(struct engine *engine)
                            parameter[p].name, partner < 0 ? "" : " separately from ", partner < 0 ? "" : parameter[partner].name,
                            fmax(fit->ci_lower[p], parameter[p].lower), fmin(fit->ci_upper[p], parameter[p].upper),
                            parameter[p].unit);
-        out->undetermined++;
+        out->result.verdict.undetermined_parameters++;
     }
     return text;
 }
@@ -140,35 +150,37 @@ static const char *open_parameters(struct engine *engine)
 static const char *verdict_sentence(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
+    const rotid_verdict *verdict = &out->result.verdict;
     struct pool *pool = engine->pool;
     const struct diagnosis_round *last = out->nround ? &out->round[out->nround - 1] : NULL;
     const char *causes = list(pool, out->ncause, out->cause), *others = list(pool, out->nalternative, out->alternative);
     const char *open = open_parameters(engine), *faults = "";
-    if (out->ndata_finding)
-        faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->ndata_finding,
-                             out->ndata_finding == 1 ? "" : "s", out->ndata_finding == 1 ? "was" : "were");
+    if (out->result.ndata_findings)
+        faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->result.ndata_findings,
+                             out->result.ndata_findings == 1 ? "" : "s", out->result.ndata_findings == 1 ? "was" : "were");
     const char *chance = pool_format(pool,
-                                     !isfinite(out->p_value) ? "no p-value can be stated"
-                                     : out->p_value < 1e-99  ? "p below 1e-99"
-                                                             : "p = %.2g",
-                                     out->p_value),
-               *misfit = last && isfinite(out->round[0].chi2)
-                             ? pool_format(pool, ", chi2 %.3g for %d degrees of freedom", out->round[0].chi2, out->round[0].dof)
+                                     !isfinite(verdict->p_value) ? "no p-value can be stated"
+                                     : verdict->p_value < 1e-99  ? "p below 1e-99"
+                                                                 : "p = %.2g",
+                                     verdict->p_value),
+               *misfit = last && isfinite(out->round[0].result.chi2)
+                             ? pool_format(pool, ", chi2 %.3g for %d degrees of freedom", out->round[0].result.chi2,
+                                           out->round[0].result.dof)
                              : "";
     if (!misfit || !causes || !others || !open || !faults || !chance)
         return NULL;
-    switch (out->kind) {
-    case VERDICT_ADEQUATE:
+    switch (verdict->kind) {
+    case ROTID_ADEQUATE:
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
-    case VERDICT_NAMED:
-        if (!out->adequate_after && out->nalternative)
+    case ROTID_NAMED:
+        if (!verdict->adequate_after && out->nalternative)
             return pool_format(pool, "The model lacks %s (%s before); the data cannot tell which of %s causes the rest.%s%s",
                                causes, chance, others, faults, open);
         return pool_format(
             pool, "The model lacks %s; with %s %s (%s before).%s%s", causes, out->ncause > 1 ? "these causes" : "this cause",
-            out->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
+            verdict->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
             chance, faults, open);
-    case VERDICT_AMBIGUOUS:
+    case ROTID_AMBIGUOUS:
         if (out->nalternative == 1)
             return pool_format(
                 pool, "The model does not explain the data (%s); %s would, but these data do not suffice to name a cause.%s%s",
@@ -241,8 +253,7 @@ int finalise(struct engine *engine, const struct round_result *last)
     if (!status)
         status = refine_base(engine);
     if (!status)
-        status = quality(engine, &out->job, &out->base, &out->before);
-    out->after = out->before;
+        status = quality(engine, &out->job, &out->base, 0);
     if (!status && out->ncause) {
         out->extended_job = engine->job;
         out->extended_job.rotor.segment = out->job.rotor.segment;
@@ -256,7 +267,7 @@ int finalise(struct engine *engine, const struct round_result *last)
         for (int e = 0; e < out->extended_job.rotor.neffect && !status; e++)
             effect_at(&out->extended_job, e, out->extended.fit->x, &out->extended_job.rotor.effect[e]);
         if (!status)
-            status = quality(engine, &out->extended_job, &out->extended, &out->after);
+            status = quality(engine, &out->extended_job, &out->extended, 1);
     }
     engine_step(engine, "gain");
     if (!status && last && last->scan.ncandidate)
@@ -264,6 +275,6 @@ int finalise(struct engine *engine, const struct round_result *last)
     engine_step(engine, "detection limits");
     if (status)
         return status;
-    out->sentence = verdict_sentence(engine);
-    return out->sentence ? ROTID_OK : ROTID_ERROR_MEMORY;
+    out->result.verdict.sentence = verdict_sentence(engine);
+    return out->result.verdict.sentence ? ROTID_OK : ROTID_ERROR_MEMORY;
 }

@@ -1,4 +1,4 @@
-/* Is the noise of the shapes what the user says? From the part of the residual that no cause of the catalogue can produce. */
+/* Is the noise of the shapes as stated? From the part of the residual that no cause of the catalogue can produce. */
 #ifndef ROTID_DIAGNOSE_NOISE_CHECK_H
 #define ROTID_DIAGNOSE_NOISE_CHECK_H
 

@@ -120,15 +120,15 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     if (status)
         return status;
     const struct bootstrap *b = &result->bootstrap;
-    round->chi2 = scan->chi2;
-    round->chi2_frequency = scan->chi2_frequency;
-    round->nfrequency = scan->nfrequency;
-    round->dof = scan->dof;
-    round->largest = scan->largest;
-    round->threshold = b->threshold;
-    round->p_scan = b->p_scan;
-    round->p_frequency = b->p_frequency;
-    round->p_total = b->p_total;
+    round->result.chi2 = scan->chi2;
+    round->result.chi2_frequency = scan->chi2_frequency;
+    round->result.frequencies = scan->nfrequency;
+    round->result.dof = scan->dof;
+    round->result.largest = scan->largest;
+    round->result.threshold = b->threshold;
+    round->result.p_scan = b->p_scan;
+    round->result.p_frequency = b->p_frequency;
+    round->result.p_total = b->p_total;
     int adequate = scan->largest <= b->threshold && b->p_frequency > BLOCK_LEVEL && b->p_total > BLOCK_LEVEL;
     result->candidate = POOL_ARRAY(pool, int, scan->ncandidate);
     if (!result->candidate)
@@ -147,7 +147,7 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     if (status)
         return status;
     if (adequate)
-        round->kind = VERDICT_ADEQUATE;
+        round->result.kind = ROTID_ADEQUATE;
     return ROTID_OK;
 }
 

@@ -82,11 +82,6 @@ double moving_mass_shift(double mass, double square, double others, double bend)
     return x;
 }
 
-double moving_mass_ratio(double mass, double square, double others, double bend)
-{
-    return sqrt(1 - moving_mass_shift(mass, square, others, bend));
-}
-
 /* With lambda' = lambda (1 - x) the pole of the loaded receptance R_je/(1 - lambda' m R_jj), its residue is
  * R_je/(m d(lambda R_jj)/d lambda) there; y = x/(m s) is finite at a node. */
 double moving_mass_residue(double mass, double square, double others, double bend, double across, double across_bend,

@@ -50,7 +50,4 @@ double moving_mass_shift(double mass, double square, double others, double bend)
 double moving_mass_residue(double mass, double square, double others, double bend, double across, double across_bend,
                            double share);
 
-/* Reading of mode k at point j over that without the accelerometer, f_kj/f_k. */
-double moving_mass_ratio(double mass, double square, double others, double bend);
-
 #endif

@@ -66,16 +66,18 @@ static double beyond_noise(double chi2, double dof)
  * chi2, by the frequencies, and by the scan. */
 static double left_over(const struct diagnosis_round *last)
 {
-    double chi2 = last->chi2, frequency = last->chi2_frequency, f = last->nfrequency;
-    if (last->kind == VERDICT_ADEQUATE)
+    double chi2 = last->result.chi2, frequency = last->result.chi2_frequency, f = last->result.frequencies;
+    if (last->result.kind == ROTID_ADEQUATE)
         return 0;
-    for (int i = 0; i < last->ncandidate && last->kind == VERDICT_AMBIGUOUS; i++)
-        if (last->candidate[i].refitted && last->candidate[i].cause->class == CAUSE_PHYSICAL && last->candidate[i].chi2 < chi2) {
-            chi2 = last->candidate[i].chi2;
-            frequency = last->candidate[i].chi2_frequency;
+    for (int i = 0; i < last->ncandidate && last->result.kind == ROTID_AMBIGUOUS; i++)
+        if (last->candidate[i].result.refitted && last->candidate[i].cause->class == CAUSE_PHYSICAL &&
+            last->candidate[i].result.chi2 < chi2) {
+            chi2 = last->candidate[i].result.chi2;
+            frequency = last->candidate[i].result.chi2_frequency;
         }
-    double whole = beyond_noise(chi2, last->dof), block = beyond_noise(frequency, f);
-    double scan = last->kind == VERDICT_UNEXPLAINED && last->largest > last->threshold ? last->largest : 0;
+    double whole = beyond_noise(chi2, last->result.dof), block = beyond_noise(frequency, f);
+    double scan =
+        last->result.kind == ROTID_UNEXPLAINED && last->result.largest > last->result.threshold ? last->result.largest : 0;
     return fmax(scan, fmax(whole, block));
 }
 
@@ -86,7 +88,7 @@ static double margin_of(const struct diagnosis_round *round)
     double margin = INFINITY;
     for (int i = 1; i < round->ncandidate; i++) {
         const struct candidate *c = &round->candidate[i];
-        if (c->refitted && isfinite(c->chi2) && !c->refused)
+        if (c->result.refitted && isfinite(c->result.chi2) && !c->refused)
             margin = fmin(margin, candidate_score(c) - candidate_score(first));
     }
     return margin;
@@ -105,11 +107,11 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
     for (int pass = 0; pass < 3; pass++)
         for (int i = 0; i < round->ncandidate; i++) {
             const struct candidate *c = &round->candidate[i];
-            if (taken[i] || !c->refitted || !(c->chi2_drop > round->threshold / 2))
+            if (taken[i] || !c->result.refitted || !(c->result.chi2_drop > round->result.threshold / 2))
                 continue;
             int near = candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
-            taken[i] = pass == 0   ? i < round->nset || (near && !c->refused && c->chi2_drop > round->threshold)
-                       : pass == 1 ? near && c->at_bound
+            taken[i] = pass == 0 ? i < round->result.set || (near && !c->refused && c->result.chi2_drop > round->result.threshold)
+                       : pass == 1 ? near && c->result.at_bound
                                    : !c->refused && out->nalternative < 2;
             if (taken[i])
                 out->alternative[out->nalternative++] = *c;
@@ -165,7 +167,7 @@ static int confirm(struct engine *engine, struct diagnosis_round *round, struct 
         engine->job.measurement.correction =
             out->job.measurement.correction; /* noise that was raised there is raised here: the data are the same */
         engine->job.measurement.ncorrection = out->job.measurement.ncorrection;
-        if (!status && !(round->kind == VERDICT_NAMED && same_cause(&round->candidate[0], &out->cause[c])))
+        if (!status && !(round->result.kind == ROTID_NAMED && same_cause(&round->candidate[0], &out->cause[c])))
             *doubtful = c;
     }
     return status;
@@ -175,49 +177,50 @@ static int confirm(struct engine *engine, struct diagnosis_round *round, struct 
 static void withdraw(struct diagnosis *out)
 {
     out->ncause = 0;
-    out->adequate_after = 0;
-    out->kind = VERDICT_AMBIGUOUS;
+    out->result.verdict.adequate_after = 0;
+    out->result.verdict.kind = ROTID_AMBIGUOUS;
 }
 
 int reach_verdict(struct engine *engine, struct round_result *last)
 {
     struct diagnosis *out = engine->out;
+    rotid_verdict *verdict = &out->result.verdict;
     const struct diagnosis_round *first = &out->round[0], *end = &out->round[out->nround - 1];
     struct diagnosis_round *again = POOL_ARRAY(engine->pool, struct diagnosis_round, 1);
     double excess = left_over(end);
     int status = again ? ROTID_OK : ROTID_ERROR_MEMORY, doubtful = -1;
-    out->p_value = fmin(first->p_scan, fmin(first->p_frequency, first->p_total));
-    out->adequate_after = end->kind == VERDICT_ADEQUATE;
+    verdict->p_value = fmin(first->result.p_scan, fmin(first->result.p_frequency, first->result.p_total));
+    verdict->adequate_after = end->result.kind == ROTID_ADEQUATE;
     for (int r = 0; r < out->ncause && !status; r++) {
         const struct diagnosis_round *round = &out->round[r];
-        int stacked = out->ncause >= MANY && !out->adequate_after;
-        if (!stacked && (excess == 0 || margin_of(round) >= round->required_margin + excess))
+        int stacked = out->ncause >= MANY && !verdict->adequate_after;
+        if (!stacked && (excess == 0 || margin_of(round) >= round->result.required_margin + excess))
             continue;
         withdraw(out);
-        status = take_set(engine, round, round->required_margin + excess);
+        status = take_set(engine, round, round->result.required_margin + excess);
         if (!status && out->nalternative < 2) /* none near it, yet the rest says that it is not all */
-            out->kind = VERDICT_UNEXPLAINED;
-        out->next_measurement = advise(engine, round, NULL); /* the fits of that round are gone */
-        return status || !out->next_measurement ? ROTID_ERROR_MEMORY : ROTID_OK;
+            verdict->kind = ROTID_UNEXPLAINED;
+        verdict->next_measurement = advise(engine, round, NULL); /* the fits of that round are gone */
+        return status || !verdict->next_measurement ? ROTID_ERROR_MEMORY : ROTID_OK;
     }
     if (!status && out->ncause > 1) {
         struct round_result result = {0};
         status = confirm(engine, again, &result, &doubtful);
         if (!status && doubtful >= 0) {
             withdraw(out);
-            status = take_set(engine, again, again->required_margin);
-            if (!status && !(out->next_measurement = advise(engine, again, &result)))
+            status = take_set(engine, again, again->result.required_margin);
+            if (!status && !(verdict->next_measurement = advise(engine, again, &result)))
                 status = ROTID_ERROR_MEMORY;
         }
         round_free(&result);
         if (status || doubtful >= 0)
             return status;
     }
-    out->kind = out->ncause ? VERDICT_NAMED : end->kind;
-    if (!status && end->kind == VERDICT_AMBIGUOUS)
-        status = take_set(engine, end, isfinite(end->required_margin) ? end->required_margin : 0);
-    if (!status && (end->kind == VERDICT_AMBIGUOUS || end->kind == VERDICT_UNEXPLAINED) &&
-        !(out->next_measurement = advise(engine, end, last)))
+    verdict->kind = out->ncause ? ROTID_NAMED : end->result.kind;
+    if (!status && end->result.kind == ROTID_AMBIGUOUS)
+        status = take_set(engine, end, isfinite(end->result.required_margin) ? end->result.required_margin : 0);
+    if (!status && (end->result.kind == ROTID_AMBIGUOUS || end->result.kind == ROTID_UNEXPLAINED) &&
+        !(verdict->next_measurement = advise(engine, end, last)))
         status = ROTID_ERROR_MEMORY;
     return status;
 }

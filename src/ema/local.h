@@ -15,10 +15,6 @@ struct local_pole {
     double noise; /* that over the degrees of freedom */
 };
 
-/* How far from the common pole a channel's own is looked for: 1.2 % of the frequency, which a 30 g accelerometer makes on a
- * beam of 6 kg, or three half-power bandwidths where these are wider, 5 % at most. */
-double local_reach(double complex pole);
-
 /* The pole of channel k of the band alone near pole[which], the modes pole [nmode] being all that there are: modes within twice
  * the window are fitted along with it. residue [nmode] of that channel: what the modes further away add is taken off first; NULL:
  * it is left to the residual terms, which bends the residue by parts in a thousand. Where no mode is near, every place within

@@ -1,4 +1,4 @@
-/* Frequencies of each point, and what they mean for the modes. */
+/* Frequencies of each point, and their consequences for the modes. */
 #ifndef ROTID_EMA_PER_POINT_H
 #define ROTID_EMA_PER_POINT_H
 

@@ -47,18 +47,3 @@ double mode_phase_deviation(int n, const double complex *shape)
     }
     return weight > 0 ? sum / weight * 57.29577951308232 : 0;
 }
-
-double mode_to_real(int n, const double complex *shape, double *real)
-{
-    double complex axis = mode_axis(n, shape);
-    double out_of_phase = 0, all = 0;
-    for (int i = 0; i < n; i++) {
-        double complex turned = shape[i] * conj(axis);
-        real[i] = creal(turned);
-        if (isnan(real[i]))
-            continue;
-        out_of_phase += cimag(turned) * cimag(turned);
-        all += creal(turned * conj(turned));
-    }
-    return all > 0 ? out_of_phase / all : 0;
-}

@@ -14,8 +14,4 @@ double mode_phase_deviation(int n, const double complex *shape);
 /* exp(i a) along that line: the sum of Re(shape exp(-i a))^2 is largest. 1 where all vanish. */
 double complex mode_axis(int n, const double complex *shape);
 
-/* The real vector nearest to a complex one: turned by the angle that makes the real part largest, the part that is left out of
- * phase dropped. Returns the share sum Im^2/sum |.|^2 of that part. real may not overlap shape. */
-double mode_to_real(int n, const double complex *shape, double *real);
-
 #endif

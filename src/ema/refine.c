@@ -12,7 +12,7 @@
 #define NEAR           0.02
 #define LITTLE_DAMPED  1e-3
 
-int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement)
+static int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement)
 {
     size_t p = 2 * (size_t)fit->nmode;
     *refinement = (struct refinement){0};

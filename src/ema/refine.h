@@ -14,9 +14,6 @@ struct refinement {
     double *work; /* internal */
 };
 
-/* ROTID_OK or ROTID_ERROR_MEMORY. */
-int refinement_new(struct pool *pool, const struct modal_fit *fit, struct refinement *refinement);
-
 /* modal_fit_new and refinement_new for the channels from, ... of the band, which starts at pole [nmode] in rad/s. ROTID_OK or
  * ROTID_ERROR_MEMORY. */
 int refinement_open(struct pool *pool, const struct ema_band *band, int nline, const int *line, int from, int nchannel, int nmode,

@@ -1,29 +1,11 @@
 #include "export/files.h"
 
 #include <errno.h>
-#include <string.h>
 
 #include "export/dmig.h"
 #include "export/matrix_market.h"
 #include "export/ross.h"
 #include "report/output.h"
-
-static const char *const formats[] = {"matrix-market", "dmig", "ross"};
-
-int export_format_find(const char *name, enum export_format *format)
-{
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-        if (!strcmp(name, formats[i])) {
-            *format = (enum export_format)i;
-            return 0;
-        }
-    return 1;
-}
-
-const char *export_format_name(enum export_format format)
-{
-    return formats[format];
-}
 
 /* of Matrix Market, those of the condensed model last */
 static const struct {
@@ -74,10 +56,8 @@ int export_files_write(struct pool *pool, const struct export_files *files, cons
         status = write_one(pool, files, count, output[count].stream, model, ross);
     }
     if (status) {
-        int reason = errno;
         for (int i = 0; i < count; i++)
             output_abandon(&output[i]);
-        errno = reason;
         return status;
     }
     status = output_close_all(files->count, output, &which);

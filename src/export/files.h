@@ -16,10 +16,6 @@ struct export_files {
     const char *path[EXPORT_MOST_FILES];
 };
 
-/* 0 and *format, or 1 where it is none: "matrix-market", "dmig", "ross". */
-int export_format_find(const char *name, enum export_format *format);
-const char *export_format_name(enum export_format format);
-
 /* The files that are to be written: path itself, or with Matrix Market path.stiffness.mtx and so on; without those of the
  * condensed model where it is not possible. ROTID_OK or ROTID_ERROR_MEMORY. */
 int export_files_name(struct pool *pool, enum export_format format, int condensed, const char *path,

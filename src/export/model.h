@@ -1,5 +1,5 @@
 /* The model that is exported: matrices of the beam at the values that were identified or that the deck states, the same condensed
- * onto the sensors, and what the files say beside the numbers. */
+ * onto the sensors, and the texts of the files beside the numbers. */
 #ifndef ROTID_EXPORT_MODEL_H
 #define ROTID_EXPORT_MODEL_H
 

@@ -76,7 +76,7 @@ static void put_origin(const struct remark *remark, const struct export_model *m
     if (model->identified) {
         const rotid_fit_result *fit = model->identified->fit;
         remark_put(remark, "Identified from %d measured modes, %s, REDUCTION=%s: %s.", job->measurement.nmode,
-                   functional_name(job->options.fit.functional), reduction_name(job->options.fit.reduction),
+                   functional_words[job->options.fit.functional], reduction_words[job->options.fit.reduction],
                    !fit->converged         ? "NOT CONVERGED, not to be trusted"
                    : fit->any_at_bound     ? "AT A BOUND, not to be trusted"
                    : fit->any_undetermined ? "NOT DETERMINED by the data, not to be trusted"

@@ -1,4 +1,5 @@
-/* Comment lines of the files that are written: what the model is, in plain ASCII, each line begun by the mark of the format. */
+/* Comment lines of the files that are written: a description of the model in plain ASCII, each line begun by the mark of the
+ * format. */
 #ifndef ROTID_EXPORT_REMARK_H
 #define ROTID_EXPORT_REMARK_H
 
@@ -12,7 +13,8 @@ struct remark {
     int width;        /* of a line, mark included */
 };
 
-/* One remark, broken between words; what is not printable ASCII becomes '?', since readers of such files stop at other bytes. */
+/* One remark, broken between words; other bytes than printable ASCII become '?', since readers of such files stop at other bytes.
+ */
 void remark_put(const struct remark *remark, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Deck, its heading, version, units, where the values come from, parameters, causes, mass, frequencies. */
@@ -21,7 +23,7 @@ void remark_model(const struct remark *remark, const struct export_model *model)
 /* What it is condensed onto, and the frequencies then. */
 void remark_condensed(const struct remark *remark, const struct export_model *model);
 
-/* A name as one word: what is neither letter, digit nor one of _ . - becomes '_'. */
+/* A name as one word: other characters than letters, digits and _ . - become '_'. */
 void remark_word(FILE *stream, const char *name);
 
 /* The shortest decimal number that is read back as the same double; text [32]. */

@@ -3,12 +3,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "report/json_result.h"
 #include "report/layout.h"
 #include "report/table.h"
 #include "result/export.h"
 
-const double *export_exported_hz(const struct export_files *files, const struct export_model *model,
+/* Frequencies of the model in the files: full, condensed, or that of the ROSS script. [model->spectrum.count,
+ * ross->spectrum->count] */
+static const double *exported_hz(const struct export_files *files, const struct export_model *model,
                                  const struct ross_model *ross, int *count)
 {
     const struct spectrum *s = ross ? ross->spectrum : &model->spectrum;
@@ -22,13 +23,14 @@ static const char *state_of(const struct export_model *model)
     return !fit ? NULL : !fit->converged ? "not_converged" : fit->any_at_bound ? "at_bound" : "converged";
 }
 
-void table_export(FILE *out, const struct export_files *files, const struct export_model *model, const struct ross_model *ross)
+void table_export(FILE *out, const struct result_head *head, const struct export_files *files, const struct export_model *model,
+                  const struct ross_model *ross)
 {
     const struct job *job = model->job;
     const struct spectrum *s = &model->spectrum;
     int count;
-    const double *hz = export_exported_hz(files, model, ross, &count);
-    table_job_heading(out, job);
+    const double *hz = exported_hz(files, model, ross, &count);
+    table_heading(out, head);
     (void)fprintf(out,
                   model->identified ? "model           identified from %d measured modes\n"
                                     : "model           as the deck states it\n",
@@ -44,7 +46,7 @@ void table_export(FILE *out, const struct export_files *files, const struct expo
     (void)fprintf(out, "mass            %.4f kg, centre at %.6f m\n", model->mass.mass, model->mass.center);
     (void)fprintf(out, "matrices        %d nodes, %d degrees of freedom\n", model->k.n / 2, model->k.n);
     if (model->condensed.k)
-        (void)fprintf(out, "condensed       by %s onto %d %s\n", reduction_name(model->condensed.kind), model->condensed.count,
+        (void)fprintf(out, "condensed       by %s onto %d %s\n", reduction_words[model->condensed.kind], model->condensed.count,
                       job->rotor.nsensor ? "sensors" : "nodes");
     (void)fprintf(out, "\nmode   full model %s\n           [Hz]   %s\n",
                   files->format == EXPORT_ROSS ? "  in the script" : "      condensed", "         [Hz]");
@@ -72,13 +74,15 @@ static struct export_parameter_result *parameters(struct pool *pool, const struc
     return list;
 }
 
-char *json_export(const struct provenance *provenance, const struct export_files *files, const struct export_model *model,
-                  const struct ross_model *ross, const struct message_list *notes)
+const struct export_result *export_result_of(struct pool *pool, const struct export_files *files,
+                                             const struct export_model *model, const struct ross_model *ross)
 {
     const struct spectrum *s = &model->spectrum;
-    struct pool pool;
-    struct export_result out = {
-        .format = export_format_name(files->format),
+    struct export_result *out = POOL_NEW(pool, struct export_result);
+    if (!out)
+        return NULL;
+    *out = (struct export_result){
+        .format = export_format_words[files->format],
         .nfiles = files->count,
         .model = model->identified ? "identified" : "stated",
         .status = state_of(model),
@@ -87,22 +91,17 @@ char *json_export(const struct provenance *provenance, const struct export_files
         .center_of_mass_m = model->mass.center,
         .nodes = model->discrete->discrete.beam.mesh.nnode,
         .degrees_of_freedom = model->k.n,
-        .reduction = model->condensed.k ? reduction_name(model->condensed.kind) : NULL,
+        .reduction = model->condensed.k ? reduction_words[model->condensed.kind] : NULL,
         .masters = model->condensed.k ? model->condensed.count : ROTID_NONE,
         .nrigid_hz = s->nrigid,
         .rigid_hz = s->rigid_hz,
         .nfull_hz = s->count,
         .full_hz = s->full_hz,
+        .parameters = parameters(pool, model),
+        .files = POOL_ARRAY(pool, const char *, files->count),
     };
-    struct result result = {.export = &out};
-    pool_open(&pool, NULL);
-    out.exported_hz = export_exported_hz(files, model, ross, &out.nexported_hz);
-    out.parameters = parameters(&pool, model);
-    out.files = POOL_ARRAY(&pool, const char *, files->count);
-    for (int i = 0; i < files->count && out.files; i++)
-        out.files[i] = files->path[i];
-    if (out.parameters && out.files)
-        return json_result(&pool, provenance, model->job, notes, &result);
-    pool_close(&pool);
-    return NULL;
+    out->exported_hz = exported_hz(files, model, ross, &out->nexported_hz);
+    for (int i = 0; i < files->count && out->files; i++)
+        out->files[i] = files->path[i];
+    return out->parameters && out->files ? out : NULL;
 }

@@ -10,7 +10,7 @@ struct triplet {
 };
 
 /* The next entry of the lower triangle that is not zero, column by column, rows increasing; 0 where there is none. As the beam
- * assembles its matrices, the block of far degrees of freedom holds only what is outside the band. */
+ * assembles its matrices, the block of far degrees of freedom holds only the entries outside the band. */
 int triplet_next(const rotid_matrix *a, struct triplet *t);
 
 /* How many there are. */

@@ -1,4 +1,4 @@
-/* What the data say about the parameters: covariance, correlation, intervals, and what they leave open. */
+/* What the data say about the parameters: covariance, correlation, intervals, undetermined directions. */
 #ifndef ROTID_FIT_COVARIANCE_H
 #define ROTID_FIT_COVARIANCE_H
 

@@ -44,19 +44,27 @@ static double incomplete_beta(double a, double b, double x)
     return x < (a + 1) / (a + b + 2) ? front * beta_fraction(a, b, x) / a : 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
-double quantile_student(double outside, int dof)
+static double student_tail(double t, int dof)
+{
+    return incomplete_beta(0.5 * dof, 0.5, dof / (dof + t * t));
+}
+
+/* The x at which a falling tail has come down to `outside`, by bisection. */
+static double limit_of(double (*tail)(double x, int dof), double outside, int dof)
 {
     double low = 0, high = 1;
-    while (incomplete_beta(0.5 * dof, 0.5, dof / (dof + high * high)) > outside && high < 1e100)
+    while (tail(high, dof) > outside && high < 1e100)
         high *= 2;
     for (int i = 0; i < 100 && high - low > 1e-15 * high; i++) {
-        double t = (low + high) / 2;
-        if (incomplete_beta(0.5 * dof, 0.5, dof / (dof + t * t)) > outside)
-            low = t;
-        else
-            high = t;
+        double middle = (low + high) / 2;
+        *(tail(middle, dof) > outside ? &low : &high) = middle;
     }
     return (low + high) / 2;
+}
+
+double quantile_student(double outside, int dof)
+{
+    return limit_of(student_tail, outside, dof);
 }
 
 double quantile_student_95(int dof)
@@ -92,4 +100,9 @@ double chi_square_tail(double x, int dof)
             break;
     }
     return front * h;
+}
+
+double chi_square_limit(double outside, int dof)
+{
+    return limit_of(chi_square_tail, outside, dof);
 }

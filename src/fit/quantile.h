@@ -11,4 +11,7 @@ double quantile_student(double outside, int dof);
 /* P(chi2 >= x) with dof >= 1 degrees of freedom. */
 double chi_square_tail(double x, int dof);
 
+/* The x with P(chi2 > x) = outside, 0 < outside < 1, dof >= 1. */
+double chi_square_limit(double outside, int dof);
+
 #endif

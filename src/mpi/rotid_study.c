@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "cli/arguments.h"
 #include "cli/command_study.h"
+#include "result/json_tree.h"
 #include "study/results.h"
 #include "study/run.h"
 
@@ -204,7 +205,7 @@ static void follow(const struct study *study)
 /* Whether every rank has read the same study: each reads the files itself. */
 static int is_one_study(const struct command *command, const struct study *study, int rank)
 {
-    const struct header header = header_of(study, command->provenance.version, command->provenance.commit, 1, 1);
+    const struct header header = header_of(study, command->head.rotid, command->head.commit, 1, 1);
     char *text = header_text(&header), first[4096] = "";
     int same, all = 0;
     if (text && !rank)
@@ -232,8 +233,7 @@ static int prepare(struct command *command, int argc, char **argv, int rank, int
                                        command->threads ? "--threads" : "--timeout");
             command->quiet |= rank > 0;
             command->threads = size;
-            command->provenance =
-                (struct provenance){command->name, ROTID_VERSION, build_commit, build_blas(), command->seed, size};
+            command_begin_head(command);
             build_set_threads(1);
             if (code < 0 && !build_make_room(1, 1))
                 code = EXIT_INTERNAL;

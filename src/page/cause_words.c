@@ -13,7 +13,8 @@ static const char *or_nothing(const char *text)
     return text ? text : "";
 }
 
-const char *cause_meaning(const char *id)
+/* "a zone softer than its surroundings" */
+static const char *cause_meaning(const char *id)
 {
     const struct cause_kind *kind = catalogue_find(id);
     return kind ? kind->sentence : "";

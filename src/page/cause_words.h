@@ -5,8 +5,7 @@
 #include "base/pool.h"
 #include "rotid.h"
 
-/* "a zone softer than its surroundings", and how to look for it: "weigh the part"; "" of a cause that is not in the catalogue. */
-const char *cause_meaning(const char *id);
+/* How to look for a cause: "weigh the part"; "" of one that is not in the catalogue. */
 const char *cause_check(const char *id);
 /* "stiffness of right", "joint between core and right", "added_mass" */
 const char *cause_name(struct pool *pool, const char *id, const char *target);

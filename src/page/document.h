@@ -28,13 +28,13 @@ struct document {
     const char *title;    /* of the page */
     const char *subtitle; /* what it is made of, under the title */
     enum tone tone;
-    const char *headline; /* over the answer; NULL: what the tone says */
+    const char *headline; /* over the answer; NULL: the words of the tone */
     const char *answer;   /* the result in a sentence or two */
     const char *next;     /* what to do with it, NULL: nothing */
     const char *of;       /* whose sections are added, told in their headings; NULL: that of the page */
     struct page_section *first, *last;
     int nfigure, ntable;
-    struct figure lost; /* what is written into where memory was out */
+    struct figure lost; /* written into where memory was out */
 };
 
 void document_open(struct document *document, struct pool *pool);
@@ -44,7 +44,7 @@ void document_paragraph(struct document *document, const char *format, ...) __at
 /* A heading within a section. */
 void document_heading(struct document *document, const char *text);
 void document_list(struct document *document, int count, const char *const text[]);
-/* Names and what they stand for; a value NULL is left out with its name. */
+/* Names and their values; a value NULL is left out with its name. */
 void document_facts(struct document *document, int count, const char *const name[], const char *const value[]);
 void document_table(struct document *document, const char *caption, const struct number_table *table);
 /* An empty figure at this place, never NULL: where memory is out one that is thrown away. An id that is taken gets a number. */

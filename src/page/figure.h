@@ -20,7 +20,7 @@ struct figure {
     const char *id;               /* [a-z0-9-]: name of its files and of its place on the page */
     const char *title;            /* over it */
     const char *caption;          /* what it shows for this result */
-    const char *alt;              /* what there is to see, for those who do not */
+    const char *alt;              /* the figure in words, for those who do not see it */
     char *script;                 /* for gnuplot, complete */
     int height[LAYOUTS];          /* px */
     struct number_table *table;   /* of its numbers, NULL: they stand elsewhere on the page */

@@ -6,7 +6,7 @@
 #include "page/figures_study.h"
 #include "page/human.h"
 #include "page/palette.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_PANELS 6
 #define ROUNDING    1e-15 /* of a functional that is zero but for it */
@@ -38,68 +38,50 @@ static void axis_of_modes(struct plot *plot, const struct by_modes *by, const ch
     plot_axes(plot, "fitted modes m [1]", y);
 }
 
-static int functional_script(struct document *document, struct figure *figure, const struct result *result,
-                             const struct by_modes *by)
-{
-    struct plot_entry entry[BY_MODES_SERIES];
-    struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .height = 280, .left = 74, .right = 16, .top = 10, .bottom = 48};
-    struct plot plot;
-    double most = 0;
-    int nentry = legend_of(by, entry);
-    plot_head(entry, nentry, layout.head);
-    if (plot_open(&plot, document->pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "# columns: fitted modes m, mean functional over m^2");
-    for (int s = 0; s < by->nseries; s++) {
-        const struct modes_series *series = &by->series[s];
-        double *x = POOL_ARRAY(document->pool, double, 2 * (size_t)series->count), *y = x ? x + series->count : NULL;
-        char name[32];
-        for (int i = 0; i < series->count && x; i++) {
-            x[i] = series->point[i].fitted;
-            y[i] = series->point[i].functional;
-            most = fmax(most, y[i]);
-        }
-        (void)snprintf(name, sizeof name, "series%d", s + 1);
-        if (x)
-            plot_data(&plot, name, series->count, 2, (const double *const[]){x, y});
-        document->failed |= !x;
-    }
-    double power = most > 0 && most < 0.1 ? pow(1000, floor(log10(most) / 3)) : 1; /* 1e-3, 1e-6: short numbers at the ticks */
-    plot_begin(&plot, &layout);
-    plot_panel(&plot, 0);
-    plot_legend(&plot, entry, nentry);
-    plot_line(&plot, "set yrange [0:%.6g]", most > 0 ? 1.08 * most / power : 1);
-    const char *unit = power < 1 ? human_power(document->pool, (int)floor(log10(power) + 0.5)) : "1",
-               *axis = pool_format(document->pool, "mean functional f/m\xc2\xb2 [%s]", unit);
-    axis_of_modes(&plot, by, axis ? axis : "");
-    (void)fputs("plot ", plot.out);
-    for (int s = 0; s < by->nseries; s++)
-        (void)fprintf(plot.out, "%s$series%d using 1:($2/%g) with linespoints ls %d", s ? ", " : "", s + 1, power, s + 1);
-    (void)fputc('\n', plot.out);
-    return plot_close(&plot);
-}
-
 static const char *functional_text(struct pool *pool, double functional)
 {
     return human_digits(pool, functional < ROUNDING ? 0 : functional, 3);
 }
 
-static struct number_table *functional_table(struct pool *pool, const struct by_modes *by)
+static struct series *collect_functional(struct document *document, const struct by_modes *by, int s)
 {
-    int rows = 0, row = 0;
+    static const struct column columns[] = {
+        {"variant", NULL, AS_TEXT, 0}, {"fitted modes m", "1", AS_FIXED, 0}, {"mean functional f/m\xc2\xb2", "1", AS_DIGITS, 3}};
+    const struct modes_series *of = &by->series[s];
+    struct series *series = series_new(document, pool_format(document->pool, "variant%d", s + 1), of->count, 3, columns);
+    for (int i = 0; i < of->count; i++) {
+        const struct modes_point *point = &of->point[i];
+        series_row(series, i, (const double[]){point->fitted, point->functional});
+        series_text(series, i, 0, *of->name ? of->name : "as stated");
+        series_text(series, i, 2, functional_text(document->pool, point->functional));
+    }
+    return series;
+}
+
+static void draw_functional(struct plot *plot, const struct by_modes *by, struct series *const series[])
+{
+    struct plot_entry entry[BY_MODES_SERIES];
+    struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .height = 280, .left = 74, .right = 16, .top = 10, .bottom = 48};
+    double most = 0;
+    int nentry = legend_of(by, entry);
+    plot_head(entry, nentry, layout.head);
+    for (int s = 0; s < by->nseries; s++) {
+        plot_series(plot, series[s]);
+        for (int i = 0; i < by->series[s].count; i++)
+            most = fmax(most, by->series[s].point[i].functional);
+    }
+    double power = most > 0 && most < 0.1 ? pow(1000, floor(log10(most) / 3)) : 1; /* 1e-3, 1e-6: short numbers at the ticks */
+    plot_begin(plot, &layout);
+    plot_panel(plot, 0);
+    plot_legend(plot, entry, nentry);
+    plot_line(plot, "set yrange [0:%.6g]", most > 0 ? 1.08 * most / power : 1);
+    const char *unit = power < 1 ? human_power(plot->pool, (int)floor(log10(power) + 0.5)) : "1",
+               *axis = pool_format(plot->pool, "mean functional f/m\xc2\xb2 [%s]", unit);
+    axis_of_modes(plot, by, axis ? axis : "");
+    (void)fputs("plot ", plot->out);
     for (int s = 0; s < by->nseries; s++)
-        rows += by->series[s].count;
-    struct number_table *table = table_new(pool, rows, 3);
-    table_head(table, 0, "variant");
-    table_head(table, 1, "fitted modes m [1]");
-    table_head(table, 2, "mean functional f/m\xc2\xb2 [1]");
-    for (int s = 0; s < by->nseries; s++)
-        for (int i = 0; i < by->series[s].count; i++, row++) {
-            table_cell(table, row, 0, *by->series[s].name ? by->series[s].name : "as stated");
-            table_cell(table, row, 1, human_fixed(pool, by->series[s].point[i].fitted, 0));
-            table_cell(table, row, 2, functional_text(pool, by->series[s].point[i].functional));
-        }
-    return table;
+        (void)fprintf(plot->out, "%s$variant%d using 1:($2/%g) with linespoints ls %d", s ? ", " : "", s + 1, power, s + 1);
+    (void)fputc('\n', plot->out);
 }
 
 void figure_functional_by_modes(struct document *document, const struct result *result)
@@ -127,8 +109,16 @@ void figure_functional_by_modes(struct document *document, const struct result *
         says ? says : "", by.more ? " Further variants stand in the table of the cells." : "");
     figure->alt =
         pool_format(pool, "One line for each of %d variants over the number of modes: %s.", by.nseries, says ? says : "");
-    figure->table = functional_table(pool, &by);
-    document->failed |= !says || !figure->caption || !figure->alt || functional_script(document, figure, result, &by) != ROTID_OK;
+    struct series *series[BY_MODES_SERIES];
+    struct plot plot;
+    for (int s = 0; s < by.nseries; s++)
+        series[s] = collect_functional(document, &by, s);
+    document->failed |= !says;
+    figure->table = series_table_of(by.nseries, (const struct series *const *)series);
+    if (!figure_begin(document, figure, result->file, &plot))
+        return;
+    draw_functional(&plot, &by, series);
+    figure_end(document, &plot);
 }
 
 /* ------------------------------------------------------------------------------------------------------ parameters */
@@ -141,84 +131,100 @@ static const struct cell_parameter *in(const struct told_cell *cell, const char 
     return NULL;
 }
 
-/* Values and their stated deviations of a parameter, [count] each, in a unit. */
-static int values_of(const struct study_outcome *study, const struct modes_series *series, const char *name, double factor,
-                     double *x, double *y, double *bar)
+static int has_value(const struct cell_parameter *p)
 {
-    int n = 0;
-    for (int i = 0; i < series->count; i++) {
-        const struct cell_parameter *p = in(&study->cell[series->point[i].cell], name);
-        if (!p || !isfinite(p->mean))
-            continue;
-        x[n] = series->point[i].fitted;
-        y[n] = factor * p->mean;
-        bar[n++] = factor * p->mean_stated_std;
-    }
-    return n;
+    return p && isfinite(p->mean);
 }
 
-static int parameters_script(struct document *document, struct figure *figure, const struct result *result,
-                             const struct by_modes *by, int panels, const struct cell_parameter *const parameter[])
+/* Of the cells where the parameter has a value. Its numbers stand in the table of the cells. */
+static struct series *collect_parameter(struct document *document, const struct study_outcome *study,
+                                        const struct modes_series *of, const char *data, const char *name,
+                                        const struct human_unit *unit)
 {
-    struct pool *pool = document->pool;
-    const struct study_outcome *study = result->studied;
+    const char *text = *unit->text ? unit->text : "1";
+    const struct column columns[] = {
+        {"fitted modes m", "1", AS_PLACE, 0}, {name, text, AS_PLACE, 0}, {"its stated standard deviation", text, AS_PLACE, 0}};
+    int rows = 0, row = 0;
+    for (int i = 0; i < of->count; i++)
+        rows += has_value(in(&study->cell[of->point[i].cell], name));
+    struct series *series = series_new(document, data, rows, 3, columns);
+    for (int i = 0; i < of->count; i++) {
+        const struct cell_parameter *p = in(&study->cell[of->point[i].cell], name);
+        if (has_value(p))
+            series_row(series, row++,
+                       (const double[]){of->point[i].fitted, unit->factor * p->mean, unit->factor * p->mean_stated_std});
+    }
+    return series;
+}
+
+struct parameter_panel {
+    const struct cell_parameter *parameter;
+    struct human_unit unit;
+    struct series *series[BY_MODES_SERIES];
+    struct plot_range range;
+};
+
+static struct parameter_panel collect_panel(struct document *document, const struct study_outcome *study,
+                                            const struct by_modes *by, int p, const struct cell_parameter *parameter)
+{
+    struct parameter_panel panel = {parameter, human_unit(parameter->mean, parameter->unit), {NULL}, {INFINITY, -INFINITY}};
+    for (int s = 0; s < by->nseries; s++) {
+        struct series *series = panel.series[s] = collect_parameter(
+            document, study, &by->series[s], pool_format(document->pool, "p%d_%d", p + 1, s + 1), parameter->name, &panel.unit);
+        for (int i = 0; i < series_rows(series); i++) { /* a deviation larger than half the value is cut off by the panel */
+            double value = series_values(series, 1)[i], bar = series_values(series, 2)[i],
+                   reach = fmin(isfinite(bar) ? bar : 0, 0.5 * fabs(value));
+            plot_range_join(&panel.range, value + reach);
+            plot_range_join(&panel.range, value - reach);
+        }
+    }
+    return panel;
+}
+
+static void draw_panel(struct plot *plot, const struct by_modes *by, const struct parameter_panel *panel, int p)
+{
+    const char *axis = pool_format(plot->pool, "%s [%s]", panel->parameter->name, *panel->unit.text ? panel->unit.text : "1"),
+               *between = "";
+    const struct plot_range *range = &panel->range;
+    double pad = 0.05 * (range->to - range->from);
+    char where[64];
+    pad = pad > 0 ? pad : 0.1 * fabs(range->from) + 1e-12;
+    plot_line(plot, "set yrange [%.8g:%.8g]", range->from - pad, range->to + pad);
+    axis_of_modes(plot, by, NULL);
+    (void)snprintf(where, sizeof where, "screen (x_of(%d)+12)/W, graph 0.5", p);
+    plot_label(plot, axis ? axis : "", where, "INK", "center rotate");
+    (void)fputs("plot ", plot->out);
+    for (int s = 0; s < by->nseries; s++) {
+        double side = SIDE * (s - 0.5 * (by->nseries - 1));
+        if (!series_rows(panel->series[s]))
+            continue;
+        (void)fprintf(
+            plot->out,
+            "%s$p%d_%d using ($1%+g):2:3 with yerrorbars ls %d lw 1 ps 0, $p%d_%d using ($1%+g):2 with linespoints ls %d",
+            between, p + 1, s + 1, side, s + 1, p + 1, s + 1, side, s + 1);
+        between = ", \\\n    ";
+    }
+    (void)fputc('\n', plot->out);
+}
+
+static void draw_parameters(struct plot *plot, const struct by_modes *by, int panels, const struct parameter_panel *panel)
+{
     struct plot_entry entry[BY_MODES_SERIES];
     struct plot_layout layout = {
         .panels = panels, .columns = {panels > 1 ? 2 : 1, 1}, .height = 270, .left = 62, .right = 14, .top = 10, .bottom = 48};
-    struct plot_range range[MOST_PANELS];
-    int nentry = legend_of(by, entry), count[MOST_PANELS][BY_MODES_SERIES];
-    struct human_unit unit[MOST_PANELS];
-    double *room = POOL_ARRAY(pool, double, 3 * (size_t)study->is.ncells);
-    struct plot plot;
+    int nentry = legend_of(by, entry);
     plot_head(entry, nentry, layout.head);
-    if (!room || plot_open(&plot, pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "# columns: fitted modes m, mean value, mean of the stated standard deviations");
+    for (int p = 0; p < panels; p++)
+        for (int s = 0; s < by->nseries; s++)
+            if (series_rows(panel[p].series[s]))
+                plot_series(plot, panel[p].series[s]);
+    plot_begin(plot, &layout);
     for (int p = 0; p < panels; p++) {
-        range[p] = (struct plot_range){INFINITY, -INFINITY};
-        unit[p] = human_unit(parameter[p]->mean, parameter[p]->unit);
-        for (int s = 0; s < by->nseries; s++) {
-            double *x = room, *y = room + study->is.ncells, *bar = room + 2 * (ptrdiff_t)study->is.ncells;
-            int n = values_of(study, &by->series[s], parameter[p]->name, unit[p].factor, x, y, bar);
-            char name[48];
-            for (int i = 0; i < n; i++) { /* a deviation larger than half the value is cut off by the panel */
-                double reach = fmin(isfinite(bar[i]) ? bar[i] : 0, 0.5 * fabs(y[i]));
-                plot_range_join(&range[p], y[i] + reach);
-                plot_range_join(&range[p], y[i] - reach);
-            }
-            count[p][s] = n;
-            (void)snprintf(name, sizeof name, "p%d_%d", p + 1, s + 1);
-            if (n)
-                plot_data(&plot, name, n, 3, (const double *const[]){x, y, bar});
-        }
-    }
-    plot_begin(&plot, &layout);
-    for (int p = 0; p < panels; p++) {
-        char where[64];
-        const char *axis = pool_format(pool, "%s [%s]", parameter[p]->name, *unit[p].text ? unit[p].text : "1"), *between = "";
-        double pad = 0.05 * (range[p].to - range[p].from);
-        plot_panel(&plot, p);
+        plot_panel(plot, p);
         if (!p)
-            plot_legend(&plot, entry, nentry);
-        pad = pad > 0 ? pad : 0.1 * fabs(range[p].from) + 1e-12;
-        plot_line(&plot, "set yrange [%.8g:%.8g]", range[p].from - pad, range[p].to + pad);
-        axis_of_modes(&plot, by, NULL);
-        (void)snprintf(where, sizeof where, "screen (x_of(%d)+12)/W, graph 0.5", p);
-        plot_label(&plot, axis ? axis : "", where, "INK", "center rotate");
-        (void)fputs("plot ", plot.out);
-        for (int s = 0; s < by->nseries; s++) {
-            if (!count[p][s])
-                continue;
-            (void)fprintf(
-                plot.out,
-                "%s$p%d_%d using ($1%+g):2:3 with yerrorbars ls %d lw 1 ps 0, $p%d_%d using ($1%+g):2 with linespoints ls %d",
-                between, p + 1, s + 1, SIDE * (s - 0.5 * (by->nseries - 1)), s + 1, p + 1, s + 1,
-                SIDE * (s - 0.5 * (by->nseries - 1)), s + 1);
-            between = ", \\\n    ";
-        }
-        (void)fputc('\n', plot.out);
+            plot_legend(plot, entry, nentry);
+        draw_panel(plot, by, &panel[p], p);
     }
-    return plot_close(&plot);
 }
 
 /* Parameters of all cells of the series, each once. */
@@ -271,7 +277,13 @@ void figure_parameters_by_modes(struct document *document, const struct result *
                     "than the unknowns.",
                     says ? says : "");
     figure->alt = pool_format(pool, "A panel for each of %d parameters over the number of modes: %s.", panels, says ? says : "");
-    /* its numbers: the table of the cells */
-    document->failed |= !says || !figure->caption || !figure->alt ||
-                        parameters_script(document, figure, result, &by, panels, parameter) != ROTID_OK;
+    struct parameter_panel panel[MOST_PANELS];
+    struct plot plot;
+    for (int p = 0; p < panels; p++)
+        panel[p] = collect_panel(document, study, &by, p, parameter[p]);
+    document->failed |= !says;
+    if (!figure_begin(document, figure, result->file, &plot))
+        return;
+    draw_parameters(&plot, &by, panels, panel);
+    figure_end(document, &plot);
 }

@@ -45,15 +45,14 @@ static int collect(struct document *document, const rotid_diagnosis *d, const st
             continue;
         struct moved *m = &moved[count++];
         *m = (struct moved){.parameter = q, .unit = human_unit(q->before, q->unit)};
-        const char *unit = pool_copy_text(document->pool, *m->unit.text ? m->unit.text : "1"),
-                   *name = pool_format(document->pool, "parameter%d", count);
+        const char *unit = *m->unit.text ? m->unit.text : "1";
         const struct column columns[] = {{"row from below", NULL, AS_PLACE, 0},
                                          {q->name, unit, AS_PLACE, 0},
                                          {"95 % from", unit, AS_PLACE, 0},
                                          {"to", unit, AS_PLACE, 0}};
         const double value[STATES] = {today ? today->value : (double)NAN, q->before, q->after};
         const double *const ci[STATES] = {today ? today->ci95 : NULL, q->before_ci95, q->after_ci95};
-        m->series = series_new(document, name ? name : "", n, 4, columns);
+        m->series = series_new(document, pool_format(document->pool, "parameter%d", count), n, 4, columns);
         for (int i = 0; i < n; i++) {
             double f = m->unit.factor, none = NAN;
             int s = states->state[i];

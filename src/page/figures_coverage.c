@@ -5,6 +5,7 @@
 #include "page/figures_study.h"
 #include "page/human.h"
 #include "page/rows.h"
+#include "page/series.h"
 
 #define MOST_DOTS 5 /* parameters */
 #define NOMINAL   95.0
@@ -55,41 +56,45 @@ static void collect_coverage(const struct study_outcome *s, struct coverage *c)
     }
 }
 
-static int coverage_script(struct document *document, struct figure *figure, const struct result *result,
-                           const struct coverage *c)
+/* Its numbers stand in the table of the cells. */
+static struct series *series_of(struct document *document, const struct coverage *c)
+{
+    struct column column[1 + MOST_DOTS] = {{"row from below", NULL, AS_PLACE, 0}};
+    for (int k = 0; k < c->ndot; k++)
+        column[1 + k] = (struct column){c->dot[k].name, "%", AS_PLACE, 0};
+    struct series *series = series_new(document, "coverage", c->rows, 1 + c->ndot, column);
+    for (int i = 0; i < c->rows; i++) {
+        double row[1 + MOST_DOTS] = {c->rows - i};
+        for (int k = 0; k < c->ndot; k++)
+            row[1 + k] = c->dot[k].percent[i];
+        series_row(series, i, row);
+    }
+    return series;
+}
+
+static void draw(struct plot *plot, const struct series *series, const struct coverage *c)
 {
     struct plot_layout layout = rows_layout(c->rows);
     struct plot_entry entry[MOST_DOTS + 1];
-    double row[ROWS_MOST];
-    struct plot plot;
-    for (int i = 0; i < c->rows; i++)
-        row[i] = c->rows - i;
     for (int k = 0; k < c->ndot; k++)
         entry[k] = (struct plot_entry){.text = c->dot[k].name, .style = k + 1, .keys = KEY_MARK};
     entry[c->ndot] = (struct plot_entry){.text = "95 %", .style = 11, .keys = KEY_LINE};
     plot_head(entry, c->ndot + 1, layout.head);
-    if (plot_open(&plot, document->pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "set style line 11 lc rgb INK lw 1 dt (8,4)\n# columns: intervals that hold the truth [%%], row from below");
-    for (int k = 0; k < c->ndot; k++) {
-        char name[32];
-        (void)snprintf(name, sizeof name, "coverage%d", k + 1);
-        plot_data(&plot, name, c->rows, 2, (const double *const[]){c->dot[k].percent, row});
-    }
-    plot_begin(&plot, &layout);
-    plot_panel(&plot, 0);
-    plot_legend(&plot, entry, c->ndot + 1);
+    plot_line(plot, "set style line 11 lc rgb INK lw 1 dt (8,4)");
+    plot_series(plot, series);
+    plot_begin(plot, &layout);
+    plot_panel(plot, 0);
+    plot_legend(plot, entry, c->ndot + 1);
     double low = fmax(0, 10 * floor((c->least - 5) / 10));
-    plot_line(&plot, "set xrange [%g:101]\nset xtics %g", low, plot_tic(100 - low, 5));
-    rows_draw(&plot, c->rows, c->name);
-    plot_axes(&plot, "intervals that hold the truth [%]", NULL);
-    plot_line(&plot, "set arrow 1 from first %g, graph 0 to first %g, graph 1 nohead ls 11", NOMINAL, NOMINAL);
-    (void)fputs("plot ", plot.out);
+    plot_line(plot, "set xrange [%g:101]\nset xtics %g", low, plot_tic(100 - low, 5));
+    rows_draw(plot, c->rows, c->name);
+    plot_axes(plot, "intervals that hold the truth [%]", NULL);
+    plot_line(plot, "set arrow 1 from first %g, graph 0 to first %g, graph 1 nohead ls 11", NOMINAL, NOMINAL);
+    (void)fputs("plot ", plot->out);
     for (int k = 0; k < c->ndot; k++)
-        (void)fprintf(plot.out, "%s$coverage%d using 1:($2-LIFT%+.3g*(1-LIFT)) with points ls %d ps 1", k ? ", " : "", k + 1,
+        (void)fprintf(plot->out, "%s$coverage using %d:($1-LIFT%+.3g*(1-LIFT)) with points ls %d ps 1", k ? ", " : "", k + 2,
                       -0.7 / c->ndot * (k - 0.5 * (c->ndot - 1)), k + 1);
-    (void)fputc('\n', plot.out);
-    return plot_close(&plot);
+    (void)fputc('\n', plot->out);
 }
 
 void figure_coverage(struct document *document, const struct result *result)
@@ -113,6 +118,10 @@ void figure_coverage(struct document *document, const struct result *result)
                     human_digits(pool, c->least, 3), c->fewest, human_digits(pool, luck, 1));
     figure->alt = pool_format(pool, "For each of %d cells the share of intervals that hold the truth, from %s to 100 %%.",
                               c->rows, human_digits(pool, c->least, 3));
-    /* its numbers: the table of the cells */
-    document->failed |= !figure->caption || !figure->alt || coverage_script(document, figure, result, c) != ROTID_OK;
+    struct series *series = series_of(document, c);
+    struct plot plot;
+    if (!series || !figure_begin(document, figure, result->file, &plot))
+        return;
+    draw(&plot, series, c);
+    figure_end(document, &plot);
 }

@@ -5,6 +5,7 @@
 #include "page/figures_study.h"
 #include "page/human.h"
 #include "page/rows.h"
+#include "page/series.h"
 
 #define LEAST 3
 
@@ -67,55 +68,51 @@ static void collect(const struct study_outcome *s, const char *name, struct deck
     }
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct decks *decks)
+static const char *unit_of(const struct decks *decks)
 {
-    int n = decks->count;
-    struct plot_layout layout = rows_layout(n);
-    const char *name[ROWS_MOST] = {NULL};
-    struct plot_range range = {INFINITY, -INFINITY};
-    double *data = POOL_ARRAY(document->pool, double, 4 * (size_t)n);
-    struct plot plot;
-    if (!data || plot_open(&plot, document->pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < n; i++) {
-        const struct deck_row *row = &decks->row[i];
-        name[i] = row->name;
-        const double line[] = {n - i, row->value, row->ci[0], row->ci[1]};
-        for (int c = 0; c < 4; c++)
-            data[i + (ptrdiff_t)c * n] = line[c];
-        for (int c = 1; c < 4; c++)
-            plot_range_join(&range, line[c]);
-    }
-    plot_line(&plot, "# columns: row from below, value, lower and upper end of the interval");
-    plot_data(&plot, "decks", n, 4, (const double *const[]){data, data + n, data + 2 * (ptrdiff_t)n, data + 3 * (ptrdiff_t)n});
-    plot_begin(&plot, &layout);
-    plot_panel(&plot, 0);
-    double pad = 0.05 * (range.to - range.from) + 1e-12;
-    plot_line(&plot, "set xrange [%.8g:%.8g]\nset xtics %g", range.from - pad, range.to + pad,
-              plot_tic(range.to - range.from + 2 * pad, 5));
-    rows_draw(&plot, n, name);
-    const char *axis = pool_format(document->pool, "%s [%s]", decks->parameter->name, *decks->unit.text ? decks->unit.text : "1");
-    plot_label(&plot, axis ? axis : "", "graph 0.5, screen 1-(y_of(0)+HEIGHT-10)/H", "INK", "center");
-    plot_line(&plot, "plot $decks using 3:($1-LIFT):($4-$3):(0) with vectors heads size screen 0.006,90 ls 1 lw 1.5 dt 1, \\\n"
-                     "    $decks using 2:($1-LIFT) with points ls 1 ps 0.8");
-    return plot_close(&plot);
+    return *decks->unit.text ? decks->unit.text : "1";
 }
 
-static struct number_table *decks_table(struct pool *pool, const struct decks *decks)
+static struct series *series_of(struct document *document, const struct decks *decks)
 {
-    const char *unit = *decks->unit.text ? decks->unit.text : "1";
-    struct number_table *table = table_new(pool, decks->count, 4);
-    table_head(table, 0, "deck");
-    table_head(table, 1, pool_format(pool, "%s [%s]", decks->parameter->name, unit));
-    table_head(table, 2, pool_format(pool, "95 %% from [%s]", unit));
-    table_head(table, 3, pool_format(pool, "to [%s]", unit));
+    const char *unit = unit_of(decks);
+    const struct column columns[] = {{"deck", NULL, AS_TEXT, 0},
+                                     {"row from below", NULL, AS_PLACE, 0},
+                                     {decks->parameter->name, unit, AS_DIGITS, 5},
+                                     {"95 % from", unit, AS_DIGITS, 5},
+                                     {"to", unit, AS_DIGITS, 5}};
+    struct series *series = series_new(document, "decks", decks->count, 5, columns);
     for (int i = 0; i < decks->count; i++) {
-        table_cell(table, i, 0, decks->row[i].name);
-        table_cell(table, i, 1, human_digits(pool, decks->row[i].value, 5));
-        table_cell(table, i, 2, human_digits(pool, decks->row[i].ci[0], 5));
-        table_cell(table, i, 3, human_digits(pool, decks->row[i].ci[1], 5));
+        const struct deck_row *row = &decks->row[i];
+        series_row(series, i, (const double[]){decks->count - i, row->value, row->ci[0], row->ci[1]});
+        series_text(series, i, 0, row->name);
     }
-    return table;
+    return series;
+}
+
+static void draw(struct plot *plot, const struct series *series, const struct decks *decks)
+{
+    struct plot_layout layout = rows_layout(decks->count);
+    const char *name[ROWS_MOST] = {NULL};
+    struct plot_range range = {INFINITY, -INFINITY};
+    for (int i = 0; i < decks->count; i++) {
+        const struct deck_row *row = &decks->row[i];
+        name[i] = row->name;
+        plot_range_join(&range, row->value);
+        plot_range_join(&range, row->ci[0]);
+        plot_range_join(&range, row->ci[1]);
+    }
+    plot_series(plot, series);
+    plot_begin(plot, &layout);
+    plot_panel(plot, 0);
+    double pad = 0.05 * (range.to - range.from) + 1e-12;
+    plot_line(plot, "set xrange [%.8g:%.8g]\nset xtics %g", range.from - pad, range.to + pad,
+              plot_tic(range.to - range.from + 2 * pad, 5));
+    rows_draw(plot, decks->count, name);
+    const char *axis = pool_format(plot->pool, "%s [%s]", decks->parameter->name, unit_of(decks));
+    plot_label(plot, axis ? axis : "", "graph 0.5, screen 1-(y_of(0)+HEIGHT-10)/H", "INK", "center");
+    plot_line(plot, "plot $decks using 3:($1-LIFT):($4-$3):(0) with vectors heads size screen 0.006,90 ls 1 lw 1.5 dt 1, \\\n"
+                    "    $decks using 2:($1-LIFT) with points ls 1 ps 0.8");
 }
 
 void figure_decks(struct document *document, const struct result *result)
@@ -143,6 +140,11 @@ void figure_decks(struct document *document, const struct result *result)
                                   human_digits(pool, decks->row[most].value, 4), decks->unit.text, decks->row[most].name,
                                   decks->hidden ? " The first 24 are drawn." : "");
     figure->alt = pool_format(pool, "A point with its interval for each of %d decks.", decks->count);
-    figure->table = decks_table(pool, decks);
-    document->failed |= !figure->title || !figure->caption || !figure->alt || script(document, figure, result, decks) != ROTID_OK;
+    struct series *series = series_of(document, decks);
+    struct plot plot;
+    figure->table = series_table(series);
+    if (!series || !figure_begin(document, figure, result->file, &plot))
+        return;
+    draw(&plot, series, decks);
+    figure_end(document, &plot);
 }

@@ -19,7 +19,4 @@ void figure_gain(struct document *document, const struct result *result);
 /* Intervals of the parameters before and after, and by the fit as the deck states it. */
 void figure_change(struct document *document, const struct result *result);
 
-/* The x that a chi-square variable with dof >= 1 degrees of freedom exceeds with this probability. */
-double chi_square_limit(double outside, int dof);
-
 #endif

@@ -46,8 +46,7 @@ static void collect(struct document *document, const struct result *result, cons
     }
     for (int s = 0; s < errors->count; s++) {
         const char *name = errors->name[s] ? pool_format(pool, "error, %s", errors->name[s]) : NULL;
-        document->failed |= !name;
-        column[ERRORS + s] = (struct column){name ? name : "", "%", AS_SIGNED, 3};
+        column[ERRORS + s] = (struct column){name, "%", AS_SIGNED, 3};
     }
     errors->series = series_new(document, "errors", fit->nmodes, ERRORS + errors->count, column);
     for (int k = 0; k < fit->nmodes; k++) {

@@ -160,8 +160,7 @@ static void bijection_script(struct document *document, struct plot *plot, const
                                             {"iteration", NULL, AS_PLACE, 0}};
     double chi = isfinite(fit->bijection_chi) ? fit->bijection_chi : 1, most = 5;
     for (int p = 0; p < count; p++) {
-        const char *name = pool_format(document->pool, "iterates%d", p + 1);
-        struct series *series = series_new(document, name ? name : "", fit->nhistory, 3, columns);
+        struct series *series = series_new(document, pool_format(document->pool, "iterates%d", p + 1), fit->nhistory, 3, columns);
         for (int i = 0; i < fit->nhistory; i++) {
             const rotid_history_entry *now = &fit->history[i];
             double u = unbounded(&fit->parameters[p], now->x[p]);

@@ -10,18 +10,6 @@
 #define NORMAL_95  1.96
 #define MOST_TICKS 12 /* numbers of modes side by side in a panel of half the page */
 
-double chi_square_limit(double outside, int dof)
-{
-    double low = 0, high = 1;
-    while (chi_square_tail(high, dof) > outside)
-        high *= 2;
-    for (int i = 0; i < 60; i++) {
-        double middle = (low + high) / 2;
-        *(chi_square_tail(middle, dof) > outside ? &low : &high) = middle;
-    }
-    return (low + high) / 2;
-}
-
 struct misfit {
     int worst, beyond, fitted; /* mode with the largest residual, -1: none; fitted ones beyond the threshold, and in all */
     int shapes, sensors, loud, loudest; /* fitted shapes; sensors with a number, beyond the limit; the worst, -1: none */

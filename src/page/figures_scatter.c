@@ -4,7 +4,7 @@
 
 #include "page/figures_study.h"
 #include "page/human.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define LEAST_RUNS  20 /* below it a histogram is a matter of luck */
 #define MOST_PANELS 6
@@ -57,64 +57,54 @@ static int collect(const struct study_outcome *s, struct histogram h[MOST_PANELS
     return 0;
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, int count,
-                  const struct histogram *h)
+static struct series *collect_bins(struct document *document, int count, const struct histogram *h)
+{
+    struct pool *pool = document->pool;
+    struct column column[2 + MOST_PANELS] = {{"error over its stated deviation", "1", AS_TEXT, 0},
+                                             {"middle of the bin", "1", AS_PLACE, 0}};
+    for (int p = 0; p < count; p++)
+        column[2 + p] = (struct column){pool_format(pool, "runs, %s", h[p].parameter->name), NULL, AS_FIXED, 0};
+    struct series *series = series_new(document, "errors", BINS, 2 + count, column);
+    for (int b = 0; b < BINS; b++) {
+        double from = -REACH + b * BIN, row[1 + MOST_PANELS] = {from + 0.5 * BIN};
+        for (int p = 0; p < count; p++)
+            row[1 + p] = h[p].bin[b];
+        series_row(series, b, row);
+        series_text(series, b, 0,
+                    b == 0 ? pool_format(pool, "below %s", human_signed(pool, from + BIN, 1))
+                    : b == BINS - 1
+                        ? pool_format(pool, "from %s", human_signed(pool, from, 1))
+                        : pool_format(pool, "%s to %s", human_signed(pool, from, 1), human_signed(pool, from + BIN, 1)));
+    }
+    return series;
+}
+
+static void draw(struct plot *plot, const struct series *series, int count, const struct histogram *h)
 {
     struct plot_layout layout = {
         .panels = count, .columns = {count > 1 ? 2 : 1, 1}, .height = 250, .left = 54, .right = 12, .top = 24, .bottom = 48};
     const struct plot_entry entry[] = {{.text = "runs", .keys = KEY_FACE, .face = "BLUE"},
                                        {.text = "normal distribution", .style = 2, .keys = KEY_LINE},
                                        {.text = "95 % of it", .style = 11, .keys = KEY_LINE}};
-    double middle[BINS];
-    struct plot plot;
     plot_head(entry, 3, layout.head);
-    if (plot_open(&plot, document->pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    for (int b = 0; b < BINS; b++)
-        middle[b] = -REACH + (b + 0.5) * BIN;
-    plot_line(&plot, "set style line 11 lc rgb INK lw 1 dt (8,4)");
-    plot_line(&plot, "# columns: middle of the bin, runs in it");
+    plot_line(plot, "set style line 11 lc rgb INK lw 1 dt (8,4)");
+    plot_series(plot, series);
+    plot_begin(plot, &layout);
     for (int p = 0; p < count; p++) {
-        char name[32];
-        (void)snprintf(name, sizeof name, "errors%d", p + 1);
-        plot_data(&plot, name, BINS, 2, (const double *const[]){middle, h[p].bin});
-    }
-    plot_begin(&plot, &layout);
-    for (int p = 0; p < count; p++) {
-        plot_panel(&plot, p);
+        plot_panel(plot, p);
         if (!p)
-            plot_legend(&plot, entry, 3);
-        plot_label(&plot, h[p].parameter->name, "graph 0, graph 1 offset 0, char 0.7", "INK", "left");
-        plot_line(&plot, "set xrange [-%g:%g]\nset yrange [0:*]\nset xtics 1", REACH, REACH);
-        plot_axes(&plot, "value less truth over its stated deviation [1]", "runs [1]");
+            plot_legend(plot, entry, 3);
+        plot_label(plot, h[p].parameter->name, "graph 0, graph 1 offset 0, char 0.7", "INK", "left");
+        plot_line(plot, "set xrange [-%g:%g]\nset yrange [0:*]\nset xtics 1", REACH, REACH);
+        plot_axes(plot, "value less truth over its stated deviation [1]", "runs [1]");
         for (int side = 0; side < 2; side++)
-            plot_line(&plot, "set arrow %d from first %g, graph 0 to first %g, graph 1 nohead front ls 11", side + 1,
+            plot_line(plot, "set arrow %d from first %g, graph 0 to first %g, graph 1 nohead front ls 11", side + 1,
                       side ? NORMAL_95 : -NORMAL_95, side ? NORMAL_95 : -NORMAL_95);
-        plot_line(&plot,
+        plot_line(plot,
                   "set style fill solid noborder\nset boxwidth %g\n"
-                  "plot $errors%d using 1:2 with boxes fc rgb BLUE, %g*exp(-x*x/2) with lines ls 2 lw 2",
-                  0.94 * BIN, p + 1, h[p].count * BIN / sqrt(2 * 3.14159265358979));
+                  "plot $errors using 1:%d with boxes fc rgb BLUE, %g*exp(-x*x/2) with lines ls 2 lw 2",
+                  0.94 * BIN, p + 2, h[p].count * BIN / sqrt(2 * 3.14159265358979));
     }
-    return plot_close(&plot);
-}
-
-static struct number_table *errors_table(struct pool *pool, int count, const struct histogram *h)
-{
-    struct number_table *table = table_new(pool, BINS, 1 + count);
-    table_head(table, 0, "error over its stated deviation [1]");
-    for (int p = 0; p < count; p++)
-        table_head(table, 1 + p, pool_format(pool, "runs, %s", h[p].parameter->name));
-    for (int b = 0; b < BINS; b++) {
-        double from = -REACH + b * BIN;
-        table_cell(table, b, 0,
-                   b == 0 ? pool_format(pool, "below %s", human_signed(pool, from + BIN, 1))
-                   : b == BINS - 1
-                       ? pool_format(pool, "from %s", human_signed(pool, from, 1))
-                       : pool_format(pool, "%s to %s", human_signed(pool, from, 1), human_signed(pool, from + BIN, 1)));
-        for (int p = 0; p < count; p++)
-            table_cell(table, b, 1 + p, human_fixed(pool, h[p].bin[b], 0));
-    }
-    return table;
 }
 
 void figure_errors_of_runs(struct document *document, const struct result *result)
@@ -139,7 +129,12 @@ void figure_errors_of_runs(struct document *document, const struct result *resul
                     label ? label : "", says ? says : "");
     figure->alt =
         pool_format(pool, "A histogram for each of %d parameters beside the normal distribution. %s.", count, says ? says : "");
-    figure->table = errors_table(pool, count, h);
-    document->failed |=
-        !label || !says || !figure->caption || !figure->alt || script(document, figure, result, count, h) != ROTID_OK;
+    document->failed |= !label || !says;
+    struct series *series = collect_bins(document, count, h);
+    struct plot plot;
+    figure->table = series_table(series);
+    if (!series || !figure_begin(document, figure, result->file, &plot))
+        return;
+    draw(&plot, series, count, h);
+    figure_end(document, &plot);
 }

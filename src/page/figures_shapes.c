@@ -60,8 +60,7 @@ static void curve(struct document *document, struct plot *plot, const char *kind
 {
     static const struct column columns[] = {
         {"z", "m", AS_PLACE, 0}, {"deflection", "1", AS_PLACE, 0}, {"half of the 95 % of its noise", "1", AS_PLACE, 0}};
-    const char *name = pool_format(document->pool, "%s%d", kind, i + 1);
-    struct series *series = series_new(document, name ? name : "", n, bar ? 3 : 2, columns);
+    struct series *series = series_new(document, pool_format(document->pool, "%s%d", kind, i + 1), n, bar ? 3 : 2, columns);
     for (int k = 0; k < n; k++)
         series_row(series, k, (const double[]){z[k], value[k], bar ? bar[k] : 0});
     plot_series(plot, series);
@@ -173,8 +172,7 @@ static struct number_table *sensors_table(struct document *document, const rotid
     for (int k = 0; k < count; k++)
         for (int m = 0; m < 2; m++) {
             const char *name = pool_format(document->pool, "mode %d %s", shapes->modes[k].mode, m ? "model" : "measured");
-            document->failed |= !name;
-            column[2 + 2 * k + m] = (struct column){name ? name : "", "1", AS_FIXED, 3};
+            column[2 + 2 * k + m] = (struct column){name, "1", AS_FIXED, 3};
         }
     struct series *series = series_new(document, "sensors", shapes->nsensor_id, 2 + 2 * count, column);
     for (int s = 0; s < shapes->nsensor_id; s++) {
@@ -283,8 +281,7 @@ static struct number_table *points_table(struct document *document, const rotid_
     struct column column[1 + MOST_PANELS] = {{"z", "m", AS_FIXED, 4}};
     for (int k = 0; k < count; k++) {
         const char *name = pool_format(document->pool, "mode %d", modes->modes[k].mode);
-        document->failed |= !name;
-        column[1 + k] = (struct column){name ? name : "", "1", AS_FIXED, 3};
+        column[1 + k] = (struct column){name, "1", AS_FIXED, 3};
     }
     struct series *series = series_new(document, "points", modes->nsensor_z_m, 1 + count, column);
     for (int s = 0; s < modes->nsensor_z_m; s++) {

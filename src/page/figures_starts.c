@@ -3,7 +3,7 @@
 
 #include "page/figures_study.h"
 #include "page/human.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_RUNS 400   /* that are drawn */
 #define SAME_BEST 1e-6  /* relative difference of objectives, as in the summary of a study */
@@ -80,105 +80,84 @@ static int collect(struct pool *pool, const struct study_outcome *s, int cell, s
     return starts->way ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
+static const char *unit_of(const struct starts *starts, int p)
+{
+    return *starts->unit[p].text ? starts->unit[p].text : "1";
+}
+
 static const char *axis_of(struct pool *pool, const struct told_cell *cell, const struct starts *starts, int p)
 {
-    const char *unit = *starts->unit[p].text ? starts->unit[p].text : "1";
-    const char *text = pool_format(pool, "%s [%s]", cell->is.parameters[p].name, unit);
+    const char *text = pool_format(pool, "%s [%s]", cell->is.parameters[p].name, unit_of(starts, p));
     return text ? text : "";
 }
 
-/* The ways as lines: x and y [corners] of each, and a gap behind it; range [2] is widened to hold them. */
-static void lines(const struct told_cell *cell, const struct starts *starts, struct plot_range *range, double *x, double *y)
+static struct series *collect_runs(struct document *document, const struct told_cell *cell, const struct starts *starts)
 {
-    int row = 0;
+    struct column column[] = {[0] = {"run", NULL, AS_FIXED, 0}, [5] = {"least functional", NULL, AS_FIXED, 0}};
+    for (int p = 0; p < 2; p++) {
+        const char *name = cell->is.parameters[p].name, *unit = unit_of(starts, p);
+        column[1 + p] = (struct column){pool_format(document->pool, "start, %s", name), unit, AS_DIGITS, 4};
+        column[3 + p] = (struct column){pool_format(document->pool, "end, %s", name), unit, AS_DIGITS, 6};
+    }
+    struct series *series = series_new(document, "runs", starts->drawn, 6, column);
     for (int i = 0; i < starts->drawn; i++) {
+        const struct way *way = &starts->way[i];
+        series_row(series, i, (const double[]){i + 1, way->from[0], way->from[1], way->to[0], way->to[1], way->reached});
+        series_text(series, i, 5, way->reached ? "yes" : "no");
+    }
+    return series;
+}
+
+/* The ways as lines: the corners of each, and a gap behind it. */
+static struct series *collect_ways(struct document *document, const struct told_cell *cell, const struct starts *starts)
+{
+    const struct column columns[] = {{cell->is.parameters[0].name, unit_of(starts, 0), AS_PLACE, 0},
+                                     {cell->is.parameters[1].name, unit_of(starts, 1), AS_PLACE, 0}};
+    struct series *series = series_new(document, "ways", starts->corners, 2, columns);
+    for (int i = 0, row = 0; i < starts->drawn; i++, row++) {
         const struct way *way = &starts->way[i];
         int known = way->run->niterate;
         for (int k = 0; k < (known >= 1 ? known : 2); k++, row++) {
-            const double *at = known >= 1 ? way->run->iterate + (ptrdiff_t)k * cell->is.nparameters : NULL;
-            x[row] = at ? starts->unit[0].factor * at[0] : k ? way->to[0] : way->from[0];
-            y[row] = at ? starts->unit[1].factor * at[1] : k ? way->to[1] : way->from[1];
-            plot_range_join(&range[0], x[row]);
-            plot_range_join(&range[1], y[row]);
+            const double *at = known >= 1 ? way->run->iterate + (ptrdiff_t)k * cell->is.nparameters : k ? way->to : way->from;
+            double x = known >= 1 ? starts->unit[0].factor : 1, y = known >= 1 ? starts->unit[1].factor : 1;
+            series_row(series, row, (const double[]){x * at[0], y * at[1]});
         }
-        x[row] = y[row] = NAN;
-        row++;
     }
+    return series;
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result, const struct starts *starts)
+static void draw(struct plot *plot, const struct told_cell *cell, const struct starts *starts, const struct series *runs,
+                 struct series *ways)
 {
-    struct pool *pool = document->pool;
-    const struct told_cell *cell = &result->studied->cell[starts->cell];
-    int n = starts->drawn, elsewhere = starts->reached < starts->count;
-    double *data = POOL_ARRAY(pool, double, 5 * (size_t)n), *x = POOL_ARRAY(pool, double, starts->corners),
-           *y = POOL_ARRAY(pool, double, starts->corners);
+    int elsewhere = starts->reached < starts->count;
     const struct plot_entry entry[] = {{.text = "start", .style = 12, .keys = KEY_MARK},
                                        {.text = "end at the least functional of all", .style = 1, .keys = KEY_MARK},
                                        {.text = "end elsewhere", .style = 2, .keys = KEY_MARK}};
     struct plot_layout layout = {
         .panels = 1, .columns = {1, 1}, .height = 400, .narrow_height = 330, .left = 62, .right = 16, .top = 10, .bottom = 48};
-    struct plot_range range[2];
-    struct plot plot;
-    if (!data || !x || !y)
-        return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < 2; p++)
-        range[p] = (struct plot_range){starts->low[p], starts->high[p]};
-    for (int i = 0; i < n; i++) {
-        const struct way *way = &starts->way[i];
-        const double row[] = {way->from[0], way->from[1], way->to[0], way->to[1], way->reached};
-        for (int c = 0; c < 5; c++)
-            data[i + (ptrdiff_t)c * n] = row[c];
-        for (int p = 0; p < 2; p++)
-            plot_range_join(&range[p], way->to[p]);
-    }
-    lines(cell, starts, range, x, y);
     plot_head(entry, 2 + elsewhere, layout.head);
-    if (plot_open(&plot, pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "set style line 11 lc rgb MUTED lw 0.5 dt 1 pt 7 ps 0.2\nset style line 12 lc rgb MUTED pt 6 ps 0.7 lw 1");
-    plot_line(&plot, "# columns: start, end, both parameters each; 1: the end has the least functional of all");
-    plot_data(&plot, "runs", n, 5,
-              (const double *const[]){data, data + n, data + 2 * (ptrdiff_t)n, data + 3 * (ptrdiff_t)n, data + 4 * (ptrdiff_t)n});
-    plot_line(&plot, "# columns: both parameters along each way");
-    plot_data(&plot, "ways", starts->corners, 2, (const double *const[]){x, y});
-    plot_begin(&plot, &layout);
-    plot_panel(&plot, 0);
-    plot_legend(&plot, entry, 2 + elsewhere);
+    plot_line(plot, "set style line 11 lc rgb MUTED lw 0.5 dt 1 pt 7 ps 0.2\nset style line 12 lc rgb MUTED pt 6 ps 0.7 lw 1");
+    plot_series(plot, runs);
+    plot_series(plot, ways);
+    plot_begin(plot, &layout);
+    plot_panel(plot, 0);
+    plot_legend(plot, entry, 2 + elsewhere);
     for (int p = 0; p < 2; p++) {
-        double pad = 0.05 * (range[p].to - range[p].from);
-        pad = pad > 0 ? pad : 0.1 * fabs(range[p].from) + 1e-12;
-        plot_line(&plot, "set %crange [%.8g:%.8g]", "xy"[p], range[p].from - pad, range[p].to + pad);
+        struct plot_range range = {starts->low[p], starts->high[p]};
+        for (int i = 0; i < starts->drawn; i++)
+            plot_range_join(&range, starts->way[i].to[p]);
+        for (int i = 0; i < starts->corners; i++)
+            plot_range_join(&range, series_values(ways, p)[i]);
+        double pad = 0.05 * (range.to - range.from);
+        pad = pad > 0 ? pad : 0.1 * fabs(range.from) + 1e-12;
+        plot_line(plot, "set %crange [%.8g:%.8g]", "xy"[p], range.from - pad, range.to + pad);
     }
-    plot_label(&plot, axis_of(pool, cell, starts, 0), "graph 0.5, screen 1-(y_of(0)+HEIGHT-10)/H", "INK", "center");
-    plot_label(&plot, axis_of(pool, cell, starts, 1), "screen 12.0/W, graph 0.5", "INK", "center rotate");
-    plot_line(&plot,
-              "plot $ways using 1:2 with linespoints ls 11, $runs using 1:2 with points ls 12, \\\n"
-              "    $runs using ($5 > 0 ? NaN : $3):4 with points ls 2 ps 0.9, $runs using ($5 > 0 ? $3 : NaN):4 with points "
+    plot_label(plot, axis_of(plot->pool, cell, starts, 0), "graph 0.5, screen 1-(y_of(0)+HEIGHT-10)/H", "INK", "center");
+    plot_label(plot, axis_of(plot->pool, cell, starts, 1), "screen 12.0/W, graph 0.5", "INK", "center rotate");
+    plot_line(plot,
+              "plot $ways using 1:2 with linespoints ls 11, $runs using 2:3 with points ls 12, \\\n"
+              "    $runs using ($6 > 0 ? NaN : $4):5 with points ls 2 ps 0.9, $runs using ($6 > 0 ? $4 : NaN):5 with points "
               "ls 1 ps 1.1");
-    return plot_close(&plot);
-}
-
-static struct number_table *ways_table(struct pool *pool, const struct told_cell *cell, const struct starts *starts)
-{
-    struct number_table *table = table_new(pool, starts->drawn, 6);
-    table_head(table, 0, "run");
-    for (int p = 0; p < 2; p++) {
-        const char *axis = axis_of(pool, cell, starts, p);
-        table_head(table, 1 + p, pool_format(pool, "start, %s", axis));
-        table_head(table, 3 + p, pool_format(pool, "end, %s", axis));
-    }
-    table_head(table, 5, "least functional");
-    for (int i = 0; i < starts->drawn; i++) {
-        const struct way *way = &starts->way[i];
-        table_cell(table, i, 0, human_fixed(pool, i + 1, 0));
-        for (int p = 0; p < 2; p++) {
-            table_cell(table, i, 1 + p, human_digits(pool, way->from[p], 4));
-            table_cell(table, i, 3 + p, human_digits(pool, way->to[p], 6));
-        }
-        table_cell(table, i, 5, way->reached ? "yes" : "no");
-    }
-    return table;
 }
 
 /* "within +-70 % of core.E = 60 GPa, core.G = 30 GPa", or where that differs from to of each. */
@@ -237,6 +216,11 @@ void figure_starts(struct document *document, const struct result *result)
     figure->alt =
         pool_format(pool, "%d points of departure over the plane of %s and %s, joined by lines to where the runs ended: %s.",
                     starts.drawn, cell->is.parameters[0].name, cell->is.parameters[1].name, end ? end : "");
-    figure->table = ways_table(pool, cell, &starts);
-    document->failed |= !figure->caption || !figure->alt || script(document, figure, result, &starts) != ROTID_OK;
+    struct series *runs = collect_runs(document, cell, &starts), *ways = collect_ways(document, cell, &starts);
+    struct plot plot;
+    figure->table = series_table(runs);
+    if (!runs || !ways || !figure_begin(document, figure, result->file, &plot))
+        return;
+    draw(&plot, cell, &starts, runs, ways);
+    figure_end(document, &plot);
 }

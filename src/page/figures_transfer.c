@@ -5,17 +5,14 @@
 #include "page/figures.h"
 #include "page/human.h"
 #include "page/palette.h"
-#include "page/plot.h"
+#include "page/series.h"
 
 #define MOST_FIGURES 4   /* of many functions: at the force, best, middle, worst */
 #define BUCKETS      900 /* of lines: what is drawn is no finer than the page */
 #define MOST_DECADES 7
 #define DEGREES      57.295779513082321
 
-struct curve { /* thinned: in each bucket the least and the largest magnitude, so that no peak is lost */
-    int count;
-    double *hz, *size, *phase;
-};
+enum { HZ, SIZE, PHASE }; /* columns */
 
 static double frac(const struct transfer_function *f)
 {
@@ -31,103 +28,114 @@ static int extreme(const double *size, int from, int to, int sign)
     return best;
 }
 
-/* NULL re: no curve. Nonzero: memory is out. */
-static int thin(struct pool *pool, int nline, const double *hz, const double *re, const double *im, struct curve *curve)
+/* The lines that are drawn of a function: in each bucket that of the least and that of the largest magnitude, so that no peak is
+ * lost. Their number. line [nline] */
+static int thin(int nline, const double *size, int *line)
 {
-    size_t room = (size_t)(nline < 2 * BUCKETS ? nline : 2 * BUCKETS);
-    *curve = (struct curve){.count = 0};
-    if (!re || !im)
-        return 0;
-    double *size = POOL_ARRAY(pool, double, nline), *kept = POOL_ARRAY(pool, double, 3 * room);
-    if (!size || !kept)
-        return 1;
-    *curve = (struct curve){0, kept, kept + room, kept + 2 * room};
-    for (int l = 0; l < nline; l++)
-        size[l] = hypot(re[l], im[l]);
-    int buckets = nline < 2 * BUCKETS ? nline : BUCKETS;
+    int count = 0, buckets = nline < 2 * BUCKETS ? nline : BUCKETS;
     for (int b = 0; b < buckets; b++) {
         int from = (int)((long long)b * nline / buckets), to = (int)((long long)(b + 1) * nline / buckets);
         int low = extreme(size, from, to, -1), high = extreme(size, from, to, 1);
-        for (int i = 0; i < 2 && low >= 0; i++) {
-            int l = (i == 0) == (low < high) ? low : high;
-            if (i && low == high)
-                break;
-            curve->hz[curve->count] = hz[l];
-            curve->size[curve->count] = size[l] > 0 ? size[l] : (double)NAN;
-            curve->phase[curve->count++] = DEGREES * atan2(im[l], re[l]);
-        }
+        if (low >= 0)
+            line[count++] = low < high ? low : high;
+        if (low != high)
+            line[count++] = low < high ? high : low;
     }
-    for (int i = curve->count - 1; i > 0; i--) /* no line across the picture where the phase turns over */
-        if (fabs(curve->phase[i] - curve->phase[i - 1]) > 180)
-            curve->phase[i] = NAN;
-    return 0;
+    return count;
+}
+
+/* re, im NULL: no rows. */
+static struct series *collect(struct document *document, const char *name, const char *unit, int nline, const double *hz,
+                              const double *re, const double *im)
+{
+    const struct column columns[] = {
+        {"frequency", "Hz", AS_PLACE, 0}, {"magnitude", unit, AS_PLACE, 0}, {"phase", "\xc2\xb0", AS_PLACE, 0}};
+    nline = re && im ? nline : 0;
+    double *size = POOL_ARRAY(document->pool, double, nline);
+    int *line = POOL_ARRAY(document->pool, int, nline);
+    if (!size || !line) {
+        document->failed = 1;
+        return NULL;
+    }
+    for (int l = 0; l < nline; l++)
+        size[l] = hypot(re[l], im[l]);
+    int count = thin(nline, size, line);
+    struct series *series = series_new(document, name, count, 3, columns);
+    for (int i = 0; i < count; i++) {
+        int l = line[i];
+        series_row(series, i, (const double[]){hz[l], size[l] > 0 ? size[l] : (double)NAN, DEGREES * atan2(im[l], re[l])});
+    }
+    double *phase = series_values(series, PHASE);
+    for (int i = count - 1; i > 0 && phase; i--) /* no line across the picture where the phase turns over */
+        if (fabs(phase[i] - phase[i - 1]) > 180)
+            phase[i] = NAN;
+    return series;
+}
+
+/* Whether a frequency of an elastic mode lies within the lines. */
+static int is_within(const struct transfer_result *out, const struct transfer_mode *mode, double hz)
+{
+    return !mode->rigid && hz >= out->low_hz && hz <= out->high_hz;
 }
 
 static void axes_of_modes(struct plot *plot, const struct transfer_result *out)
 {
     for (int m = 0; m < out->nmodes; m++)
-        if (!out->modes[m].rigid && out->modes[m].measured_hz >= out->low_hz && out->modes[m].measured_hz <= out->high_hz)
+        if (is_within(out, &out->modes[m], out->modes[m].measured_hz))
             plot_line(plot, "set label %d '' at %.6g, graph 1.03 point ls 21 front", ++plot->labels, out->modes[m].measured_hz);
 }
 
 static int has_measured_modes(const struct transfer_result *out)
 {
     for (int m = 0; m < out->nmodes; m++)
-        if (!out->modes[m].rigid && out->modes[m].measured_hz >= out->low_hz && out->modes[m].measured_hz <= out->high_hz)
+        if (is_within(out, &out->modes[m], out->modes[m].measured_hz))
             return 1;
     return 0;
 }
 
-static int script(struct document *document, struct figure *figure, const struct result *result,
-                  const struct transfer_function *f)
+static struct plot_range decades(struct series *series)
 {
-    struct pool *pool = document->pool;
-    const struct transfer_result *out = result->frf;
-    struct curve curve[2];
-    struct plot plot;
+    return plot_decades(series_rows(series), series_values(series, SIZE), MOST_DECADES);
+}
+
+/* measured: without rows where there is none. */
+static void draw(struct plot *plot, const struct transfer_result *out, struct series *synthesised, struct series *measured)
+{
     struct plot_entry entry[3] = {{.text = "synthesised", .style = 1, .keys = KEY_LINE}};
     struct plot_layout layout = {.panels = 2, .columns = {1, 1}, .height = 220, .left = 66, .right = 14, .top = 16, .bottom = 48};
-    int n = 1;
-    char unit[64];
-    if (thin(pool, f->nfrequency_hz, f->frequency_hz, f->synthesised_re, f->synthesised_im, &curve[0]) ||
-        thin(pool, f->nfrequency_hz, f->frequency_hz, f->measured_re, f->measured_im, &curve[1]))
-        return ROTID_ERROR_MEMORY;
-    if (curve[1].count)
+    struct plot_range range = decades(synthesised);
+    int n = 1, both = series_rows(measured) > 0;
+    if (both) {
+        struct plot_range other = decades(measured);
+        range = (struct plot_range){fmin(range.from, other.from), fmax(range.to, other.to)};
         entry[n++] = (struct plot_entry){.text = "measured", .style = 2, .keys = KEY_LINE};
+    }
     if (has_measured_modes(out))
         entry[n++] = (struct plot_entry){.text = "measured frequency", .style = 21, .keys = KEY_MARK};
     plot_head(entry, n, layout.head);
-    if (plot_open(&plot, pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    plot_line(&plot, "set style line 21 lc rgb VERMILION pt 11 ps 0.8\n# columns: frequency [Hz], magnitude, phase [degrees]");
-    plot_data(&plot, "synthesised", curve[0].count, 3, (const double *const[]){curve[0].hz, curve[0].size, curve[0].phase});
-    if (curve[1].count)
-        plot_data(&plot, "measured", curve[1].count, 3, (const double *const[]){curve[1].hz, curve[1].size, curve[1].phase});
-    struct plot_range range = plot_decades(curve[0].count, curve[0].size, MOST_DECADES);
-    if (curve[1].count) {
-        struct plot_range other = plot_decades(curve[1].count, curve[1].size, MOST_DECADES);
-        range.from = fmin(range.from, other.from);
-        range.to = fmax(range.to, other.to);
-    }
-    plot_begin(&plot, &layout);
+    plot_line(plot, "set style line 21 lc rgb VERMILION pt 11 ps 0.8");
+    plot_series(plot, synthesised);
+    if (both)
+        plot_series(plot, measured);
+    plot_begin(plot, &layout);
     for (int i = 0; i < 2; i++) {
-        plot_panel(&plot, i);
-        plot_line(&plot, "set xrange [%.6g:%.6g]", out->low_hz, out->high_hz);
+        char unit[64];
+        plot_panel(plot, i);
+        plot_line(plot, "set xrange [%.6g:%.6g]", out->low_hz, out->high_hz);
         if (i == 0) {
             (void)snprintf(unit, sizeof unit, "magnitude [%s]", strcmp(out->unit, "m/(s2 N)") ? out->unit : "m/(s\xc2\xb2 N)");
-            plot_decades_axis(&plot, 'y', &range, MOST_DECADES + 1);
-            plot_legend(&plot, entry, n);
-            axes_of_modes(&plot, out);
+            plot_decades_axis(plot, 'y', &range, MOST_DECADES + 1);
+            plot_legend(plot, entry, n);
+            axes_of_modes(plot, out);
         } else {
-            plot_line(&plot, "set yrange [-190:190]\nset ytics 90");
+            plot_line(plot, "set yrange [-190:190]\nset ytics 90");
         }
-        plot_axes(&plot, "frequency [Hz]", i ? "phase [\xc2\xb0]" : unit);
-        if (curve[1].count)
-            plot_line(&plot, "plot $synthesised using 1:%d with lines ls 1, $measured using 1:%d with lines ls 2", i + 2, i + 2);
-        else
-            plot_line(&plot, "plot $synthesised using 1:%d with lines ls 1", i + 2);
+        plot_axes(plot, "frequency [Hz]", i ? "phase [\xc2\xb0]" : unit);
+        plot_line(plot, "plot $synthesised using 1:%d with lines ls 1%s", i + 2,
+                  !both ? ""
+                  : i   ? ", $measured using 1:3 with lines ls 2"
+                        : ", $measured using 1:2 with lines ls 2");
     }
-    return plot_close(&plot);
 }
 
 static const char *caption(struct pool *pool, const struct transfer_result *out, const struct transfer_function *f)
@@ -169,37 +177,31 @@ static int nearest(const struct transfer_function *f, double hz)
     return best;
 }
 
-static void add_value(struct number_table *table, struct pool *pool, int row, int column, double re, double im)
+/* Both curves at the frequencies of the model; NULL without lines. */
+static struct series *collect_peaks(struct document *document, const struct transfer_result *out,
+                                    const struct transfer_function *f)
 {
-    table_cell(table, row, column, human_digits(pool, hypot(re, im), 3));
-    table_cell(table, row, column + 1, human_signed(pool, DEGREES * atan2(im, re), 1));
-}
-
-/* Both curves at the frequencies of the model. */
-static struct number_table *peaks_table(struct pool *pool, const struct transfer_result *out, const struct transfer_function *f)
-{
-    int rows = 0, row = 0, columns = f->measured_re ? 6 : 4;
+    const struct column columns[] = {
+        {"mode", NULL, AS_FIXED, 0},         {"line", "Hz", AS_FIXED, 2},           {"synthesised", out->unit, AS_DIGITS, 3},
+        {"phase", "\xc2\xb0", AS_SIGNED, 1}, {"measured", out->unit, AS_DIGITS, 3}, {"phase", "\xc2\xb0", AS_SIGNED, 1}};
+    int rows = 0, row = 0;
     for (int m = 0; m < out->nmodes; m++)
-        rows += !out->modes[m].rigid && out->modes[m].model_hz >= out->low_hz && out->modes[m].model_hz <= out->high_hz;
-    struct number_table *table = f->nfrequency_hz ? table_new(pool, rows, columns) : NULL;
-    table_head(table, 0, "mode");
-    table_head(table, 1, "line [Hz]");
-    for (int c = 2; c < columns; c += 2) {
-        table_head(table, c, pool_format(pool, "%s [%s]", c == 2 ? "synthesised" : "measured", out->unit));
-        table_head(table, c + 1, "phase [\xc2\xb0]");
-    }
-    for (int m = 0; m < out->nmodes && row < rows && table; m++) {
-        if (out->modes[m].rigid || out->modes[m].model_hz < out->low_hz || out->modes[m].model_hz > out->high_hz)
+        rows += is_within(out, &out->modes[m], out->modes[m].model_hz);
+    struct series *series = f->nfrequency_hz ? series_new(document, "peaks", rows, f->measured_re ? 6 : 4, columns) : NULL;
+    for (int m = 0; m < out->nmodes && f->nfrequency_hz; m++) {
+        double hz = out->modes[m].model_hz;
+        if (!is_within(out, &out->modes[m], hz))
             continue;
-        int l = nearest(f, out->modes[m].model_hz);
-        table_cell(table, row, 0, human_fixed(pool, out->modes[m].mode, 0));
-        table_cell(table, row, 1, human_fixed(pool, f->frequency_hz[l], 2));
-        add_value(table, pool, row, 2, f->synthesised_re[l], f->synthesised_im[l]);
-        if (f->measured_re)
-            add_value(table, pool, row, 4, f->measured_re[l], f->measured_im[l]);
-        row++;
+        int l = nearest(f, hz);
+        double value[6] = {out->modes[m].mode, f->frequency_hz[l], hypot(f->synthesised_re[l], f->synthesised_im[l]),
+                           DEGREES * atan2(f->synthesised_im[l], f->synthesised_re[l])};
+        if (f->measured_re) {
+            value[4] = hypot(f->measured_re[l], f->measured_im[l]);
+            value[5] = DEGREES * atan2(f->measured_im[l], f->measured_re[l]);
+        }
+        series_row(series, row++, value);
     }
-    return table;
+    return series;
 }
 
 static void add(struct document *document, const struct result *result, const struct transfer_function *f, const char *why)
@@ -214,8 +216,17 @@ static void add(struct document *document, const struct result *result, const st
     figure->alt = pool_format(pool, "Magnitude with peaks at the resonances, and phase, from %s to %s Hz%s.",
                               human_trimmed(pool, out->low_hz, 4), human_trimmed(pool, out->high_hz, 5),
                               f->measured_re ? ", synthesised and measured" : ", synthesised");
-    figure->table = peaks_table(pool, out, f);
-    document->failed |= !id || !title || !figure->caption || !figure->alt || script(document, figure, result, f) != ROTID_OK;
+    int n = f->nfrequency_hz;
+    struct series *synthesised =
+                      collect(document, "synthesised", out->unit, n, f->frequency_hz, f->synthesised_re, f->synthesised_im),
+                  *measured = collect(document, "measured", out->unit, n, f->frequency_hz, f->measured_re, f->measured_im);
+    struct plot plot;
+    document->failed |= !id || !title;
+    figure->table = series_table(collect_peaks(document, out, f));
+    if (!synthesised || !measured || !figure_begin(document, figure, result->file, &plot))
+        return;
+    draw(&plot, out, synthesised, measured);
+    figure_end(document, &plot);
 }
 
 /* Functions by rising agreement with the measured ones; those without are left as they are. */

@@ -5,6 +5,7 @@
 #include "page/figures_study.h"
 #include "page/human.h"
 #include "page/rows.h"
+#include "page/series.h"
 #include "study/summary.h"
 
 #define LEAST_WIDE 0.09 /* of a bar, for a number in it */
@@ -65,7 +66,7 @@ static int is_face(const char *color) /* light: numbers on it in INK */
     return !strcmp(color, "LEAF") || !strcmp(color, "STEEL") || !strcmp(color, "ROSE");
 }
 
-static void draw_verdicts(struct plot *plot, const struct verdicts *v)
+static void draw_bars(struct plot *plot, const struct verdicts *v)
 {
     int object = 0;
     for (int i = 0; i < v->rows; i++) {
@@ -88,55 +89,46 @@ static void draw_verdicts(struct plot *plot, const struct verdicts *v)
     }
 }
 
-static int verdicts_script(struct document *document, struct figure *figure, const struct result *result,
-                           const struct verdicts *v)
+static const char *label_of(const struct told_cell *cell)
+{
+    return *cell->label ? cell->label : "all runs";
+}
+
+static struct series *series_of(struct document *document, const struct verdicts *v)
+{
+    struct column column[2 + STUDY_SCORES] = {{"cell", NULL, AS_TEXT, 0}, {"runs", NULL, AS_FIXED, 0}};
+    for (int k = 0; k < v->nshown; k++)
+        column[2 + k] = (struct column){v->part[v->shown[k]].text, NULL, AS_FIXED, 0};
+    struct series *series = series_new(document, "verdicts", v->rows, 2 + v->nshown, column);
+    for (int i = 0; i < v->rows; i++) {
+        double row[1 + STUDY_SCORES] = {v->cell[i]->is.diagnoses->count};
+        for (int k = 0; k < v->nshown; k++)
+            row[1 + k] = part_of(v, v->cell[i], k);
+        series_row(series, i, row);
+        series_text(series, i, 0, label_of(v->cell[i]));
+    }
+    return series;
+}
+
+static void draw(struct plot *plot, const struct series *series, const struct verdicts *v)
 {
     struct plot_layout layout = rows_layout(v->rows);
     struct plot_entry entry[STUDY_SCORES];
     const char *name[ROWS_MOST] = {NULL};
-    struct plot plot;
     for (int k = 0; k < v->nshown; k++)
         entry[k] = (struct plot_entry){.text = v->part[v->shown[k]].text, .keys = KEY_FACE, .face = v->part[v->shown[k]].color};
     plot_head(entry, v->nshown, layout.head);
-    if (plot_open(&plot, document->pool, figure, result->file))
-        return ROTID_ERROR_MEMORY;
-    (void)fputs("# rows from below; columns:", plot.out);
-    for (int k = 0; k < v->nshown; k++)
-        (void)fprintf(plot.out, " %s,", v->part[v->shown[k]].text);
-    (void)fputs(" runs\n$verdicts << end\n", plot.out);
-    for (int i = v->rows - 1; i >= 0; i--) {
-        for (int k = 0; k < v->nshown; k++)
-            (void)fprintf(plot.out, "%.0f ", part_of(v, v->cell[i], k));
-        (void)fprintf(plot.out, "%d\n", v->cell[i]->is.diagnoses->count);
-    }
-    (void)fputs("end\n", plot.out);
-    plot_begin(&plot, &layout);
-    plot_panel(&plot, 0);
-    plot_legend(&plot, entry, v->nshown);
-    plot_line(&plot, "set xrange [0:100]\nset xtics 20");
+    plot_series(plot, series);
+    plot_begin(plot, &layout);
+    plot_panel(plot, 0);
+    plot_legend(plot, entry, v->nshown);
+    plot_line(plot, "set xrange [0:100]\nset xtics 20");
     for (int i = 0; i < v->rows; i++)
-        name[i] = *v->cell[i]->label ? v->cell[i]->label : "all runs";
-    rows_draw(&plot, v->rows, name);
-    plot_axes(&plot, "share of the runs [%]", NULL);
-    draw_verdicts(&plot, v);
-    plot_line(&plot, "plot NaN");
-    return plot_close(&plot);
-}
-
-static struct number_table *verdicts_table(struct pool *pool, const struct verdicts *v)
-{
-    struct number_table *table = table_new(pool, v->rows, 2 + v->nshown);
-    table_head(table, 0, "cell");
-    table_head(table, 1, "runs");
-    for (int k = 0; k < v->nshown; k++)
-        table_head(table, 2 + k, v->part[v->shown[k]].text);
-    for (int i = 0; i < v->rows; i++) {
-        table_cell(table, i, 0, *v->cell[i]->label ? v->cell[i]->label : "all runs");
-        table_cell(table, i, 1, human_fixed(pool, v->cell[i]->is.diagnoses->count, 0));
-        for (int k = 0; k < v->nshown; k++)
-            table_cell(table, i, 2 + k, human_fixed(pool, part_of(v, v->cell[i], k), 0));
-    }
-    return table;
+        name[i] = label_of(v->cell[i]);
+    rows_draw(plot, v->rows, name);
+    plot_axes(plot, "share of the runs [%]", NULL);
+    draw_bars(plot, v);
+    plot_line(plot, "plot NaN");
 }
 
 void figure_verdicts(struct document *document, const struct result *result)
@@ -160,6 +152,12 @@ void figure_verdicts(struct document *document, const struct result *result)
     figure->caption = pool_format(pool, "Of %.0f diagnoses: %s. Numbers in the bars are runs.", runs, says ? says : "");
     figure->alt =
         pool_format(pool, "A bar for each of %d cells, divided by verdicts. Of all runs: %s.", v.rows, says ? says : "");
-    figure->table = verdicts_table(pool, &v);
-    document->failed |= !says || !figure->caption || !figure->alt || verdicts_script(document, figure, result, &v) != ROTID_OK;
+    document->failed |= !says;
+    struct series *series = series_of(document, &v);
+    struct plot plot;
+    figure->table = series_table(series);
+    if (!series || !figure_begin(document, figure, result->file, &plot))
+        return;
+    draw(&plot, series, &v);
+    figure_end(document, &plot);
 }

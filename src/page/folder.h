@@ -17,15 +17,15 @@ struct folder {
     int work, figures; /* of beside, and of the folder of figures in it */
 };
 
-/* Makes the folder to write in. ROTID_OK; ROTID_ERROR_ARGUMENT: path is no folder, or holds what is not of rotid; ROTID_ERROR_IO;
- * ROTID_ERROR_MEMORY. What is wrong stands in the messages; then there is nothing to close. */
+/* Makes the folder to write in. ROTID_OK; ROTID_ERROR_ARGUMENT: path is no folder, or holds files that are not of rotid;
+ * ROTID_ERROR_IO; ROTID_ERROR_MEMORY. What is wrong stands in the messages; then there is nothing to close. */
 int folder_open(struct pool *pool, const char *path, int count, struct figure *const figure[], struct message_list *messages,
                 struct folder *folder);
 /* A new file in `where`, which is folder->work or folder->figures; ROTID_OK, or ROTID_ERROR_IO with a message. */
 int folder_write(const struct folder *folder, int where, const char *name, const char *text, struct message_list *messages);
 /* All of it takes its final names, the page last. ROTID_OK, or ROTID_ERROR_IO with a message and nothing left beside. */
 int folder_close(struct folder *folder, struct message_list *messages);
-/* Removes what was written. */
+/* Removes the written files. */
 void folder_abandon(struct folder *folder);
 
 #endif

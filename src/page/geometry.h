@@ -18,7 +18,7 @@ int geometry_is_of(const rotid_group *group, const char *parameter);
 /* Elements along the axis. */
 int geometry_elements(const rotid_geometry *geometry);
 
-/* Tie rods and bars as what is drawn of both, the tie rods first. */
+/* The parts of tie rods and bars that are drawn, the tie rods first. */
 struct bundle {
     const char *name; /* or NULL */
     int is_bars, number;

@@ -5,7 +5,7 @@
 #include "page/figure.h"
 
 struct gnuplot {
-    const char *path;    /* what is run: $GNUPLOT, or gnuplot out of PATH */
+    const char *path;    /* of the program: $GNUPLOT, or gnuplot out of PATH */
     const char *version; /* "5.4 patchlevel 4", NULL: there is none that can be used */
     const char *why;     /* then: in a sentence, without a full stop */
 };

@@ -6,7 +6,7 @@
 
 #include "page/figure.h"
 
-/* A text of any origin: & < > and quotes as references; what is not UTF-8, and controls (of direction as
+/* A text of any origin: & < > and quotes as references; bytes that are not UTF-8, and controls (of direction as
  * well, which would show another text than there is), as U+FFFD. */
 void html_text(FILE *out, const char *text);
 

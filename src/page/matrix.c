@@ -75,17 +75,16 @@ static struct series *collect(struct document *document, int count, const struct
 {
     const struct matrix_panel *m = &panel[i];
     struct pool *pool = document->pool;
-    const char *name = pool_format(pool, "matrix%d", i + 1);
     struct column *column = POOL_ARRAY(pool, struct column, m->columns + 1);
     double *row = POOL_ARRAY(pool, double, m->columns);
-    if (!name || !column || !row) {
+    if (!column || !row) {
         document->failed = 1;
         return NULL;
     }
     column[0] = (struct column){count > 1 ? "matrix and row" : m->row_axis ? m->row_axis : "", NULL, AS_TEXT, 0};
     for (int j = 0; j < m->columns; j++)
         column[j + 1] = (struct column){m->column[j], NULL, AS_FIXED, 3};
-    struct series *series = series_new(document, name, m->rows, m->columns + 1, column);
+    struct series *series = series_new(document, pool_format(pool, "matrix%d", i + 1), m->rows, m->columns + 1, column);
     for (int r = 0; r < m->rows; r++) {
         for (int j = 0; j < m->columns; j++)
             row[j] = m->value[r + (ptrdiff_t)j * m->rows];

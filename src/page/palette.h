@@ -1,4 +1,4 @@
-/* Colours by what they are for. Scripts name them (BLUE); files that stand alone carry the light values, by which a picture in
+/* Colours by their purpose. Scripts name them (BLUE); files that stand alone carry the light values, by which a picture in
  * a page finds the dark ones. After Okabe and Ito (2008), darkened or lightened until each
  * has a contrast of 4.5 against both grounds of its scheme: they tell apart without red and green, and read as text. */
 #ifndef ROTID_PAGE_PALETTE_H
@@ -18,7 +18,7 @@ extern const struct role palette[]; /* ended by one without a name */
 #define SERIES 5
 extern const char *const series_color[SERIES];
 
-/* The name of the k-th of 0 ... 10 steps of the ramp from nothing to much; and of what is written on it. */
+/* The name of the k-th of 0 ... 10 steps of the ramp from nothing to much; and of the text on it. */
 const char *palette_ramp(double share);
 const char *palette_on_ramp(double share);
 

@@ -129,20 +129,6 @@ void plot_decades_axis(struct plot *plot, char axis, const struct plot_range *ra
     (void)fputs(")\n", plot->out);
 }
 
-void plot_data(struct plot *plot, const char *name, int rows, int columns, const double *const column[])
-{
-    (void)fprintf(plot->out, "$%s << end\n", name);
-    for (int i = 0; i < rows; i++)
-        for (int j = 0; j < columns; j++) {
-            if (isfinite(column[j][i]))
-                (void)fprintf(plot->out, "%.7g", column[j][i]);
-            else
-                (void)fputs("NaN", plot->out);
-            (void)fputc(j + 1 < columns ? ' ' : '\n', plot->out);
-        }
-    (void)fputs("end\n", plot->out);
-}
-
 void plot_begin(struct plot *plot, const struct plot_layout *layout)
 {
     FILE *out = plot->out;

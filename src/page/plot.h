@@ -53,11 +53,9 @@ struct plot {
 int plot_open(struct plot *plot, struct pool *pool, struct figure *figure, const char *source);
 /* A text of a user within a comment. */
 void plot_comment(struct plot *plot, const char *text);
-/* $name: rows of columns; NaN for what is not finite. Before plot_begin. */
-void plot_data(struct plot *plot, const char *name, int rows, int columns, const double *const column[]);
 /* From here on everything is done once for each layout: W, H [px], COLUMNS and `narrow` are set in the script. */
 void plot_begin(struct plot *plot, const struct plot_layout *layout);
-/* Room of panel i; what was set for the one before is gone. */
+/* Room of panel i; the settings of the panel before are gone. */
 void plot_panel(struct plot *plot, int i);
 /* What the axes of the current panel show, with units. NULL where an axis has none. */
 void plot_axes(struct plot *plot, const char *x, const char *y);
@@ -79,14 +77,14 @@ void plot_legend(struct plot *plot, const struct plot_entry *entry, int count);
 /* Ends the script, which hangs on the figure. ROTID_OK or ROTID_ERROR_MEMORY. */
 int plot_close(struct plot *plot);
 
-/* Least and largest of what is finite, widened by `margin` of their distance at both ends; 0 ... 1 of nothing. */
+/* Least and largest finite value, widened by `margin` of their distance at both ends; 0 ... 1 of nothing. */
 struct plot_range {
     double from, to;
 };
 struct plot_range plot_range_of(int count, const double *value, double margin);
 void plot_range_join(struct plot_range *range, double value);
 double plot_share(const struct plot_range *range, double value); /* 0 ... 1 */
-/* Whole decades around what is above zero, as exponents; at most `most` decades, the upper ones. */
+/* Whole decades around the values above zero, as exponents; at most `most` decades, the upper ones. */
 struct plot_range plot_decades(int count, const double *value, int most);
 
 /* Axis 'x' or 'y' is logarithmic over these decades, with at most about `most` of them numbered. */

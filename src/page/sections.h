@@ -15,7 +15,7 @@ void answer_study(struct document *document, const struct result *result);
 /* Another result in a sentence, without a judgement. */
 void answer_plain(struct document *document, const struct result *result);
 
-/* Deck, version, commit, seed, noise and data of all results, what they note, and what older ones lack. */
+/* Deck, version, commit, seed, noise and data of all results, their notes, and the keys that older ones lack. */
 void section_rests_on(struct document *document, int count, const struct result *result);
 
 void section_rotor(struct document *document, const struct result *result, const rotid_identification *fit);

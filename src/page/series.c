@@ -14,24 +14,36 @@ struct series {
     const char **text;           /* [rows * columns] by rows, NULL: the number */
 };
 
+/* The same with texts of its own; name NULL: memory is out. */
+static struct column keep(struct pool *pool, const struct column *column)
+{
+    struct column kept = *column;
+    kept.name = column->name ? pool_copy_text(pool, column->name) : NULL;
+    kept.unit = column->unit ? pool_copy_text(pool, column->unit) : NULL;
+    if (column->unit && !kept.unit)
+        kept.name = NULL;
+    return kept;
+}
+
 struct series *series_new(struct document *document, const char *name, int rows, int columns, const struct column column[])
 {
     struct pool *pool = document->pool;
     struct series *series = POOL_NEW(pool, struct series);
     struct column *kept = POOL_ARRAY(pool, struct column, columns);
     double **value = POOL_ARRAY(pool, double *, columns), *number = POOL_ARRAY(pool, double, (size_t)rows *(size_t)columns);
-    const char **text = POOL_ARRAY(pool, const char *, (size_t)rows *(size_t)columns), *own = pool_copy_text(pool, name);
-    if (!series || !kept || !value || !number || !text || !own) {
-        document->failed = 1;
-        return NULL;
-    }
-    for (int j = 0; j < columns; j++) {
-        kept[j] = column[j];
+    const char **text = POOL_ARRAY(pool, const char *, (size_t)rows *(size_t)columns);
+    int failed = !series || !kept || !value || !number || !text || !name;
+    for (int j = 0; j < columns && !failed; j++) {
+        kept[j] = keep(pool, &column[j]);
         value[j] = number + (ptrdiff_t)j * rows;
         for (int i = 0; i < rows; i++)
             value[j][i] = NAN;
+        failed = !kept[j].name;
     }
-    *series = (struct series){document, own, rows, columns, kept, value, text};
+    document->failed |= failed;
+    if (failed)
+        return NULL;
+    *series = (struct series){document, name, rows, columns, kept, value, text};
     return series;
 }
 
@@ -50,6 +62,11 @@ void series_text(struct series *series, int row, int column, const char *text)
     series->text[row * series->columns + column] = text;
 }
 
+int series_rows(const struct series *series)
+{
+    return series ? series->rows : 0;
+}
+
 double *series_values(struct series *series, int column)
 {
     return series ? series->value[column] : NULL;
@@ -63,9 +80,10 @@ static const char *cell_of(const struct series *series, int row, int column)
     double value = series->value[column][row];
     if (text || c->look == AS_TEXT)
         return text;
-    return c->look == AS_FIXED    ? human_fixed(pool, value, c->digits)
-           : c->look == AS_SIGNED ? human_signed(pool, value, c->digits)
-                                  : human_digits(pool, value, c->digits);
+    return c->look == AS_FIXED     ? human_fixed(pool, value, c->digits)
+           : c->look == AS_SIGNED  ? human_signed(pool, value, c->digits)
+           : c->look == AS_TRIMMED ? human_trimmed(pool, value, c->digits)
+                                   : human_digits(pool, value, c->digits);
 }
 
 static int columns_shown(const struct series *series)
@@ -122,27 +140,42 @@ struct number_table *series_table(const struct series *series)
     return series_table_of(1, &series);
 }
 
+static void write_values(FILE *out, const struct series *series, int row)
+{
+    const char *between = "";
+    for (int j = 0; j < series->columns; j++) {
+        if (series->column[j].look == AS_TEXT)
+            continue;
+        double value = series->value[j][row];
+        if (isfinite(value))
+            (void)fprintf(out, "%s%.7g", between, value);
+        else
+            (void)fprintf(out, "%sNaN", between);
+        between = " ";
+    }
+    (void)fputc('\n', out);
+}
+
 void plot_series(struct plot *plot, const struct series *series)
 {
     int count = 0;
     if (!series)
         return;
-    const double **data = POOL_ARRAY(plot->pool, const double *, series->columns);
     (void)fprintf(plot->out, "# columns of $%s\n", series->name);
-    for (int j = 0; j < series->columns && data; j++) {
+    for (int j = 0; j < series->columns; j++) {
         const struct column *c = &series->column[j];
         if (c->look == AS_TEXT)
             continue;
-        data[count++] = series->value[j];
-        (void)fprintf(plot->out, "#   %d ", count);
+        (void)fprintf(plot->out, "#   %d ", ++count);
         plot_comment(plot, c->name);
         (void)fputs(" [", plot->out);
         plot_comment(plot, c->unit ? c->unit : "1");
         (void)fputs("]\n", plot->out);
     }
-    series->document->failed |= !data;
-    if (data)
-        plot_data(plot, series->name, series->rows, count, data);
+    (void)fprintf(plot->out, "$%s << end\n", series->name);
+    for (int i = 0; i < series->rows; i++)
+        write_values(plot->out, series, i);
+    (void)fputs("end\n", plot->out);
 }
 
 int figure_begin(struct document *document, struct figure *figure, const char *source, struct plot *plot)

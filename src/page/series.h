@@ -16,9 +16,9 @@
 #include "page/document.h"
 #include "page/plot.h"
 
-/* How the table shows the numbers: with so many decimals, with a sign too, with so many significant digits; not at all, since
- * they only say where something is drawn; or texts, which are not among the data. */
-enum column_look { AS_FIXED, AS_SIGNED, AS_DIGITS, AS_PLACE, AS_TEXT };
+/* How the table shows the numbers: with so many decimals, with a sign too, with so many significant digits, without zeros at the
+ * end of these; not at all, since they only say where something is drawn; or texts, which are not among the data. */
+enum column_look { AS_FIXED, AS_SIGNED, AS_DIGITS, AS_TRIMMED, AS_PLACE, AS_TEXT };
 
 struct column {
     const char *name, *unit; /* "objective", "1"; unit NULL: none is told */
@@ -28,13 +28,16 @@ struct column {
 
 struct series; /* columns by rows */
 
-/* All NaN, or without a text. name: of the data in the script, as $name. */
+/* All NaN, or without a text. name: of the data in the script, as $name. A name that is NULL, of a column too: memory is out. The
+ * texts of the columns are copied, name is not. */
 struct series *series_new(struct document *document, const char *name, int rows, int columns, const struct column column[]);
 /* The numbers of a row, in the order of the columns without texts. */
 void series_row(struct series *series, int row, const double value[]);
 /* A cell of the table in the place of what would stand there; text NULL: memory is out. */
 void series_text(struct series *series, int row, int column, const char *text);
-/* The numbers [rows] of a column; NULL where memory is out. */
+/* 0 of none. */
+int series_rows(const struct series *series);
+/* The numbers [rows] of a column, followed by those of the next; NULL where memory is out. */
 double *series_values(struct series *series, int column);
 
 /* The table of numbers; NULL where memory is out. */
@@ -42,7 +45,7 @@ struct number_table *series_table(const struct series *series);
 /* The rows of several ones, one after the other, under a head of the first one's names and of the others' where they differ:
  * "measured [Hz], or z [m]". They have as many columns that are shown. */
 struct number_table *series_table_of(int count, const struct series *const series[]);
-/* The data with a comment that names the columns, before plot_begin. */
+/* The data with a comment that names the columns, NaN for what is not finite; before plot_begin. */
 void plot_series(struct plot *plot, const struct series *series);
 
 /* Begins the script of a figure: 1, or 0 where memory is out. Ends the script; a figure that lacks a text marks the document. */

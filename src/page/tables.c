@@ -33,11 +33,6 @@ struct number_table *tables_parameters(struct pool *pool, const rotid_identifica
     return table;
 }
 
-static double reference_value(const rotid_reference *reference, int k)
-{
-    return reference && k < reference->nvalues ? reference->values[k] : (double)NAN;
-}
-
 struct number_table *tables_fitted_modes(struct pool *pool, const struct result *result, const rotid_identification *fit)
 {
     static const char *const head[] = {"mode",      "measured [Hz]",  "predicted [Hz]",     "error [%]", "noise [%]",

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "report/report_frf.h"
+#include "result/transfer.h"
 #include "uff/uff_write.h"
 
 static int by_id(const void *left, const void *right)
@@ -60,7 +61,7 @@ static int write_function(FILE *stream, const struct frf_view *view, int i, doub
     f.response_direction = f.reference_direction = direction_of(view, row);
     f.step = r->nline > 1 ? (r->frequency_hz[r->nline - 1] - f.start) / (r->nline - 1) : 1;
     f.is_even = 1; /* lines of a measured file and of LOW, HIGH are */
-    (void)snprintf(f.id[0], sizeof f.id[0], "synthesised %s %d over %d", frf_quantity_word(r->quantity), row->response,
+    (void)snprintf(f.id[0], sizeof f.id[0], "synthesised %s %d over %d", transfer_quantity_words[r->quantity], row->response,
                    row->reference);
     (void)snprintf(f.numerator.label, sizeof f.numerator.label, "%s", labels[r->quantity]);
     (void)snprintf(f.numerator.unit, sizeof f.numerator.unit, "%s", units[r->quantity]);

@@ -99,8 +99,12 @@ static void forget(struct output *output, int remove)
     errno = reason;
 }
 
-int output_close(struct output *output)
+int output_close(struct output *output, int status)
 {
+    if (status) {
+        output_abandon(output);
+        return status;
+    }
     int failed = finish(output) || (output->beside && take_name(output));
     forget(output, failed);
     return failed ? ROTID_ERROR_IO : ROTID_OK;
@@ -185,11 +189,13 @@ int output_close_all(int count, struct output *output, int *failed)
 
 void output_abandon(struct output *output)
 {
+    int reason = errno;
     (void)fclose(output->stream); /* what did not arrive is not wanted */
     if (output->beside)
         (void)unlink(output->beside);
     free(output->beside);
     *output = (struct output){0};
+    errno = reason;
 }
 
 const char *output_error(void)
@@ -205,11 +211,5 @@ int output_write(const char *path, const char *text)
     int status = output_open(&output, path);
     if (status)
         return status;
-    if (fputs(text, output.stream) < 0) {
-        int reason = errno;
-        output_abandon(&output);
-        errno = reason;
-        return ROTID_ERROR_IO;
-    }
-    return output_close(&output);
+    return output_close(&output, fputs(text, output.stream) < 0 ? ROTID_ERROR_IO : ROTID_OK);
 }

@@ -1,13 +1,12 @@
-/* Results of the modal extraction: tables for a person, JSON for programs. */
+/* Results of the modal extraction: as a table, and as the struct of their JSON. */
 #ifndef ROTID_REPORT_REPORT_EMA_H
 #define ROTID_REPORT_REPORT_EMA_H
 
 #include <stdio.h>
 
-#include "base/message.h"
+#include "base/pool.h"
 #include "ema/ema.h"
 #include "import/measurement.h"
-#include "report/json.h"
 
 struct ema_report {
     const char *file;   /* that was read */
@@ -22,7 +21,7 @@ struct ema_report {
  * channel.
  */
 void table_ema(FILE *out, const struct ema_report *report, int all);
-/* To be freed with json_free, or NULL where memory is out. */
-char *json_ema(const struct provenance *provenance, const struct ema_report *report, const struct message_list *notes);
+/* On the pool; NULL where memory is out. */
+const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *report);
 
 #endif

@@ -1,11 +1,12 @@
-/* Synthesised transfer functions beside measured ones: as tables with a plot, as JSON, as universal file. */
+/* Synthesised transfer functions beside measured ones: as tables with a plot, as the struct of their
+ * JSON, as universal file. */
 #ifndef ROTID_REPORT_REPORT_FRF_H
 #define ROTID_REPORT_REPORT_FRF_H
 
 #include <stdio.h>
 
 #include "base/complex.h"
-#include "report/json.h"
+#include "result/head.h"
 #include "run/frf_run.h"
 
 struct frf_view {
@@ -18,21 +19,16 @@ struct frf_view {
 };
 
 /* ROTID_OK or ROTID_ERROR_MEMORY. */
-int table_frf(FILE *out, const struct frf_view *view);
+int table_frf(FILE *out, const struct result_head *head, const struct frf_view *view);
 
 /* The functions of JSON carry their curves up to this many lines of all of them together; more belong in a universal file. */
 #define JSON_FRF_MOST_LINES 250000
 
-/* A text to be freed with json_free, or NULL where memory is out. */
-char *json_frf(const struct provenance *provenance, const struct frf_view *view, const struct message_list *notes);
+/* On view->pool; NULL where memory is out. */
+const struct transfer_result *frf_result_of(const struct frf_view *view);
 
 /* Sets 151, 164 (SI), 2411 and a set 58 for each synthesised function. Statuses of uff_write.h, ROTID_ERROR_MEMORY. */
 int frf_write_file(FILE *stream, const char *version, const struct frf_view *view);
-
-/* "acceleration over force" and so on, its unit, and the word of the card. */
-const char *frf_quantity_text(enum frf_quantity quantity);
-const char *frf_quantity_unit(enum frf_quantity quantity);
-const char *frf_quantity_word(enum frf_quantity quantity);
 
 /* Log magnitude over frequency, and phase below, on `columns` columns: '*' synthesised, 'o' measured (NULL where there is none),
  * '@' both. Of the lines that share a column the largest magnitude is drawn. */

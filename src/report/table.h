@@ -6,17 +6,15 @@
 
 #include "result/result.h"
 #include "run/job.h"
-#include "run/sensitivity.h"
 
 void table_heading(FILE *out, const struct result_head *head);
-void table_job_heading(FILE *out, const struct job *job);
 /* The warnings that have no place in a file: the others have been said on standard error. */
 void table_notes(FILE *out, const struct message_list *notes);
 /* job: whose CAUSE cards are told. */
 void table_check(FILE *out, const struct result *result, const struct job *job);
 /* shapes: with the shape of every mode at every sensor. */
 void table_modes(FILE *out, const struct result *result, int shapes);
-void table_sensitivity(FILE *out, const struct job *job, const struct sensitivity *result);
+void table_sensitivity(FILE *out, const struct result *result);
 /* baseline: NLopt was asked for; history: with the iterations. */
 void table_identify(FILE *out, const struct result *result, int baseline, int history);
 

@@ -55,28 +55,20 @@ static double value_of(const rotid_identification *fit, const char *name)
     return parameter ? parameter->value : NAN;
 }
 
-/* How well it reaches the frequencies, and what of that is the reduction. */
+/* Errors of its frequencies, and the share of the reduction in them. */
 static void print_frequencies_today(const struct diagnosis_view *view)
 {
     const rotid_diagnosis *d = view->diagnosis;
     const rotid_identification *fit = d->today;
     struct wrap wrap;
-    double sum = 0, most = 0;
-    int count = 0, shown = 0, found = !strcmp(fit->reduction, "NONE");
-    for (int k = 0; k < fit->nmodes; k++) {
-        double error = fit->modes[k].error_percent;
-        if (fit->modes[k].holdout || !isfinite(error))
-            continue;
-        sum += error * error;
-        most = fmax(most, fabs(error));
-        count++;
-    }
-    if (!count)
+    int shown = 0, found = !strcmp(fit->reduction, "NONE"), worst = fit_worst_mode(fit);
+    if (worst < 0)
         return;
     for (int i = 0; i < d->nnumerical_findings; i++) /* says it mode by mode */
         found |= !strcmp(d->numerical_findings[i].id, "guyan_reduction");
     wrap_open(&wrap, view->out, 4, view->width, "  ");
-    wrap_item(&wrap, "frequencies that were fitted: error %.3g %% rms, %.3g %% at most", sqrt(sum / count), most);
+    wrap_item(&wrap, "frequencies that were fitted: error %.3g %% rms, %.3g %% at most", fit_rms_percent(fit, 0),
+              fabs(fit->modes[worst].error_percent));
     for (int k = 0; k < fit->nmodes && !found; k++) {
         double error = fit->reduction_error_percent[k];
         if (isfinite(error))

@@ -17,7 +17,7 @@ struct diagnosis_view {
 void table_diagnose(const struct diagnosis_view *view);
 
 /* Its parts. */
-void table_misfit(const struct diagnosis_view *view);           /* what is wrong: modes, sensors, place */
+void table_misfit(const struct diagnosis_view *view);           /* misfit by modes, sensors, places */
 void table_evidence(const struct diagnosis_view *view);         /* candidates of every round */
 void table_gain(const struct diagnosis_view *view);             /* before and after: quality and parameters */
 void table_detection_limits(const struct diagnosis_view *view); /* smallest sizes that would show */

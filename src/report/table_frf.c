@@ -4,28 +4,12 @@
 #include "report/layout.h"
 #include "report/report_frf.h"
 #include "report/table.h"
+#include "result/transfer.h"
 
 #define MOST_ROWS 40 /* beyond it the worst ones and a count */
 #define WORST     10
 #define COLUMNS   88   /* of the plot */
 #define FLIPPED   0.05 /* gain of FRAC with the conjugate that is no accident */
-
-const char *frf_quantity_text(enum frf_quantity quantity)
-{
-    return quantity == FRF_DISPLACEMENT ? "displacement over force"
-           : quantity == FRF_VELOCITY   ? "velocity over force"
-                                        : "acceleration over force";
-}
-
-const char *frf_quantity_unit(enum frf_quantity quantity)
-{
-    return quantity == FRF_DISPLACEMENT ? "m/N" : quantity == FRF_VELOCITY ? "m/(s N)" : "m/(s2 N)";
-}
-
-const char *frf_quantity_word(enum frf_quantity quantity)
-{
-    return quantity == FRF_DISPLACEMENT ? "displacement" : quantity == FRF_VELOCITY ? "velocity" : "acceleration";
-}
 
 static const char *source_text(enum frf_damping damping)
 {
@@ -45,8 +29,8 @@ static void print_model(FILE *out, const struct frf_view *view)
 {
     const struct frf_result *r = view->result;
     const struct synthesis *s = &r->synthesis;
-    (void)fprintf(out, "%s [%s], %d line%s from %.6g to %.6g Hz\n", frf_quantity_text(r->quantity),
-                  frf_quantity_unit(r->quantity), r->nline, r->nline == 1 ? "" : "s", r->frequency_hz[0],
+    (void)fprintf(out, "%s over force [%s], %d line%s from %.6g to %.6g Hz\n", transfer_quantity_words[r->quantity],
+                  transfer_unit_words[r->quantity], r->nline, r->nline == 1 ? "" : "s", r->frequency_hz[0],
                   r->frequency_hz[r->nline - 1]);
     (void)fprintf(out, "full model %s", view->identified ? "at the identified parameters" : "as the deck states it");
     for (int p = 0; view->identified && p < view->identified->fit->n; p++)
@@ -202,7 +186,7 @@ static int print_first(FILE *out, const struct frf_view *view)
     if (measured)
         frf_measured_curve(r, view->set, 0, measured);
     (void)fprintf(out, "\n%d over %d: %s [%s], * synthesised%s\n", r->row[0].response, r->row[0].reference,
-                  frf_quantity_word(r->quantity), frf_quantity_unit(r->quantity), measured ? ", o measured, @ both" : "");
+                  transfer_quantity_words[r->quantity], transfer_unit_words[r->quantity], measured ? ", o measured, @ both" : "");
     frf_plot(out, COLUMNS, r->nline, r->frequency_hz, h, measured);
     if (!r->nband)
         return ROTID_OK;
@@ -220,9 +204,9 @@ static int print_first(FILE *out, const struct frf_view *view)
     return ROTID_OK;
 }
 
-int table_frf(FILE *out, const struct frf_view *view)
+int table_frf(FILE *out, const struct result_head *head, const struct frf_view *view)
 {
-    table_job_heading(out, view->job);
+    table_heading(out, head);
     print_model(out, view);
     print_modes(out, view);
     int status = print_rows(out, view);

@@ -5,11 +5,6 @@
 #include "report/table.h"
 #include "result/judgement.h"
 
-static double reference_value(const rotid_reference *reference, int i)
-{
-    return reference && i < reference->nvalues ? reference->values[i] : NAN;
-}
-
 static void print_rms(FILE *out, const rotid_identification *fit)
 {
     (void)fputs("rms error of the fitted modes ", out);

@@ -4,11 +4,7 @@
 #include <string.h>
 
 #include "report/layout.h"
-
-static double reference_value(const struct reference *reference, int i)
-{
-    return reference && i < reference->count ? reference->value[i] : NAN;
-}
+#include "run/sensitivity.h"
 
 /* 11 columns */
 static void signed_power(FILE *out, double value)
@@ -19,9 +15,10 @@ static void signed_power(FILE *out, double value)
         (void)fprintf(out, "%11s", "-");
 }
 
-void table_sensitivity(FILE *out, const struct job *job, const struct sensitivity *r)
+void table_sensitivity(FILE *out, const struct result *result)
 {
-    table_job_heading(out, job);
+    const struct sensitivity *r = result->sensitivity;
+    table_heading(out, &result->head);
     (void)fprintf(out,
                   "sensitivity of E_k = 1 - R*_k/w_k^2 to the relative value of each parameter, %g %% steps, reduction %s\n\n",
                   100 * r->step, r->reduction);
@@ -29,7 +26,7 @@ void table_sensitivity(FILE *out, const struct job *job, const struct sensitivit
         const struct sensitivity_parameter *one = &r->parameters[p];
         char quantity[128];
         (void)snprintf(quantity, sizeof quantity, "sensitivity %s", one->name);
-        const struct reference *paper = job_reference(job, quantity);
+        const rotid_reference *paper = head_reference(&result->head, quantity);
         (void)fprintf(out, "%s at %.6g %s\n", one->name, one->reference, strcmp(one->unit, "1") ? one->unit : "");
         (void)fprintf(out, "mode   frequency [Hz]   step        limit       %s\n", paper ? "paper (magnitude)" : "");
         for (int k = 0; k < r->nfrequency_hz; k++) {

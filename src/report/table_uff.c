@@ -1,4 +1,4 @@
-#include "report/table_uff.h"
+#include "report/report_uff.h"
 
 #include <math.h>
 #include <string.h>

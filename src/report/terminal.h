@@ -16,7 +16,7 @@ FILE *terminal_out(void);
 /* ROTID_OK, or ROTID_ERROR_IO with errno where something did not arrive, now or before. */
 int terminal_flush(void);
 
-/* The text to standard output behind what is there. As terminal_flush. */
+/* Appends the text to standard output. Statuses of terminal_flush. */
 int terminal_print(const char *text);
 
 /* A line to standard error, its line feed included: line feeds within the values would be lines of somebody else. */

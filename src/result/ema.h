@@ -3,13 +3,13 @@
 #define ROTID_RESULT_EMA_H
 
 /* The doubts of a mode and of a channel as words, in the order of the bits of enum ema_quality_flag and enum
- * ema_channel_quality_flag; NULL behind the last. */
-extern const char *const ema_mode_doubts[], *const ema_channel_doubts[];
+ * ema_channel_quality_flag, and the methods in that of enum ema_method; NULL behind the last. */
+extern const char *const ema_mode_doubts[], *const ema_channel_doubts[], *const ema_method_words[];
 
 /* what was measured */
 struct ema_source {
     const char *file;          /* path of the file as given */
-    const char *quantity;      /* of the response */
+    int quantity;              /* of the response */
     int transfer_functions;    /* response and reference pairs */
     int lines;                 /* of every transfer function, within --band */
     double low_hz;             /* first line [Hz] */
@@ -79,10 +79,10 @@ struct ema_channel_result {
 
 struct ema_result {
     struct ema_source source; /* what was measured */
-    const char *method;       /* as given by --method */
+    int method;               /* as given by --method */
     int order;                /* highest order of the denominator; 0 for quadrature */
     int refined;              /* false: the poles are those of the method, not refined together */
-    const char *std_from;     /* standard deviations rest on the variance of the lines, from the impacts or from coherences; or on
+    int std_from;             /* standard deviations rest on the variance of the lines, from the impacts or from coherences; or on
                                  what the modes leave over */
     const char *output;       /* universal file that the modes were written to */
     int nmodes;

@@ -2,6 +2,9 @@
 #ifndef ROTID_RESULT_EXPORT_H
 #define ROTID_RESULT_EXPORT_H
 
+/* Of --format, in the order of enum export_format; NULL behind the last. */
+extern const char *const export_format_words[];
+
 /* a parameter of *IDENTIFY; value and std in its unit */
 struct export_parameter_result {
     const char *name; /* such as core.E */

@@ -1,8 +1,9 @@
 #include "result/head.h"
 
+#include <math.h>
 #include <string.h>
 
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 
 static const struct field reference_fields[] = {
@@ -38,4 +39,9 @@ const rotid_reference *head_reference(const struct result_head *head, const char
         if (!strcmp(head->references[i].quantity, quantity))
             return &head->references[i];
     return NULL;
+}
+
+double reference_value(const rotid_reference *reference, int k)
+{
+    return reference && k < reference->nvalues ? reference->values[k] : NAN;
 }

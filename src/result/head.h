@@ -21,7 +21,9 @@ struct result_head {
     rotid_reference *references; /* values that the heading of the deck gives to compare with */
 };
 
-/* The values of a reference, or NULL. */
+/* The reference of this quantity, or NULL. */
 const rotid_reference *head_reference(const struct result_head *head, const char *quantity);
+/* Value of the k-th mode in a reference; NaN where there is none, or reference is NULL. */
+double reference_value(const rotid_reference *reference, int k);
 
 #endif

@@ -10,7 +10,7 @@
 
 /* *json (to be freed with cJSON_Delete) is the value, or an array of the values where the file has one a line; is_lines tells. Of
  * such a file a last line that no line feed ends is left out, with a note: a program died while it wrote. ROTID_OK,
- * ROTID_ERROR_IO, ROTID_ERROR_SYNTAX or ROTID_ERROR_MEMORY, with what is wrong in the messages, at file:line:column. */
+ * ROTID_ERROR_IO, ROTID_ERROR_SYNTAX or ROTID_ERROR_MEMORY, with the mistake in the messages, at file:line:column. */
 int json_file_read(struct pool *pool, const char *file, struct message_list *messages, cJSON **json, int *is_lines);
 
 #endif

@@ -53,13 +53,6 @@ void json_text(struct json_tree *tree, cJSON *parent, const char *key, const cha
     (void)put(tree, parent, key, cJSON_CreateString(text)); /* what is no UTF-8 in it is replaced at the end */
 }
 
-void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value)
-{
-    cJSON *array = json_array(tree, parent, key);
-    for (int i = 0; i < count && array; i++)
-        json_number(tree, array, NULL, value[i]);
-}
-
 /* Numbers that are `stride` apart. */
 static void put_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value, ptrdiff_t stride)
 {

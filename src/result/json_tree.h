@@ -23,11 +23,10 @@ void json_null(struct json_tree *tree, cJSON *parent, const char *key);
 void json_flag(struct json_tree *tree, cJSON *parent, const char *key, int value);
 /* null where the value is not finite */
 void json_number(struct json_tree *tree, cJSON *parent, const char *key, double value);
-/* In whatever encoding: what is not UTF-8 becomes U+FFFD; null where there is no text. */
+/* In whatever encoding: bytes that are not UTF-8 become U+FFFD; null where there is no text. */
 void json_text(struct json_tree *tree, cJSON *parent, const char *key, const char *text);
-void json_list(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
-/* The same with nine significant digits, for what is drawn and not computed with: an array of the length of a mesh takes a third
- * of the room, and one node of the tree. */
+/* The same with nine significant digits, for arrays that are drawn and not computed with: an array of the length of a mesh takes
+ * a third of the room, and one node of the tree. */
 void json_digits(struct json_tree *tree, cJSON *parent, const char *key, int count, const double *value);
 /* A number rounded to that. */
 void json_rounded(struct json_tree *tree, cJSON *parent, const char *key, double value);

@@ -12,20 +12,24 @@ double fit_rms_percent(const rotid_identification *fit, int holdout)
 {
     double sum = 0;
     int count = 0;
-    for (int k = 0; k < fit->nmodes; k++)
-        if (!fit->modes[k].holdout == !holdout) {
-            sum += fit->modes[k].error_percent * fit->modes[k].error_percent;
+    for (int k = 0; k < fit->nmodes; k++) {
+        double error = fit->modes[k].error_percent;
+        if (!fit->modes[k].holdout == !holdout && isfinite(error)) {
+            sum += error * error;
             count++;
         }
+    }
     return sqrt(sum / count); /* 0/0 of none */
 }
 
 int fit_worst_mode(const rotid_identification *fit)
 {
     int worst = -1;
-    for (int k = 0; k < fit->nmodes; k++)
-        if (!fit->modes[k].holdout && (worst < 0 || fabs(fit->modes[k].error_percent) > fabs(fit->modes[worst].error_percent)))
+    for (int k = 0; k < fit->nmodes; k++) {
+        double error = fit->modes[k].error_percent;
+        if (!fit->modes[k].holdout && isfinite(error) && (worst < 0 || fabs(error) > fabs(fit->modes[worst].error_percent)))
             worst = k;
+    }
     return worst;
 }
 

@@ -6,9 +6,9 @@
 
 #define JUDGEMENT_CHANCE 0.01 /* a misfit that noise exceeds less often is no noise */
 
-/* rms of error_percent over the modes that were fitted, or held out [%]; NaN of none. */
+/* Of the modes that have an error_percent: its rms over those that were fitted, or held out [%], NaN of none; the fitted one
+ * whose frequency is worst, -1 of none. */
 double fit_rms_percent(const rotid_identification *fit, int holdout);
-/* The fitted mode whose frequency is worst, -1 of none. */
 int fit_worst_mode(const rotid_identification *fit);
 /* How often the stated noise alone leaves a misfit of chi2 or more; NaN without noise or degrees of freedom. */
 double fit_p_value(const rotid_identification *fit);

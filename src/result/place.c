@@ -119,12 +119,6 @@ double place_number(const struct json_place *above, const char *key)
     return place_need(above, key, PLACE_NUMBER, &at) ? at.json->valuedouble : (double)NAN;
 }
 
-double place_number_if(const struct json_place *above, const char *key)
-{
-    struct json_place at;
-    return place_find(above, key, PLACE_NUMBER, &at) ? at.json->valuedouble : (double)NAN;
-}
-
 static const char *keep(const struct json_place *at)
 {
     const char *text = pool_copy_text(at->reader->pool, at->json->valuestring);
@@ -137,30 +131,6 @@ const char *place_string(const struct json_place *above, const char *key)
 {
     struct json_place at;
     return place_need(above, key, PLACE_TEXT, &at) ? keep(&at) : "";
-}
-
-const char *place_string_if(const struct json_place *above, const char *key)
-{
-    struct json_place at;
-    return place_find(above, key, PLACE_TEXT, &at) ? keep(&at) : NULL;
-}
-
-int place_flag(const struct json_place *above, const char *key)
-{
-    struct json_place at;
-    return place_need(above, key, PLACE_FLAG, &at) && cJSON_IsTrue(at.json);
-}
-
-int place_whole(const struct json_place *above, const char *key, int least, int most)
-{
-    struct json_place at;
-    if (!place_need(above, key, PLACE_NUMBER, &at))
-        return least;
-    double value = at.json->valuedouble;
-    if (value >= least && value <= most && value == floor(value))
-        return (int)value;
-    place_wrong(&at, "is %g, expected a whole number from %d to %d", value, least, most);
-    return least;
 }
 
 /* This element, or the next one of the kind. */
@@ -194,15 +164,6 @@ int place_count(const struct json_place *list)
     return list->json ? cJSON_GetArraySize(list->json) : 0;
 }
 
-void *place_items(const struct json_place *above, const char *key, size_t size, struct json_place *list, int *count)
-{
-    *count = place_need(above, key, PLACE_LIST, list) ? place_count(list) : 0;
-    void *room = pool_get(above->reader->pool, (size_t)*count, size);
-    if (!room)
-        above->reader->status = ROTID_ERROR_MEMORY;
-    return room;
-}
-
 /* The numbers of a list, `stride` apart: their count. */
 static int copy_numbers(const struct json_place *list, double *value, int stride)
 {
@@ -210,25 +171,6 @@ static int copy_numbers(const struct json_place *list, double *value, int stride
     for (item.json = list->json->child; item.json; item.json = item.json->next, item.index++)
         value[(ptrdiff_t)item.index * stride] = place_is(&item, PLACE_NUMBER) ? item.json->valuedouble : (double)NAN;
     return item.index;
-}
-
-int place_list(const struct json_place *above, const char *key, int need, int expected, double **value)
-{
-    struct json_place list;
-    *value = NULL;
-    if (!look_up(above, key, PLACE_LIST, need, &list))
-        return 0;
-    int count = place_count(&list);
-    if (expected >= 0 && count != expected) {
-        place_wrong(&list, "has %d values, expected %d", count, expected);
-        return 0;
-    }
-    *value = POOL_ARRAY(above->reader->pool, double, count);
-    if (!*value) {
-        above->reader->status = ROTID_ERROR_MEMORY;
-        return 0;
-    }
-    return copy_numbers(&list, *value, 1);
 }
 
 int place_matrix(const struct json_place *above, const char *key, int need, const int expected[2], int *rows, int *columns,

@@ -45,24 +45,12 @@ int place_need(const struct json_place *above, const char *key, enum place_kind 
 /* A key that has to be there. null is NaN of a number, "" of a text, 0 of a flag. Texts are copies in the pool. */
 double place_number(const struct json_place *above, const char *key);
 const char *place_string(const struct json_place *above, const char *key);
-int place_flag(const struct json_place *above, const char *key);
-/* A whole number from least to most. */
-int place_whole(const struct json_place *above, const char *key, int least, int most);
-/* A number that may be missing, or null: NaN. A text that may be: NULL. */
-double place_number_if(const struct json_place *above, const char *key);
-const char *place_string_if(const struct json_place *above, const char *key);
 
 /* The elements of a list: for (struct json_place item = place_first(&list, kind); item.json; item = place_next(&item, kind)).
  * Elements of another kind are wrong and passed over; null counts as one. */
 struct json_place place_first(const struct json_place *list, enum place_kind kind);
 struct json_place place_next(const struct json_place *item, enum place_kind kind);
 int place_count(const struct json_place *list);
-/* A list that has to be there, with its count and zeroed room for as many structs of `size` (pool; NULL: memory is out). */
-void *place_items(const struct json_place *above, const char *key, size_t size, struct json_place *list, int *count);
-
-/* A list of numbers, null being NaN: how many there are, and their values (pool). `need` as above; expected: how many there have
- * to be, -1: any number. */
-int place_list(const struct json_place *above, const char *key, int need, int expected, double **value);
 /* Rows of the same length as a column-major matrix (pool): 1, or 0 where it is not there or empty. expected: the rows and columns
  * there have to be, NULL: any number. */
 int place_matrix(const struct json_place *above, const char *key, int need, const int expected[2], int *rows, int *columns,

@@ -1,6 +1,7 @@
+#include "record/record.h"
 #include "result/ema.h"
-#include "result/record.h"
 #include "result/records.h"
+#include "result/transfer.h"
 
 const char *const ema_mode_doubts[] = {
     "close to another mode",
@@ -15,13 +16,12 @@ const char *const ema_mode_doubts[] = {
     NULL};
 const char *const ema_channel_doubts[] = {
     "dead", "duplicate", "noisy", "not explained by the modes", "values not finite, left out", "low coherence", NULL};
-static const char *const quantities[] = {"displacement", "velocity", "acceleration", NULL};
-static const char *const methods[] = {"lscf", "quadrature", NULL};
+const char *const ema_method_words[] = {"lscf", "quadrature", NULL};
 static const char *const grounds[] = {"variance", "residual", NULL};
 
 static const struct field source_fields[] = {
     TEXT(struct ema_source, file, 0),
-    TEXT_OF(struct ema_source, quantity, 0, quantities),
+    WORD(struct ema_source, quantity, 0, transfer_quantity_words),
     INTEGER(struct ema_source, transfer_functions, FROM_1),
     INTEGER(struct ema_source, lines, FROM_1),
     NUMBER(struct ema_source, low_hz, FROM_0),
@@ -97,10 +97,10 @@ static const struct record channel_record = RECORD(struct ema_channel_result, ch
 
 static const struct field ema_fields[] = {
     STRUCT(struct ema_result, source, 0, source_record),
-    TEXT_OF(struct ema_result, method, 0, methods),
+    WORD(struct ema_result, method, 0, ema_method_words),
     INTEGER(struct ema_result, order, FROM_0),
     FLAG(struct ema_result, refined, 0),
-    TEXT_OF(struct ema_result, std_from, 0, grounds),
+    WORD(struct ema_result, std_from, 0, grounds),
     TEXT(struct ema_result, output, MAY_BE_NULL),
     STRUCTS(struct ema_result, modes, 0, mode_record),
     MATRIX(struct ema_result, mac, ELEMENTS_MAY_BE_NULL | CORRELATION, nmodes, nmodes),

@@ -1,8 +1,8 @@
+#include "record/record.h"
 #include "result/export.h"
-#include "result/record.h"
 #include "result/records.h"
 
-static const char *const formats[] = {"matrix-market", "dmig", "ross", NULL};
+const char *const export_format_words[] = {"matrix-market", "dmig", "ross", NULL};
 static const char *const models[] = {"identified", "stated", NULL};
 static const char *const condensations[] = {"GUYAN", "IRS", NULL};
 
@@ -16,7 +16,7 @@ static const struct field parameter_fields[] = {
 static const struct record parameter_record = RECORD(struct export_parameter_result, parameter_fields);
 
 static const struct field export_fields[] = {
-    TEXT_OF(struct export_result, format, 0, formats),
+    TEXT_OF(struct export_result, format, 0, export_format_words),
     TEXTS(struct export_result, files, NOT_EMPTY),
     TEXT_OF(struct export_result, model, 0, models),
     TEXT_OF(struct export_result, status, MAY_BE_NULL, fit_status_words),

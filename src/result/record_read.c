@@ -1,8 +1,10 @@
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-#include "result/record.h"
+#include "record/record.h"
+#include "result/records.h"
 
 #define WORDS_MOST 512
 
@@ -298,8 +300,9 @@ static void read_one(const struct json_place *above, const struct field *field, 
     void *to = member(record, field->offset);
     int is_there = find(above, field, kind_of(field), &at);
     const cJSON *json = above->json ? cJSON_GetObjectItemCaseSensitive(above->json, field->key) : NULL;
-    if (cJSON_IsNull(json) && (field->kind == FIELD_INTEGER || field->kind == FIELD_WORD) && !(field->bits & MAY_BE_NULL))
-        place_wrong(&at, "is null, expected %s", field->kind == FIELD_WORD ? "a text" : "a number");
+    int number = field->kind == FIELD_NUMBER; /* NaN where it is null: older tables let more of them be that */
+    if (cJSON_IsNull(json) && !number && kind_of(field) < PLACE_LIST && !(field->bits & MAY_BE_NULL))
+        place_wrong(&at, "is null, expected a value");
     if (field->bits & BEHIND_POINTER) {
         void *room = is_there ? room_for(above, 1, field->record->size) : NULL;
         *(void **)to = room;

@@ -1,5 +1,6 @@
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
+#include "run/job.h"
 #include "run/sensitivity.h"
 
 #define CURVE (ELEMENTS_MAY_BE_NULL | FROM_0)

@@ -1,5 +1,5 @@
 /* Of a file of results of a study: its first line and its summary. */
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 #include "result/study.h"
 

@@ -1,9 +1,10 @@
 /* Of a file of results of a study: the line of a run. */
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 #include "result/study.h"
+#include "run/job.h"
 
-const char *const run_status_words[] = {"converged", "at_bound", "not_converged", "failed", NULL};
+static const char *const run_status_words[] = {"converged", "at_bound", "not_converged", "failed", NULL};
 static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};
 
 static const struct field parameter_fields[] = {

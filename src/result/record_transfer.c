@@ -1,10 +1,10 @@
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 #include "result/transfer.h"
 
-static const char *const quantities[] = {"displacement", "velocity", "acceleration", NULL};
-static const char *const units[] = {"m/N", "m/(s N)", "m/(s2 N)", NULL};
-static const char *const damping_sources[] = {"measured", "stated", "smallest_measured", "mean_measured", NULL};
+const char *const transfer_quantity_words[] = {"displacement", "velocity", "acceleration", NULL};
+const char *const transfer_unit_words[] = {"m/N", "m/(s N)", "m/(s2 N)", NULL};
+const char *const transfer_damping_words[] = {"measured", "stated", "smallest_measured", "mean_measured", NULL};
 
 #define RATIO (MAY_BE_NULL | CORRELATION)
 
@@ -32,7 +32,7 @@ static const struct field mode_fields[] = {
     NUMBER(struct transfer_mode, model_hz, FROM_0),
     NUMBER(struct transfer_mode, measured_hz, MAY_BE_NULL | FROM_0),
     NUMBER(struct transfer_mode, damping, ABOVE_0),
-    TEXT_OF(struct transfer_mode, damping_from, 0, damping_sources),
+    TEXT_OF(struct transfer_mode, damping_from, 0, transfer_damping_words),
     INLINE(struct transfer_mode, agreement, IF_KNOWN | BEHIND_POINTER, mode_agreement_record),
     {0},
 };
@@ -95,8 +95,8 @@ static const struct record function_record = RECORD(struct transfer_function, fu
 
 static const struct field frf_fields[] = {
     FLAG(struct transfer_result, complete, 0),
-    TEXT_OF(struct transfer_result, quantity, 0, quantities),
-    TEXT_OF(struct transfer_result, unit, 0, units),
+    TEXT_OF(struct transfer_result, quantity, 0, transfer_quantity_words),
+    TEXT_OF(struct transfer_result, unit, 0, transfer_unit_words),
     INTEGER(struct transfer_result, lines, FROM_1),
     NUMBER(struct transfer_result, low_hz, ABOVE_0),
     NUMBER(struct transfer_result, high_hz, ABOVE_0),

@@ -1,4 +1,4 @@
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 #include "result/uff.h"
 

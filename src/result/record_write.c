@@ -1,6 +1,7 @@
 #include <math.h>
 
-#include "result/record.h"
+#include "record/record.h"
+#include "result/records.h"
 
 static const char *at(const void *from, size_t offset)
 {
@@ -69,20 +70,6 @@ static void write_value(struct json_tree *tree, cJSON *object, const char *key, 
         break;
     default:
         record_write(tree, json_object(tree, object, key), field->record, value);
-    }
-}
-
-size_t record_element_size(const struct field *field)
-{
-    switch (field->kind) {
-    case FIELD_NUMBER:
-        return sizeof(double);
-    case FIELD_TEXT:
-        return sizeof(const char *);
-    case FIELD_RECORD:
-        return field->record->size;
-    default:
-        return sizeof(int);
     }
 }
 
@@ -168,9 +155,4 @@ void record_write(struct json_tree *tree, cJSON *object, const struct record *re
             json_null(tree, object, field->key);
         }
     }
-}
-
-size_t record_size(const struct record *record)
-{
-    return record->size;
 }

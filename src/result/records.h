@@ -1,5 +1,4 @@
-/* The tables of the results of rotid.h, where their members, units and meaning stand, of those of src/run, and of those of
- * this room. */
+/* The tables of the results of src/run and of this room, and what JSON is made of a table and read by it. */
 #ifndef ROTID_RESULT_RECORDS_H
 #define ROTID_RESULT_RECORDS_H
 
@@ -16,24 +15,9 @@ void record_write(struct json_tree *tree, cJSON *object, const struct record *re
  * its place, reader->status tells at the end. */
 void record_read(const struct json_place *at, const struct record *record, void *to);
 
-/* Bytes of the struct that a table describes. */
-size_t record_size(const struct record *record);
-
-/* Words of several of them. */
-extern const char *const functional_words[], *const reduction_words[], *const pairing_words[], *const fit_status_words[],
-                                                                                                   *const verdict_words[];
-
-extern const struct record provenance_record;     /* struct result_head up to command */
-extern const struct record deck_record;           /* the rest, where the command reads a deck */
-extern const struct record geometry_record;       /* rotid_geometry */
-extern const struct record sensor_record;         /* rotid_sensor */
-extern const struct record check_record;          /* rotid_check */
-extern const struct record spectrum_record;       /* rotid_spectrum */
-extern const struct record identification_record; /* rotid_identification as part of a diagnosis: without noise and geometry */
-extern const struct record identification_alone_record; /* these two */
-extern const struct record noise_record;                /* rotid_noise */
-extern const struct record diagnosis_record;            /* rotid_diagnosis */
-extern const struct record head_alone_record;           /* struct result of a study, whose reader does the rest */
+extern const struct record provenance_record; /* struct result_head up to command */
+extern const struct record deck_record;       /* the rest, where the command reads a deck */
+extern const struct record head_alone_record; /* struct result of a study, whose reader does the rest */
 
 extern const struct record sensitivity_record;  /* struct sensitivity */
 extern const struct record transfer_record;     /* struct transfer_result */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "result/record.h"
+#include "record/record.h"
 #include "result/records.h"
 
 /* Rows of the parts that results are made of. */
@@ -71,9 +71,13 @@ int result_has_page(const char *command)
 
 char *result_json(const struct result *result)
 {
+    const struct record *record = result_record(result->head.command);
     struct json_tree tree;
+    for (const struct field *field = record->field; field->key; field++)
+        if (field->bits & BEHIND_POINTER && !*(void *const *)((const char *)result + field->offset))
+            return NULL;
     json_open(&tree);
-    record_write(&tree, tree.root, result_record(result->head.command), result);
+    record_write(&tree, tree.root, record, result);
     return json_close(&tree);
 }
 

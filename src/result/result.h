@@ -1,4 +1,4 @@
-/* A result as a whole: what the program writes with --json, and what `report` reads. */
+/* A result as a whole: the program writes it with --json, `report` reads it. */
 #ifndef ROTID_RESULT_RESULT_H
 #define ROTID_RESULT_RESULT_H
 
@@ -7,7 +7,7 @@
 #include "result/place.h"
 #include "rotid.h"
 
-/* What an older result does not hold, and what is left out for it. */
+/* A key that an older result does not hold, and the part of the page that is left out for it. */
 struct lacking {
     const char *key, *shows; /* "geometry", "the drawing of the rotor" */
 };
@@ -41,7 +41,8 @@ struct result_reader {
     void (*lines)(const struct json_place *lines, struct result *result);
 };
 
-/* The result as JSON: a text to be freed with json_free of result/json_tree.h, or NULL where memory is out. */
+/* The result as JSON: a text to be freed with json_free of result/json_tree.h; NULL where memory is out, or was when the part of
+ * the command was made and that is NULL. */
 char *result_json(const struct result *result);
 
 /* Reads a file that a command wrote with --json, or a file of results of a study. The structs hang on the pool. ROTID_OK;

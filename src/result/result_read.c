@@ -57,6 +57,11 @@ static void read_root(const struct json_place *root, const struct result_reader 
         return;
     }
     int is_study = !strcmp(command, "study");
+    if (is_study && place_has(root, "digest") &&
+        !place_has(root, "cells")) { /* the header, which stands alone before a run ends */
+        place_wrong(root, "is the file of results of a study and holds no run yet, expected the line of a run at least");
+        return;
+    }
     record_read(root, is_study ? &head_alone_record : result_record(command), result);
     if (root->reader->status)
         return;

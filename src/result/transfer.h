@@ -2,6 +2,10 @@
 #ifndef ROTID_RESULT_TRANSFER_H
 #define ROTID_RESULT_TRANSFER_H
 
+/* Quantities of the response and units of the functions in the order of enum frf_quantity, sources of a damping in that of enum
+ * frf_damping; NULL behind the last. */
+extern const char *const transfer_quantity_words[], *const transfer_unit_words[], *const transfer_damping_words[];
+
 /* an identified parameter at whose value the model is taken */
 struct transfer_parameter {
     const char *name; /* such as core.E */

@@ -6,7 +6,7 @@
 
 struct section {
     double stiff_area, stiff_inertia; /* m2, m4: what carries bending and shear */
-    double mass_area, mass_inertia;   /* what has mass */
+    double mass_area, mass_inertia;   /* of the part that has mass */
     int rectangular;
     double ratio; /* inner over outer diameter of a round section */
 };

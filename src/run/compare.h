@@ -1,4 +1,4 @@
-/* The measured modes of a job beside those of its model: who is whose partner, and what is missing. */
+/* The measured modes of a job beside those of its model: the partner of each, and the modes without one. */
 #ifndef ROTID_RUN_COMPARE_H
 #define ROTID_RUN_COMPARE_H
 

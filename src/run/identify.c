@@ -199,5 +199,5 @@ void identify_warn_of_reduction(const struct job *job, const struct identificati
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
                     "identified with REDUCTION=%s, whose frequencies are up to %+.1f %% off those of the full model that is %s "
                     "here (rotid identify, column reduction)",
-                    reduction_name(job->options.fit.reduction), worst, what);
+                    reduction_words[job->options.fit.reduction], worst, what);
 }

@@ -1,4 +1,4 @@
-/* Identification of a job: pairing, fit, pairing again at the fitted model, and what the numbers are worth. */
+/* Identification of a job: pairing, fit, pairing again at the fitted model, and the errors of the numbers. */
 #ifndef ROTID_RUN_IDENTIFY_H
 #define ROTID_RUN_IDENTIFY_H
 
@@ -25,7 +25,7 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out);
 
-/* The same without what the numbers are worth, mesh_error_percent and, without shapes, the condensed model of the spectrum: for
+/* The same without the errors of the numbers, mesh_error_percent and, without shapes, the condensed model of the spectrum: for
  * many runs of one deck. */
 int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                       struct message_list *notes, struct identification *out);

@@ -1,15 +1,6 @@
 #include "run/job.h"
 
 #include <math.h>
-#include <string.h>
-
-const struct reference *job_reference(const struct job *job, const char *quantity)
-{
-    for (int i = 0; i < job->nreference; i++)
-        if (!strcmp(job->reference[i].quantity, quantity))
-            return &job->reference[i];
-    return NULL;
-}
 
 int job_knows_frequency_noise(const struct job *job)
 {
@@ -33,19 +24,4 @@ int job_knows_shape_noise(const struct job *job)
 int job_fits_shapes(const struct job *job)
 {
     return job->measurement.shape && job_knows_shape_noise(job);
-}
-
-const char *functional_name(int functional)
-{
-    return functional == ROTID_HYBRID ? "HYBRID" : functional == ROTID_HYBRID_F ? "HYBRID_F" : "LIKELIHOOD";
-}
-
-const char *reduction_name(int reduction)
-{
-    return reduction == ROTID_REDUCTION_NONE ? "NONE" : reduction == ROTID_GUYAN ? "GUYAN" : "IRS";
-}
-
-const char *derivative_name(int derivative)
-{
-    return derivative == ROTID_MODAL ? "MODAL" : "NELSON";
 }

@@ -6,16 +6,10 @@
 #include "base/message.h"
 #include "base/pool.h"
 #include "model/models.h"
+#include "record/words.h"
 #include "rotid.h"
 #include "rotor/parameter.h"
 #include "signal/frf.h"
-
-/* A list of values that the heading gives to compare with: "paper error_percent = -3.83, 8.38, ..." */
-struct reference {
-    const char *quantity; /* "error_percent", "predicted_hz", "sensitivity core.E" */
-    int count;
-    double *value;
-};
 
 /* A fault of the measurement chain, as a CAUSE card states it or the diagnosis finds it: see the causes of that class. */
 struct correction {
@@ -106,7 +100,7 @@ struct job {
     int nheading;
     const char **heading; /* lines of text without the references */
     int nreference;
-    struct reference *reference;
+    rotid_reference *reference; /* lines "paper error_percent = -3.83, 8.38, ..." of the heading */
 
     struct rotor rotor;
     struct models *models; /* of it, as far as they are built, or NULL */
@@ -115,17 +109,10 @@ struct job {
     struct job_options options;
 };
 
-/* The values of a reference, or NULL. */
-const struct reference *job_reference(const struct job *job, const char *quantity);
-
 /* Whether the noise of every measured frequency, and of every shape component, is known. */
 int job_knows_frequency_noise(const struct job *job);
 int job_knows_shape_noise(const struct job *job);
 /* Whether a likelihood can use shapes: there are some, with their noise. */
 int job_fits_shapes(const struct job *job);
-
-const char *functional_name(int functional);
-const char *reduction_name(int reduction);
-const char *derivative_name(int derivative);
 
 #endif

@@ -7,41 +7,43 @@
 #define AXIS_INTERVALS   400 /* at most: 40 a half wave of a tenth mode, and no picture has many more dots across */
 #define MEMBER_INTERVALS 20  /* at least */
 
-/* Measured ones of mode k: a comparison needs two. */
-static int components(const struct mode_shapes *m, int k)
+/* A comparison needs two components. */
+static int is_comparable(const rotid_mode_shapes *mode)
 {
     int count = 0;
-    for (int s = 0; s < m->nsensor; s++)
-        count += isfinite(m->measured[s + (ptrdiff_t)k * m->nsensor]);
-    return count;
+    for (int s = 0; s < mode->nmeasured; s++)
+        count += isfinite(mode->measured[s]);
+    return count > 1;
 }
 
-static void keep_measured(const struct job *job, struct mode_shapes *m)
+/* Nothing where no component of measured mode k is other than zero. */
+static void put_measured(struct pool *pool, const struct job *job, int nsensor, int k, rotid_mode_shapes *out)
 {
-    for (int k = 0; k < m->nmode; k++) {
-        ptrdiff_t at = (ptrdiff_t)k * m->nsensor;
-        double largest = 0;
-        for (int s = 0; s < m->nsensor; s++) {
-            m->measured[at + s] = job->measurement.shape ? job->measurement.shape[at + s] : NAN;
-            if (fabs(m->measured[at + s]) > fabs(largest))
-                largest = m->measured[at + s];
-        }
-        m->has_shape[k] = largest != 0;
-        for (int s = 0; s < m->nsensor; s++)
-            m->measured[at + s] = largest != 0 ? m->measured[at + s] / largest : NAN;
+    ptrdiff_t at = (ptrdiff_t)k * nsensor;
+    const double *shape = job->measurement.shape ? job->measurement.shape + at : NULL;
+    double largest = 0, *std = shape && job->measurement.shape_std ? job->measurement.shape_std + at : NULL;
+    int is_known = 0;
+    for (int s = 0; s < nsensor && shape; s++) {
+        if (fabs(shape[s]) > fabs(largest))
+            largest = shape[s];
+        is_known |= std && isfinite(std[s]);
     }
+    out->nmeasured = largest != 0 ? POOL_LIST(pool, out->measured, nsensor) : 0;
+    for (int s = 0; s < out->nmeasured; s++)
+        out->measured[s] = shape[s] / largest;
+    out->measured_std = out->nmeasured && is_known ? std : NULL;
+    out->nmeasured_std = out->measured_std ? nsensor : 0;
 }
 
-/* a of the deflections p [nsensor] to measured mode k; NaN where nothing says it */
-static double best_scale(const struct job *job, const struct mode_shapes *m, int k, const double *p)
+/* a of the predicted shape to the measured one; NaN where nothing says it */
+static double best_scale(const rotid_mode_shapes *mode)
 {
-    const double *measured = m->measured + (ptrdiff_t)k * m->nsensor,
-                 *std = job->measurement.shape_std ? job->measurement.shape_std + (ptrdiff_t)k * m->nsensor : NULL;
+    const double *p = mode->predicted, *measured = mode->measured, *std = mode->measured_std;
     double product = 0, square = 0;
     int weighted = std != NULL;
-    for (int s = 0; s < m->nsensor && weighted; s++)
+    for (int s = 0; s < mode->nmeasured && weighted; s++)
         weighted = !isfinite(measured[s]) || std[s] > 0;
-    for (int s = 0; s < m->nsensor; s++) {
+    for (int s = 0; s < mode->nmeasured; s++) {
         double weight = weighted ? 1 / (std[s] * std[s]) : 1;
         if (!isfinite(measured[s]))
             continue;
@@ -66,97 +68,103 @@ static double largest_of(const struct rotor_model *model, const double *u)
     return largest;
 }
 
-/* Mode k as its partner has it. */
-static void keep_predicted(const struct job *job, const struct spectrum *s, int number, int k, struct mode_shapes *m)
+/* Node i of those that are shown. */
+static int shown(const struct rotor_model *model, int i, int naxis)
+{
+    return (int)((long long)i * (model->naxis - 1) / (naxis - 1));
+}
+
+static void put_member(struct pool *pool, const struct rotor_model *model, int i, const double *u, double factor,
+                       rotid_mode_shapes *out)
+{
+    struct model_member of = model_member(model, i);
+    int elements = of.elements < MEMBER_INTERVALS ? MEMBER_INTERVALS
+                   : of.elements < AXIS_INTERVALS ? of.elements
+                                                  : AXIS_INTERVALS;
+    rotid_member_shape *member = of.is_bars ? &out->bars[out->nbars++] : &out->tierods[out->ntierods++];
+    *member = (rotid_member_shape){.name = of.name,
+                                   .nz_m = elements + 1,
+                                   .z_m = POOL_ARRAY(pool, double, elements + 1),
+                                   .shape = POOL_ARRAY(pool, double, elements + 1)};
+    if (!member->z_m || !member->shape)
+        return;
+    model_member_deflection(model, i, u, member->nz_m, member->z_m, member->shape);
+    scale(member->nz_m, factor, member->shape);
+}
+
+/* As the partner of the measured mode has it. */
+static void put_predicted(struct pool *pool, const struct spectrum *s, int naxis, rotid_mode_shapes *out)
 {
     const struct rotor_model *model = s->model;
-    int there = number >= 1 && number <= s->count;
-    const double *u = s->phi + (ptrdiff_t)(there ? number - 1 : 0) * model->equations.n;
-    double *p = m->predicted + (ptrdiff_t)k * m->nsensor, *axis = m->axis + (ptrdiff_t)k * m->naxis;
-    for (int i = 0; i < m->nsensor; i++)
-        p[i] = model_sensor_deflection(model, i, u);
-    for (int i = 0; i < m->naxis; i++)
-        axis[i] = model_deflection(model, (int)((long long)i * (model->naxis - 1) / (m->naxis - 1)), u);
-    double factor = there ? best_scale(job, m, k, p) : NAN;
+    int there = out->mode >= 1 && out->mode <= s->count, nmember = model_members(model);
+    const double *u = s->phi + (ptrdiff_t)(there ? out->mode - 1 : 0) * model->equations.n;
+    out->npredicted = POOL_LIST(pool, out->predicted, model->rotor->nsensor);
+    out->npredicted_axis = POOL_LIST(pool, out->predicted_axis, naxis);
+    if (!POOL_LIST(pool, out->tierods, nmember) || !POOL_LIST(pool, out->bars, nmember))
+        nmember = 0;
+    for (int i = 0; i < out->npredicted; i++)
+        out->predicted[i] = model_sensor_deflection(model, i, u);
+    for (int i = 0; i < out->npredicted_axis; i++)
+        out->predicted_axis[i] = model_deflection(model, shown(model, i, naxis), u);
+    double factor = there && out->predicted ? best_scale(out) : NAN;
     if (there && !isfinite(factor))
         factor = 1 / largest_of(model, u);
-    scale(m->nsensor, factor, p);
-    scale(m->naxis, factor, axis);
-    for (int i = 0; i < m->nmember; i++) {
-        struct member_shape *member = &m->member[i];
-        double *shape = member->shape + (ptrdiff_t)k * member->npoint;
-        model_member_deflection(model, i, u, member->npoint, member->z, shape);
-        scale(member->npoint, factor, shape);
-    }
+    scale(out->npredicted, factor, out->predicted);
+    scale(out->npredicted_axis, factor, out->predicted_axis);
+    for (int i = 0; i < nmember; i++)
+        put_member(pool, model, i, u, factor, out);
 }
 
-static int correlate(struct pool *pool, const struct job *job, const struct spectrum *s, struct mode_shapes *m)
+static void correlate(struct pool *pool, const struct job *job, const struct spectrum *s, rotid_identification *out)
 {
-    int any = 0;
+    const rotid_shapes *shapes = out->shapes;
+    ptrdiff_t nmode = shapes->nmodes;
     double *work = POOL_ARRAY(pool, double, s->nmaster);
-    for (int k = 0; k < m->nmode; k++)
-        any |= m->has_shape[k] && components(m, k) > 1;
-    m->ncolumn = s->count;
+    int any = 0;
+    for (int k = 0; k < nmode; k++)
+        any |= is_comparable(&shapes->modes[k]);
     if (!work || !any)
-        return work ? ROTID_OK : ROTID_ERROR_MEMORY;
-    m->mac = POOL_ARRAY(pool, double, (size_t)m->nmode *(size_t)m->ncolumn);
-    m->nco = s->mass ? POOL_ARRAY(pool, double, (size_t)m->nmode *(size_t)m->ncolumn) : NULL;
-    if (!m->mac || (s->mass && !m->nco))
-        return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < m->nmode; k++)
-        for (int j = 0; j < m->ncolumn; j++) {
+        return;
+    out->mac_matrix = POOL_ARRAY(pool, double, nmode * s->count);
+    out->nco_matrix = s->mass ? POOL_ARRAY(pool, double, nmode * s->count) : NULL;
+    out->matrix_rows = job->measurement.number;
+    out->nmatrix_rows = shapes->nmodes;
+    out->nmatrix_columns = POOL_LIST(pool, out->matrix_columns, s->count);
+    for (int j = 0; j < out->nmatrix_columns && !pool->out_of_memory; j++) {
+        out->matrix_columns[j] = j + 1;
+        for (int k = 0; k < nmode; k++) {
             const double *shape = job->measurement.shape + (ptrdiff_t)k * s->nmaster,
                          *mode = s->shape + (ptrdiff_t)j * s->nmaster;
-            int usable = m->has_shape[k] && components(m, k) > 1;
-            ptrdiff_t at = k + (ptrdiff_t)j * m->nmode;
-            m->mac[at] = usable ? rotid_mac(s->nmaster, shape, mode) : NAN;
-            if (m->nco)
-                m->nco[at] = usable ? spectrum_correlation(s, shape, j, work) : NAN;
+            int usable = is_comparable(&shapes->modes[k]);
+            out->mac_matrix[k + j * nmode] = usable ? rotid_mac(s->nmaster, shape, mode) : NAN;
+            if (s->mass)
+                out->nco_matrix[k + j * nmode] = usable ? spectrum_correlation(s, shape, j, work) : NAN;
         }
-    return ROTID_OK;
-}
-
-static int make_room(struct pool *pool, const struct rotor_model *model, struct mode_shapes *m)
-{
-    size_t nmode = (size_t)m->nmode;
-    m->has_shape = POOL_ARRAY(pool, int, m->nmode);
-    m->measured = POOL_ARRAY(pool, double, nmode *(size_t)m->nsensor);
-    m->predicted = POOL_ARRAY(pool, double, nmode *(size_t)m->nsensor);
-    m->axis_z = POOL_ARRAY(pool, double, m->naxis);
-    m->axis = POOL_ARRAY(pool, double, nmode *(size_t)m->naxis);
-    m->member = POOL_ARRAY(pool, struct member_shape, m->nmember);
-    if (!m->has_shape || !m->measured || !m->predicted || !m->axis_z || !m->axis || !m->member)
-        return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < m->nmember; i++) {
-        struct model_member of = model_member(model, i);
-        struct member_shape *member = &m->member[i];
-        int elements = of.elements;
-        *member = (struct member_shape){.name = of.name, .is_bars = of.is_bars};
-        elements = elements < MEMBER_INTERVALS ? MEMBER_INTERVALS : elements < AXIS_INTERVALS ? elements : AXIS_INTERVALS;
-        member->npoint = elements + 1;
-        member->z = POOL_ARRAY(pool, double, member->npoint);
-        member->shape = POOL_ARRAY(pool, double, nmode *(size_t)member->npoint);
-        if (!member->z || !member->shape)
-            return ROTID_ERROR_MEMORY;
     }
-    return ROTID_OK;
 }
 
 int mode_shapes_make(struct pool *pool, const struct job *job, const struct spectrum *s, const struct comparison *compared,
-                     struct mode_shapes *m)
+                     rotid_identification *out)
 {
     const struct rotor_model *model = s->model;
-    *m = (struct mode_shapes){.nmode = compared->nmode,
-                              .nsensor = model->rotor->nsensor,
-                              .naxis = model->naxis <= AXIS_INTERVALS ? model->naxis : AXIS_INTERVALS + 1,
-                              .nmember = model_members(model)};
-    int status = make_room(pool, model, m);
-    if (status)
-        return status;
-    keep_measured(job, m);
-    for (int i = 0; i < m->naxis; i++)
-        m->axis_z[i] = model->z[(long long)i * (model->naxis - 1) / (m->naxis - 1)];
-    for (int k = 0; k < m->nmode; k++)
-        keep_predicted(job, s, compared->number[k], k, m);
-    return correlate(pool, job, s, m);
+    rotid_shapes *to = out->shapes = POOL_NEW(pool, rotid_shapes);
+    if (!to)
+        return ROTID_ERROR_MEMORY;
+    to->z_m = POOL_ARRAY(pool, double, model->rotor->nsensor);
+    to->nsensor_id = to->z_m ? POOL_LIST(pool, to->sensor_id, model->rotor->nsensor) : 0;
+    for (int i = 0; i < to->nsensor_id; i++) {
+        to->sensor_id[i] = model->rotor->sensor[i].id;
+        to->z_m[i] = model->rotor->sensor[i].position;
+    }
+    to->naxis_z_m = POOL_LIST(pool, to->axis_z_m, model->naxis <= AXIS_INTERVALS ? model->naxis : AXIS_INTERVALS + 1);
+    for (int i = 0; i < to->naxis_z_m; i++)
+        to->axis_z_m[i] = model->z[shown(model, i, to->naxis_z_m)];
+    to->nmodes = POOL_LIST(pool, to->modes, compared->nmode);
+    for (int k = 0; k < to->nmodes; k++) {
+        to->modes[k] = (rotid_mode_shapes){.mode = compared->number[k], .measured_mode = job->measurement.number[k]};
+        put_measured(pool, job, model->rotor->nsensor, k, &to->modes[k]);
+        put_predicted(pool, s, to->naxis_z_m, &to->modes[k]);
+    }
+    correlate(pool, job, s, out);
+    return pool->out_of_memory ? ROTID_ERROR_MEMORY : ROTID_OK;
 }

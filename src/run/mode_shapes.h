@@ -5,28 +5,11 @@
 
 #include "run/compare.h"
 
-struct member_shape { /* of tie rods or of bars, from their left end to the right one */
-    const char *name;
-    int is_bars, npoint;
-    double *z, *shape; /* [npoint] m, [npoint * nmode] */
-};
-
-/* Arrays [.. * nmode] go by measured modes. */
-struct mode_shapes {
-    int nmode, nsensor, naxis, nmember, ncolumn;
-    int *has_shape;              /* [nmode] measured, with a component that is not zero */
-    double *measured;            /* [nsensor * nmode] largest component 1, NaN where not measured */
-    double *predicted;           /* [nsensor * nmode] of the partner, times its best scale to the measured one:
-                                    a = sum p m/s^2/sum p^2/s^2 with the stated noise s, 1 where it is not known of all. Without
-                                    a measured shape the largest deflection of the axis is 1; NaN without a partner */
-    double *axis_z, *axis;       /* [naxis] m, [naxis * nmode]: nodes of the axis, evenly thinned, both ends among them */
-    struct member_shape *member; /* [nmember] tie rods, then bars, at the scale of predicted */
-    double *mac, *nco;           /* [nmode * ncolumn] with modes 1 ... ncolumn of the model, NaN without a shape; NULL: none has
-                                    one, or, of nco, there is no mass matrix of the masters */
-};
-
-/* ROTID_OK or ROTID_ERROR_MEMORY. The spectrum is that of spectrum_compute, at the model that `compared` paired. */
+/* Fills `shapes` and, where a measured shape has two components, the matrices of the MAC and, with a mass matrix of the masters,
+ * of the NCO with their rows and columns; zeros before. The best scale of a shape of the model to the measured one is
+ * a = sum p m/s^2/sum p^2/s^2 with the stated noise s, 1 where it is not known of all; NaN without a partner. Leans on the job
+ * and the spectrum, which is that of spectrum_compute at the model that `compared` paired. ROTID_OK or ROTID_ERROR_MEMORY. */
 int mode_shapes_make(struct pool *pool, const struct job *job, const struct spectrum *spectrum, const struct comparison *compared,
-                     struct mode_shapes *shapes);
+                     rotid_identification *out);
 
 #endif

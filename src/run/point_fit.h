@@ -22,7 +22,7 @@ struct point_fit {
     double variance[POINT_COLUMNS]; /* of the slopes, for the noise as stated */
     double cross;                   /* and their covariance */
     double chi2;
-    double scale; /* sqrt(chi2/dof) where that is above one, else 1: what the stated noise has to be multiplied by */
+    double scale; /* sqrt(chi2/dof) where that is above one, else 1: factor by which the stated noise grows */
 };
 
 /* Least squares over the readings in use. 0, or 1 where a column is constant within every mode or the two cannot be told apart:

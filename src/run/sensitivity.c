@@ -85,7 +85,7 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
             }
         }
     }
-    out->reduction = reduction_name(job->options.fit.reduction);
+    out->reduction = reduction_words[job->options.fit.reduction];
     if (status || !options->with_growth)
         return status;
     out->functional_growth = POOL_NEW(pool, struct growth);

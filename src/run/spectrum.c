@@ -94,7 +94,8 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
             return ROTID_ERROR_MEMORY;
     s->shape = POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count);
     s->master_z = POOL_ARRAY(pool, double, s->nmaster);
-    if (!s->shape || !s->master_z)
+    s->rigid_hz = POOL_ARRAY(pool, double, s->nrigid);
+    if (!s->shape || !s->master_z || !s->rigid_hz)
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < s->nrigid; j++)
         s->rigid_hz[j] = prediction_hz(&p, j);

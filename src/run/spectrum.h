@@ -1,4 +1,4 @@
-/* The modes of a rotor with what their numbers are worth: full model, condensed model, mesh error. */
+/* The modes of a rotor with the errors of their numbers: full model, condensed model, mesh error. */
 #ifndef ROTID_RUN_SPECTRUM_H
 #define ROTID_RUN_SPECTRUM_H
 
@@ -7,9 +7,9 @@
 #include "rotid.h"
 
 struct spectrum {
-    int nrigid, count, nmaster; /* count: elastic modes */
-    int nnode;                  /* of the axis */
-    double rigid_hz[2];
+    int nrigid, count, nmaster;      /* count: elastic modes */
+    int nnode;                       /* of the axis */
+    double *rigid_hz;                /* [nrigid] */
     double *full_hz;                 /* [count] */
     double *reduced_hz;              /* [count] NaN where the masters are too few, or more than 1000 */
     double *reduction_error_percent; /* [count] reduced against full */

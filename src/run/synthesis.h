@@ -43,7 +43,7 @@ struct synthesis_lines {
     const double *frequency_hz; /* [nline] > 0 */
     enum frf_quantity quantity;
     double decay;         /* [1/s] of an exponential window on force and response; 0: none */
-    int without_residual; /* nonzero: only the modes, to see what the rest brings */
+    int without_residual; /* nonzero: only the modes, to see the contribution of the rest */
 };
 
 /* h [nline * count] := pairs first ... first + count - 1. lambda [nmode] of the synthesis, or others in their place; zeta

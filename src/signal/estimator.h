@@ -5,7 +5,7 @@
 
 #include "base/complex.h"
 
-struct spectra { /* of nline lines each; what is summed, or `count` columns */
+struct spectra { /* of nline lines each; sums, or `count` columns */
     double *ff, *xx;
     double complex *xf;
 };

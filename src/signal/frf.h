@@ -30,16 +30,4 @@ struct frf_set {
     struct frf *frf;
 };
 
-/* The same set in terms of another quantity: h is multiplied by (i omega + window_decay)^q, q = 1 for each derivative, -1 for
- * each integral, the variance by the square of its magnitude. A first line at 0 Hz, without a window, is left
- * out: divided by zero it says nothing, multiplied by zero it would seem to be known exactly. */
-void frf_convert(struct frf_set *set, enum frf_quantity quantity);
-
-/* Leaves the lines with low_hz <= frequency <= high_hz, perhaps none. The arrays of the set keep their place in memory. */
-void frf_cut(struct frf_set *set, double low_hz, double high_hz);
-
-/* Frequency response assurance criterion |a^H b|^2/(a^H a b^H b) in [0, 1]: 1 where a is b times any complex number; 0 where one
- * of them vanishes. a, b [n]. */
-double frf_assurance(int n, const double complex *a, const double complex *b);
-
 #endif

@@ -16,7 +16,7 @@ struct checker {
 static int is_known(const struct message_list *list, const char *file, int line, int column, const char *text)
 {
     for (size_t i = 0; i < list->count; i++) {
-        const struct message *m = &list->item[i];
+        const rotid_message *m = &list->item[i];
         if (m->file && file && m->line == line && m->column == column && !strcmp(m->file, file) && !strcmp(m->text, text))
             return 1;
     }
@@ -47,7 +47,7 @@ static void blame_plan(struct checker *c, const struct study_cell *cell, const s
     const char *deck = plan->deck[cell->deck].name, *variant = plan->variant[cell->variant].name,
                *modes = plan->modes[cell->modes].text;
     for (size_t i = 0; i < found->count; i++) {
-        const struct message *m = &found->item[i];
+        const rotid_message *m = &found->item[i];
         char text[1500];
         if (m->severity != SEVERITY_ERROR)
             continue;
@@ -65,7 +65,7 @@ static void blame_plan(struct checker *c, const struct study_cell *cell, const s
 static const char *first_error(struct checker *c, const struct message_list *found)
 {
     for (size_t i = 0; i < found->count; i++) {
-        const struct message *m = &found->item[i];
+        const rotid_message *m = &found->item[i];
         if (m->severity != SEVERITY_ERROR)
             continue;
         if (found->errors > 1)

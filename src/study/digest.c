@@ -27,7 +27,7 @@ void digest_integer(struct digest *digest, long long value)
     digest_bytes(digest, sizeof byte, byte);
 }
 
-void digest_doubles(struct digest *digest, size_t count, const double *value)
+static void digest_doubles(struct digest *digest, size_t count, const double *value)
 {
     for (size_t i = 0; i < count; i++) {
         long long bits = -1; /* one NaN is like another */

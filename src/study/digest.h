@@ -17,7 +17,6 @@ struct digest {
 void digest_open(struct digest *digest);
 void digest_bytes(struct digest *digest, size_t count, const void *bytes);
 /* Numbers by their bits. */
-void digest_doubles(struct digest *digest, size_t count, const double *value);
 void digest_integer(struct digest *digest, long long value);
 /* Includes the terminating zero, so that "a", "bc" is not "ab", "c". NULL is not "". */
 void digest_text(struct digest *digest, const char *text);

@@ -75,6 +75,30 @@ static int from_model(struct pool *pool, struct jobs *jobs, const struct study_p
     return status;
 }
 
+/* The start of this run; bounds are the job's own. */
+static void experiment_starts(const struct study *study, const struct study_point *point, struct job *job)
+{
+    const struct plan *plan = study->plan;
+    long digits = point->start;
+    for (int p = 0; p < job->unknowns.nparameter && plan->spread > 0; p++) {
+        rotid_parameter *bounds = &job->unknowns.bounds[p];
+        double inside = 1e-6 * (bounds->upper - bounds->lower), reach = plan->spread * fabs(bounds->start);
+        double lower = fmax(bounds->start - reach, bounds->lower + inside),
+               upper = fmin(bounds->start + reach, bounds->upper - inside);
+        double along;
+        if (plan->grid) {
+            along = (double)(digits % plan->grid) / (plan->grid - 1);
+            digits /= plan->grid;
+        } else {
+            struct random_stream stream =
+                draw_stream(study->seed, DRAW_START, point->replicate, (uint64_t)point->start, digest_name(bounds->name));
+            along = random_uniform(&stream);
+        }
+        double start = lower + along * (upper - lower);
+        bounds->start = start != 0 ? start : inside; /* a start of zero is no scale */
+    }
+}
+
 int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
                     struct experiment *out)
 {
@@ -99,27 +123,4 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
     if (!status)
         experiment_starts(study, point, &out->job);
     return status;
-}
-
-void experiment_starts(const struct study *study, const struct study_point *point, struct job *job)
-{
-    const struct plan *plan = study->plan;
-    long digits = point->start;
-    for (int p = 0; p < job->unknowns.nparameter && plan->spread > 0; p++) {
-        rotid_parameter *bounds = &job->unknowns.bounds[p];
-        double inside = 1e-6 * (bounds->upper - bounds->lower), reach = plan->spread * fabs(bounds->start);
-        double lower = fmax(bounds->start - reach, bounds->lower + inside),
-               upper = fmin(bounds->start + reach, bounds->upper - inside);
-        double along;
-        if (plan->grid) {
-            along = (double)(digits % plan->grid) / (plan->grid - 1);
-            digits /= plan->grid;
-        } else {
-            struct random_stream stream =
-                draw_stream(study->seed, DRAW_START, point->replicate, (uint64_t)point->start, digest_name(bounds->name));
-            along = random_uniform(&stream);
-        }
-        double start = lower + along * (upper - lower);
-        bounds->start = start != 0 ? start : inside; /* a start of zero is no scale */
-    }
 }

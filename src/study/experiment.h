@@ -27,8 +27,6 @@ void experiment_noise(const struct study *study, const struct study_point *point
 /* Leaves the sensors of this run. */
 int experiment_sensors(struct pool *pool, const struct study *study, const struct study_point *point, const struct truth *truth,
                        struct job *job);
-/* Sets the start of this run; bounds are the job's own. */
-void experiment_starts(const struct study *study, const struct study_point *point, struct job *job);
 
 /* A fault of the measurement chain put into shapes or, with behind nonzero, what has to wait until their noise is there. */
 void experiment_fault(const struct truth *truth, int behind, struct job *job);

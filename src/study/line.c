@@ -110,8 +110,8 @@ static int add_fit(struct pool *pool, const struct experiment *experiment, const
     run->fit = out;
     run->status = !fit->converged ? STUDY_NOT_CONVERGED : fit->any_at_bound ? STUDY_AT_BOUND : STUDY_CONVERGED;
     *out = (struct run_fit){
-        .functional = functional_name(job->options.fit.functional),
-        .reduction = reduction_name(job->options.fit.reduction),
+        .functional = functional_words[job->options.fit.functional],
+        .reduction = reduction_words[job->options.fit.reduction],
         .objective = fit->objective,
         .chi2_per_dof = fit->chi2_per_dof,
         .dof = fit->dof,
@@ -128,15 +128,6 @@ static int add_fit(struct pool *pool, const struct experiment *experiment, const
     if (hides)
         out->hidden = hidden(pool, experiment->made_by);
     return out->parameters && out->modes && (!hides || out->hidden);
-}
-
-static int add_warnings(struct pool *pool, const struct message_list *notes, struct study_run *run)
-{
-    run->warnings = POOL_ARRAY(pool, const char *, notes->count);
-    for (size_t i = 0; i < notes->count && run->warnings; i++)
-        if (notes->item[i].severity == SEVERITY_WARNING)
-            run->warnings[run->nwarnings++] = notes->item[i].text;
-    return run->warnings != NULL;
 }
 
 static int add_baseline(struct pool *pool, const rotid_fit_result *fit, struct study_run *run)
@@ -156,7 +147,8 @@ char *line_identified(const struct line *line, const struct experiment *experime
     struct study_run run = begin(line);
     pool_open(&pool, NULL);
     int whole = add_fit(&pool, experiment, &experiment->job, &result->compared, result->fit, experiment->truth, &run) &&
-                add_warnings(&pool, notes, &run) && (!line->study->plan->baseline || add_baseline(&pool, result->fit, &run));
+                (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) &&
+                (!line->study->plan->baseline || add_baseline(&pool, result->fit, &run));
     if (line->study->plan->spread > 0) { /* the way from each start is what such a plan is about */
         run.niterates = result->fit->n * result->fit->nhistory;
         run.iterates = result->fit->history_x;
@@ -191,21 +183,21 @@ static int add_diagnosis(struct pool *pool, const struct experiment *experiment,
         return 0;
     run->diagnosis = out;
     *out = (struct run_diagnosis){
-        .verdict = {.kind = (int)d->kind,
-                    .adequate_after = d->adequate_after,
-                    .p_value = d->p_value,
+        .verdict = {.kind = d->result.verdict.kind,
+                    .adequate_after = d->result.verdict.adequate_after,
+                    .p_value = d->result.verdict.p_value,
                     .ncauses = d->ncause,
                     .causes = causes(pool, d->ncause, d->cause),
                     .nalternatives = d->nalternative,
                     .alternatives = causes(pool, d->nalternative, d->alternative)},
-        .data_findings = POOL_ARRAY(pool, struct run_finding, d->ndata_finding),
+        .data_findings = POOL_ARRAY(pool, struct run_finding, d->result.ndata_findings),
         .score = experiment->made_by ? (int)score_make(experiment, d) : -1,
         .false_findings = experiment->made_by ? score_false_findings(experiment, d) : ROTID_NONE,
     };
-    for (int i = 0; i < d->ndata_finding && out->data_findings; i++) {
-        struct data_finding *finding = &d->data_finding[i];
+    for (int i = 0; i < d->result.ndata_findings && out->data_findings; i++) {
+        const rotid_data_finding *finding = &d->result.data_findings[i];
         out->data_findings[out->ndata_findings++] =
-            (struct run_finding){finding->cause->id, finding->nsensor, finding->sensor, finding->block, finding->value};
+            (struct run_finding){finding->id, finding->nsensors, finding->sensors, finding->block, finding->value};
     }
     return out->verdict.causes && out->verdict.alternatives && out->data_findings;
 }
@@ -244,6 +236,6 @@ char *line_diagnosed(const struct line *line, const struct experiment *experimen
         truth[p] = extended_truth(experiment, d, job->unknowns.bounds[p].name);
     int whole = final->fit && truth &&
                 add_fit(&pool, experiment, job, &final->compared, final->fit, experiment->made_by ? truth : NULL, &run) &&
-                add_warnings(&pool, notes, &run) && add_diagnosis(&pool, experiment, d, &run);
+                (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) && add_diagnosis(&pool, experiment, d, &run);
     return end(&pool, &run, whole, clock_seconds() - line->begin);
 }

@@ -3,7 +3,6 @@
 #define ROTID_STUDY_LINE_H
 
 #include "diagnose/diagnose.h"
-#include "report/json.h"
 #include "study/experiment.h"
 
 struct line {

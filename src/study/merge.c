@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "file/open.h"
-#include "report/json.h"
 #include "report/output.h"
 #include "result/json_tree.h"
 #include "study/results.h"
@@ -167,12 +166,7 @@ static int write_all(struct merger *m, const char *path, struct merge *merge)
         merge->failed += result_failed(m->text[0]);
         failed = fputs(m->text[0], output.stream) < 0;
     }
-    int reason = errno;
-    if (!failed && !status)
-        return output_close(&output);
-    output_abandon(&output);
-    errno = reason;
-    return status ? status : ROTID_ERROR_IO;
+    return output_close(&output, failed && !status ? ROTID_ERROR_IO : status);
 }
 
 int merge_results(struct pool *pool, int count, char *const *path, const char *to, struct message_list *messages,

@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "report/json.h"
 #include "report/output.h"
 #include "result/json_tree.h"
 #include "study/results.h"
@@ -284,11 +283,8 @@ int record_finish(struct pool *pool, struct study_record *record)
     int reason = errno;
     json_free(first);
     free(text);
-    if (!failed)
-        return output_close(&output);
-    output_abandon(&output);
     errno = reason;
-    return ROTID_ERROR_IO;
+    return output_close(&output, failed ? ROTID_ERROR_IO : ROTID_OK);
 }
 
 void record_close(struct study_record *record)

@@ -196,10 +196,11 @@ int results_index(struct pool *pool, int descriptor, const char *path, struct me
 
 int result_failed(const char *line)
 {
-    cJSON *json = cJSON_Parse(line);
-    const char *status = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(json, "status"));
-    int failed = status && !strcmp(status, "failed");
-    cJSON_Delete(json);
+    struct pool pool;
+    struct study_run run;
+    pool_open(&pool, NULL);
+    int failed = !results_line_read(&pool, line, strlen(line), &run) && run.status == STUDY_FAILED;
+    pool_close(&pool);
     return failed;
 }
 

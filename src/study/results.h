@@ -19,7 +19,7 @@ struct results {
     int number;                     /* of the line read last, from 1 */
     off_t next;                     /* where the next line begins; at the end: where the last whole one ends */
     off_t size;                     /* of the file, beyond `next` where the last line is cut */
-    struct pool line;               /* what the line read last says */
+    struct pool line;               /* of the line read last */
     char *buffer;
     size_t capacity, first, count; /* bytes of the buffer not yet given out */
 };
@@ -51,7 +51,7 @@ struct result_place { /* of the line that counts for a run, the last one; length
 int results_index(struct pool *pool, int descriptor, const char *path, struct message_list *messages, struct header *header,
                   struct result_place **place, size_t *most);
 
-/* What a line says, on the pool. NULL, or what is wrong with it; "" where memory is out. */
+/* The run of a line, on the pool. NULL, or the mistake in the line; "" where memory is out. */
 const char *results_line_read(struct pool *pool, const char *text, size_t length, struct study_run *run);
 
 /* Whether the line is that of a run that failed. */

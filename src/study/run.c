@@ -52,7 +52,7 @@ static char *diagnose(struct pool *pool, const struct study *study, const struct
     *status = diagnose_run(pool, &experiment->job, &options, environment, notes, &result);
     if (*status)
         return NULL;
-    if (result.interrupted)
+    if (result.result.interrupted)
         *status = ROTID_STOP_CANCELLED;
     else
         text = line_diagnosed(line, experiment, &result, notes);

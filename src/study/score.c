@@ -35,18 +35,18 @@ int score_is_hidden(const struct experiment *e, const struct diagnosis *d, const
            fmax(width, PLACE_TOLERANCE * e->length);
 }
 
-static int has_sensor(const struct data_finding *f, int id)
+static int has_sensor(const rotid_data_finding *f, int id)
 {
-    for (int i = 0; i < f->nsensor; i++)
-        if (f->sensor[i] == id)
+    for (int i = 0; i < f->nsensors; i++)
+        if (f->sensors[i] == id)
             return 1;
     return 0;
 }
 
-static int finding_is_hidden(const struct experiment *e, const struct data_finding *f)
+static int finding_is_hidden(const struct experiment *e, const rotid_data_finding *f)
 {
     const struct truth *truth = e->made_by;
-    if (!truth->cause || truth->effect || f->cause != truth->cause)
+    if (!truth->cause || truth->effect || strcmp(f->id, truth->cause->id) != 0)
         return 0;
     if (truth->fault.block)
         return f->block && !strcmp(f->block, truth->fault.block);
@@ -59,8 +59,8 @@ static int finding_is_hidden(const struct experiment *e, const struct data_findi
 int score_false_findings(const struct experiment *e, const struct diagnosis *d)
 {
     int count = 0;
-    for (int i = 0; i < d->ndata_finding; i++)
-        count += !finding_is_hidden(e, &d->data_finding[i]);
+    for (int i = 0; i < d->result.ndata_findings; i++)
+        count += !finding_is_hidden(e, &d->result.data_findings[i]);
     return count;
 }
 
@@ -75,18 +75,22 @@ static int is_in_set(const struct experiment *e, const struct diagnosis *d)
 enum score score_make(const struct experiment *e, const struct diagnosis *d)
 {
     const struct truth *truth = e->made_by;
-    int wrong = 0, faults = score_false_findings(e, d), found = d->ndata_finding > faults;
+    int wrong = 0, faults = score_false_findings(e, d), found = d->result.ndata_findings > faults;
     if (!truth->cause)
-        return d->kind == VERDICT_ADEQUATE && !d->ncause && !d->ndata_finding ? SCORE_QUIET : SCORE_FALSE_ALARM;
+        return d->result.verdict.kind == ROTID_ADEQUATE && !d->ncause && !d->result.ndata_findings ? SCORE_QUIET
+                                                                                                   : SCORE_FALSE_ALARM;
     for (int i = 0; i < d->ncause; i++)
         wrong |= !score_is_hidden(e, d, &d->cause[i]);
     if (wrong)
         return SCORE_WRONG;
     if (!truth->effect)
-        return found ? SCORE_RIGHT : faults ? SCORE_WRONG : d->kind == VERDICT_ADEQUATE ? SCORE_SILENT : SCORE_UNEXPLAINED;
+        return found                                      ? SCORE_RIGHT
+               : faults                                   ? SCORE_WRONG
+               : d->result.verdict.kind == ROTID_ADEQUATE ? SCORE_SILENT
+                                                          : SCORE_UNEXPLAINED;
     if (d->ncause)
         return SCORE_RIGHT;
-    if (d->kind == VERDICT_AMBIGUOUS)
+    if (d->result.verdict.kind == ROTID_AMBIGUOUS)
         return is_in_set(e, d) ? SCORE_IN_SET : SCORE_OTHER_SET;
-    return d->kind == VERDICT_ADEQUATE ? SCORE_SILENT : SCORE_UNEXPLAINED;
+    return d->result.verdict.kind == ROTID_ADEQUATE ? SCORE_SILENT : SCORE_UNEXPLAINED;
 }

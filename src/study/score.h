@@ -1,4 +1,4 @@
-/* What a diagnosis says beside what was hidden. */
+/* The verdict of a diagnosis beside the effect that was hidden. */
 #ifndef ROTID_STUDY_SCORE_H
 #define ROTID_STUDY_SCORE_H
 

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "file/open.h"
-#include "report/json_result.h"
 #include "study/results.h"
 
 #define SAME_OBJECTIVE 1e-6  /* relative: fits that stopped at one minimum agree to the square of their step tolerance */
@@ -381,12 +380,4 @@ int summary_read(struct pool *pool, const char *path, struct message_list *messa
     out->shard = header->shard;
     out->shards = header->shards;
     return status;
-}
-
-char *summary_json(const struct provenance *provenance, const struct study_result *summary)
-{
-    struct pool pool;
-    struct result result = {.study = summary};
-    pool_open(&pool, NULL);
-    return json_result(&pool, provenance, NULL, NULL, &result);
 }

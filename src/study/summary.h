@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "report/json.h"
+#include "base/message.h"
 #include "result/study.h"
 #include "study/header.h"
 
@@ -17,12 +17,9 @@ int summary_read(struct pool *pool, const char *path, struct message_list *messa
 /* For a person. */
 void summary_table(FILE *out, const struct study_result *summary);
 
-/* docs/schema/study.schema.json; to be freed with json_free, NULL where memory is out. */
-char *summary_json(const struct provenance *provenance, const struct study_result *summary);
-
 /* Whether two runs are of one cell. */
 int summary_same_cell(const struct study_axes *a, const struct study_axes *b);
-/* Whether the diagnoses of a cell could be held against what was hidden. */
+/* Whether the diagnoses of a cell could be compared with the hidden effects. */
 int summary_is_scored(const struct study_cell_result *cell);
 
 #endif

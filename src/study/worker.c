@@ -13,7 +13,6 @@
 #endif
 
 #include "base/clock.h"
-#include "report/json.h"
 #include "result/json_tree.h"
 #include "study/run.h"
 

@@ -14,7 +14,7 @@ struct worker {
     int socket;
     long run;     /* under way, -1: none */
     double begun; /* on the clock */
-    char *answer; /* [room] what has arrived of it: its length, then the line */
+    char *answer; /* [room] the bytes that have arrived: its length, then the line */
     size_t count, room;
 };
 

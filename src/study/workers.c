@@ -9,7 +9,6 @@
 #include <sys/wait.h>
 
 #include "base/clock.h"
-#include "report/json.h"
 #include "result/json_tree.h"
 #include "study/results.h"
 #include "study/run.h"

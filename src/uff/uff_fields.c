@@ -25,7 +25,9 @@ int uff_split_blanks(const struct uff_lines *lines, struct uff_field *field, int
     return count;
 }
 
-int uff_split_signs(const struct uff_lines *lines, struct uff_field *field, int limit)
+/* As uff_split_blanks, but a field also ends where a sign cannot belong to it any more, as in -1.00000e+00-2.00000e+00: behind an
+ * exponent, or where the number has no point (a sign behind digits with a point is an exponent without its letter). */
+static int uff_split_signs(const struct uff_lines *lines, struct uff_field *field, int limit)
 {
     int count = 0;
     for (size_t i = 0; i < lines->length && count < limit;) {
@@ -61,7 +63,9 @@ struct uff_field uff_cut_column(const struct uff_lines *lines, size_t start, siz
     return (struct uff_field){start, end > start ? end - start : 0};
 }
 
-int uff_is_cut_off(const struct uff_lines *lines, struct uff_field field)
+/* A real that touches its neighbour must show its point: else a long number would be cut in two valid ones, and a Fortran
+ * reader would scale it. */
+static int uff_is_cut_off(const struct uff_lines *lines, struct uff_field field)
 {
     size_t end = field.start + field.length;
     int touches_left = field.start > 0 && !is_blank(lines->text[field.start - 1]);

@@ -42,7 +42,7 @@ int uff_open_lines(struct uff_lines *lines);
 int uff_fail(struct uff_lines *lines, int column, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void uff_warn(struct uff_lines *lines, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A piece of the file fit for a message: shortened, what is not printable replaced. Returns buffer. */
+/* A piece of the file fit for a message: shortened, unprintable bytes replaced. Returns buffer. */
 #define UFF_EXCERPT 32
 const char *uff_excerpt(const char *text, size_t length, char buffer[UFF_EXCERPT]);
 

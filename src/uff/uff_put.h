@@ -22,7 +22,7 @@ int uff_put_close(struct uff_put *put);
 /* To the right of `width` columns; ROTID_ERROR_ARGUMENT where it is wider. */
 void uff_put_integer(struct uff_put *put, int width, long long value);
 /* 1PEw.d: `decimals` behind the point, one digit before it. The exponent letter is E also where the format says D: every reader
- * of Fortran takes it, and those written in C take nothing else. ROTID_ERROR_ARGUMENT for what is not finite. */
+ * of Fortran takes it, and those written in C take nothing else. ROTID_ERROR_ARGUMENT for a value that is not finite. */
 void uff_put_real(struct uff_put *put, int width, int decimals, double value);
 /* To the left of `width` columns; `fallback` where the text is empty. ROTID_ERROR_ARGUMENT where it is longer or has control
  * characters, which would break the line. */

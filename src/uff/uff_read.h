@@ -23,7 +23,7 @@ struct uff_reader; /* opaque; lives on the pool it was opened with */
 int uff_open(struct pool *pool, const char *path, struct message_list *messages, struct uff_reader **reader);
 void uff_close(struct uff_reader *reader);
 
-/* Goes on to the next set; what was not read of the one before is read over (a binary set by its length). ROTID_OK, UFF_END, or
+/* Goes on to the next set; the rest of the one before is read over (a binary set by its length). ROTID_OK, UFF_END, or
  * ROTID_ERROR_SYNTAX, _IO, _MEMORY. After an error of syntax in a set uff_next finds the next one, so a caller may go on. */
 int uff_next(struct uff_reader *reader, struct uff_set *set);
 

@@ -57,7 +57,7 @@ struct uff_node_list {
 /* Appends the nodes of the set at hand. */
 int uff_append_nodes(struct uff_reader *reader, struct pool *pool, struct uff_node_list *list);
 
-/* Set 55 in two parts: to record 6, which tells what the data are; the rest, or nothing more. */
+/* Set 55 in two parts: to record 6, which describes the data; the rest, or nothing more. */
 int uff_read_shape_kind(struct uff_reader *reader, struct uff_shape *shape);
 int uff_read_shape_rest(struct uff_reader *reader, struct pool *pool, struct uff_shape *shape);
 
@@ -66,7 +66,7 @@ int uff_read_shape_rest(struct uff_reader *reader, struct pool *pool, struct uff
  * *x_size the size of an abscissa of double precision data, which is 4 by the format and 8 with some writers. */
 int uff_measure_binary(struct uff_reader *reader, const struct uff_function *function, long long *bytes, int *x_size);
 
-/* Record 7 of sets 58: what the values are. Returns the cell that is wrong, or -1. */
+/* Record 7 of sets 58: the description of the values. Returns the cell that is wrong, or -1. */
 int uff_cut_data_form(const struct uff_lines *lines, struct uff_cell cell[UFF_CELL_LIMIT], struct uff_function *function);
 
 /* Reads over the rest of the set at hand. */

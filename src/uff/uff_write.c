@@ -1,8 +1,6 @@
 /* Sets that are written in one go: header, units, geometry. */
 #include "uff/uff_write.h"
 
-#include <math.h>
-
 #include "rotid.h"
 #include "uff/uff_record.h"
 
@@ -52,62 +50,6 @@ int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *nod
         uff_put_record(&put, set == 15 ? &uff_node_15 : &uff_node_2411, &node[i]);
         if (set == 2411)
             uff_put_record(&put, &uff_place_2411, &node[i]);
-    }
-    return uff_put_close(&put);
-}
-
-/* Set 18 tells the axes by points: the origin, one on the x axis, one in the xz plane, all in the reference system. They lie as
- * far from the origin as that from zero, for with six digits a point one unit away would say little about the direction. */
-static void put_system_18(struct uff_put *put, const struct uff_system *system)
-{
-    double point[9], reach = 1;
-    for (int c = 0; c < 3; ++c)
-        while (reach < fabs(system->origin[c]) && reach < 1e100)
-            reach *= 10;
-    for (int c = 0; c < 3; ++c) {
-        point[c] = system->origin[c];
-        point[3 + c] = system->origin[c] + reach * system->matrix[c];
-        point[6 + c] = system->origin[c] + reach * system->matrix[6 + c];
-    }
-    uff_put_integer(put, 10, system->id);
-    uff_put_integer(put, 10, system->type);
-    uff_put_integer(put, 10, system->reference);
-    uff_put_integer(put, 10, system->color);
-    uff_put_integer(put, 10, 1);
-    uff_put_line(put);
-    uff_put_text(put, 40, system->name, "NONE");
-    uff_put_line(put);
-    uff_put_reals(put, 13, 5, 6, 9, point);
-}
-
-static void put_system_2420(struct uff_put *put, const struct uff_system *system)
-{
-    uff_put_integer(put, 10, system->id);
-    uff_put_integer(put, 10, system->type);
-    uff_put_integer(put, 10, system->color);
-    uff_put_line(put);
-    uff_put_text(put, 40, system->name, "NONE");
-    uff_put_line(put);
-    uff_put_reals(put, 25, 16, 3, 9, system->matrix);
-    uff_put_reals(put, 25, 16, 3, 3, system->origin);
-}
-
-int uff_write_systems(FILE *stream, int set, int count, const struct uff_system *system)
-{
-    struct uff_put put;
-    if ((set != 18 && set != 2420) || count < 0)
-        return ROTID_ERROR_ARGUMENT;
-    uff_put_open(&put, stream, set);
-    if (set == 2420) { /* the part the systems belong to */
-        uff_put_integer(&put, 10, 1);
-        uff_put_line(&put);
-        uff_put_text_line(&put, "");
-    }
-    for (int i = 0; i < count && put.status == ROTID_OK; ++i) {
-        if (set == 18)
-            put_system_18(&put, &system[i]);
-        else
-            put_system_2420(&put, &system[i]);
     }
     return uff_put_close(&put);
 }

@@ -10,14 +10,13 @@
 
 #include "uff/uff_data.h"
 
-int uff_write_header(FILE *stream, const struct uff_header *header);                      /* 151 */
-int uff_write_units(FILE *stream, const struct uff_units *units);                         /* 164 */
-int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *node);       /* 15 or 2411 */
-int uff_write_systems(FILE *stream, int set, int count, const struct uff_system *system); /* 18 or 2420 */
-int uff_write_elements(FILE *stream, int count, const struct uff_element *element);       /* 2412 */
-int uff_write_trace(FILE *stream, const struct uff_trace *trace);                         /* 82 */
-int uff_write_shape(FILE *stream, const struct uff_shape *shape);                         /* 55 */
-int uff_write_analysis(FILE *stream, const struct uff_analysis *analysis);                /* 2414, at nodes or on elements */
+int uff_write_header(FILE *stream, const struct uff_header *header);                /* 151 */
+int uff_write_units(FILE *stream, const struct uff_units *units);                   /* 164 */
+int uff_write_nodes(FILE *stream, int set, int count, const struct uff_node *node); /* 15 or 2411 */
+int uff_write_elements(FILE *stream, int count, const struct uff_element *element); /* 2412 */
+int uff_write_trace(FILE *stream, const struct uff_trace *trace);                   /* 82 */
+int uff_write_shape(FILE *stream, const struct uff_shape *shape);                   /* 55 */
+int uff_write_analysis(FILE *stream, const struct uff_analysis *analysis);          /* 2414, at nodes or on elements */
 
 /* Set 58, or 58b in the byte order of function->binary.order with IEEE numbers when function->binary.is_binary. The values come
  * in pieces: uff_write_function writes the records before them, uff_write_values any number of values (x only of an uneven

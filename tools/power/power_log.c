@@ -23,14 +23,14 @@ static cJSON *candidate_line(const struct candidate *c)
         add_number(o, c->effect.kind->parameter[p].name, c->effect.value[p]);
     if (c->cause->variant[0] && c->effect.kind)
         cJSON_AddStringToObject(o, "variant", c->cause->variant[c->effect.variant]);
-    add_number(o, "predicted", c->predicted_drop);
-    if (c->refitted) {
-        add_number(o, "drop", c->chi2_drop);
-        add_number(o, "mode_out", c->mode_out_rms);
-        add_number(o, "sensor_out", c->sensor_out_rms);
+    add_number(o, "predicted", c->result.predicted_drop);
+    if (c->result.refitted) {
+        add_number(o, "drop", c->result.chi2_drop);
+        add_number(o, "mode_out", c->result.mode_out_rms);
+        add_number(o, "sensor_out", c->result.sensor_out_rms);
     }
-    if (c->rejected_because)
-        cJSON_AddStringToObject(o, "rejected", c->rejected_because);
+    if (c->result.rejected_because)
+        cJSON_AddStringToObject(o, "rejected", c->result.rejected_because);
     return o;
 }
 
@@ -38,7 +38,7 @@ static cJSON *candidates(int count, const struct candidate *c)
 {
     cJSON *list = cJSON_CreateArray();
     for (int i = 0; i < count; i++)
-        if (c[i].refitted || !c[i].rejected_because || i < 3)
+        if (c[i].result.refitted || !c[i].result.rejected_because || i < 3)
             cJSON_AddItemToArray(list, candidate_line(&c[i]));
     return list;
 }
@@ -46,16 +46,16 @@ static cJSON *candidates(int count, const struct candidate *c)
 static cJSON *round_line(const struct diagnosis_round *r)
 {
     cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "kind", verdict_name(r->kind));
-    add_number(o, "chi2", r->chi2);
-    add_number(o, "dof", r->dof);
-    add_number(o, "largest", r->largest);
-    add_number(o, "threshold", r->threshold);
-    add_number(o, "p_scan", r->p_scan);
-    add_number(o, "p_frequency", r->p_frequency);
-    add_number(o, "p_total", r->p_total);
-    add_number(o, "required_margin", r->required_margin);
-    add_number(o, "nset", r->nset);
+    cJSON_AddStringToObject(o, "kind", rotid_verdict_name(r->result.kind));
+    add_number(o, "chi2", r->result.chi2);
+    add_number(o, "dof", r->result.dof);
+    add_number(o, "largest", r->result.largest);
+    add_number(o, "threshold", r->result.threshold);
+    add_number(o, "p_scan", r->result.p_scan);
+    add_number(o, "p_frequency", r->result.p_frequency);
+    add_number(o, "p_total", r->result.p_total);
+    add_number(o, "required_margin", r->result.required_margin);
+    add_number(o, "nset", r->result.set);
     cJSON_AddItemToObject(o, "candidate", candidates(r->ncandidate, r->candidate));
     return o;
 }
@@ -63,19 +63,19 @@ static cJSON *round_line(const struct diagnosis_round *r)
 static void add_diagnosis(cJSON *line, const struct diagnosis *d)
 {
     cJSON *list = cJSON_AddArrayToObject(line, "finding");
-    for (int i = 0; i < d->ndata_finding; i++)
-        cJSON_AddItemToArray(list, cJSON_CreateString(d->data_finding[i].text));
+    for (int i = 0; i < d->result.ndata_findings; i++)
+        cJSON_AddItemToArray(list, cJSON_CreateString(d->result.data_findings[i].text));
     list = cJSON_AddArrayToObject(line, "numerical");
-    for (int i = 0; i < d->nnumerical_finding; i++)
-        cJSON_AddItemToArray(list, cJSON_CreateString(d->numerical_finding[i].text));
-    cJSON_AddStringToObject(line, "sentence", d->sentence ? d->sentence : "");
+    for (int i = 0; i < d->result.nnumerical_findings; i++)
+        cJSON_AddItemToArray(list, cJSON_CreateString(d->result.numerical_findings[i].text));
+    cJSON_AddStringToObject(line, "sentence", d->result.verdict.sentence ? d->result.verdict.sentence : "");
     cJSON_AddItemToObject(line, "named", candidates(d->ncause, d->cause));
     list = cJSON_AddArrayToObject(line, "round");
     for (int r = 0; r < d->nround; r++)
         cJSON_AddItemToArray(list, round_line(&d->round[r]));
     list = cJSON_AddObjectToObject(line, "step");
-    for (int i = 0; i < d->nstep; i++)
-        cJSON_AddNumberToObject(list, d->step[i].name, round(1e3 * d->step[i].seconds) / 1e3);
+    for (int i = 0; i < d->result.nsteps; i++)
+        cJSON_AddNumberToObject(list, d->result.steps[i].name, round(1e3 * d->result.steps[i].seconds) / 1e3);
 }
 
 static void add_score(cJSON *line, const struct hidden_score *s)

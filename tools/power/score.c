@@ -171,20 +171,20 @@ static enum hidden_class class_of(const struct rotor *rotor, const cJSON *effect
 
 /* ---- findings about the data */
 
-static int has_sensor(const struct data_finding *f, double id)
+static int has_sensor(const rotid_data_finding *f, double id)
 {
-    for (int i = 0; i < f->nsensor; i++)
-        if (f->sensor[i] == id)
+    for (int i = 0; i < f->nsensors; i++)
+        if (f->sensors[i] == id)
             return 1;
     return 0;
 }
 
-static int finding_is_true(const struct data_finding *f, const cJSON *effect)
+static int finding_is_true(const rotid_data_finding *f, const cJSON *effect)
 {
     const cJSON *sensors = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "sensors");
     const char *size = is(effect, "sensor_gain") ? "gain" : is(effect, "sensor_position") ? "shift" : "factor";
     double value = parameter_of(effect, size);
-    if (!is(effect, f->cause->id))
+    if (!is(effect, f->id))
         return 0;
     if (is(effect, "mode_pairing"))
         return 1;
@@ -193,7 +193,7 @@ static int finding_is_true(const struct data_finding *f, const cJSON *effect)
     if (is(effect, "sensor_swap"))
         return has_sensor(f, cJSON_GetArrayItem(sensors, 0)->valuedouble) &&
                has_sensor(f, cJSON_GetArrayItem(sensors, 1)->valuedouble);
-    if (!is(effect, "noise_level") && f->sensor[0] != parameter_of(effect, "sensor"))
+    if (!is(effect, "noise_level") && f->sensors[0] != parameter_of(effect, "sensor"))
         return 0;
     return isnan(value) || !isfinite(f->value) ||
            fabs(f->value - value) <= fmax(VALUE_STDS * f->std, VALUE_TOLERANCE * fabs(value));
@@ -204,14 +204,14 @@ static int judge_findings(const struct diagnosis *d, const cJSON *effects, struc
 {
     const cJSON *effect = cJSON_GetArrayItem(effects, 0);
     int found = 0;
-    for (int i = 0; i < d->ndata_finding; i++) {
-        const struct data_finding *f = &d->data_finding[i];
+    for (int i = 0; i < d->result.ndata_findings; i++) {
+        const rotid_data_finding *f = &d->result.data_findings[i];
         int right = effect && finding_is_true(f, effect);
         found |= right;
-        if (right || (s->coloured && !strcmp(f->cause->id, "noise_level")))
+        if (right || (s->coloured && !strcmp(f->id, "noise_level")))
             continue;
         if (!s->accused++ && s->class == HIDDEN_DATA)
-            snprintf(s->wrong, sizeof s->wrong, "%s", f->cause->id);
+            snprintf(s->wrong, sizeof s->wrong, "%s", f->id);
     }
     return found;
 }
@@ -267,7 +267,7 @@ static int measure_chi2(struct pool *pool, const struct diagnosis *d, const stru
     s->drop = fitted_chi2(pool, d, &quiet);
     for (int i = 0, tried = 0; s->class == HIDDEN_OUTSIDE && d->nround && i < d->round[0].ncandidate && tried < BEST; i++) {
         const struct candidate *c = &d->round[0].candidate[i];
-        if (!c->refitted || !c->cause->effect || !isfinite(c->chi2))
+        if (!c->result.refitted || !c->cause->effect || !isfinite(c->result.chi2))
             continue;
         tried++;
         status = job_with_effect(pool, &quiet, NULL, &c->effect, c->cause, c->fixed, &with);
@@ -285,8 +285,8 @@ static double margin(const struct diagnosis *d, const cJSON *truth)
         for (int i = 0; i < d->round[r].ncandidate; i++) {
             const struct candidate *c = &d->round[r].candidate[i];
             double *best = which(&d->job, c, truth) >= 0 ? &right : &other;
-            if (c->refitted && isfinite(c->chi2))
-                *best = fmin(*best, c->chi2);
+            if (c->result.refitted && isfinite(c->result.chi2))
+                *best = fmin(*best, c->result.chi2);
         }
         if (isfinite(right))
             return fmin(other - right, 1e9);
@@ -365,9 +365,9 @@ static enum hidden_outcome judge_verdict(const struct diagnosis *d, const cJSON 
     s->found = found[0] + found[1];
     if (d->ncause)
         return HIDDEN_RIGHT;
-    if (d->kind == VERDICT_ADEQUATE)
+    if (d->result.verdict.kind == ROTID_ADEQUATE)
         return HIDDEN_SILENT;
-    if (d->kind == VERDICT_AMBIGUOUS)
+    if (d->result.verdict.kind == ROTID_AMBIGUOUS)
         return s->found || noise ? HIDDEN_IN_SET : HIDDEN_OTHER_SET;
     return HIDDEN_UNEXPLAINED;
 }
@@ -380,7 +380,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     s->truths = cJSON_GetArraySize(effects) + is_two_zones(effect);
     snprintf(s->id, sizeof s->id, "%s", !effect ? "none" : text_of(effect, is(effect, "outside") ? "kind" : "id"));
     s->coloured = number_of(cJSON_GetObjectItem(truth, "noise"), "correlation") != 0;
-    s->reported = d->kind != VERDICT_ADEQUATE;
+    s->reported = d->result.verdict.kind != ROTID_ADEQUATE;
     s->names = d->ncause;
     int found = judge_findings(d, effects, s), status = measure_chi2(pool, d, read, truth, s);
     s->margin = margin(d, truth);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "comments.h"
-#include "result/record.h"
+#include "record/record.h"
 
 /* Writes the schema of a result of `command`. Returns the number of keys that have no comment, each told on standard error. */
 int schema_write(FILE *out, const char *command, const struct record *record, const struct comments *comments);

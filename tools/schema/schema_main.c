@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "record/record.h"
 #include "result/records.h"
 #include "result/result.h"
 #include "schema.h"

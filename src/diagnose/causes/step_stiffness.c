@@ -10,7 +10,12 @@
 
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
-#include "diagnose/causes/step_stiffness.h"
+
+#define STEPS_AT_ONCE 64 /* that reach into one element: those farther to the right are left out, which no real rotor has */
+
+struct step {
+    double z, diameter; /* m; the smaller one of the two */
+};
 
 static const double pi = 3.14159265358979323846;
 
@@ -72,16 +77,6 @@ static double envelope(int count, const struct step *step, const struct segment 
         *slope = 0;
     }
     return diameter;
-}
-
-double step_stiffness_diameter(const struct rotor *rotor, int segment, double z, double angle)
-{
-    const struct segment *here = &rotor->segment[segment];
-    struct step step[STEPS_AT_ONCE];
-    double slope, tangent = tan(angle * pi / 180);
-    if (here->rectangular || angle >= 90)
-        return here->stiff_outer;
-    return envelope(reaching_steps(rotor, z, z, here->stiff_outer, tangent, step), step, here, z, tangent, &slope);
 }
 
 #define CUTS 14 /* of an element: three of them are more than any rotor has */

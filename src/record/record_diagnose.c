@@ -1,5 +1,4 @@
-#include "result/record.h"
-#include "result/records.h"
+#include "record/record.h"
 
 const char *const verdict_words[] = {"adequate", "named", "ambiguous", "unexplained", NULL}; /* ROTID_ADEQUATE ... */
 static const char *const blocks[] = {"SHAPE", "FREQUENCY", NULL};
@@ -71,9 +70,9 @@ static const struct field round_fields[] = {
     INTEGER(rotid_round, frequencies, FROM_0),
     NUMBER(rotid_round, largest, MAY_BE_NULL),
     NUMBER(rotid_round, threshold, MAY_BE_NULL),
-    NUMBER(rotid_round, p_scan, MAY_BE_NULL),
-    NUMBER(rotid_round, p_frequency, MAY_BE_NULL),
-    NUMBER(rotid_round, p_total, MAY_BE_NULL),
+    NUMBER(rotid_round, p_scan, MAY_BE_NULL | PROBABILITY),
+    NUMBER(rotid_round, p_frequency, MAY_BE_NULL | PROBABILITY),
+    NUMBER(rotid_round, p_total, MAY_BE_NULL | PROBABILITY),
     NUMBER(rotid_round, required_margin, MAY_BE_NULL),
     INTEGER(rotid_round, set, FROM_0),
     {0},
@@ -193,3 +192,11 @@ static const struct field diagnosis_fields[] = {
     {0},
 };
 const struct record diagnosis_record = RECORD(rotid_diagnosis, diagnosis_fields);
+
+static const struct field diagnosis_whole_fields[] = {
+    ROWS(0, diagnosis_record),
+    STRUCTS(rotid_diagnosis, message, 0, message_record),
+    TEXT(rotid_diagnosis, extended_deck, 0),
+    {0},
+};
+const struct record diagnosis_whole_record = RECORD(rotid_diagnosis, diagnosis_whole_fields);

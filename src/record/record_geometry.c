@@ -1,5 +1,4 @@
-#include "result/record.h"
-#include "result/records.h"
+#include "record/record.h"
 
 static const char *const bundles[] = {"RODS", "TUBE", NULL};
 

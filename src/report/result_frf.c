@@ -1,6 +1,5 @@
 #include <math.h>
 
-#include "report/json_result.h"
 #include "report/report_frf.h"
 #include "result/transfer.h"
 
@@ -14,10 +13,10 @@ static struct transfer_agreement agreement(const struct frf_sums *sums, const st
 }
 
 /* Nonzero: memory is out; of all below. */
-static int add_parameters(struct pool *pool, const struct frf_view *view, struct transfer_result *out)
+static int add_parameters(const struct frf_view *view, struct transfer_result *out)
 {
     int n = view->identified ? view->identified->fit->n : 0;
-    out->parameters = POOL_ARRAY(pool, struct transfer_parameter, n);
+    out->parameters = POOL_ARRAY(view->pool, struct transfer_parameter, n);
     for (int p = 0; p < n && out->parameters; p++)
         out->parameters[out->nparameters++] = (struct transfer_parameter){
             view->job->unknowns.bounds[p].name, view->job->unknowns.bounds[p].unit, view->identified->fit->x[p]};
@@ -26,10 +25,6 @@ static int add_parameters(struct pool *pool, const struct frf_view *view, struct
 
 static int add_modes(struct pool *pool, const struct frf_result *r, struct transfer_result *out)
 {
-    static const char *const from[] = {[FRF_DAMPING_MEASURED] = "measured",
-                                       [FRF_DAMPING_STATED] = "stated",
-                                       [FRF_DAMPING_SMALLEST] = "smallest_measured",
-                                       [FRF_DAMPING_MEAN] = "mean_measured"};
     const struct synthesis *s = &r->synthesis;
     struct transfer_mode_agreement *agrees = POOL_ARRAY(pool, struct transfer_mode_agreement, r->nband);
     out->modes = POOL_ARRAY(pool, struct transfer_mode, s->nmode);
@@ -42,7 +37,7 @@ static int add_modes(struct pool *pool, const struct frf_result *r, struct trans
                                                .model_hz = sqrt(fmax(s->lambda[m], 0)) / TWO_PI,
                                                .measured_hz = NAN,
                                                .damping = r->zeta[m],
-                                               .damping_from = from[r->damping[m]]};
+                                               .damping_from = transfer_damping_words[r->damping[m]]};
         for (int b = 0; b < r->nband; b++) {
             const struct frf_band *band = &r->band[b];
             if (band->mode != number)
@@ -91,8 +86,9 @@ static int add_parts(struct pool *pool, int n, const double complex *h, double *
     return !*re || !*im;
 }
 
-static int add_functions(struct pool *pool, const struct frf_view *view, struct transfer_result *out)
+static int add_functions(const struct frf_view *view, struct transfer_result *out)
 {
+    struct pool *pool = view->pool;
     const struct frf_result *r = view->result;
     double complex *h = POOL_ARRAY(pool, double complex, r->nline), *work = POOL_ARRAY(pool, double complex, r->nline);
     double *frequency_hz = POOL_ARRAY(pool, double, r->nline);
@@ -126,30 +122,28 @@ static int add_functions(struct pool *pool, const struct frf_view *view, struct 
     return 0;
 }
 
-char *json_frf(const struct provenance *provenance, const struct frf_view *view, const struct message_list *notes)
+const struct transfer_result *frf_result_of(const struct frf_view *view)
 {
     const struct frf_result *r = view->result;
-    struct pool pool;
-    struct transfer_agreement all = agreement(&r->sums, &r->moved);
-    struct transfer_result out = {
+    struct transfer_agreement *all = POOL_NEW(view->pool, struct transfer_agreement);
+    struct transfer_result *out = POOL_NEW(view->pool, struct transfer_result);
+    if (!all || !out)
+        return NULL;
+    *all = agreement(&r->sums, &r->moved);
+    *out = (struct transfer_result){
         .complete = r->ndone == r->nrow,
-        .quantity = frf_quantity_word(r->quantity),
-        .unit = frf_quantity_unit(r->quantity),
+        .quantity = transfer_quantity_words[r->quantity],
+        .unit = transfer_unit_words[r->quantity],
         .lines = r->nline,
         .low_hz = r->frequency_hz[0],
         .high_hz = r->frequency_hz[r->nline - 1],
         .modes_up_to_hz = r->up_to_hz,
         .window_decay = r->decay,
         .measured_file = r->is_measured ? view->job->options.frf.file : NULL,
-        .agreement = r->is_measured ? &all : NULL,
+        .agreement = r->is_measured ? all : NULL,
         .left_out = r->is_measured ? r->nleft_out : ROTID_NONE,
         .with_curves = (double)r->nline * r->ndone <= JSON_FRF_MOST_LINES,
     };
-    struct result result = {.frf = &out};
-    pool_open(&pool, NULL);
-    if (add_parameters(&pool, view, &out) || add_modes(&pool, r, &out) || add_functions(&pool, view, &out)) {
-        pool_close(&pool);
-        return NULL;
-    }
-    return json_result(&pool, provenance, view->job, notes, &result);
+    int failed = add_parameters(view, out) || add_modes(view->pool, r, out) || add_functions(view, out);
+    return failed ? NULL : out;
 }

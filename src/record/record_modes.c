@@ -1,5 +1,4 @@
-#include "result/record.h"
-#include "result/records.h"
+#include "record/record.h"
 
 static const struct field measured_fields[] = {
     INTEGER(rotid_compared_mode, measured_mode, FROM_1 | SINCE_LATER),
@@ -36,6 +35,21 @@ static const struct field spectrum_fields[] = {
     {0},
 };
 const struct record spectrum_record = RECORD(rotid_spectrum, spectrum_fields);
+
+static const struct field message_fields[] = {
+    TEXT(rotid_message, file, 0),
+    TEXT(rotid_message, text, 0),
+    {0},
+};
+const struct record message_record = RECORD(rotid_message, message_fields);
+
+static const struct field spectrum_whole_fields[] = {
+    ROWS(0, spectrum_record),
+    MATRIX(rotid_spectrum, master_mass, 0, nsensor_z_m, nsensor_z_m),
+    STRUCTS(rotid_spectrum, message, 0, message_record),
+    {0},
+};
+const struct record spectrum_whole_record = RECORD(rotid_spectrum, spectrum_whole_fields);
 
 static const struct field check_fields[] = {
     NUMBER(rotid_check, length_m, ABOVE_0),

@@ -1,9 +1,8 @@
-#include "report/json_uff.h"
+#include "report/report_uff.h"
 
 #include <math.h>
 
 #include "import/names.h"
-#include "report/json_result.h"
 #include "result/uff.h"
 
 static const char *text_or_null(const char *text)
@@ -155,50 +154,56 @@ static int add_errors(struct pool *pool, const struct message_list *messages, st
 {
     out->errors = POOL_ARRAY(pool, struct listed_error, messages->count);
     for (size_t i = 0; i < messages->count && out->errors; ++i) {
-        const struct message *message = &messages->item[i];
+        const rotid_message *message = &messages->item[i];
         if (message->severity == SEVERITY_ERROR)
             out->errors[out->nerrors++] = (struct listed_error){message->line, message->column, message->text};
     }
     return out->errors != NULL;
 }
 
-char *json_uff(const struct provenance *provenance, const char *path, const struct listing *listing, int summary_count,
-               const char *const *summary, int all, const struct message_list *messages)
+static struct listed_header *header(struct pool *pool, const struct uff_header *h)
 {
-    const struct uff_header *h = listing->header;
-    const struct uff_units *u = listing->units;
-    struct listed_header header;
-    struct listed_units units;
-    struct pool pool;
-    struct uff_result out = {.file = path,
-                             .nsummary = summary_count,
-                             .summary = summary,
-                             .nsets = listing->set_count,
-                             .elements = (double)listing->element_count,
-                             .trace_lines = listing->trace_count,
-                             .coordinate_systems = listing->system_count,
-                             .analyses = (double)listing->analysis_count,
-                             .nfunctions = listing->function_count,
-                             .nshapes = listing->shape_count};
-    struct result result = {.uff = &out};
-    if (h) {
-        header = (struct listed_header){text_or_null(h->model),   text_or_null(h->description), text_or_null(h->program),
-                                        text_or_null(h->created), text_or_null(h->saved),       text_or_null(h->written_by),
-                                        text_or_null(h->written)};
-        out.header = &header;
-    }
-    if (u) {
-        units = (struct listed_units){u->code,  name_of_units(u->code), text_or_null(u->description), u->length,
-                                      u->force, u->temperature,         u->temperature_offset};
-        out.units = &units;
-    }
-    pool_open(&pool, NULL);
-    out.sets = sets(&pool, listing);
-    out.functions = functions(&pool, listing);
-    out.shapes = shapes(&pool, listing);
-    if (out.sets && out.functions && out.shapes && add_nodes(&pool, listing, all, &out.nodes) &&
-        add_doubts(&pool, listing, &out) && add_errors(&pool, messages, &out))
-        return json_result(&pool, provenance, NULL, NULL, &result);
-    pool_close(&pool);
-    return NULL;
+    struct listed_header *out = POOL_NEW(pool, struct listed_header);
+    if (out)
+        *out = (struct listed_header){text_or_null(h->model),   text_or_null(h->description), text_or_null(h->program),
+                                      text_or_null(h->created), text_or_null(h->saved),       text_or_null(h->written_by),
+                                      text_or_null(h->written)};
+    return out;
+}
+
+static struct listed_units *units(struct pool *pool, const struct uff_units *u)
+{
+    struct listed_units *out = POOL_NEW(pool, struct listed_units);
+    if (out)
+        *out = (struct listed_units){u->code,  name_of_units(u->code), text_or_null(u->description), u->length,
+                                     u->force, u->temperature,         u->temperature_offset};
+    return out;
+}
+
+const struct uff_result *uff_result_of(struct pool *pool, const char *path, const struct listing *listing, int summary_count,
+                                       const char *const *summary, int all, const struct message_list *messages)
+{
+    struct uff_result *out = POOL_NEW(pool, struct uff_result);
+    if (!out)
+        return NULL;
+    *out = (struct uff_result){.file = path,
+                               .nsummary = summary_count,
+                               .summary = summary,
+                               .nsets = listing->set_count,
+                               .elements = (double)listing->element_count,
+                               .trace_lines = listing->trace_count,
+                               .coordinate_systems = listing->system_count,
+                               .analyses = (double)listing->analysis_count,
+                               .nfunctions = listing->function_count,
+                               .nshapes = listing->shape_count,
+                               .header = listing->header ? header(pool, listing->header) : NULL,
+                               .units = listing->units ? units(pool, listing->units) : NULL,
+                               .sets = sets(pool, listing),
+                               .functions = functions(pool, listing),
+                               .shapes = shapes(pool, listing)};
+    int whole =
+        (out->header || !listing->header) && (out->units || !listing->units) && out->sets && out->functions && out->shapes;
+    whole =
+        whole && add_nodes(pool, listing, all, &out->nodes) && add_doubts(pool, listing, out) && add_errors(pool, messages, out);
+    return whole ? out : NULL;
 }

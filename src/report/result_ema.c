@@ -1,16 +1,14 @@
 #include <math.h>
 
-#include "report/json_result.h"
 #include "report/report_ema.h"
 #include "result/ema.h"
 
 static struct ema_source source(const struct ema_report *r)
 {
-    static const char *const quantity[] = {"displacement", "velocity", "acceleration"};
     const struct measurement *m = r->measurement;
     struct ema_source out = {
         .file = r->file,
-        .quantity = quantity[m->set.quantity],
+        .quantity = (int)m->set.quantity,
         .transfer_functions = m->set.nfrf,
         .lines = m->set.nline,
         .low_hz = m->set.nline ? m->set.frequency_hz[0] : NAN,
@@ -96,29 +94,26 @@ static struct ema_channel_result *channels(struct pool *pool, const struct ema_r
     return list;
 }
 
-char *json_ema(const struct provenance *provenance, const struct ema_report *r, const struct message_list *notes)
+const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *r)
 {
-    struct pool pool;
-    pool_open(&pool, NULL);
-    const struct ema_result ema = {
+    struct ema_result *out = POOL_NEW(pool, struct ema_result);
+    if (!out)
+        return NULL;
+    *out = (struct ema_result){
         .source = source(r),
-        .method = r->options->method == EMA_QUADRATURE ? "quadrature" : "lscf",
+        .method = r->options->method,
         .order = r->ema->order,
         .refined = r->ema->refined > 0,
-        .std_from = r->ema->std_from_impacts ? "variance" : "residual",
+        .std_from = !r->ema->std_from_impacts, /* variance, residual */
         .output = r->output,
         .nmodes = r->ema->nmode,
-        .modes = modes(&pool, r->ema),
+        .modes = modes(pool, r->ema),
         .mac = r->ema->mac,
         .nstabilisation = r->ema->npole,
-        .stabilisation = poles(&pool, r->ema),
+        .stabilisation = poles(pool, r->ema),
         .nchannels = r->ema->nfrf,
-        .channels = channels(&pool, r),
+        .channels = channels(pool, r),
         .seconds = r->seconds,
     };
-    struct result result = {.ema = &ema};
-    if (ema.modes && ema.stabilisation && ema.channels)
-        return json_result(&pool, provenance, NULL, notes, &result);
-    pool_close(&pool);
-    return NULL;
+    return out->modes && out->stabilisation && out->channels ? out : NULL;
 }

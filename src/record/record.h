@@ -1,17 +1,16 @@
-/* One description of a result: a table of fields for each struct, one row a key of the JSON. From the table follow the JSON that
- * is written, the JSON that is read, with the place of every mistake, and docs/schema.
+/* One description of a result: a table of fields for each struct, one row a key of the JSON. From the table follow the copy that
+ * a host keeps, the JSON that is written, the JSON that is read, with the place of every mistake, and docs/schema.
  *
  * A key is the name of the member, and its description in the schema is the comment of the member. A list X has its length in the
  * member nX beside it, unless its row names another one. What is not known is NaN, NULL, ROTID_NONE or a word below 0 in the
  * struct and null in the JSON. */
-#ifndef ROTID_RESULT_RECORD_H
-#define ROTID_RESULT_RECORD_H
+#ifndef ROTID_RECORD_RECORD_H
+#define ROTID_RECORD_RECORD_H
 
 #include <stddef.h>
-#include <stdio.h>
 
 #include "base/pool.h"
-#include "result/records.h"
+#include "record/words.h"
 #include "rotid.h"
 
 enum field_kind {
@@ -42,7 +41,7 @@ enum {
     ELEMENTS_MAY_BE_NULL = 2,
     IF_KNOWN = 4,    /* not known: the key is left out; of FIELD_INLINE all of them */
     SINCE_LATER = 8, /* older results do not have the key */
-    ROUNDED = 16,    /* nine significant digits: for what is drawn */
+    ROUNDED = 16,    /* nine significant digits: for values that are drawn */
     BEHIND_POINTER = 32,
     NOT_EMPTY = 64,
     WHOLE = 128,   /* a whole number in a double: what an int may not hold */
@@ -122,5 +121,23 @@ struct record {
 
 /* Bytes of one element of a list of this kind. */
 size_t record_element_size(const struct field *field);
+
+/* A copy of the struct `from`, which `record` describes, with everything that its rows lead to, on the pool. NULL where memory is
+ * out. */
+void *record_copy(struct pool *pool, const struct record *record, const void *from);
+
+/* The tables of the results of rotid.h, where their members, units and meaning stand. */
+extern const struct record geometry_record;       /* rotid_geometry */
+extern const struct record sensor_record;         /* rotid_sensor */
+extern const struct record check_record;          /* rotid_check */
+extern const struct record spectrum_record;       /* rotid_spectrum */
+extern const struct record identification_record; /* rotid_identification as part of a diagnosis: without noise and geometry */
+extern const struct record identification_alone_record; /* these two */
+extern const struct record noise_record;                /* rotid_noise */
+extern const struct record diagnosis_record;            /* rotid_diagnosis */
+
+extern const struct record message_record; /* the texts of a rotid_message, which no file has */
+/* The same with the members that no file has, but for the fits: what a host is given. */
+extern const struct record spectrum_whole_record, identification_whole_record, diagnosis_whole_record;
 
 #endif

@@ -1,10 +1,9 @@
-#include "result/record.h"
-#include "result/records.h"
+#include "record/record.h"
 
-const char *const fit_status_words[] = {"converged", "not_converged", "at_bound", NULL};
 const char *const functional_words[] = {"HYBRID", "HYBRID_F", "LIKELIHOOD", NULL};
 const char *const reduction_words[] = {"NONE", "GUYAN", "IRS", NULL};
-static const char *const derivatives[] = {"NELSON", "MODAL", NULL};
+const char *const derivative_words[] = {"NELSON", "MODAL", NULL};
+const char *const fit_status_words[] = {"converged", "not_converged", "at_bound", NULL};
 const char *const pairing_words[] = {"shape", "number", NULL};
 static const char *const algorithms[] = {"LN_BOBYQA", "LN_SBPLX", "LD_SLSQP", NULL};
 static const char *const grounds[] = {"noise", "residuals", NULL};
@@ -111,7 +110,7 @@ static const struct field identification_fields[] = {
     TEXT_OF(rotid_identification, status, 0, fit_status_words),
     TEXT_OF(rotid_identification, functional, 0, functional_words),
     TEXT_OF(rotid_identification, reduction, 0, reduction_words),
-    TEXT_OF(rotid_identification, derivative, 0, derivatives),
+    TEXT_OF(rotid_identification, derivative, 0, derivative_words),
     FLAG(rotid_identification, shapes_fitted, SINCE_LATER),
     NUMBER(rotid_identification, bijection_chi, ABOVE_0 | SINCE_LATER),
     NUMBER(rotid_identification, objective, FROM_0),
@@ -154,3 +153,11 @@ static const struct field identification_alone_fields[] = {
     {0},
 };
 const struct record identification_alone_record = RECORD(rotid_identification, identification_alone_fields);
+
+static const struct field identification_whole_fields[] = {
+    ROWS(0, identification_record),
+    ROWS(0, identification_alone_record),
+    STRUCTS(rotid_identification, message, 0, message_record),
+    {0},
+};
+const struct record identification_whole_record = RECORD(rotid_identification, identification_whole_fields);
