@@ -80,8 +80,8 @@ static int modes_new(struct pool *pool, int count, int nsensor, struct modes *mo
     return modes->hz && modes->shape ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* Of the full model. refine: cuts of each element. */
-static int solve(const struct rotor *rotor, int refine, struct modes *modes)
+/* Of the full model, discretised as `models` are. refine: cuts of each element. */
+static int solve(struct models *models, const struct rotor *rotor, int refine, struct modes *modes)
 {
     const double none = 0;
     struct pool scratch;
@@ -90,7 +90,7 @@ static int solve(const struct rotor *rotor, int refine, struct modes *modes)
     pool_open(&scratch, NULL);
     struct rotor_model *model = POOL_NEW(&scratch, struct rotor_model);
     if (model)
-        status = model_open(&scratch, NULL, rotor, 0, NULL, refine, model, &failed);
+        status = model_open(&scratch, models, rotor, 0, NULL, refine, model, &failed);
     if (!status && model->equations.nrigid + modes->count > model->equations.n)
         status = ROTID_ERROR_ARGUMENT;
     if (!status)
@@ -109,7 +109,8 @@ static int solve(const struct rotor *rotor, int refine, struct modes *modes)
 
 /* With an accelerometer that goes from sensor to sensor each records its own component as it is with the mass there, and the
  * frequency is the mean of all. The scale of a loaded mode is the one that brings it nearest to the one without that mass. */
-static int solve_moving(struct pool *pool, const struct rotor *rotor, int refine, int effect, struct modes *modes)
+static int solve_moving(struct pool *pool, struct models *models, const struct rotor *rotor, int refine, int effect,
+                        struct modes *modes)
 {
     int n = modes->nsensor, status;
     struct rotor with = *rotor;
@@ -123,12 +124,12 @@ static int solve_moving(struct pool *pool, const struct rotor *rotor, int refine
     memcpy(with.effect, rotor->effect, (size_t)rotor->neffect * sizeof *with.effect);
     with.effect[effect].variant = 1; /* FIXED */
     with.effect[effect].target = -1; /* nowhere */
-    status = solve(&with, refine, &bare);
+    status = solve(models, &with, refine, &bare);
     for (int k = 0; k < modes->count; k++)
         modes->hz[k] = 0;
     for (int s = 0; s < n && !status; s++) {
         with.effect[effect].target = s;
-        status = solve(&with, refine, &loaded);
+        status = solve(models, &with, refine, &loaded);
         for (int k = 0; k < modes->count && !status; k++) {
             const double *a = loaded.shape + (ptrdiff_t)k * n, *b = bare.shape + (ptrdiff_t)k * n;
             double across = 0, square = 0;
@@ -180,7 +181,8 @@ int experiment_model(struct pool *pool, const struct study *study, long replicat
     int refine = study->plan->command == PLAN_DIAGNOSE ? FINER : 1;
     int moving = truth->effect && truth->cause->target == TARGET_SENSOR && truth->effect->target < 0;
     if (!status)
-        status = moving ? solve_moving(pool, &source.rotor, refine, last, &modes) : solve(&source.rotor, refine, &modes);
+        status = moving ? solve_moving(pool, source.models, &source.rotor, refine, last, &modes)
+                        : solve(source.models, &source.rotor, refine, &modes);
     for (int k = 0; k < job->measurement.nmode && !status; k++)
         take_mode(&source.rotor, &modes, k, job);
     /* what else was measured is not that of this model */
