@@ -22,8 +22,8 @@ def spring_nodes(mesh, z):
 
 def text_of(deck, mesh, frequencies):
     """Bending in the plane y = 0: there v = 0; across it, at x = 0, u is even, v and w are odd. Besides the first circumferential
-    harmonic this leaves the third, the fifth ..., whose modes lie far above. A quarter carries a quarter of each spring, whose stiffness
-    needs a decimal point: ccx takes a line without one for a degree of freedom."""
+    harmonic this leaves the third, the fifth ..., whose modes lie far above. A quarter carries a quarter of each spring, whose
+    stiffness needs a decimal point: ccx takes a line without one for a degree of freedom."""
     out = ["*NODE"] + [f"{i}, {x:.12g}, {y:.12g}, {z:.12g}" for i, (x, y, z) in enumerate(mesh.nodes, 1)]
     count = 0
     for body, (material, bricks) in enumerate(mesh.bricks.items(), 1):
@@ -63,12 +63,13 @@ def frequencies_of(path):
 
 
 def run(deck, mesh, modes, folder):
-    """The first elastic bending frequencies [Hz]; the two below move the rotor on its springs. One thread, which steps back for others."""
+    """The first elastic bending frequencies [Hz]; two more, below, move the rotor on its springs. One thread, of least priority."""
     count = modes + 2
     folder = Path(folder)
     (folder / "job.inp").write_text(text_of(deck, mesh, count))
     one = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "CCX_NPROC_EQUATION_SOLVER"), "1")
-    done = subprocess.run(["nice", "-n", "19", PROGRAM, "-i", "job"], cwd=folder, env={**os.environ, **one}, capture_output=True, text=True)
+    command = ["nice", "-n", "19", PROGRAM, "-i", "job"]
+    done = subprocess.run(command, cwd=folder, env={**os.environ, **one}, capture_output=True, text=True)
     data = folder / "job.dat"
     found = frequencies_of(data) if data.exists() else []
     if done.returncode or len(found) < count:

@@ -1,6 +1,6 @@
-"""Twenty-node bricks of one quarter of a rotor: x >= 0, y >= 0. Lines in r lie at every radius, in z at every end of a section and at
-every spring; the element at a line behind which the rotor changes is halved until it is as short as asked for. The mesh for half that
-length has these lines and one more at each side, so frequencies of meshes form a clean sequence."""
+"""Twenty-node bricks of one quarter of a rotor: x >= 0, y >= 0. Lines in r lie at every radius, in z at every end of a section
+and at every spring; an element at a line behind which the rotor changes is halved until it is as short as asked for. The mesh for
+half that length has these lines and one more at each side, so frequencies of meshes form a clean sequence."""
 import math
 from dataclasses import dataclass, field
 
@@ -91,13 +91,12 @@ class Plane:
         self.quads.append((radius, [self.add(*p) for p in (*corners, *middles)]))
 
     def square(self):
-        n, edge = QUARTER // 2, QUARTER
+        n, right, corner, up = QUARTER // 2, self.rim(0), self.rim(QUARTER), self.rim(2 * QUARTER)
         top = [[(0.0, 0.0)] * (n + 1) for _ in range(n + 1)]
-        far = self.rim(edge)
         for i in range(n + 1):
             for k in range(n + 1):
                 s, t = i / n, k / n
-                top[i][k] = tuple(s * (1 - t) * self.rim(0)[c] + s * t * far[c] + (1 - s) * t * self.rim(2 * edge)[c] for c in (0, 1))
+                top[i][k] = tuple(s * (1 - t) * a + s * t * b + (1 - s) * t * c for a, b, c in zip(right, corner, up))
         for i in range(n):
             for k in range(n):
                 self.quad(0.0, [top[i][k], top[i + 1][k], top[i + 1][k + 1], top[i][k + 1]])
