@@ -63,7 +63,7 @@ def frequencies_of(path):
 
 
 def run(deck, mesh, modes, folder):
-    """The first elastic bending frequencies [Hz]; two more, below, move the rotor on its springs. One thread, of least priority."""
+    """The first elastic bending frequencies [Hz]; two more, below, move the rotor on its springs. One thread, at low priority."""
     count = modes + 2
     folder = Path(folder)
     (folder / "job.inp").write_text(text_of(deck, mesh, count))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Three programs for one solid: bricks by CalculiX, the converged frequencies below, and rotid with MODEL=SOLID. One line a check;
-ends with "N passed, N failed". Called from the root of the sources: tools/solid3d/check.py ROTID. Without ccx nothing is checked,
-and the one line says so."""
+"""Three programs for one solid: bricks by CalculiX, the converged frequencies below, and rotid with MODEL=SOLID. One line a
+check; ends with "N passed, N failed". Called from the root of the sources: tools/solid3d/check.py ROTID. Without ccx nothing is
+checked, and the one line says so."""
 import json
 import subprocess
 import sys

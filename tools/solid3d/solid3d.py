@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The bending frequencies of the rotor of a deck as a solid of bricks, by CalculiX. Shares no code with src and no element with a
-solid of revolution. Three sizes of the bricks at the steps, 4, 2 and 1 times the shortest, give a row each. A re-entrant corner is
-singular: the error falls like that size to the power 1.089, so the limit follows from the last two. The last row is the change of
-the limit by the last size."""
+solid of revolution. Three sizes of the bricks at the steps, 4, 2 and 1 times the shortest, give a row each. A re-entrant corner
+is singular: the error falls like that size to the power 1.089, so the limit follows from the last two. The last row is the change
+of the limit by the last size."""
 import argparse
 import sys
 import tempfile
