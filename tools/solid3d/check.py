@@ -46,7 +46,7 @@ def percent(values, expected):
 def modes_of(program, path, count):
     """Frequencies by rotid, of the full model; None with the reason where it does not read the deck."""
     done = subprocess.run([program, "modes", path, "--quiet", "--json", "-"], capture_output=True, text=True)
-    if done.returncode not in (0, 1):
+    if done.returncode not in (0, 1) or not done.stdout:
         return None, done.stderr.strip()
     return [mode["full_hz"] for mode in json.loads(done.stdout)["modes"]][:count], ""
 
