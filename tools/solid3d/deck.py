@@ -1,6 +1,7 @@
 """The part of a deck that a solid of bricks needs: sections, layers, materials, springs. Written from docs/deck.md alone."""
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 
 # what is measured, fitted or printed does not concern the body
 OTHER = {"HEADING", "SENSORS", "MODES", "SHAPE", "FREQUENCIES", "MEASURED", "NOISE", "FIT", "IDENTIFY", "DATA", "FRF", "DIAGNOSE"}
@@ -45,7 +46,7 @@ class Deck:
 def cards(path):
     """(line number, name, options, data lines) of every card; a data line is (line number, fields)."""
     found, continued = [], False
-    for number, raw in enumerate(open(path, encoding="utf-8-sig"), 1):
+    for number, raw in enumerate(Path(path).read_text(encoding="utf-8-sig").splitlines(), 1):
         line = raw.split("**")[0].strip()
         if not line:
             continue
@@ -80,6 +81,8 @@ def elastic(options, values):
 def position(deck, text):
     """z [m] of a number, start, end, GROUP.start or GROUP.end."""
     if re.fullmatch(r"[-+.\d].*", text):
+        if not 0 <= float(text) <= deck.length:
+            raise ValueError(f"{text} is not inside the rotor")
         return float(text)
     group, _, end = text.lower().rpartition(".")
     inside = [s for s in deck.sections if group in ("", s.group)]
