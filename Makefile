@@ -10,6 +10,7 @@
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
 #   make check-embedding   the programs of docs/embedding.md with gcc, clang, flang, make, CMake, Python, as far as they are there
+#   make check-solid3d   solids by CalculiX (calculix-ccx) beside rotid modes with MODEL=SOLID
 #   make check-blas   the library with reference LAPACK and with BLIS
 #   make check-mpi  1,000 identifications: throughput, kill -9 and restart, two MPI ranks beside one
 #   make chain      the virtual hammer test a hundred times: do the moduli lie in their intervals
@@ -259,6 +260,11 @@ $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_g
 $(BUILD)/tests/peers/%.o: ALL_CFLAGS += $(shell pkg-config --cflags cminpack)
 check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && echo yes),$(BUILD)/minpack_peer)
 	@sh tests/peers/run $(BUILD) $(PYTHON)
+
+# beside bricks of CalculiX, where that is installed: four minutes
+.PHONY: check-solid3d
+check-solid3d: all
+	@$(PYTHON) tools/solid3d/check.py $(BUILD)/rotid
 
 # the tests of linear algebra, fits and decks with reference LAPACK and, where installed, BLIS
 .PHONY: check-blas
