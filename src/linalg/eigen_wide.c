@@ -7,11 +7,11 @@
 
 #include "base/random.h"
 
-#define TOLERANCE   1e-12 /* of the residual |(K - s M)^-1 M phi - theta phi|_M / theta */
+#define TOLERANCE   1e-11 /* of the residual |(K - s M)^-1 M phi - theta phi|_M / theta */
 #define ROUGH       1e-3  /* of it, where eigenvalues are sought for their size */
 #define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
 #define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
-#define GUARDS      4     /* vectors beyond those wanted, which a solution takes along for little */
+#define GUARDS      5     /* pairs beyond those wanted that are kept when the basis is condensed */
 #define BLOCKS      8     /* in the basis, before it is condensed to the lowest pairs */
 #define MOST_BLOCKS 200
 #define NOTHING     1e-13 /* of the length of a vector: what is left of it after projection is rounding */
@@ -43,83 +43,101 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
     return status ? status : factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
 }
 
-/* Makes the columns of W [n * columns], M W beside it, M-orthonormal; W = Q R, r [columns * columns] or NULL. Columns that are
- * `least` of their length or less without those before them are dropped. Returns how many are left. */
-static int gram_schmidt(struct eigen_wide *e, int columns, const double *least, double *w, double *mw, double *r)
+/* Makes the columns of W [n * columns], M W beside it, M-orthonormal: W = Q R, remainder := R. Columns that are least[c] long or
+ * shorter without those before them are dropped. Returns how many are left. */
+static int gram_schmidt(struct eigen_wide *e, int columns, const double *least, double *w, double *mw)
 {
     int n = e->n, rank = 0;
+    memset(e->remainder, 0, (size_t)e->block * (size_t)columns * sizeof(double));
     for (int c = 0; c < columns; c++) {
-        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n;
+        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n, *r = e->remainder + (ptrdiff_t)c * e->block;
         if (rank < c) {
             memcpy(x, w + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
             memcpy(mx, mw + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
         }
-        for (int b = 0; b < rank; b++) {
-            double part = cblas_ddot(n, w + (ptrdiff_t)b * n, 1, mx, 1);
-            cblas_daxpy(n, -part, w + (ptrdiff_t)b * n, 1, x, 1);
-            cblas_daxpy(n, -part, mw + (ptrdiff_t)b * n, 1, mx, 1);
-            if (r)
-                r[b + c * e->block] = part;
+        if (rank) {
+            cblas_dgemv(CblasColMajor, CblasTrans, n, rank, 1, mw, n, x, 1, 0, r, 1);
+            cblas_dgemv(CblasColMajor, CblasNoTrans, n, rank, -1, w, n, r, 1, 1, x, 1);
+            cblas_dgemv(CblasColMajor, CblasNoTrans, n, rank, -1, mw, n, r, 1, 1, mx, 1);
         }
         double square = cblas_ddot(n, x, 1, mx, 1), length = square > 0 ? sqrt(square) : 0;
-        for (int b = rank; b < e->block && r; b++)
-            r[b + c * e->block] = 0;
         if (!(length > least[c]))
             continue;
         cblas_dscal(n, 1 / length, x, 1);
         cblas_dscal(n, 1 / length, mx, 1);
-        if (r)
-            r[rank + c * e->block] = length;
-        rank++;
+        r[rank++] = length;
     }
     return rank;
 }
 
-/* The `columns` columns behind the first `size` of the basis: taken orthogonal to those and to each other, twice because once
- * leaves errors of the size of the cancellation. coefficient [size * columns], leading dimension most: what was along the basis.
- * Sets `next`. */
-static void orthonormalise(struct eigen_wide *e, int size, int columns, double *coefficient)
+/* W := W - V (M V)' W for the first `size` columns V of the basis; part [size * columns], leading dimension most: (M V)' W. */
+static void project_out(struct eigen_wide *e, int size, int columns, double *w, double *part)
 {
     int n = e->n;
-    double *w = e->basis + (ptrdiff_t)size * n, *mw = e->mass_basis + (ptrdiff_t)size * n, *least = e->work, *part = coefficient;
-    pencil_multiply_mass(&e->pencil, columns, w, mw);
-    for (int c = 0; c < columns; c++)
-        least[c] = NOTHING * sqrt(fabs(cblas_ddot(n, w + (ptrdiff_t)c * n, 1, mw + (ptrdiff_t)c * n, 1)));
-    for (int pass = 0; pass < 2; pass++) {
-        if (size) {
-            cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, size, columns, n, 1, e->mass_basis, n, w, n, 0, part, e->most);
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->basis, n, part, e->most, 1, w, n);
-        }
-        if (size || pass)
-            pencil_multiply_mass(&e->pencil, columns, w, mw);
-        columns = gram_schmidt(e, columns, least, w, mw, pass ? NULL : e->remainder);
-        for (int c = 0; c < columns; c++)
-            least[c] = 0.5; /* of a vector of length 1 whose errors are taken off */
-        part = e->component;
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, size, columns, n, 1, e->mass_basis, n, w, n, 0, part, e->most);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->basis, n, part, e->most, 1, w, n);
+}
+
+/* Takes off what rounding has left of the basis in W, and of its columns in each other: by the product, for W' M W is near 1.
+ * Returns 0, or 1 where it is not. */
+static int again(struct eigen_wide *e, int size, int columns, double *w, double *mw)
+{
+    int n = e->n;
+    double *square = e->component + (ptrdiff_t)e->most * e->block;
+    if (size) {
+        project_out(e, size, columns, w, e->component);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->mass_basis, n, e->component, e->most, 1, mw,
+                    n);
     }
-    e->next = columns;
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, columns, columns, n, 1, w, n, mw, n, 0, square, columns);
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', columns, square, columns))
+        return 1;
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, n, columns, 1, square, columns, w, n);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, n, columns, 1, square, columns, mw, n);
+    return 0;
+}
+
+/* The `columns` columns behind the first `size` of the basis: taken orthogonal to those and to each other, twice because once
+ * leaves errors of the size of the cancellation. coefficient [size * columns], leading dimension most: what was along the basis.
+ * Sets `next`. ROTID_OK or ROTID_ERROR_EIGEN. */
+static int orthonormalise(struct eigen_wide *e, int size, int columns, double *coefficient)
+{
+    int n = e->n;
+    double *w = e->basis + (ptrdiff_t)size * n, *mw = e->mass_basis + (ptrdiff_t)size * n, *least = e->work;
+    if (size)
+        project_out(e, size, columns, w, coefficient);
+    pencil_multiply_mass(&e->pencil, columns, w, mw);
+    for (int c = 0; c < columns; c++) {
+        double square = fabs(cblas_ddot(n, w + (ptrdiff_t)c * n, 1, mw + (ptrdiff_t)c * n, 1));
+        for (int i = 0; i < size; i++)
+            square += coefficient[i + (ptrdiff_t)c * e->most] * coefficient[i + (ptrdiff_t)c * e->most];
+        least[c] = NOTHING * sqrt(square);
+    }
+    e->next = gram_schmidt(e, columns, least, w, mw);
+    return e->next && again(e, size, e->next, w, mw) ? ROTID_ERROR_EIGEN : ROTID_OK;
 }
 
 /* One block more: what (K - s M)^-1 M makes of the last one. */
-static void expand(struct eigen_wide *e)
+static int expand(struct eigen_wide *e)
 {
     int n = e->n, columns = e->next, size = e->size + columns;
     double *w = e->basis + (ptrdiff_t)size * n;
     memcpy(w, e->mass_basis + (ptrdiff_t)e->size * n, (size_t)n * (size_t)columns * sizeof *w);
     factor_solve(&e->factor, columns, w);
-    orthonormalise(e, size, columns, e->projected + (ptrdiff_t)e->size * e->most);
+    double *coefficient = e->projected + (ptrdiff_t)e->size * e->most;
     e->last = columns;
     e->size = size;
+    return orthonormalise(e, size, columns, coefficient);
 }
 
 /* Random vectors, the last `columns` of the basis */
-static void add_random(struct eigen_wide *e)
+static int add_random(struct eigen_wide *e)
 {
     double *x = e->basis + (ptrdiff_t)e->size * e->n;
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->block; i++)
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->count; i++)
         x[i] = random_normal(&e->stream);
-    orthonormalise(e, e->size, e->block, e->component);
     e->last = 0; /* nothing is known to be left outside */
+    return orthonormalise(e, e->size, e->count, e->vector);
 }
 
 /* Eigenpairs of the projected operator, theta ascending: the last ones belong to the lowest eigenvalues. */
@@ -188,8 +206,9 @@ static int iterate(struct eigen_wide *e, int watched, double tolerance)
     for (int step = 0; step < MOST_BLOCKS; step++) {
         if (e->size + e->next > e->most)
             condense(e);
-        expand(e);
-        int status = project(e), open = e->size < watched;
+        int status = expand(e), open = e->size < watched;
+        if (!status)
+            status = project(e);
         if (status)
             return status;
         for (int j = 0; j < watched && !open; j++)
@@ -198,8 +217,10 @@ static int iterate(struct eigen_wide *e, int watched, double tolerance)
             return ROTID_OK;
         if (!e->next) { /* the basis holds all of its own images, and not yet the pairs */
             condense(e);
-            add_random(e);
+            status = add_random(e);
         }
+        if (status)
+            return status;
     }
     return ROTID_ERROR_EIGEN;
 }
@@ -217,8 +238,9 @@ static void take_pairs(struct eigen_wide *e)
 static int begin(struct eigen_wide *e)
 {
     e->size = e->last = 0;
-    memcpy(e->basis, e->ritz, (size_t)e->n * (size_t)e->block * sizeof(double));
-    orthonormalise(e, 0, e->block, e->component);
+    memcpy(e->basis, e->ritz, (size_t)e->n * (size_t)e->count * sizeof(double));
+    if (orthonormalise(e, 0, e->count, e->component))
+        return ROTID_ERROR_EIGEN;
     return factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
 }
 
@@ -238,7 +260,7 @@ static int choose_shift(struct eigen_wide *e)
 
 static int start(struct eigen_wide *e)
 {
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->block; i++)
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->count; i++)
         e->ritz[i] = random_normal(&e->stream);
     e->shift = -FIRST_SHIFT * e->largest;
     int status = begin(e);
@@ -290,7 +312,7 @@ static int attempt(struct eigen_wide *e)
         if (repair == REPAIRS || factor_compute_pencil(&e->factor, &e->pencil, e->shift))
             return ROTID_ERROR_EIGEN;
         condense(e);
-        add_random(e);
+        status = add_random(e);
     }
     return status;
 }
