@@ -3,6 +3,8 @@
 #include <limits.h>
 #include <string.h>
 
+#include "linalg/matrix.h"
+
 void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const int *kept)
 {
     f->n = n;
@@ -85,11 +87,14 @@ static int column_of_matrix(const struct factor *f, const rotid_matrix *a, int j
 {
     const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
     int reach = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j, count = 0;
-    for (int d = 0; d <= reach; d++)
-        if (column[d] != 0) {
+    for (int d = 0; d <= reach; d++) {
+        if (d + MATRIX_STRETCH <= reach && matrix_stretch_is_zero(column + d))
+            d += MATRIX_STRETCH - 1;
+        else if (column[d] != 0) {
             f->row[count] = j + d;
             f->value[count++] = column[d];
         }
+    }
     return count;
 }
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define WIDE    20 /* half band from which zeros are looked for: a finite element couples few of the rows between */
-#define STRETCH 8  /* entries of a column that are looked at, and multiplied, together */
+#define STRETCH MATRIX_STRETCH
 
 int matrix_new(struct pool *pool, int n, int kd, int nfar, const int *far, rotid_matrix *a)
 {
@@ -87,14 +87,6 @@ static void multiply_rows(const rotid_matrix *a, int begin, int end, const doubl
         y[i] = row_product(a->band + (ptrdiff_t)i * ld, ld, kd < n - 1 - i ? kd : n - 1 - i, kd < i ? kd : i, x + i);
 }
 
-static int is_zero(int length, const double *a)
-{
-    double bits = 0; /* of a NaN as well */
-    for (int i = 0; i < length; i++)
-        bits += a[i] == 0 ? 0 : 1;
-    return bits == 0;
-}
-
 /* y += the part of column j in rows j + d ... of the lower triangle, and of the same row in the upper one, times x */
 static inline __attribute__((always_inline)) void multiply_stretch(int length, const double *restrict a, double xj,
                                                                    const double *restrict x, double *restrict y,
@@ -119,7 +111,7 @@ static void multiply_wide(const rotid_matrix *a, int columns, const double *x, d
         for (int c = 0; c < columns; c++)
             y[j + c * n] += band[0] * x[j + c * n];
         for (; d + STRETCH <= reach + 1; d += STRETCH) {
-            if (is_zero(STRETCH, band + d))
+            if (matrix_stretch_is_zero(band + d))
                 continue;
             for (int c = 0; c < columns; c++)
                 multiply_stretch(STRETCH, band + d, x[j + c * n], x + j + d + c * n, y + j + d + c * n, y + j + c * n);
@@ -185,6 +177,23 @@ int matrix_is_finite(const rotid_matrix *a)
     for (int j = a->n - a->kd; j < a->n; j++) /* where the band ends below the matrix, its storage holds anything */
         sum += not_finite((size_t)(a->n - j), a->band + (size_t)j * ld);
     return isfinite(sum + not_finite(block_length(a), a->block));
+}
+
+static int all_zero(size_t length, const double *a)
+{
+    size_t i = 0;
+    for (; i + STRETCH <= length; i += STRETCH)
+        if (!matrix_stretch_is_zero(a + i))
+            return 0;
+    for (; i < length; i++)
+        if (a[i] != 0)
+            return 0;
+    return 1;
+}
+
+int matrix_is_zero(const rotid_matrix *a)
+{
+    return all_zero(band_length(a), a->band) && all_zero(block_length(a), a->block);
 }
 
 void matrix_to_dense(const rotid_matrix *a, int ld, double *full)

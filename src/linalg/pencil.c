@@ -1,10 +1,10 @@
 #include "linalg/pencil.h"
 
-#include <stdint.h>
 #include <string.h>
 
+#include "linalg/matrix.h"
+
 #define LANES  8
-#define STRIDE 8 /* entries that are looked at together */
 #define INLINE static inline __attribute__((always_inline))
 
 int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *p)
@@ -21,17 +21,6 @@ int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *
     return p->start && p->row && p->k && p->m && p->block && p->x && p->y ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* Nothing but zeros in the next STRIDE entries? Their bits tell faster than comparisons. */
-static int all_zero(const double *a, const double *b)
-{
-    uint64_t bits[2 * STRIDE], any = 0;
-    memcpy(bits, a, STRIDE * sizeof *a);
-    memcpy(bits + STRIDE, b, STRIDE * sizeof *b);
-    for (int i = 0; i < 2 * STRIDE; i++)
-        any |= bits[i];
-    return !any;
-}
-
 int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
 {
     int same = p->mass != NULL, at = 0;
@@ -43,8 +32,8 @@ int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
         same &= p->start[j] == at;
         p->start[j] = at;
         for (int d = 0; d <= reach; d++) {
-            if (d + STRIDE <= reach && d && all_zero(kj + d, mj + d)) {
-                d += STRIDE - 1;
+            if (d && d + MATRIX_STRETCH <= reach && matrix_stretch_is_zero(kj + d) && matrix_stretch_is_zero(mj + d)) {
+                d += MATRIX_STRETCH - 1;
                 continue;
             }
             if (d && kj[d] == 0 && mj[d] == 0)
