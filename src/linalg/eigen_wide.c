@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 
-#define TOLERANCE   1e-11 /* of the residual |(K - s M)^-1 M phi - theta phi|_M / theta */
+#define TOLERANCE   2e-12 /* of the residual |(K - s M)^-1 M phi - theta phi|_M / theta */
 #define ROUGH       1e-3  /* of it, where eigenvalues are sought for their size */
 #define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
 #define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
@@ -21,7 +21,7 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
 {
     int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n, most = BLOCKS * block;
     *e = (struct eigen_wide){.n = n, .count = count, .block = block, .most = most};
-    size_t vectors = (size_t)n * (size_t)(most + block), squares = (size_t)most * (size_t)most;
+    size_t vectors = (size_t)n * (size_t)(most + 2 * block), squares = (size_t)most * (size_t)most;
     e->all = POOL_ARRAY(pool, int, n);
     e->basis = POOL_ARRAY(pool, double, vectors);
     e->mass_basis = POOL_ARRAY(pool, double, vectors);
@@ -32,7 +32,7 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
     e->component = POOL_ARRAY(pool, double, squares);
     e->value = POOL_ARRAY(pool, double, block);
     e->theta = POOL_ARRAY(pool, double, most);
-    e->remainder = POOL_ARRAY(pool, double, (size_t)block *(size_t)block);
+    e->remainder = POOL_ARRAY(pool, double, 4 * (size_t)block *(size_t)block);
     e->work = POOL_ARRAY(pool, double, 34 * (size_t)most);
     if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->projected || !e->vector || !e->component ||
         !e->value || !e->theta || !e->remainder || !e->work)
@@ -48,9 +48,9 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
 static int gram_schmidt(struct eigen_wide *e, int columns, const double *least, double *w, double *mw)
 {
     int n = e->n, rank = 0;
-    memset(e->remainder, 0, (size_t)e->block * (size_t)columns * sizeof(double));
+    memset(e->remainder, 0, 2 * (size_t)e->block * (size_t)columns * sizeof(double));
     for (int c = 0; c < columns; c++) {
-        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n, *r = e->remainder + (ptrdiff_t)c * e->block;
+        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n, *r = e->remainder + 2 * (ptrdiff_t)c * e->block;
         if (rank < c) {
             memcpy(x, w + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
             memcpy(mx, mw + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
@@ -83,7 +83,7 @@ static void project_out(struct eigen_wide *e, int size, int columns, double *w, 
 static int again(struct eigen_wide *e, int size, int columns, double *w, double *mw)
 {
     int n = e->n;
-    double *square = e->component + (ptrdiff_t)e->most * e->block;
+    double *square = e->component + 2 * (ptrdiff_t)e->most * e->block;
     if (size) {
         project_out(e, size, columns, w, e->component);
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->mass_basis, n, e->component, e->most, 1, mw,
@@ -130,14 +130,16 @@ static int expand(struct eigen_wide *e)
     return orthonormalise(e, size, columns, coefficient);
 }
 
-/* Random vectors, the last `columns` of the basis */
+/* Random vectors beside the block that is multiplied next */
 static int add_random(struct eigen_wide *e)
 {
-    double *x = e->basis + (ptrdiff_t)e->size * e->n;
+    int size = e->size + e->next, before = e->next;
+    double *x = e->basis + (ptrdiff_t)size * e->n;
     for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->count; i++)
         x[i] = random_normal(&e->stream);
-    e->last = 0; /* nothing is known to be left outside */
-    return orthonormalise(e, e->size, e->count, e->vector);
+    int status = orthonormalise(e, size, e->count, e->vector);
+    e->next += before;
+    return status;
 }
 
 /* Eigenpairs of the projected operator, theta ascending: the last ones belong to the lowest eigenvalues. */
@@ -163,7 +165,7 @@ static double residual(const struct eigen_wide *e, int pair)
     for (int b = 0; b < e->next; b++) {
         double sum = 0;
         for (int c = 0; c < e->last; c++)
-            sum += e->remainder[b + c * e->block] * y[c];
+            sum += e->remainder[b + 2 * c * e->block] * y[c];
         square += sum * sum;
     }
     return sqrt(square) / e->theta[e->size - 1 - pair];
@@ -246,16 +248,16 @@ static int begin(struct eigen_wide *e)
 
 /* The first shift is far below the first mode and yet well above rounding; the next one, knowing the third eigenvalue (the first
  * two may be rigid-body modes at zero) or the first above it that is not zero, is of its size: the iteration then converges about
- * as fast as with none. */
+ * as fast as with none. Returns 0 where no such eigenvalue is known. */
 static int choose_shift(struct eigen_wide *e)
 {
     int j = e->block < 3 ? e->block - 1 : 2;
     while (j + 1 < e->block && e->value[j] < ZERO * e->largest)
         j++;
     if (!isfinite(e->value[j]) || e->value[j] < ZERO * e->largest)
-        return ROTID_ERROR_STIFFNESS;
+        return 0;
     e->shift = -0.1 * fabs(e->value[j]);
-    return ROTID_OK;
+    return 1;
 }
 
 static int start(struct eigen_wide *e)
@@ -269,7 +271,7 @@ static int start(struct eigen_wide *e)
     if (status)
         return status;
     take_pairs(e);
-    return choose_shift(e);
+    return choose_shift(e) ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
 /* Refuses what no rotor has, the same way whatever was solved before. */
@@ -286,31 +288,34 @@ static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix
     return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
-/* Are there exactly `count` eigenvalues below a shift just above the last one? Rounding limits how near it can be; a neighbour
- * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. */
-static int none_missed(struct eigen_wide *e)
+/* The number of eigenvalues below a shift just above the last pair, which rounding limits in how near it can be, less that of the
+ * Ritz values there: 0 proves that none was missed, also of those that lie between the last pair and the shift. Ritz values lie
+ * above the eigenvalues that they belong to, so no fewer can be there. */
+static int count_missed(struct eigen_wide *e)
 {
     double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
-    int expected = e->count;
-    while (expected < e->block && e->value[expected] <= shift)
-        expected++;
-    return factor_negative_count_pencil(&e->factor, &e->pencil, shift) == expected;
+    int known = e->count;
+    while (known < e->block && e->value[known] <= shift)
+        known++;
+    return factor_negative_count_pencil(&e->factor, &e->pencil, shift) - known;
 }
 
-/* From the vectors in ritz to pairs of which none is missed. Equal eigenvalues beyond the size of the block come late, and with
+/* From the vectors in ritz to pairs of which none is missed. Equal eigenvalues beyond the number of vectors come late, and with
  * new random vectors. */
 static int attempt(struct eigen_wide *e)
 {
-    int status = begin(e);
+    int status = begin(e), watched = e->count;
     for (int repair = 0; !status; repair++) {
-        status = iterate(e, e->count, TOLERANCE);
+        status = iterate(e, watched, TOLERANCE);
         if (status)
             break;
         take_pairs(e);
-        if (none_missed(e))
+        int missed = count_missed(e);
+        if (!missed)
             return ROTID_OK;
-        if (repair == REPAIRS || factor_compute_pencil(&e->factor, &e->pencil, e->shift))
+        if (repair == REPAIRS || missed < 0 || factor_compute_pencil(&e->factor, &e->pencil, e->shift))
             return ROTID_ERROR_EIGEN;
+        watched = watched + missed < e->block ? watched + missed : e->block;
         condense(e);
         status = add_random(e);
     }
@@ -359,5 +364,6 @@ int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_ma
     if (lambda[0] < -FIRST_SHIFT * e->largest)
         return ROTID_ERROR_STIFFNESS;
     e->started = 1;
-    return choose_shift(e);
+    (void)choose_shift(e); /* for the next call */
+    return ROTID_OK;
 }

@@ -16,12 +16,12 @@ struct eigen_wide {
     int *all;              /* [n] 0 ... n - 1: no row is left out */
     struct pencil pencil;
     struct factor factor;                   /* of K - shift M; in between of M and for the Sturm count */
-    double *basis, *mass_basis;             /* [n * (most + block)] V with V' M V = 1, and M V */
+    double *basis, *mass_basis;             /* [n * (most + 2 block)] V with V' M V = 1, and M V */
     double *ritz, *image;                   /* [n * block] the current vectors, kept for the next call; workspace */
     double *projected, *vector, *component; /* [most^2] V' M (K - shift M)^-1 M V, upper triangle; its vectors; workspace */
     double *value;                          /* [block] ascending */
     double *theta;                          /* [most] eigenvalues of `projected` */
-    double *remainder;                      /* [block^2] R: what (K - shift M)^-1 M makes of the last columns beyond them is Q R */
+    double *remainder;                      /* [4 block^2] R: what (K - shift M)^-1 M makes of the last columns beyond them is Q R */
     double *work;                           /* [34 most] */
 };
 
