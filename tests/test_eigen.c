@@ -1,6 +1,7 @@
 /* Eigenpairs of banded pencils: residuals, orthonormality, dsygv as second solver, closed forms. Every test runs with the solver of
  * narrow bands and, on the same matrices with zeros stored beside them, with that of wide ones. */
 #include "dense.h"
+#include "either_band.h"
 #include "paper_rotor.h"
 
 #include <cblas.h>
@@ -9,49 +10,6 @@
 
 #include "linalg/eigen.h"
 #include "linalg/matrix.h"
-
-static int by_panels;
-
-struct solver {
-    struct eigen_band narrow;
-    struct eigen_wide wide;
-    rotid_matrix k, m; /* in storage for a wide band */
-};
-
-static int is_too_small(int n)
-{
-    return by_panels && n <= FACTOR_WIDE;
-}
-
-static int solver_new(struct pool *pool, const rotid_matrix *structure, int count, struct solver *s)
-{
-    rotid_matrix *both[] = {&s->k, &s->m};
-    if (!by_panels)
-        return eigen_band_new(pool, structure, count, &s->narrow);
-    for (int i = 0; i < 2; i++)
-        assert_status(matrix_new(pool, structure->n, structure->kd > FACTOR_WIDE ? structure->kd : FACTOR_WIDE, structure->nfar,
-                                 structure->far, both[i]),
-                      ROTID_OK);
-    return eigen_wide_new(pool, &s->k, count, &s->wide);
-}
-
-static void widen(const rotid_matrix *from, rotid_matrix *to)
-{
-    matrix_zero(to);
-    for (int j = 0; j < from->n; j++)
-        for (int d = 0; d <= from->kd && j + d < from->n; d++)
-            to->band[d + (ptrdiff_t)j * (to->kd + 1)] = from->band[d + (ptrdiff_t)j * (from->kd + 1)];
-    memcpy(to->block, from->block, (size_t)from->nfar * (size_t)from->nfar * sizeof *to->block);
-}
-
-static int solver_solve(struct solver *s, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
-{
-    if (!by_panels)
-        return eigen_band_solve(&s->narrow, k, m, lambda, phi);
-    widen(k, &s->k);
-    widen(m, &s->m);
-    return eigen_wide_solve(&s->wide, &s->k, &s->m, lambda, phi);
-}
 
 /* ---- the matrices */
 
@@ -167,10 +125,10 @@ static void check_pairs(struct pool *pool, const rotid_matrix *k, const rotid_ma
 /* Solves cold and checks; returns lambda [count]. */
 static double *solve_and_check(struct pool *pool, const rotid_matrix *k, const rotid_matrix *m, int count)
 {
-    struct solver e;
+    struct either_band e;
     double *lambda = numbers(pool, count), *phi = numbers(pool, (ptrdiff_t)k->n * count);
-    assert_status(solver_new(pool, k, count, &e), ROTID_OK);
-    assert_status(solver_solve(&e, k, m, lambda, phi), ROTID_OK);
+    assert_status(either_band_new(pool, k, count, &e), ROTID_OK);
+    assert_status(either_band_solve(&e, k, m, lambda, phi), ROTID_OK);
     check_pairs(pool, k, m, count, lambda, phi);
     return lambda;
 }
@@ -182,7 +140,7 @@ static void random_pencils_agree_with_dsygv(void **state)
     struct random_stream stream = {21};
     const int far[6] = {0, 1, 4, 5, 8, 9};
     for (int n = 10; n <= 200; n += 19)
-        for (int coupled = 0; coupled < 2 && !is_too_small(n); coupled++) {
+        for (int coupled = 0; coupled < 2 && !either_band_is_too_small(n); coupled++) {
             rotid_matrix k, m;
             random_positive(*state, &stream, n, 1 + n % 5, coupled ? 6 : 0, far, 1e-4, &k);
             random_positive(*state, &stream, n, 1 + n % 5, coupled ? 6 : 0, far, 1, &m);
@@ -210,13 +168,13 @@ static void the_papers_rotor_agrees_with_dsygv(void **state)
 
 static void free_beams_have_their_rigid_motions_at_zero(void **state)
 {
-    struct solver e;
+    struct either_band e;
     rotid_matrix k, m;
     uniform_beam(*state, 40, 2, 0, &k, &m);
     int n = k.n;
     double lambda[8], *phi = numbers(*state, 8 * (ptrdiff_t)n), *rigid = numbers(*state, 2 * (ptrdiff_t)n);
-    assert_status(solver_new(*state, &k, 8, &e), ROTID_OK);
-    assert_status(solver_solve(&e, &k, &m, lambda, phi), ROTID_OK);
+    assert_status(either_band_new(*state, &k, 8, &e), ROTID_OK);
+    assert_status(either_band_solve(&e, &k, &m, lambda, phi), ROTID_OK);
     check_pairs(*state, &k, &m, 8, lambda, phi);
     assert_close(lambda[0], 0, 0, 1e-9 * lambda[2]);
     assert_close(lambda[1], 0, 0, 1e-9 * lambda[2]);
@@ -284,17 +242,17 @@ static void a_warm_start_gives_what_a_cold_one_gives(void **state)
 {
     const double factors[][2] = {{1, 1}, {5, 5}, {0.2, 1}, {1, 5}, {5, 0.2}, {1, 1}, {1, 1}, {1 + 1e-9, 1}};
     for (int model = BUNDLE_RODS; model <= BUNDLE_TUBE; model++) {
-        struct solver warm;
+        struct either_band warm;
         rotid_matrix k, m;
         double lambda[8], *phi = NULL;
         for (int step = 0; step < 8; step++) {
             const double x[2] = {paper_start[0] * factors[step][0], paper_start[1] * factors[step][1]};
             rotor_matrices(*state, (enum bundle_model)model, x, &k, &m);
             if (!step) {
-                assert_status(solver_new(*state, &k, 8, &warm), ROTID_OK);
+                assert_status(either_band_new(*state, &k, 8, &warm), ROTID_OK);
                 phi = numbers(*state, 8 * (ptrdiff_t)k.n);
             }
-            assert_status(solver_solve(&warm, &k, &m, lambda, phi), ROTID_OK);
+            assert_status(either_band_solve(&warm, &k, &m, lambda, phi), ROTID_OK);
             check_pairs(*state, &k, &m, 8, lambda, phi);
             const double *cold = solve_and_check(*state, &k, &m, 8);
             for (int j = 0; j < 8; j++)
@@ -308,7 +266,7 @@ static void modes_that_a_warm_start_cannot_see_are_found(void **state)
 {
     enum { each = 60, n = 2 * each, count = 4 };
     const double stiffness[4] = {100, 1e-4, 1e4, 0.5}; /* of the second chain */
-    struct solver e;
+    struct either_band e;
     rotid_matrix k, m;
     double lambda[count], *phi = numbers(*state, n * count);
     for (int step = 0; step < 4; step++) {
@@ -320,8 +278,8 @@ static void modes_that_a_warm_start_cannot_see_are_found(void **state)
             for (int d = 0; d < 2; d++)
                 k.band[d + 2 * i] *= stiffness[step];
         if (!step)
-            assert_status(solver_new(*state, &k, count, &e), ROTID_OK);
-        assert_status(solver_solve(&e, &k, &m, lambda, phi), ROTID_OK);
+            assert_status(either_band_new(*state, &k, count, &e), ROTID_OK);
+        assert_status(either_band_solve(&e, &k, &m, lambda, phi), ROTID_OK);
         check_pairs(*state, &k, &m, count, lambda, phi);
         for (int j = 0, a = 0, b = 0; j < count; j++) {
             double first = string_eigenvalue(each, 1, a), second = stiffness[step] * string_eigenvalue(each, 1, b);
@@ -338,7 +296,7 @@ static void light_structures_have_the_same_pairs(void **state)
     enum { n = 60, count = 4 };
     for (int power = -300; power <= 300; power += 20)
         for (int held = 0; held < 2; held++) {
-            struct solver e;
+            struct either_band e;
             rotid_matrix k, m;
             double lambda[count], *phi = numbers(*state, n * count);
             assert_status(matrix_new(*state, n, 1, 0, NULL, &k), ROTID_OK);
@@ -348,8 +306,8 @@ static void light_structures_have_the_same_pairs(void **state)
                 k.band[i] *= pow(10, power);
                 m.band[i] *= pow(10, power);
             }
-            assert_status(solver_new(*state, &k, count, &e), ROTID_OK);
-            assert_status(solver_solve(&e, &k, &m, lambda, phi), ROTID_OK);
+            assert_status(either_band_new(*state, &k, count, &e), ROTID_OK);
+            assert_status(either_band_solve(&e, &k, &m, lambda, phi), ROTID_OK);
             for (int j = 0; j < count; j++)
                 assert_close(lambda[j], string_eigenvalue(n, held, j), 1e-10, held ? 0 : 1e-13);
         }
@@ -362,7 +320,7 @@ static void one_pair_and_nearly_all_pairs_are_served(void **state)
     for (int c = 0; c < 10; c++) {
         int n = counts[c][0], count = counts[c][1];
         rotid_matrix k, m;
-        if (is_too_small(n))
+        if (either_band_is_too_small(n))
             continue;
         random_positive(*state, &stream, n, n > 3 ? 3 : n - 1, 0, NULL, 1e-2, &k);
         random_positive(*state, &stream, n, n > 3 ? 3 : n - 1, 0, NULL, 1, &m);
@@ -407,6 +365,6 @@ int main(void)
         WITH_POOL(twenty_thousand_degrees_of_freedom_agree_with_closed_forms),
     };
     int failed = cmocka_run_group_tests_name("narrow", tests, NULL, NULL);
-    by_panels = 1;
+    either_band_wide = 1;
     return failed + cmocka_run_group_tests_name("wide", tests, NULL, NULL);
 }
