@@ -43,14 +43,14 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
     return status ? status : factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
 }
 
-/* Makes the columns of W [n * columns], M W beside it, M-orthonormal: W = Q R, remainder := R. Columns that are least[c] long or
- * shorter without those before them are dropped. Returns how many are left. */
-static int gram_schmidt(struct eigen_wide *e, int columns, const double *least, double *w, double *mw)
+/* Makes the columns of W [n * columns], M W beside it, M-orthonormal: W = Q R, R [2 block * columns]. Columns that are least[c] long
+ * or shorter without those before them are dropped. Returns how many are left. */
+static int gram_schmidt(struct eigen_wide *e, int columns, const double *least, double *w, double *mw, double *remainder)
 {
     int n = e->n, rank = 0;
-    memset(e->remainder, 0, 2 * (size_t)e->block * (size_t)columns * sizeof(double));
+    memset(remainder, 0, 2 * (size_t)e->block * (size_t)columns * sizeof(double));
     for (int c = 0; c < columns; c++) {
-        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n, *r = e->remainder + 2 * (ptrdiff_t)c * e->block;
+        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n, *r = remainder + 2 * (ptrdiff_t)c * e->block;
         if (rank < c) {
             memcpy(x, w + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
             memcpy(mx, mw + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
@@ -78,29 +78,32 @@ static void project_out(struct eigen_wide *e, int size, int columns, double *w, 
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->basis, n, part, e->most, 1, w, n);
 }
 
-/* Takes off what rounding has left of the basis in W, and of its columns in each other: by the product, for W' M W is near 1.
- * Returns 0, or 1 where it is not. */
+/* Takes off what rounding has left of the basis in W, and of its columns in each other. Returns how many columns are left: those
+ * that were rounding from the start are not orthogonal yet, nor independent. */
 static int again(struct eigen_wide *e, int size, int columns, double *w, double *mw)
 {
     int n = e->n;
-    double *square = e->component + 2 * (ptrdiff_t)e->most * e->block;
+    double *square = e->component + 2 * (ptrdiff_t)e->most * e->block, *least = e->work;
     if (size) {
         project_out(e, size, columns, w, e->component);
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->mass_basis, n, e->component, e->most, 1, mw,
                     n);
     }
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, columns, columns, n, 1, w, n, mw, n, 0, square, columns);
-    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', columns, square, columns))
-        return 1;
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', columns, square, columns)) {
+        for (int c = 0; c < columns; c++)
+            least[c] = 0.5;
+        return gram_schmidt(e, columns, least, w, mw, e->component);
+    }
     cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, n, columns, 1, square, columns, w, n);
     cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, n, columns, 1, square, columns, mw, n);
-    return 0;
+    return columns;
 }
 
 /* The `columns` columns behind the first `size` of the basis: taken orthogonal to those and to each other, twice because once
  * leaves errors of the size of the cancellation. coefficient [size * columns], leading dimension most: what was along the basis.
- * Sets `next`. ROTID_OK or ROTID_ERROR_EIGEN. */
-static int orthonormalise(struct eigen_wide *e, int size, int columns, double *coefficient)
+ * Sets `outside` and `next`. */
+static void orthonormalise(struct eigen_wide *e, int size, int columns, double *coefficient)
 {
     int n = e->n;
     double *w = e->basis + (ptrdiff_t)size * n, *mw = e->mass_basis + (ptrdiff_t)size * n, *least = e->work;
@@ -113,12 +116,14 @@ static int orthonormalise(struct eigen_wide *e, int size, int columns, double *c
             square += coefficient[i + (ptrdiff_t)c * e->most] * coefficient[i + (ptrdiff_t)c * e->most];
         least[c] = NOTHING * sqrt(square);
     }
-    e->next = gram_schmidt(e, columns, least, w, mw);
-    return e->next && again(e, size, e->next, w, mw) ? ROTID_ERROR_EIGEN : ROTID_OK;
+    e->outside = gram_schmidt(e, columns, least, w, mw, e->remainder);
+    e->next = e->outside < n - size ? e->outside : n - size;
+    if (e->next)
+        e->next = again(e, size, e->next, w, mw);
 }
 
 /* One block more: what (K - s M)^-1 M makes of the last one. */
-static int expand(struct eigen_wide *e)
+static void expand(struct eigen_wide *e)
 {
     int n = e->n, columns = e->next, size = e->size + columns;
     double *w = e->basis + (ptrdiff_t)size * n;
@@ -127,19 +132,18 @@ static int expand(struct eigen_wide *e)
     double *coefficient = e->projected + (ptrdiff_t)e->size * e->most;
     e->last = columns;
     e->size = size;
-    return orthonormalise(e, size, columns, coefficient);
+    orthonormalise(e, size, columns, coefficient);
 }
 
 /* Random vectors beside the block that is multiplied next */
-static int add_random(struct eigen_wide *e)
+static void add_random(struct eigen_wide *e)
 {
     int size = e->size + e->next, before = e->next;
     double *x = e->basis + (ptrdiff_t)size * e->n;
     for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->count; i++)
         x[i] = random_normal(&e->stream);
-    int status = orthonormalise(e, size, e->count, e->vector);
+    orthonormalise(e, size, e->count, e->vector);
     e->next += before;
-    return status;
 }
 
 /* Eigenpairs of the projected operator, theta ascending: the last ones belong to the lowest eigenvalues. */
@@ -162,7 +166,7 @@ static double residual(const struct eigen_wide *e, int pair)
 {
     const double *y = components(e, pair) + e->size - e->last;
     double square = 0;
-    for (int b = 0; b < e->next; b++) {
+    for (int b = 0; b < e->outside; b++) {
         double sum = 0;
         for (int c = 0; c < e->last; c++)
             sum += e->remainder[b + 2 * c * e->block] * y[c];
@@ -208,9 +212,8 @@ static int iterate(struct eigen_wide *e, int watched, double tolerance)
     for (int step = 0; step < MOST_BLOCKS; step++) {
         if (e->size + e->next > e->most)
             condense(e);
-        int status = expand(e), open = e->size < watched;
-        if (!status)
-            status = project(e);
+        expand(e);
+        int status = project(e), open = e->size < watched;
         if (status)
             return status;
         for (int j = 0; j < watched && !open; j++)
@@ -219,10 +222,8 @@ static int iterate(struct eigen_wide *e, int watched, double tolerance)
             return ROTID_OK;
         if (!e->next) { /* the basis holds all of its own images, and not yet the pairs */
             condense(e);
-            status = add_random(e);
+            add_random(e);
         }
-        if (status)
-            return status;
     }
     return ROTID_ERROR_EIGEN;
 }
@@ -241,8 +242,7 @@ static int begin(struct eigen_wide *e)
 {
     e->size = e->last = 0;
     memcpy(e->basis, e->ritz, (size_t)e->n * (size_t)e->count * sizeof(double));
-    if (orthonormalise(e, 0, e->count, e->component))
-        return ROTID_ERROR_EIGEN;
+    orthonormalise(e, 0, e->count, e->component);
     return factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
 }
 
@@ -317,7 +317,7 @@ static int attempt(struct eigen_wide *e)
             return ROTID_ERROR_EIGEN;
         watched = watched + missed < e->block ? watched + missed : e->block;
         condense(e);
-        status = add_random(e);
+        add_random(e);
     }
     return status;
 }

@@ -10,7 +10,7 @@ struct eigen_wide {
     int started;           /* ritz holds the pairs of the call before */
     int definite;          /* M of the call before was positive definite */
     int size, next;        /* columns of the basis that were multiplied, and of the block behind them that were not */
-    int last;              /* columns that were multiplied last */
+    int last, outside;     /* columns that were multiplied last, and columns of R below */
     struct random_stream stream;
     double shift, largest; /* largest K_ii/M_ii: the size of the highest eigenvalue */
     int *all;              /* [n] 0 ... n - 1: no row is left out */
