@@ -1,5 +1,5 @@
-/* Eigenpairs of banded pencils: residuals, orthonormality, dsygv as second solver, closed forms. Every test runs with the solver of
- * narrow bands and, on the same matrices with zeros stored beside them, with that of wide ones. */
+/* Eigenpairs of banded pencils: residuals, orthonormality, dsygv as second solver, closed forms. Every test runs with the solver
+ * of narrow bands and, on the same matrices with zeros stored beside them, with that of wide ones. */
 #include "dense.h"
 #include "either_band.h"
 #include "paper_rotor.h"

@@ -32,7 +32,7 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
     e->component = POOL_ARRAY(pool, double, squares);
     e->value = POOL_ARRAY(pool, double, block);
     e->theta = POOL_ARRAY(pool, double, most);
-    e->remainder = POOL_ARRAY(pool, double, 4 * (size_t)block *(size_t)block);
+    e->remainder = POOL_ARRAY(pool, double, 4 * (size_t)block * (size_t)block);
     e->work = POOL_ARRAY(pool, double, 34 * (size_t)most);
     if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->projected || !e->vector || !e->component ||
         !e->value || !e->theta || !e->remainder || !e->work)
@@ -43,8 +43,8 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
     return status ? status : factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
 }
 
-/* Makes the columns of W [n * columns], M W beside it, M-orthonormal: W = Q R, R [2 block * columns]. Columns that are least[c] long
- * or shorter without those before them are dropped. Returns how many are left. */
+/* Makes the columns of W [n * columns], M W beside it, M-orthonormal: W = Q R, R [2 block * columns]. Columns that are least[c]
+ * long or shorter without those before them are dropped. Returns how many are left. */
 static int gram_schmidt(struct eigen_wide *e, int columns, const double *least, double *w, double *mw, double *remainder)
 {
     int n = e->n, rank = 0;
@@ -86,8 +86,8 @@ static int again(struct eigen_wide *e, int size, int columns, double *w, double 
     double *square = e->component + 2 * (ptrdiff_t)e->most * e->block, *least = e->work;
     if (size) {
         project_out(e, size, columns, w, e->component);
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->mass_basis, n, e->component, e->most, 1, mw,
-                    n);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->mass_basis, n, e->component, e->most, 1,
+                    mw, n);
     }
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, columns, columns, n, 1, w, n, mw, n, 0, square, columns);
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', columns, square, columns)) {
@@ -152,8 +152,9 @@ static int project(struct eigen_wide *e)
     int size = e->size;
     for (int j = 0; j < size; j++)
         memcpy(e->vector + (ptrdiff_t)j * size, e->projected + (ptrdiff_t)j * e->most, (size_t)(j + 1) * sizeof(double));
-    return LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', size, e->vector, size, e->theta, e->work, 34 * e->most) ? ROTID_ERROR_EIGEN
-                                                                                                        : ROTID_OK;
+    return LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', size, e->vector, size, e->theta, e->work, 34 * e->most)
+               ? ROTID_ERROR_EIGEN
+               : ROTID_OK;
 }
 
 static const double *components(const struct eigen_wide *e, int pair)

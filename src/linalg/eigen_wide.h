@@ -7,10 +7,10 @@
 
 struct eigen_wide {
     int n, count, block, most;
-    int started;           /* ritz holds the pairs of the call before */
-    int definite;          /* M of the call before was positive definite */
-    int size, next;        /* columns of the basis that were multiplied, and of the block behind them that were not */
-    int last, outside;     /* columns that were multiplied last, and columns of R below */
+    int started;       /* ritz holds the pairs of the call before */
+    int definite;      /* M of the call before was positive definite */
+    int size, next;    /* columns of the basis that were multiplied, and of the block behind them that were not */
+    int last, outside; /* columns that were multiplied last, and columns of R below */
     struct random_stream stream;
     double shift, largest; /* largest K_ii/M_ii: the size of the highest eigenvalue */
     int *all;              /* [n] 0 ... n - 1: no row is left out */
@@ -21,8 +21,8 @@ struct eigen_wide {
     double *projected, *vector, *component; /* [most^2] V' M (K - shift M)^-1 M V, upper triangle; its vectors; workspace */
     double *value;                          /* [block] ascending */
     double *theta;                          /* [most] eigenvalues of `projected` */
-    double *remainder;                      /* [4 block^2] R: what (K - shift M)^-1 M makes of the last columns beyond them is Q R */
-    double *work;                           /* [34 most] */
+    double *remainder; /* [4 block^2] R: what (K - shift M)^-1 M makes of the last columns beyond them is Q R */
+    double *work;      /* [34 most] */
 };
 
 /* For the lowest `count` pairs of matrices structured as `structure`, a wide one. ROTID_OK or ROTID_ERROR_MEMORY. */

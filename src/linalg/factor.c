@@ -248,7 +248,8 @@ void factor_solve(struct factor *f, int columns, double *b)
         return;
     }
     for (int c = 0; c < columns; c += BAND_LANES)
-        (f->is_wide ? solve_wide : solve_together)(f, columns - c < BAND_LANES ? columns - c : BAND_LANES, b + (ptrdiff_t)c * f->n);
+        (f->is_wide ? solve_wide : solve_together)(f, columns - c < BAND_LANES ? columns - c : BAND_LANES,
+                                                   b + (ptrdiff_t)c * f->n);
 }
 
 /* LDL' of the inner band in its own storage (unit lower L below, D on the diagonal); returns the number of negative pivots. A

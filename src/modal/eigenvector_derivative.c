@@ -6,8 +6,8 @@
 #include "linalg/matrix.h"
 #include "linalg/product.h"
 
-#define ENOUGH    1e-9 /* relative change of V by a step of refinement whose square is below rounding */
-#define MOST_STEPS 6   /* of refinement with the factor of a wide band, which has not pivoted */
+#define ENOUGH     1e-9 /* relative change of V by a step of refinement whose square is below rounding */
+#define MOST_STEPS 6    /* of refinement with the factor of a wide band, which has not pivoted */
 
 static int neighbours(int count, const double *lambda, int k, int most, int *first)
 {

@@ -31,7 +31,7 @@ struct prediction {
     double *m_phi;    /* [size * count] */
     double *kx, *mx;  /* [size * nparam * count]: dK phi_k and dM phi_k of the condensed matrices */
     double *below;    /* [size * nparam]: of a cluster that goes on, dphi with an eigenvalue below */
-    double *image; /* [2 size * count] dK phi and dM phi of the full matrices */
+    double *image;    /* [2 size * count] dK phi and dM phi of the full matrices */
     double *x, *work;
 };
 
