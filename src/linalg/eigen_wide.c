@@ -32,10 +32,11 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
     e->component = POOL_ARRAY(pool, double, squares);
     e->value = POOL_ARRAY(pool, double, block);
     e->theta = POOL_ARRAY(pool, double, most);
+    e->iwork = POOL_ARRAY(pool, int, 12 * (size_t)most);
     e->remainder = POOL_ARRAY(pool, double, 4 * (size_t)block * (size_t)block);
     e->work = POOL_ARRAY(pool, double, 34 * (size_t)most);
     if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->projected || !e->vector || !e->component ||
-        !e->value || !e->theta || !e->remainder || !e->work)
+        !e->value || !e->theta || !e->iwork || !e->remainder || !e->work)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         e->all[i] = i;
@@ -146,20 +147,33 @@ static void add_random(struct eigen_wide *e)
     e->next += before;
 }
 
-/* Eigenpairs of the projected operator, theta ascending: the last ones belong to the lowest eigenvalues. */
+static int known_pairs(const struct eigen_wide *e)
+{
+    return e->size < e->block ? e->size : e->block;
+}
+
+/* The pairs of the projected operator that belong to the lowest eigenvalues, theta ascending: the lowest one comes last. */
 static int project(struct eigen_wide *e)
 {
-    int size = e->size;
+    int size = e->size, pairs = known_pairs(e);
+    lapack_int found = 0;
+    double *a = e->component;
     for (int j = 0; j < size; j++)
-        memcpy(e->vector + (ptrdiff_t)j * size, e->projected + (ptrdiff_t)j * e->most, (size_t)(j + 1) * sizeof(double));
-    return LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', size, e->vector, size, e->theta, e->work, 34 * e->most)
-               ? ROTID_ERROR_EIGEN
-               : ROTID_OK;
+        memcpy(a + (ptrdiff_t)j * size, e->projected + (ptrdiff_t)j * e->most, (size_t)(j + 1) * sizeof(double));
+    lapack_int info = LAPACKE_dsyevr_work(LAPACK_COL_MAJOR, 'V', 'I', 'U', size, a, size, 0, 0, size - pairs + 1, size, 0, &found,
+                                          e->theta, e->vector, size, e->iwork, e->work, 34 * e->most, e->iwork + 2 * e->most,
+                                          10 * e->most);
+    return info || found != pairs ? ROTID_ERROR_EIGEN : ROTID_OK;
+}
+
+static double theta(const struct eigen_wide *e, int pair)
+{
+    return e->theta[known_pairs(e) - 1 - pair];
 }
 
 static const double *components(const struct eigen_wide *e, int pair)
 {
-    return e->vector + (ptrdiff_t)(e->size - 1 - pair) * e->size;
+    return e->vector + (ptrdiff_t)(known_pairs(e) - 1 - pair) * e->size;
 }
 
 /* Relative residual of a pair, 0 the lowest */
@@ -173,7 +187,7 @@ static double residual(const struct eigen_wide *e, int pair)
             sum += e->remainder[b + 2 * c * e->block] * y[c];
         square += sum * sum;
     }
-    return sqrt(square) / e->theta[e->size - 1 - pair];
+    return sqrt(square) / theta(e, pair);
 }
 
 /* target [n * pairs] := the vectors of the lowest pairs from the basis or M times it; component is overwritten */
@@ -183,11 +197,6 @@ static void combine(struct eigen_wide *e, const double *basis, int pairs, double
         memcpy(e->component + (ptrdiff_t)j * e->size, components(e, j), (size_t)e->size * sizeof(double));
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, e->n, pairs, e->size, 1, basis, e->n, e->component, e->size, 0, target,
                 e->n);
-}
-
-static int known_pairs(const struct eigen_wide *e)
-{
-    return e->size < e->block ? e->size : e->block;
 }
 
 /* The lowest pairs become the basis, before the block that has not been multiplied (thick restart). */
@@ -202,7 +211,7 @@ static void condense(struct eigen_wide *e)
     }
     for (int j = 0; j < pairs; j++) {
         memset(e->projected + (ptrdiff_t)j * e->most, 0, (size_t)pairs * sizeof(double));
-        e->projected[j + (ptrdiff_t)j * e->most] = e->theta[e->size - 1 - j];
+        e->projected[j + (ptrdiff_t)j * e->most] = theta(e, j);
     }
     e->size = pairs;
 }
@@ -218,7 +227,7 @@ static int iterate(struct eigen_wide *e, int watched, double tolerance)
         if (status)
             return status;
         for (int j = 0; j < watched && !open; j++)
-            open = !(e->theta[e->size - 1 - j] > 0) || !(residual(e, j) <= tolerance);
+            open = !(theta(e, j) > 0) || !(residual(e, j) <= tolerance);
         if (!open)
             return ROTID_OK;
         if (!e->next) { /* the basis holds all of its own images, and not yet the pairs */
@@ -235,7 +244,7 @@ static void take_pairs(struct eigen_wide *e)
     int pairs = known_pairs(e);
     combine(e, e->basis, pairs, e->ritz);
     for (int j = 0; j < e->block; j++)
-        e->value[j] = j < pairs && e->theta[e->size - 1 - j] > 0 ? 1 / e->theta[e->size - 1 - j] + e->shift : INFINITY;
+        e->value[j] = j < pairs && theta(e, j) > 0 ? 1 / theta(e, j) + e->shift : INFINITY;
 }
 
 /* The basis begins with the vectors in ritz. */

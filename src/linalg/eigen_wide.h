@@ -20,7 +20,8 @@ struct eigen_wide {
     double *ritz, *image;                   /* [n * block] the current vectors, kept for the next call; workspace */
     double *projected, *vector, *component; /* [most^2] V' M (K - shift M)^-1 M V, upper triangle; its vectors; workspace */
     double *value;                          /* [block] ascending */
-    double *theta;                          /* [most] eigenvalues of `projected` */
+    double *theta;                          /* [most] largest eigenvalues of `projected` */
+    int *iwork;                             /* [12 most] */
     double *remainder; /* [4 block^2] R: what (K - shift M)^-1 M makes of the last columns beyond them is Q R */
     double *work;      /* [34 most] */
 };

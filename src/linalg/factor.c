@@ -150,7 +150,7 @@ int factor_is_singular(const struct factor *f, const rotid_matrix *a)
 {
     double rounding = 256 * f->n * DBL_EPSILON; /* free beams of 2 to 1280 elements leave a sixth of it at most */
     for (int i = 0; i < f->nr; i++) {
-        double pivot = f->is_wide ? *wide_at(&f->wide, i, i) : f->band[(ptrdiff_t)i * f->lda];
+        double pivot = f->is_wide ? wide_column(&f->wide, i)[i] : f->band[(ptrdiff_t)i * f->lda];
         if (pivot * pivot <= rounding * a->band[(ptrdiff_t)f->kept[f->inner[i]] * (a->kd + 1)])
             return 1;
     }

@@ -28,10 +28,6 @@ void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const i
 /* Band storage of LAPACK: Cholesky keeps the lower triangle, LU both with kd rows of fill above. */
 static void put_inner(struct factor *f, int row, int column, double value)
 {
-    if (f->is_wide) {
-        *wide_at(&f->wide, row, column) = value;
-        return;
-    }
     if (f->kind == FACTOR_CHOLESKY) {
         f->band[(row - column) + (ptrdiff_t)column * f->lda] = value;
         return;
@@ -123,9 +119,15 @@ static void gather_wide(struct factor *f, const struct factor_source *source)
     }
     wide_clear(&f->wide, f->nr, f->reach);
     for (int k = 0; k < f->n; k++) {
-        int count = column_of(f, source, f->kept[k]), position = f->position[f->kept[k]];
-        for (int e = 0; e < count; e++)
-            put(f, f->position[f->row[e]], position, f->value[e]);
+        int count = column_of(f, source, f->kept[k]), pj = f->position[f->kept[k]];
+        double *column = pj >= 0 ? wide_column(&f->wide, pj) : NULL;
+        for (int e = 0; e < count; e++) {
+            int pi = f->position[f->row[e]];
+            if (column && pi >= 0)
+                column[pi] = f->value[e];
+            else
+                put(f, pi, pj, f->value[e]);
+        }
     }
 }
 
