@@ -298,11 +298,15 @@ void nelson_band_solve(struct nelson_band *b, int columns, int members, const do
         set_components(n, members, phi, m_phi, NULL, dphi + (ptrdiff_t)c * n);
     solve_columns(b, columns, dphi);
     /* the bordered factors may lose digits where a clamped mode lies near, and a cluster counts as one eigenvalue in them; a
-     * second step would change V by the square of the first
+     * second step would change V by the square of the first. Where a step gains nothing, what is left is rounding of P
      */
-    int most = b->factor.is_wide ? MOST_STEPS : 2;
-    while (most-- > 0 && refine(b, columns, members, phi, m_phi, p, dphi) > ENOUGH)
-        continue;
+    double change = INFINITY, before;
+    for (int most = b->factor.is_wide ? MOST_STEPS : 2; most > 0; most--) {
+        before = change;
+        change = refine(b, columns, members, phi, m_phi, p, dphi);
+        if (!(change > ENOUGH && change < before / 2))
+            break;
+    }
     for (int c = 0; c < columns; c++)
         set_components(n, members, m_phi, phi, q + (ptrdiff_t)c * members, dphi + (ptrdiff_t)c * n);
 }

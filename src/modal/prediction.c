@@ -291,15 +291,14 @@ static int solve_vectors(struct prediction *p, int k)
 /* dK and dM belong to a parameter and the factors to a mode: all right-hand sides first, so that each is formed once. */
 static int differentiate_vectors(struct prediction *p, const double *x, const int *wanted)
 {
-    int n = p->size, status = ROTID_OK;
-    for (int k = 0; k < p->count; k++) {
+    int n = p->size, full = p->reduction == ROTID_REDUCTION_NONE, status = ROTID_OK;
+    if (full) /* whatever is wanted: one pass over the band */
+        matrix_multiply(&p->m, p->count, p->phi, p->m_phi);
+    for (int k = 0; k < p->count && !full; k++) {
         int first, members = wanted[k] ? eigenvalue_cluster(p->count, p->lambda, k, &first) : 0;
         for (int j = 0; j < members; j++) {
             ptrdiff_t at = (ptrdiff_t)(first + j) * n;
-            if (p->reduction == ROTID_REDUCTION_NONE)
-                matrix_multiply(&p->m, 1, p->phi + at, p->m_phi + at);
-            else
-                multiply_dense(n, p->condensed.mc, p->phi + at, p->m_phi + at);
+            multiply_dense(n, p->condensed.mc, p->phi + at, p->m_phi + at);
         }
     }
     for (int q = 0; q < p->model->nparam && !status; q++) {
@@ -310,7 +309,7 @@ static int differentiate_vectors(struct prediction *p, const double *x, const in
             if (wanted[k])
                 form_right_side(p, k, q);
     }
-    if (p->reduction == ROTID_REDUCTION_NONE)
+    if (full)
         nelson_band_begin(&p->nelson_band, &p->k, &p->m);
     for (int k = 0; k < p->count && !status; k++)
         if (wanted[k])
