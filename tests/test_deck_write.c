@@ -68,6 +68,7 @@ static void assert_material(const struct material *a, const struct material *b)
 {
     assert_true(a->e == b->e && a->nu == b->nu && a->rho == b->rho && a->isotropic == b->isotropic);
     assert_true(a->isotropic || a->g == b->g);
+    assert_true(a->laminated == b->laminated && (!a->laminated || (a->sheet_e == b->sheet_e && a->stacking == b->stacking)));
 }
 
 static void assert_effect(const struct effect *a, const struct effect *b)
@@ -115,12 +116,17 @@ static void assert_rotor(const struct rotor *a, const struct rotor *b)
         assert_text(s->name, t->name);
         assert_material(&s->material, &t->material);
         assert_true(s->holes == t->holes && s->hole_diameter == t->hole_diameter && s->hole_pitch == t->hole_pitch);
-        assert_true(s->preload == t->preload);
+        assert_true(s->preload == t->preload && s->layer_of == t->layer_of);
     }
     for (int i = 0; i < a->nsegment; i++) {
         const struct segment *s = &a->segment[i], *t = &b->segment[i];
         assert_true(s->group == t->group && s->elements == t->elements && s->rectangular == t->rectangular);
         assert_doubles(6, &s->length, &t->length); /* length to width */
+    }
+    assert_int_equal(a->nring, b->nring);
+    for (int i = 0; i < a->nring; i++) {
+        assert_true(a->ring[i].group == b->ring[i].group && a->ring[i].segment == b->ring[i].segment);
+        assert_doubles(2, &a->ring[i].outer, &b->ring[i].outer);
     }
     assert_members(a, b);
     for (int s = 0; s < a->nsensor; s++)
@@ -247,8 +253,8 @@ static void assert_text_comes_back(const char *text)
 static void every_shipped_deck_comes_back_to_the_last_bit(void **state)
 {
     (void)state;
-    static const char *const decks[] = {"brake_reuss_beam", "foam_bar",    "paper_rotor",      "roving_hammer_beam",
-                                        "solid_rotor",      "solid_steel", "solid_steel_stiff"};
+    static const char *const decks[] = {"brake_reuss_beam",   "foam_bar",    "motor_shaft_stack", "paper_rotor",
+                                        "roving_hammer_beam", "solid_rotor", "solid_steel",       "solid_steel_stiff"};
     static const char *const files[] = {"gradient", "local", "mass", "uniform"};
     char text[512];
     for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
@@ -294,6 +300,7 @@ static void what_was_measured_in_part_comes_back(void **state)
     assert_text_comes_back(MODEL "*MODES\n3, 2400, , 0.7\n1, 500\n2, 1300, 0.01\n"); /* noise of one mode; any order */
     assert_text_comes_back(MODEL "*MODES\n1, 500, , 1\n2, 1300.1, , 0.3\n3, 2407.7, , 0.1\n");
     assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n*SHAPE, MODE=2\n3, 1\n1, -0.1, 0.03\n");
+    assert_text_comes_back(MODEL "*FIT, MODEL=SOLID\n");
     assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*FIT, HOLDOUT=2\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\n");
     assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\ncore.G, 0, 1e12, 8e10\n");
     assert_text_comes_back(

@@ -70,6 +70,19 @@ static void test_ross_sections_give_the_element(void **state)
     assert_int_equal(check_sections(&model.discrete->beam), 4);
     assert_status(ross_axis_section(&test_pool, &model.discrete->beam, 0, &section), ROTID_OK);
     assert_true(section.outer < 0.2 && section.inner == 0);
+    /* ROSS knows one material a section, and no shear coefficient but that of an isotropic one */
+    model =
+        model_of(STEEL "*MATERIAL, NAME=stack\n*ELASTIC, TYPE=LAMINATED\n1.5e10, 0.7e10, 2.1e11, 0.28\n*DENSITY\n7650\n"
+                       "*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.2, 0, 4\n*SHAFT, NAME=bare, MATERIAL=stack\n0.5, 0.2, 0.1, 4\n"
+                       "*LAYER, NAME=sleeve, GROUP=core, MATERIAL=stack\n0.4, 0.2\n");
+    assert_int_equal(check_sections(&model.discrete->beam), 8);
+    assert_status(ross_axis_section(&test_pool, &model.discrete->beam, 0, &section), ROTID_OK);
+    assert_string_equal(section.equivalent, "layer sleeve, sheets across the axis");
+    assert_true(section.outer < 0.4 && section.outer > 0.39 && section.inner == 0); /* heavier in its middle than a disc */
+    assert_status(ross_axis_section(&test_pool, &model.discrete->beam, 4, &section), ROTID_OK);
+    assert_string_equal(section.equivalent, "sheets across the axis");
+    assert_true(section.outer == 0.2 && section.inner == 0.1);
+    assert_close(section.e, 1.5e10, 1e-14, 0);
 }
 
 static void test_ross_tie_rods_as_rods_and_as_tube(void **state)

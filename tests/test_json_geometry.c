@@ -77,6 +77,30 @@ static void groups_have_the_sections_and_materials_of_their_cards(void **state)
     json_deck_close(&deck);
 }
 
+/* Layers stand behind the groups of the axis, with the sections of their host. */
+static void layers_are_groups_with_rings_and_sheets(void **state)
+{
+    (void)state;
+    struct json_deck deck;
+    json_deck_open(&deck, STEEL "*MATERIAL, NAME=sheets\n*ELASTIC, TYPE=LAMINATED\n1.5e10, 0.7e10, 2.1e11, 0.28, 0.97\n"
+                                "*DENSITY\n7650\n*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.1, 0, 4\n"
+                                "*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.2, 0, 9\n0.2, 0.25, 0, 3\n"
+                                "*LAYER, NAME=stack, GROUP=core, MATERIAL=sheets\n0.4, 0.2\n0.45, 0.25\n");
+    cJSON *json = json_deck_check(&deck);
+    const cJSON *geometry = get(json, "geometry"), *core = json_member(geometry, "groups", 1),
+                *stack = json_member(geometry, "groups", 2);
+    assert_int_equal(cJSON_GetArraySize(get(geometry, "groups")), 3);
+    assert_null(cJSON_GetObjectItemCaseSensitive(core, "layer_of"));
+    assert_null(cJSON_GetObjectItemCaseSensitive(get(core, "material"), "sheet_e_pa"));
+    assert_true(is_text(stack, "name", "stack") && is_text(stack, "layer_of", "core"));
+    HAS(stack, {"from_m", 0.3}, {"to_m", 1});
+    HAS(get(stack, "material"), {"e_pa", 1.5e10}, {"g_pa", 0.7e10}, {"nu", 0.28}, {"sheet_e_pa", 2.1e11}, {"stacking", 0.97});
+    assert_int_equal(cJSON_GetArraySize(get(stack, "segments")), 2);
+    HAS(json_member(stack, "segments", 1), {"from_m", 0.8}, {"to_m", 1}, {"elements", 3}, {"outer_m", 0.45}, {"inner_m", 0.25});
+    cJSON_Delete(json);
+    json_deck_close(&deck);
+}
+
 static void what_is_attached_stands_where_the_deck_has_it(void **state)
 {
     (void)state;
@@ -225,6 +249,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(groups_have_the_sections_and_materials_of_their_cards),
+        cmocka_unit_test(layers_are_groups_with_rings_and_sheets),
         cmocka_unit_test(what_is_attached_stands_where_the_deck_has_it),
         cmocka_unit_test(a_sling_appears_as_its_two_springs),
         cmocka_unit_test(causes_of_the_model_name_their_targets),

@@ -124,6 +124,19 @@ static void an_identification_is_plotted_as_it_is(void **state)
     close_bench();
 }
 
+/* A ring is drawn on both sides of what lies within, and its bore is no hole in that. */
+static void layers_are_drawn_as_rings(void **state)
+{
+    (void)state;
+    open_bench("check", ROTID_SOURCE_DIR "/input/motor_shaft_stack.inp");
+    const char *script = script_of("rotor");
+    assert_int_equal(page_times(script, "rectangle from 1.01,0.225 to 2.16,0.41 "), 1);
+    assert_int_equal(page_times(script, "rectangle from 1.01,-0.225 to 2.16,-0.41 "), 1);
+    assert_int_equal(page_times(script, "rectangle from 1.01,-0.225 to 2.16,0.225 "), 1); /* the shaft itself */
+    assert_int_equal(page_times(script, "fc rgb PAPER"), 0);
+    close_bench();
+}
+
 /* What is computed of the result: shares, intervals in per cent, what others make of the frequencies. */
 static void what_is_computed_for_a_plot_is_that_of_its_definition(void **state)
 {
@@ -403,6 +416,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_identification_is_plotted_as_it_is),
+        cmocka_unit_test(layers_are_drawn_as_rings),
         cmocka_unit_test(what_is_computed_for_a_plot_is_that_of_its_definition),
         cmocka_unit_test(a_diagnosis_is_plotted_as_it_is),
         cmocka_unit_test(bars_of_the_evidence_are_as_long_as_the_drops),

@@ -79,17 +79,17 @@ int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const dou
     discrete_structure(discrete, &structure);
     int n = structure.n, wanted = n < 4 ? n : 4; /* plane bending has two rigid motions: the third mode is always elastic */
     int *elastic_only = discrete->as == AS_SOLID ? &discrete->solid.elastic_only : &discrete->beam.elastic_only;
-    struct eigen_band eigen;
+    struct eigen_full eigen;
     double lambda[4], *phi = POOL_ARRAY(pool, double, (size_t)wanted *(size_t)n), *work = POOL_ARRAY(pool, double, n);
     int status = phi && work ? new_matrix(pool, &structure, &k) : ROTID_ERROR_MEMORY;
     if (!status)
         status = new_matrix(pool, &structure, &m);
     if (!status)
-        status = eigen_band_new(pool, &k, wanted, &eigen);
+        status = eigen_full_new(pool, &k, wanted, &eigen);
     if (status)
         return status;
     discrete_assemble(discrete, x, &k, &m);
-    status = eigen_band_solve(&eigen, &k, &m, lambda, phi);
+    status = eigen_full_solve(&eigen, &k, &m, lambda, phi);
     if (status)
         return status;
     matrix_zero(&k);

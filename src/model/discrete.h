@@ -33,7 +33,7 @@ void discrete_differentiate(const struct discrete *discrete, int p, rotid_matrix
 void discrete_mass_properties(const struct discrete *discrete, struct mass_properties *properties);
 
 /* How many of the lowest modes are rigid-body or suspension modes: at most two, those at zero or with most of their potential
- * energy in springs and axial forces instead of bending. Statuses of eigen_band_solve. */
+ * energy in springs and axial forces instead of bending. Statuses of eigen_full_solve. */
 int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int *nrigid);
 
 /* Places along the axis where the lateral motion of the rotor is one degree of freedom: their number, where they are [m], and

@@ -64,6 +64,8 @@ static void group_labels(struct plot *plot, const rotid_geometry *geometry, cons
             continue;
         (void)snprintf(where, sizeof where, "screen %g/W, first %.6g", label[g].from, (d->radius + up) / d->scale);
         plot_label(plot, label[g].text, where, "INK", "left");
+        if (geometry->groups[g].layer_of) /* stands at that of its host, through whose text the line would go */
+            continue;
         plot_line(plot, "set arrow from %.6g,%.6g to %.6g,%.6g nohead lc rgb MUTED lw 0.5", label[g].z,
                   (d->radius + up - 7) / d->scale, label[g].z, r + 6 / d->scale);
     }

@@ -71,6 +71,8 @@ static int read_elastic(struct reader *r)
     const char *type = hide_card_option(r->card, "TYPE");
     int shear = type && hide_same(type, "SHEAR");
     double value[3] = {0};
+    if (type && !shear && !hide_same(type, "ISOTROPIC"))
+        return expected(r, "TYPE=ISOTROPIC or SHEAR: this program has no others");
     if (!r->rotor->materials || r->card->lines != 1)
         return expected(r, "*MATERIAL before it and one data line");
     int status = read_line(r, 0, 0, NULL, shear ? 3 : 2, shear ? 3 : 2, value, shear ? "E, G, nu" : "E, nu");
@@ -275,6 +277,7 @@ static const struct {
              {"INCLUDE", 0, refuse},
              {"BARS", 0, refuse}, /* the oracle has no branches */
              {"CAUSE", 0, refuse},
+             {"LAYER", 0, refuse}, /* nor sections of several materials */
              {"MATERIAL", 0, read_material},
              {"ELASTIC", 0, read_elastic},
              {"DENSITY", 0, read_density},

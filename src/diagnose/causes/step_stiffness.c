@@ -79,7 +79,7 @@ static double envelope(int count, const struct step *step, const struct segment 
     return diameter;
 }
 
-#define CUTS 14 /* of an element: three of them are more than any rotor has */
+#define CUTS 28 /* of an element: up to eight for each step that reaches it, of which there are one or two */
 
 struct moments {
     double area, inertia;
@@ -135,18 +135,26 @@ static int add_cut(double from, double to, double z, int count, double *cut)
 
 /* Ends of the pieces of an element on which D(z) is one straight line: where a cone meets the section's own diameter, the least
  * one or a cone from the other side. Integrated piece by piece the means are smooth functions of the angle, and a fit converges.
- * Returns the number of ends; cut [CUTS + 2]. */
+ * Of a layer, which a cone cuts off from its outer to its inner diameter, the compliance rises like the reciprocal of what is
+ * left of the wall: four ends more, so that 0.6 of the wall is left over a piece. Returns the number of ends; cut [CUTS + 2].
+ */
 static int find_pieces(int count, const struct step *step, const struct group *group, const struct segment *segment,
                        const struct effect_span *span, double tangent, double *cut)
 {
     double own = segment->stiff_outer, bore = segment->inner > 0 ? segment->inner + least_wall * (own - segment->inner) : 0;
     double h = group->hole_diameter, e = group->hole_pitch, whole = group->holes ? fmin(1, (own / 2 - e) / h + 0.5) : 0;
-    const double diameter[] = {own, bore, 2 * e - h, 2 * e + h * (2 * whole - 1)};
-    int pieces = 1;
+    double diameter[8] = {own, bore};
+    int pieces = 1, diameters = 2;
+    if (group->holes) {
+        diameter[diameters++] = 2 * e - h;
+        diameter[diameters++] = 2 * e + h * (2 * whole - 1);
+    }
+    for (int q = 1; q < 5 && group->layer_of >= 0 && segment->inner > 0; q++)
+        diameter[diameters++] = segment->inner + (own - segment->inner) * pow(least_wall, 0.2 * q);
     cut[0] = span->from;
     for (int i = 0; i < count; i++) {
         double side = step[i].z <= span->from ? 1 : -1;
-        for (int k = 0; k < (group->holes ? 4 : 2); k++)
+        for (int k = 0; k < diameters; k++)
             pieces =
                 add_cut(span->from, span->to, step[i].z + side * (diameter[k] - step[i].diameter) / (2 * tangent), pieces, cut);
         for (int j = 0; j < count && side > 0; j++)

@@ -1,0 +1,487 @@
+/* Layers of a beam: what parts of a section do together, the shear coefficient of sheets across the axis, derivatives by the
+ * parameters and effects of a layer; and how a deck lays them. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "beam/quantities.h"
+#include "beam/shear_coefficient.h"
+#include "deck/deck.h"
+#include "effect_bench.h"
+#include "folder.h"
+#include "model/model.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* ------------------------------------------------------------------------------------------------ sheets across the axis */
+
+/* 1/k of an annulus of outer radius 1 and inner radius a by finite differences: the flexure function f(r) cos t of a bar with
+ * beta = E/G and nu along the axis solves f'' + f'/r - f/r^2 = (beta - 2 nu) r with f' = -nu r^2/2 at both radii, and
+ * 1/k = -pi S/(beta I^2) times the integral of f r^2. Ghost points beyond both radii. */
+static double inverse_by_differences(double a, double beta, double nu, int n)
+{
+    static double f[4001], upper[4001];
+    double h = (1 - a) / n, pivot = 0, sum = 0;
+    for (int i = 0; i <= n; i++) {
+        double r = a + h * i, low = 1 / (h * h) - 1 / (2 * h * r), high = 1 / (h * h) + 1 / (2 * h * r);
+        double diagonal = -2 / (h * h) - 1 / (r * r), right = (beta - 2 * nu) * r, slope = -nu * r * r / 2;
+        if (i == 0) {
+            right += low * 2 * h * slope;
+            high += low;
+            low = 0;
+        } else if (i == n) {
+            right -= high * 2 * h * slope;
+            low += high;
+            high = 0;
+        }
+        pivot = diagonal - (i ? low * upper[i - 1] : 0);
+        upper[i] = high / pivot;
+        f[i] = (right - (i ? low * f[i - 1] : 0)) / pivot;
+    }
+    for (int i = n - 1; i >= 0; i--)
+        f[i] -= upper[i] * f[i + 1];
+    for (int i = 0; i <= n; i++)
+        sum += (i == 0 || i == n ? 0.5 : 1) * h * f[i] * (a + h * i) * (a + h * i);
+    double area = pi * (1 - a * a), inertia = pi / 4 * (1 - a * a * a * a);
+    return -pi * area / (beta * inertia * inertia) * sum;
+}
+
+static struct material stack(double e, double g, double nu)
+{
+    return (struct material){
+        .name = "sheets", .e = e, .g = g, .nu = nu, .rho = 7600, .laminated = 1, .sheet_e = 2.1e11, .stacking = 0.97};
+}
+
+static double inverse_of(const struct section *section, const struct material *material)
+{
+    struct shear_resistance shear;
+    shear_resistance(section, material, &shear);
+    return material->g / shear.kg;
+}
+
+static void shear_of_a_stack_is_that_of_the_flexure_function(void **state)
+{
+    (void)state;
+    const double ratio[] = {0.1, 0.45, 0.9}, e[] = {1.2e10, 2.1e11}, g[] = {0.3e10, 0.8e11};
+    for (int i = 0; i < 12; i++) {
+        struct section section;
+        struct material material = stack(e[i / 3 % 2], g[i / 6], 0.29);
+        double nu = material.nu * material.e / material.sheet_e; /* along the axis */
+        section_round(1, ratio[i % 3], 1, &section);
+        double coarse = inverse_by_differences(ratio[i % 3], material.e / material.g, nu, 2000);
+        double fine = inverse_by_differences(ratio[i % 3], material.e / material.g, nu, 4000);
+        assert_close(inverse_of(&section, &material), fine + (fine - coarse) / 3, 1e-7, 0);
+    }
+}
+
+static void shear_of_a_stack_has_its_limits(void **state)
+{
+    (void)state;
+    struct section disc, ring, plate;
+    struct material material = stack(1.5e10, 0.7e10, 0.3);
+    double x = 0.3 * 0.7e10 / 2.1e11;
+    section_round(1, 0, 1, &disc);
+    section_round(1, 1 - 1e-7, 1, &ring);
+    section_rectangular(2, 1, &plate);
+    assert_close(inverse_of(&disc, &material), 7.0 / 6 - x / 3, 1e-14, 0); /* Dharmarajan and McCutchen */
+    assert_close(inverse_of(&ring, &material), 2 - x, 1e-12, 0);
+    assert_close(inverse_of(&plate, &material), 1.2 - x / 5, 1e-14, 0);
+    for (double nu = -0.5; nu < 0.5; nu += 0.1) { /* a stack of the stiffness of its sheets is a piece of steel */
+        struct material steel = {.e = 2.1e11, .nu = nu, .isotropic = 1}, same = stack(2.1e11, 2.1e11 / (2 * (1 + nu)), nu);
+        section_round(1, 0.6, 1, &ring);
+        same.stacking = 1;
+        steel.g = material_shear_modulus(&steel);
+        assert_close(inverse_of(&ring, &same), inverse_of(&ring, &steel), 1e-14, 0);
+        assert_close(inverse_of(&plate, &same), inverse_of(&plate, &steel), 1e-14, 0);
+    }
+}
+
+static double kg_at(const struct section *section, struct material material, double *value, double by)
+{
+    double was = *value;
+    struct shear_resistance shear;
+    *value = was * (1 + by);
+    shear_resistance(section, &material, &shear);
+    *value = was;
+    return shear.kg;
+}
+
+static void derivatives_of_the_shear_of_any_material_are_right(void **state)
+{
+    (void)state;
+    struct material materials[3] = {
+        stack(1.5e10, 6e10, 0.3), {.e = 2e11, .nu = 0.28, .isotropic = 1}, {.e = 1e11, .g = 3e10, .nu = 0.25}};
+    for (int i = 0; i < 3; i++) {
+        struct section section;
+        struct shear_resistance shear;
+        section_round(0.8, 0.4, 0.8, &section);
+        shear_resistance(&section, &materials[i], &shear);
+        for (int p = 0; p < 3; p++) {
+            double h = 1e-4, expected = p == 0 ? shear.by_e : p == 1 ? shear.by_g : shear.by_nu, d[2];
+            struct material m = materials[i];
+            double *value = p == 0 ? &m.e : p == 1 ? &m.g : &m.nu;
+            if (p == 1 && m.isotropic)
+                continue;
+            for (int k = 0; k < 2; k++) {
+                struct material up = m, down = m;
+                double step = h * (k + 1);
+                *(p == 0 ? &up.e : p == 1 ? &up.g : &up.nu) = *value * (1 + step);
+                *(p == 0 ? &down.e : p == 1 ? &down.g : &down.nu) = *value * (1 - step);
+                struct shear_resistance a, b;
+                shear_resistance(&section, &up, &a);
+                shear_resistance(&section, &down, &b);
+                d[k] = (a.kg - b.kg) / (2 * step * *value);
+            }
+            assert_close((4 * d[0] - d[1]) / 3, expected, 1e-9, 1e-12 * shear.kg / *value);
+        }
+    }
+    struct section section; /* what is said of x = nu_sheet G/E_sheet: E along the axis plays no part */
+    struct material m = stack(1.5e10, 6e10, 0.3);
+    section_round(0.8, 0.4, 0.8, &section);
+    assert_close(kg_at(&section, m, &m.e, 0.5), kg_at(&section, m, &m.e, 0), 0, 0);
+}
+
+/* ------------------------------------------------------------------------------------------------ parts of a section */
+
+static struct group groups[5];
+static struct segment segments[3];
+static struct ring rings[6];
+
+/* A steel shaft of three groups; layer g lies on the middle one. */
+static struct rotor shaft(double outer)
+{
+    for (int g = 0; g < 3; g++) {
+        groups[g] = (struct group){
+            .layer_of = -1, .name = "shaft", .material = {.name = "steel", .e = 2e11, .nu = 0.3, .rho = 7800, .isotropic = 1}};
+        segments[g] = (struct segment){.group = g, .elements = 8, .length = 0.5, .outer = outer, .stiff_outer = outer};
+    }
+    return (struct rotor){.ngroup = 3, .group = groups, .nsegment = 3, .segment = segments, .ring = rings};
+}
+
+static void add_layer(struct rotor *rotor, const char *name, int segment, double outer, double inner, struct material material)
+{
+    rotor->group[rotor->ngroup] = (struct group){.layer_of = rotor->segment[segment].group, .name = name, .material = material};
+    rotor->ring[rotor->nring++] = (struct ring){rotor->ngroup++, segment, outer, inner};
+}
+
+static void two_layers_by_hand(void **state)
+{
+    (void)state;
+    struct rotor rotor = shaft(0.1);
+    struct beam beam;
+    struct element bare, element;
+    double from, to, outer, inner;
+    groups[1].preload = 5e5;
+    add_layer(&rotor, "stack", 1, 0.2, 0.1, stack(1.4e10, 0.7e10, 0.3));
+    bench_build(&rotor, 0, NULL, &beam);
+    axis_quantities(&beam, 3, &bare);
+    axis_quantities(&beam, 12, &element);
+    assert_close(bare.ei, 2e11 * pi * 1e-4 / 64, 1e-14, 0);
+    assert_close(element.ei, 2e11 * pi * 1e-4 / 64 + 1.4e10 * pi * (16e-4 - 1e-4) / 64, 1e-14, 0);
+    /* solid circle 6 (1.3)/(7 + 1.8); annulus of 1:2 with x = 0.01: p = 1.5625, q = 0.25 */
+    double solid = 7.8 / 8.8, annulus = 6 * 1.5625 / (7 * 1.5625 + 5 - (2 * 1.5625 + 4) * 0.01);
+    assert_close(element.kgs, solid * 2e11 / 2.6 * pi * 0.01 / 4 + annulus * 0.7e10 * pi * 0.03 / 4, 1e-14, 0);
+    assert_close(element.rhos, 7800 * pi * 0.01 / 4 + 7600 * pi * 0.03 / 4, 1e-14, 0);
+    assert_close(element.rhoi, 7800 * pi * 1e-4 / 64 + 7600 * pi * 15e-4 / 64, 1e-14, 0);
+    assert_close(element.force, 5e5, 0, 0); /* of the section, not of each part */
+    assert_close(rotor_mass(&rotor), 7800 * pi * 0.01 / 4 * 1.5 + 7600 * pi * 0.03 / 4 * 0.5, 1e-14, 0);
+    rotor_group_span(&rotor, 3, &from, &to);
+    assert_true(from == 0.5 && to == 1);
+    rotor_diameters(&rotor, 1, &outer, &inner);
+    assert_true(outer == 0.2 && inner == 0 && rotor_axis_groups(&rotor) == 3);
+}
+
+/* EI and mass of a shaft do not know a cut along it; kGS does: each part has its own k, and the sum is below
+ * that of the whole. */
+static void a_shaft_cut_into_core_and_rings_bends_alike(void **state)
+{
+    (void)state;
+    struct rotor rotor = shaft(0.3);
+    struct beam whole, cut;
+    struct element a, b;
+    struct mass_properties of_whole, of_cut;
+    struct material steel = groups[0].material;
+    double k = 0;
+    const double diameter[] = {0.1, 0.2, 0.3};
+    bench_build(&rotor, 0, NULL, &whole);
+    segments[1].outer = segments[1].stiff_outer = 0.1;
+    add_layer(&rotor, "sleeve", 1, 0.2, 0.1, steel);
+    add_layer(&rotor, "ring", 1, 0.3, 0.2, steel);
+    bench_build(&rotor, 0, NULL, &cut);
+    axis_quantities(&whole, 12, &a);
+    axis_quantities(&cut, 12, &b);
+    assert_close(b.ei, a.ei, 1e-14, 0);
+    assert_close(b.rhos, a.rhos, 1e-14, 0);
+    assert_close(b.rhoi, a.rhoi, 1e-14, 0);
+    for (int i = 0; i < 3; i++) {
+        double inner = i ? diameter[i - 1] : 0;
+        k += rotid_shear_coefficient_annulus(0.3, inner / diameter[i]) * (diameter[i] * diameter[i] - inner * inner) / 0.09;
+    }
+    assert_close(b.kgs, k / rotid_shear_coefficient_annulus(0.3, 0) * a.kgs, 1e-14, 0);
+    assert_close(b.kgs / a.kgs, 0.698, 1e-3, 0); /* what docs/method.md warns of */
+    beam_mass_properties(&whole, &of_whole);
+    beam_mass_properties(&cut, &of_cut);
+    assert_close(of_cut.mass, of_whole.mass, 1e-14, 0);
+    assert_close(of_cut.mass, rotor_mass(&rotor), 1e-14, 0);
+    assert_close(of_cut.inertia, of_whole.inertia, 1e-13, 0);
+}
+
+static void holes_are_those_of_their_layer(void **state)
+{
+    (void)state;
+    struct rotor rotor = shaft(0.1);
+    struct section section;
+    struct beam beam;
+    int failed;
+    add_layer(&rotor, "stack", 1, 0.3, 0.1, stack(1.4e10, 0.7e10, 0.3));
+    groups[3].holes = 8;
+    groups[3].hole_diameter = 0.03;
+    groups[3].hole_pitch = 0.1;
+    assert_status(section_of_ring(&rotor, 0, &section), ROTID_OK);
+    assert_close(section.stiff_area, pi * (0.08 - 8 * 9e-4) / 4, 1e-14, 0);
+    assert_close(section.stiff_inertia, pi * (81e-4 - 1e-4 - 8 * 81e-8) / 64 - 8 * pi * 9e-4 / 4 * 0.005, 1e-14, 0);
+    assert_status(section_of_segment(&rotor, 1, &section), ROTID_OK);
+    assert_close(section.mass_area, pi * 0.01 / 4, 1e-14, 0);
+    groups[3].holes = 200;
+    assert_status(beam_build(&test_pool, &rotor, 0, NULL, 1, &beam, &failed), ROTID_ERROR_SECTION);
+    assert_int_equal(failed, 3);
+}
+
+/* ------------------------------------------------------------------------------------------------ derivatives */
+
+static const char *const names[] = {"core.E",    "core.nu",  "core.rho",  "stack.E",    "stack.G", "stack.nu",
+                                    "stack.rho", "sleeve.E", "sleeve.nu", "sleeve.rho", "left.E"};
+
+#define NAMES ((int)(sizeof names / sizeof *names))
+
+static struct group of_bench[5];
+
+/* The paper's rotor of steel with a stack around its core, and a sleeve around that. */
+static struct rotor *layered(void)
+{
+    struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
+    int core = 0;
+    memcpy(of_bench, rotor->group, 3 * sizeof *of_bench);
+    rotor->group = of_bench;
+    rotor->ring = rings;
+    rotor->nring = 0;
+    of_bench[1].material = of_bench[0].material;
+    of_bench[1].holes = 0;
+    while (rotor->segment[core].group != 1)
+        core++;
+    double outer = rotor->segment[core].outer;
+    rotor->segment[core].outer = rotor->segment[core].stiff_outer = 0.5 * outer;
+    add_layer(rotor, "stack", core, outer, 0.5 * outer, stack(1.4e10, 5e10, 0.3));
+    add_layer(rotor, "sleeve", core, 1.1 * outer, outer, of_bench[0].material);
+    of_bench[3].holes = 6;
+    of_bench[3].hole_diameter = 0.02;
+    of_bench[3].hole_pitch = 0.36 * outer;
+    return rotor;
+}
+
+static const struct subject {
+    const struct cause_kind *cause; /* NULL: none */
+    int target;
+    double value[EFFECT_MOST_PARAMETERS];
+} subjects[] = {
+    {NULL, 0, {0}},
+    {&cause_stiffness, 3, {0.8}},
+    {&cause_density, 4, {1.1}},
+    {&cause_stiffness_gradient, 3, {0.3}},
+    {&cause_stiffness_profile, 4, {0.4}},
+    {&cause_stiffness_local, -1, {0.4, 1.1, 0.08}},
+    {&cause_shear_coefficient, 3, {0.9}},
+    {&cause_step_stiffness, -1, {33.7}},
+    {&cause_joint, 0, {3e-9}},
+    {&cause_added_mass, -1, {9, 1.03}},
+};
+
+static void derivatives_by_what_is_of_a_layer_agree_with_differences(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++) {
+        const struct subject *s = &subjects[i];
+        struct rotor *rotor = layered();
+        struct parameter parameter[NAMES + EFFECT_MOST_PARAMETERS];
+        struct beam beam;
+        const char *unit;
+        int n = NAMES;
+        if (s->cause)
+            (void)bench_add(rotor, s->cause->effect, s->target, 0, s->value);
+        for (int p = 0; p < NAMES; p++)
+            assert_int_equal(parameter_find(rotor, names[p], &parameter[p], &unit), 0);
+        for (int p = 0; s->cause && p < effect_parameters(&rotor->effect[0]); p++)
+            parameter[n++] = (struct parameter){PARAMETER_EFFECT, 0, p};
+        bench_build(rotor, n, parameter, &beam);
+        for (int p = 0; p < n; p++) {
+            double error = bench_derivative_error(&beam, p, p < NAMES ? 1e-3 : 2e-4, 0); /* crosses no end of a cone */
+            if (error > 1e-6)
+                print_error("%s, parameter %d: relative error of the derivative %.2e\n", s->cause ? s->cause->id : "no cause", p,
+                            error);
+            assert_true(error <= 1e-6);
+        }
+    }
+}
+
+/* What a factor on a layer does is what another modulus of that layer does, and to that layer alone. */
+static void a_cause_on_a_layer_leaves_the_other_parts_alone(void **state)
+{
+    (void)state;
+    struct element scaled, stiffer;
+    struct beam beam;
+    struct rotor *rotor = layered();
+    (void)bench_add(rotor, cause_stiffness.effect, 4, 0, (double[]){0.8}); /* the isotropic one: E and G follow each other */
+    bench_build(rotor, 0, NULL, &beam);
+    int e = 0;
+    while (rotor->segment[beam.mesh.segment[e]].group != 1)
+        e++;
+    axis_quantities(&beam, e, &scaled);
+    rotor = layered();
+    rotor->group[4].material.e *= 0.8;
+    bench_build(rotor, 0, NULL, &beam);
+    axis_quantities(&beam, e, &stiffer);
+    assert_close(scaled.ei, stiffer.ei, 1e-15, 0);
+    assert_close(scaled.kgs, stiffer.kgs, 1e-15, 0);
+    assert_close(scaled.rhos, stiffer.rhos, 0, 0);
+}
+
+/* A stack that is longer than its shaft is thick: at its ends the cone from the shaft leaves a share of the stack, none of the
+ * shaft. */
+static void cones_cut_off_the_layer_and_not_what_lies_within(void **state)
+{
+    (void)state;
+    struct rotor rotor = shaft(0.1);
+    struct effect effect = {.kind = cause_step_stiffness.effect, .target = -1, .value = {45}};
+    struct effect_span span = {3, 1, 0.5, 0.55};
+    struct effect_section factor;
+    assert_false(cause_step_stiffness.applies(&rotor, -1, NULL));
+    add_layer(&rotor, "stack", 1, 0.3, 0.1, stack(1.4e10, 0.7e10, 0.3));
+    assert_true(cause_step_stiffness.applies(&rotor, -1, NULL));
+    assert_int_equal(effect.kind->section(&effect, &rotor, &span, -1, &factor), 1);
+    assert_true(factor.ei > 0 && factor.ei < 0.1);
+    span.from = 0.61; /* the cones have reached 0.32 m */
+    span.to = 0.65;
+    assert_int_equal(effect.kind->section(&effect, &rotor, &span, -1, &factor), 0);
+    span = (struct effect_span){1, 1, 0.5, 0.55};
+    assert_int_equal(effect.kind->section(&effect, &rotor, &span, -1, &factor), 0);
+}
+
+static void rotors_that_differ_in_a_ring_have_another_shape(void **state)
+{
+    (void)state;
+    struct rotor rotor = shaft(0.1), copy;
+    add_layer(&rotor, "stack", 1, 0.3, 0.1, stack(1.4e10, 0.7e10, 0.3));
+    assert_status(rotor_copy(&test_pool, &rotor, &copy), ROTID_OK);
+    assert_true(copy.ring != rotor.ring && rotor_same_shape(&rotor, &copy) && rotor_same_values(&rotor, &copy));
+    copy.group[3].material.e *= 2;
+    assert_true(rotor_same_shape(&rotor, &copy) && !rotor_same_values(&rotor, &copy));
+    copy.ring[0].outer = 0.31;
+    assert_false(rotor_same_shape(&rotor, &copy));
+    copy.ring[0].outer = 0.3;
+    copy.group[3].material.sheet_e = 2e11;
+    assert_false(rotor_same_shape(&rotor, &copy));
+    copy.group[3].material.sheet_e = 2.1e11;
+    copy.nring = 0;
+    assert_false(rotor_same_shape(&rotor, &copy));
+}
+
+/* ------------------------------------------------------------------------------------------------ decks */
+
+#define MATERIALS                                                                                                                \
+    "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n"                                                               \
+    "*MATERIAL, NAME=sheets\n*ELASTIC, TYPE=LAMINATED\n1.4e10, 0.7e10, 2.1e11, 0.29\n*DENSITY\n7600\n"
+#define CORE                                                                                                                     \
+    "*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.1, 0, 4\n"                                                                        \
+    "*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.2, 0.1, 8\n0.4, 0.24, 0.1, 8\n"
+
+static void read_deck(const char *text, struct job *job)
+{
+    static struct message_list messages;
+    message_open(&messages, &test_pool);
+    int status = deck_read(&test_pool, folder_write("deck.inp", text), 0, NULL, &messages, job);
+    for (size_t i = 0; i < messages.count; i++)
+        print_error("%d:%d: %s\n", messages.item[i].line, messages.item[i].column, messages.item[i].text);
+    assert_status(status, ROTID_OK);
+    assert_int_equal(messages.count, 0);
+}
+
+static void a_deck_lays_rings_in_order(void **state)
+{
+    (void)state;
+    struct job job;
+    const struct rotor *rotor = &job.rotor;
+    /* the layers first, and the cards of the rotor behind them: the order of kinds of cards does not matter */
+    read_deck(MATERIALS "*LAYER, NAME=stack, GROUP=core, MATERIAL=sheets\n0.4, 0.2\n0.44, 0.2400000000001\n"
+                        "*LAYER, NAME=lining, GROUP=core, MATERIAL=steel\n0.1, 0.08\n"
+                        "*LAYER, NAME=sleeve, GROUP=core, MATERIAL=steel\n0.42, 0.4\n0.46, 0.44\n"
+                        "*PERFORATION, GROUP=stack\n6, 0.02, 0.16\n"
+                        "*CAUSE, NAME=soft, TYPE=stiffness, GROUP=sleeve\nfactor, 0.9\n"
+                        "*DISK\nstack.end, 10\n"
+                        "*IDENTIFY\nstack.E, 1e9, 1e11, 1.4e10\nstack.nu, 0.1, 0.4, 0.29\n"
+                        "*FIT, MODEL=SOLID\n" CORE,
+              &job);
+    assert_int_equal(rotor->ngroup, 5);
+    assert_int_equal(rotor_axis_groups(rotor), 2);
+    assert_int_equal(rotor->nring, 6);
+    static const struct ring expected[] = {{3, 1, 0.1, 0.08}, {2, 1, 0.4, 0.2},   {4, 1, 0.42, 0.4},
+                                           {3, 2, 0.1, 0.08}, {2, 2, 0.44, 0.24}, {4, 2, 0.46, 0.44}};
+    for (int i = 0; i < 6; i++) {
+        assert_true(rotor->ring[i].group == expected[i].group && rotor->ring[i].segment == expected[i].segment);
+        assert_true(rotor->ring[i].outer == expected[i].outer && rotor->ring[i].inner == expected[i].inner);
+    }
+    const struct group *group = rotor->group;
+    assert_true(group[0].layer_of == -1 && group[1].layer_of == -1 && group[2].layer_of == 1 && group[4].layer_of == 1);
+    assert_string_equal(group[2].name, "stack");
+    assert_true(group[2].holes == 6 && !group[1].holes && group[2].hole_pitch == 0.16);
+    const struct material *sheets = &group[2].material;
+    assert_true(sheets->laminated && !sheets->isotropic && sheets->e == 1.4e10 && sheets->g == 0.7e10);
+    assert_true(sheets->sheet_e == 2.1e11 && sheets->nu == 0.29 && sheets->stacking == 1 && sheets->rho == 7600);
+    assert_false(group[4].material.laminated);
+    assert_int_equal(rotor->effect[0].target, 4);
+    assert_true(job.unknowns.parameter[0].kind == PARAMETER_E && job.unknowns.parameter[0].index == 2);
+    assert_close(rotor->disk[0].position, 1.2, 1e-15, 0);
+    assert_int_equal(job.options.solid, 1);
+    read_deck(MATERIALS CORE "*FIT, MODEL=BEAM\n", &job);
+    assert_int_equal(job.options.solid, 0);
+}
+
+/* The deck that ships: its stack is a parameter that moves its frequencies. */
+static void the_shipped_motor_is_a_model(void **state)
+{
+    (void)state;
+    struct job job;
+    struct message_list messages;
+    struct rotor_model model;
+    int failed;
+    message_open(&messages, &test_pool);
+    assert_status(deck_read(&test_pool, ROTID_SOURCE_DIR "/input/motor_shaft_stack.inp", 0, NULL, &messages, &job), ROTID_OK);
+    assert_int_equal(messages.count, 0);
+    assert_int_equal(job.unknowns.nparameter, 2);
+    assert_status(model_open(&test_pool, job.models, &job.rotor, 2, job.unknowns.parameter, 1, &model, &failed), ROTID_OK);
+    assert_int_equal(model.equations.nrigid, 2);
+    struct mass_properties own;
+    model_mass_properties(&model, &own);
+    assert_close(own.mass, rotor_mass(&job.rotor), 1e-12, 0);
+    assert_close(own.mass, 6059.1, 1e-5, 0); /* as its heading says */
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(shear_of_a_stack_is_that_of_the_flexure_function),
+        TEST(shear_of_a_stack_has_its_limits),
+        TEST(derivatives_of_the_shear_of_any_material_are_right),
+        TEST(two_layers_by_hand),
+        TEST(a_shaft_cut_into_core_and_rings_bends_alike),
+        TEST(holes_are_those_of_their_layer),
+        TEST(derivatives_by_what_is_of_a_layer_agree_with_differences),
+        TEST(a_cause_on_a_layer_leaves_the_other_parts_alone),
+        TEST(cones_cut_off_the_layer_and_not_what_lies_within),
+        TEST(rotors_that_differ_in_a_ring_have_another_shape),
+        TEST(a_deck_lays_rings_in_order),
+        TEST(the_shipped_motor_is_a_model),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
