@@ -49,10 +49,12 @@ void *pool_get(struct pool *pool, size_t count, size_t size)
     if (size && count > (SIZE_MAX - sizeof(union header)) / size)
         return NULL;
     size_t bytes = sizeof(union header) + count * size;
-    union header *block = pool->allocator ? pool->allocator->allocate(pool->allocator->context, bytes) : malloc(bytes);
+    /* calloc knows which memory is new, and zero: a large block costs what is used of it */
+    union header *block = pool->allocator ? pool->allocator->allocate(pool->allocator->context, bytes) : calloc(1, bytes);
     if (!block)
         return NULL;
-    memset(block, 0, bytes);
+    if (pool->allocator)
+        memset(block, 0, bytes);
     block->previous = pool->last;
     pool->last = block;
     return block + 1;
