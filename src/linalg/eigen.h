@@ -3,6 +3,7 @@
 #define ROTID_LINALG_EIGEN_H
 
 #include "base/pool.h"
+#include "linalg/eigen_wide.h"
 #include "linalg/factor.h"
 #include "rotid.h"
 
@@ -58,11 +59,13 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
-/* ---- whichever of the two is the faster one, on the matrices of the full model */
+/* ---- whichever is the fastest one: dense, of narrow bands, of wide ones (eigen_wide.h), on the matrices of the full model */
 
 struct eigen_full {
     int dense;
+    int wide;
     struct eigen_band band;
+    struct eigen_wide panels;
     struct eigen_dense solver;
     double *k, *m; /* [n * n] dense copies */
     double *image, *product, *squares, *work;

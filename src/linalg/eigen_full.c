@@ -18,8 +18,10 @@ static int is_dense(const rotid_matrix *structure, int count)
 int eigen_full_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e)
 {
     *e = (struct eigen_full){0};
-    return is_dense(structure, count) ? eigen_full_new_dense(pool, structure, count, e)
-                                      : eigen_band_new(pool, structure, count, &e->band);
+    if (is_dense(structure, count))
+        return eigen_full_new_dense(pool, structure, count, e);
+    e->wide = factor_is_wide(structure);
+    return e->wide ? eigen_wide_new(pool, structure, count, &e->panels) : eigen_band_new(pool, structure, count, &e->band);
 }
 
 int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e)
@@ -40,6 +42,8 @@ int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int c
 int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
 {
     int n = k->n, count = e->solver.count;
+    if (e->wide)
+        return eigen_wide_solve(&e->panels, k, m, lambda, phi);
     if (!e->dense)
         return eigen_band_solve(&e->band, k, m, lambda, phi);
     matrix_to_dense(k, n, e->k);

@@ -1,5 +1,6 @@
 #include "linalg/factor.h"
 
+#include <cblas.h>
 #include <float.h>
 #include <lapacke.h>
 #include <limits.h>
@@ -7,16 +8,37 @@
 #include <string.h>
 
 #include "linalg/band.h"
+#include "linalg/factor_gather.h"
+
+int factor_is_wide(const rotid_matrix *structure)
+{
+    return structure->kd >= FACTOR_WIDE;
+}
+
+static int new_wide(struct pool *pool, int n, int kd, struct factor *f)
+{
+    f->reach = POOL_ARRAY(pool, int, n);
+    f->row = POOL_ARRAY(pool, int, kd + 1);
+    f->value = POOL_ARRAY(pool, double, kd + 1);
+    return f->reach && f->row && f->value ? wide_new(pool, n, kd, &f->wide) : ROTID_ERROR_MEMORY;
+}
+
+static int new_narrow(struct pool *pool, int n, struct factor *f)
+{
+    f->band = POOL_ARRAY(pool, double, (size_t)f->lda *(size_t)n);
+    f->band_pivot = POOL_ARRAY(pool, int, n);
+    return f->band && f->band_pivot ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
 
 int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *structure, int n, const int *kept, struct factor *f)
 {
     int nfar = structure->nfar, kd = structure->kd;
     *f = (struct factor){.kind = kind, .kd = kd, .lda = kind == FACTOR_LU ? 3 * kd + 1 : kd + 1};
+    f->is_wide = factor_is_wide(structure);
     size_t outer = (size_t)nfar;
     f->position = POOL_ARRAY(pool, int, structure->n);
     f->inner = POOL_ARRAY(pool, int, n);
     f->outer = POOL_ARRAY(pool, int, outer);
-    f->band = POOL_ARRAY(pool, double, (size_t)f->lda *(size_t)n);
     f->coupling = POOL_ARRAY(pool, double, (size_t)n *outer);
     f->x = POOL_ARRAY(pool, double, (size_t)n *outer);
     f->schur = POOL_ARRAY(pool, double, outer *outer);
@@ -25,90 +47,12 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->outer_work = POOL_ARRAY(pool, double, BAND_LANES *outer);
     f->first = POOL_ARRAY(pool, int, outer);
     f->last = POOL_ARRAY(pool, int, outer);
-    f->band_pivot = POOL_ARRAY(pool, int, n);
     f->schur_pivot = POOL_ARRAY(pool, int, outer);
-    if (!f->position || !f->inner || !f->outer || !f->band || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work ||
-        !f->outer_work || !f->first || !f->last || !f->band_pivot || !f->schur_pivot)
+    if (!f->position || !f->inner || !f->outer || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work ||
+        !f->outer_work || !f->first || !f->last || !f->schur_pivot)
         return ROTID_ERROR_MEMORY;
     factor_keep(f, structure, n, kept);
-    return ROTID_OK;
-}
-
-void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const int *kept)
-{
-    f->n = n;
-    f->kept = kept;
-    f->nr = f->nf = 0;
-    for (int i = 0; i < structure->n; i++)
-        f->position[i] = INT_MIN;
-    for (int k = 0, next = 0; k < n; k++) {
-        while (next < structure->nfar && structure->far[next] < kept[k])
-            next++;
-        if (next < structure->nfar && structure->far[next] == kept[k]) {
-            f->position[kept[k]] = -1 - f->nf;
-            f->outer[f->nf++] = k;
-        } else {
-            f->position[kept[k]] = f->nr;
-            f->inner[f->nr++] = k;
-        }
-    }
-}
-
-/* Band storage of LAPACK: Cholesky keeps the lower triangle, LU both with kd rows of fill above. */
-static void put_inner(struct factor *f, int row, int column, double value)
-{
-    if (f->kind == FACTOR_CHOLESKY) {
-        f->band[(row - column) + (ptrdiff_t)column * f->lda] = value;
-        return;
-    }
-    f->band[2 * f->kd + (row - column) + (ptrdiff_t)column * f->lda] = value;
-    f->band[2 * f->kd + (column - row) + (ptrdiff_t)row * f->lda] = value;
-}
-
-/* value[d] to row column + d, d = 0 ... reach */
-static void put_inner_column(struct factor *f, int column, int reach, const double *value)
-{
-    if (f->kind == FACTOR_CHOLESKY) {
-        memcpy(f->band + (ptrdiff_t)column * f->lda, value, (size_t)(reach + 1) * sizeof *value);
-        return;
-    }
-    double *target = f->band + 2 * (ptrdiff_t)f->kd + (ptrdiff_t)column * f->lda;
-    for (int d = 0; d <= reach; d++)
-        target[d] = target[(ptrdiff_t)d * (f->lda - 1)] = value[d];
-}
-
-static void gather(struct factor *f, const rotid_matrix *a)
-{
-    memset(f->band, 0, (size_t)f->lda * (size_t)f->nr * sizeof(double));
-    memset(f->coupling, 0, (size_t)f->nr * (size_t)f->nf * sizeof(double));
-    memset(f->schur, 0, (size_t)f->nf * (size_t)f->nf * sizeof(double));
-    for (int k = 0; k < f->n; k++) {
-        int j = f->kept[k], pj = f->position[j], reach = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j;
-        const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
-        if (pj >= 0 && f->position[j + reach] == pj + reach) { /* nothing left out and nothing far from here to there */
-            put_inner_column(f, pj, reach, column);
-            continue;
-        }
-        for (int d = 0; d <= reach; d++) {
-            int pi = f->position[j + d];
-            if (pi == INT_MIN)
-                continue;
-            if (pi >= 0 && pj >= 0)
-                put_inner(f, pi, pj, column[d]);
-            else if (pi >= 0)
-                f->coupling[pi + (ptrdiff_t)(-1 - pj) * f->nr] = column[d];
-            else if (pj >= 0)
-                f->coupling[pj + (ptrdiff_t)(-1 - pi) * f->nr] = column[d];
-            else
-                f->schur[(-1 - pi) + (-1 - pj) * f->nf] = f->schur[(-1 - pj) + (-1 - pi) * f->nf] = column[d];
-        }
-    }
-    for (int q = 0; q < a->nfar; q++)
-        for (int p = 0; p < a->nfar; p++) {
-            int fp = f->position[a->far[p]], fq = f->position[a->far[q]];
-            if (fp != INT_MIN && fq != INT_MIN)
-                f->schur[(-1 - fp) + (-1 - fq) * f->nf] += a->block[p + q * a->nfar];
-        }
+    return f->is_wide ? new_wide(pool, n, kd, f) : new_narrow(pool, n, f);
 }
 
 /* b [nr * lanes] interleaved */
@@ -147,13 +91,14 @@ static void form_schur(struct factor *f)
         }
 }
 
-int factor_compute(struct factor *f, const rotid_matrix *a)
+/* X := A_rr^-1 A_rf */
+static void solve_coupling(struct factor *f)
 {
-    gather(f, a);
-    if (f->kind == FACTOR_CHOLESKY ? band_cholesky(f->nr, f->kd, f->band) : band_lu(f->nr, f->kd, f->band, f->band_pivot))
-        return 1;
-    if (!f->nf)
-        return 0;
+    if (f->is_wide) {
+        memcpy(f->x, f->coupling, (size_t)f->nr * (size_t)f->nf * sizeof(double));
+        wide_solve(&f->wide, f->nf, f->nr, f->x);
+        return;
+    }
     for (int q = 0; q < f->nf; q += BAND_LANES) {
         int columns = f->nf - q < BAND_LANES ? f->nf - q : BAND_LANES, lanes = lanes_for(columns);
         memset(f->work, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
@@ -165,6 +110,23 @@ int factor_compute(struct factor *f, const rotid_matrix *a)
             for (int i = 0; i < f->nr; i++)
                 f->x[i + (ptrdiff_t)(q + c) * f->nr] = f->work[(ptrdiff_t)i * lanes + c];
     }
+}
+
+static int factor_inner(struct factor *f)
+{
+    if (!f->is_wide)
+        return f->kind == FACTOR_CHOLESKY ? band_cholesky(f->nr, f->kd, f->band) : band_lu(f->nr, f->kd, f->band, f->band_pivot);
+    return f->kind == FACTOR_CHOLESKY ? wide_cholesky(&f->wide) : wide_indefinite(&f->wide) < 0;
+}
+
+static int compute(struct factor *f, const struct factor_source *source)
+{
+    factor_gather(f, source);
+    if (factor_inner(f))
+        return 1;
+    if (!f->nf)
+        return 0;
+    solve_coupling(f);
     form_schur(f);
     lapack_int info;
     if (f->kind == FACTOR_CHOLESKY)
@@ -174,11 +136,21 @@ int factor_compute(struct factor *f, const rotid_matrix *a)
     return info != 0;
 }
 
+int factor_compute(struct factor *f, const rotid_matrix *a)
+{
+    return compute(f, &(struct factor_source){.a = a});
+}
+
+int factor_compute_pencil(struct factor *f, const struct pencil *p, double shift)
+{
+    return compute(f, &(struct factor_source){.pencil = p, .shift = shift});
+}
+
 int factor_is_singular(const struct factor *f, const rotid_matrix *a)
 {
     double rounding = 256 * f->n * DBL_EPSILON; /* free beams of 2 to 1280 elements leave a sixth of it at most */
     for (int i = 0; i < f->nr; i++) {
-        double pivot = f->band[(ptrdiff_t)i * f->lda];
+        double pivot = f->is_wide ? wide_column(&f->wide, i)[i] : f->band[(ptrdiff_t)i * f->lda];
         if (pivot * pivot <= rounding * a->band[(ptrdiff_t)f->kept[f->inner[i]] * (a->kd + 1)])
             return 1;
     }
@@ -243,10 +215,41 @@ static void solve_together(struct factor *f, int columns, double *b)
             b[f->inner[i] + (ptrdiff_t)c * f->n] = inner[(ptrdiff_t)i * lanes + c];
 }
 
+/* As solve_together, by level 3 */
+static void solve_wide(struct factor *f, int columns, double *b)
+{
+    int nr = f->nr, nf = f->nf;
+    double *inner = f->work, *outer = f->outer_work;
+    for (int c = 0; c < columns; c++) {
+        for (int i = 0; i < nr; i++)
+            inner[i + (ptrdiff_t)c * nr] = b[f->inner[i] + (ptrdiff_t)c * f->n];
+        for (int p = 0; p < nf; p++)
+            outer[p + c * nf] = b[f->outer[p] + (ptrdiff_t)c * f->n];
+    }
+    if (nr) {
+        wide_solve(&f->wide, columns, nr, inner);
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, nf, columns, nr, -1, f->coupling, nr, inner, nr, 1, outer, nf);
+    }
+    outer_solve(f, columns, outer);
+    if (nr)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, nr, columns, nf, -1, f->x, nr, outer, nf, 1, inner, nr);
+    for (int c = 0; c < columns; c++) {
+        for (int i = 0; i < nr; i++)
+            b[f->inner[i] + (ptrdiff_t)c * f->n] = inner[i + (ptrdiff_t)c * nr];
+        for (int p = 0; p < nf; p++)
+            b[f->outer[p] + (ptrdiff_t)c * f->n] = outer[p + c * nf];
+    }
+}
+
 void factor_solve(struct factor *f, int columns, double *b)
 {
+    if (f->is_wide && !f->nf) {
+        wide_solve(&f->wide, columns, f->n, b);
+        return;
+    }
     for (int c = 0; c < columns; c += BAND_LANES)
-        solve_together(f, columns - c < BAND_LANES ? columns - c : BAND_LANES, b + (ptrdiff_t)c * f->n);
+        (f->is_wide ? solve_wide : solve_together)(f, columns - c < BAND_LANES ? columns - c : BAND_LANES,
+                                                   b + (ptrdiff_t)c * f->n);
 }
 
 /* LDL' of the inner band in its own storage (unit lower L below, D on the diagonal); returns the number of negative pivots. A
@@ -292,15 +295,19 @@ static void ldl_solve(const struct factor *f, double *b)
     }
 }
 
-int factor_negative_count(struct factor *f, const rotid_matrix *a)
+static int negative_count(struct factor *f, const struct factor_source *source)
 {
-    gather(f, a);
-    int negative = band_ldl(f);
-    if (!f->nf)
+    factor_gather(f, source);
+    int negative = f->is_wide ? wide_indefinite(&f->wide) : band_ldl(f);
+    if (!f->nf || negative < 0)
         return negative;
-    memcpy(f->x, f->coupling, (size_t)f->nr * (size_t)f->nf * sizeof(double));
-    for (int p = 0; p < f->nf; p++)
-        ldl_solve(f, f->x + (ptrdiff_t)p * f->nr);
+    if (f->is_wide)
+        solve_coupling(f);
+    else {
+        memcpy(f->x, f->coupling, (size_t)f->nr * (size_t)f->nf * sizeof(double));
+        for (int p = 0; p < f->nf; p++)
+            ldl_solve(f, f->x + (ptrdiff_t)p * f->nr);
+    }
     form_schur(f);
     double *value = f->schur_work;
     if (LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'N', 'L', f->nf, f->schur, f->nf, value, value + f->nf, 3 * f->nf))
@@ -308,4 +315,14 @@ int factor_negative_count(struct factor *f, const rotid_matrix *a)
     for (int p = 0; p < f->nf; p++)
         negative += value[p] < 0;
     return negative;
+}
+
+int factor_negative_count(struct factor *f, const rotid_matrix *a)
+{
+    return negative_count(f, &(struct factor_source){.a = a});
+}
+
+int factor_negative_count_pencil(struct factor *f, const struct pencil *p, double shift)
+{
+    return negative_count(f, &(struct factor_source){.pencil = p, .shift = shift});
 }

@@ -5,11 +5,17 @@
 #define ROTID_LINALG_FACTOR_H
 
 #include "base/pool.h"
+#include "linalg/pencil.h"
+#include "linalg/wide.h"
 #include "rotid.h"
+
+#define FACTOR_WIDE 12 /* half band from which panels and a block iteration on them take less time for eigenpairs */
 
 enum factor_kind {
     FACTOR_CHOLESKY, /* positive definite */
-    FACTOR_LU        /* indefinite; S is solved as it comes, so an ill-placed A_rr costs digits: refine where that matters */
+    /* indefinite: by LU with pivoting in narrow bands, by L S L' without in wide ones. S is solved as it comes, so an ill-placed
+     * A_rr costs digits as a small pivot does: refine where that matters */
+    FACTOR_LU
 };
 
 struct factor {
@@ -17,10 +23,14 @@ struct factor {
     int n;           /* number kept */
     const int *kept; /* [n] degrees of freedom of the full matrix, increasing */
     int nr, nf, kd, lda;
+    int is_wide;
     int *position;      /* [full n] place among the inner ones >= 0, -1 - place among the outer ones, or INT_MIN: not kept */
     int *inner;         /* [nr] place in `kept` of each inner degree of freedom */
     int *outer;         /* [nf] of each far one */
-    double *band;       /* [lda * nr] */
+    double *band;       /* [lda * nr]; of narrow bands */
+    struct wide wide;   /* of wide ones */
+    int *reach, *row;   /* [nr] last row of each column of A_rr, [kd + 1] rows of a column that are not zero */
+    double *value;      /* [kd + 1] entries there */
     double *coupling;   /* [nr * nf] A_rf */
     double *x;          /* [nr * nf] */
     double *schur;      /* [nf * nf] factored */
@@ -40,6 +50,9 @@ void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const i
 /* Returns 0, or 1 when A is not positive definite (Cholesky) or singular (LU). Allocates nothing. */
 int factor_compute(struct factor *f, const rotid_matrix *a);
 
+/* The same of K - shift M; of wide bands alone. */
+int factor_compute_pencil(struct factor *f, const struct pencil *p, double shift);
+
 /* After a Cholesky factorisation of `a`: 1 where a pivot is within rounding of zero, so that A is singular but for rounding. */
 int factor_is_singular(const struct factor *f, const rotid_matrix *a);
 
@@ -50,5 +63,10 @@ void factor_solve(struct factor *f, int columns, double *b);
  * the Schur complement: reliable unless an eigenvalue lies within rounding of zero. f must keep all rows; it is overwritten.
  * Returns the number, or -1 on failure. */
 int factor_negative_count(struct factor *f, const rotid_matrix *a);
+/* The same of K - shift M; of wide bands alone. */
+int factor_negative_count_pencil(struct factor *f, const struct pencil *p, double shift);
+
+/* Is a matrix of this structure factored in panels? */
+int factor_is_wide(const rotid_matrix *structure);
 
 #endif

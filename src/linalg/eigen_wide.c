@@ -1,0 +1,171 @@
+#include "linalg/eigen_wide.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/random.h"
+
+#define TOLERANCE   2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */
+#define ROUGH       1e-3  /* of it, where eigenvalues are sought for their size */
+#define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
+#define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
+#define GUARDS      5     /* pairs beyond those wanted that are kept: of equal eigenvalues, that many may follow the last */
+#define REPAIRS     4     /* times that random vectors look for pairs that were missed */
+
+int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_wide *e)
+{
+    int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
+    *e = (struct eigen_wide){.n = n, .count = count, .block = block};
+    e->all = POOL_ARRAY(pool, int, n);
+    e->ritz = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
+    e->value = POOL_ARRAY(pool, double, block);
+    if (!e->all || !e->ritz || !e->value)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n; i++)
+        e->all[i] = i;
+    int status = pencil_new(pool, structure, &e->pencil);
+    if (!status)
+        status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
+    return status ? status : lanczos_new(pool, &e->pencil, &e->factor, count, block, &e->lanczos);
+}
+
+/* ritz and value := the lowest pairs of the basis */
+static void take_pairs(struct eigen_wide *e)
+{
+    int pairs = lanczos_known(&e->lanczos);
+    lanczos_vectors(&e->lanczos, pairs, e->ritz);
+    for (int j = 0; j < e->block; j++) {
+        double theta = j < pairs ? lanczos_theta(&e->lanczos, j) : 0;
+        e->value[j] = theta > 0 ? 1 / theta + e->shift : INFINITY;
+    }
+}
+
+/* The iteration begins with the vectors in ritz. */
+static int begin(struct eigen_wide *e)
+{
+    lanczos_begin(&e->lanczos, e->ritz);
+    return factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
+}
+
+/* The first shift is far below the first mode and yet well above rounding; the next one, knowing the third eigenvalue (the first
+ * two may be rigid-body modes at zero) or the first above it that is not zero, is of its size: the iteration then converges about
+ * as fast as with none. Returns 0 where no such eigenvalue is known. */
+static int choose_shift(struct eigen_wide *e)
+{
+    int j = e->block < 3 ? e->block - 1 : 2;
+    while (j + 1 < e->block && e->value[j] < ZERO * e->largest)
+        j++;
+    if (!isfinite(e->value[j]) || e->value[j] < ZERO * e->largest)
+        return 0;
+    e->shift = -0.1 * fabs(e->value[j]);
+    return 1;
+}
+
+static int start(struct eigen_wide *e)
+{
+    struct random_stream stream = {20240229};
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->count; i++)
+        e->ritz[i] = random_normal(&stream);
+    e->shift = -FIRST_SHIFT * e->largest;
+    int status = begin(e);
+    if (!status)
+        status = lanczos_iterate(&e->lanczos, e->block < 3 ? e->block : 3, ROUGH);
+    if (status)
+        return status;
+    take_pairs(e);
+    return choose_shift(e) ? ROTID_OK : ROTID_ERROR_STIFFNESS;
+}
+
+/* Refuses what no rotor has, the same way whatever was solved before. */
+static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    struct pencil *p = &e->pencil;
+    if (!pencil_take(p, k, m) || !e->definite)
+        e->definite = !factor_compute(&e->factor, m);
+    if (!e->definite)
+        return ROTID_ERROR_MASS;
+    e->largest = 0;
+    for (int i = 0; i < e->n; i++)
+        e->largest = fmax(e->largest, p->k[p->start[i]] / p->m[p->start[i]]);
+    return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
+}
+
+/* The number of eigenvalues below a shift just above the last pair, which rounding limits in how near it can be, less that of the
+ * Ritz values there: 0 proves that none was missed, also of those that lie between the last pair and the shift. Ritz values lie
+ * above the eigenvalues that they belong to, so no fewer can be there. */
+static int count_missed(struct eigen_wide *e)
+{
+    double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
+    int known = e->count;
+    while (known < e->block && e->value[known] <= shift)
+        known++;
+    return factor_negative_count_pencil(&e->factor, &e->pencil, shift) - known;
+}
+
+/* From the vectors in ritz to pairs of which none is missed. Equal eigenvalues beyond the number of vectors come late, and with
+ * new random vectors. */
+static int attempt(struct eigen_wide *e)
+{
+    int status = begin(e), watched = e->count;
+    for (int repair = 0; !status; repair++) {
+        status = lanczos_iterate(&e->lanczos, watched, TOLERANCE);
+        if (status)
+            break;
+        take_pairs(e);
+        int missed = count_missed(e);
+        if (!missed)
+            return ROTID_OK;
+        if (repair == REPAIRS || missed < 0 || factor_compute_pencil(&e->factor, &e->pencil, e->shift))
+            return ROTID_ERROR_EIGEN;
+        watched = watched + missed < e->block ? watched + missed : e->block;
+        lanczos_extend(&e->lanczos);
+    }
+    return status;
+}
+
+/* lambda and phi from ritz: the quotients with K and M themselves have less rounding than the values of the iteration */
+static void give(struct eigen_wide *e, double *lambda, double *phi)
+{
+    int n = e->n;
+    double *image = e->lanczos.image;
+    memcpy(phi, e->ritz, (size_t)n * (size_t)e->count * sizeof *phi);
+    pencil_multiply_mass(&e->pencil, e->count, phi, image);
+    for (int j = 0; j < e->count; j++) {
+        double square = cblas_ddot(n, phi + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
+        cblas_dscal(n, 1 / sqrt(square), phi + (ptrdiff_t)j * n, 1);
+    }
+    pencil_multiply_stiffness(&e->pencil, e->count, phi, image);
+    for (int j = 0; j < e->count; j++) {
+        double value = cblas_ddot(n, phi + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
+        int at = j;
+        for (; at > 0 && lambda[at - 1] > value; at--) { /* of rigid motions, rounding is all there is */
+            lambda[at] = lambda[at - 1];
+            cblas_dswap(n, phi + (ptrdiff_t)at * n, 1, phi + (ptrdiff_t)(at - 1) * n, 1);
+        }
+        lambda[at] = value;
+    }
+}
+
+int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
+{
+    int status = check(e, k, m);
+    if (status)
+        return status;
+    int warm = e->started;
+    e->started = 0;
+    status = warm ? attempt(e) : ROTID_ERROR_EIGEN;
+    if (status) {
+        status = start(e);
+        if (!status)
+            status = attempt(e);
+    }
+    if (status)
+        return status;
+    give(e, lambda, phi);
+    if (lambda[0] < -FIRST_SHIFT * e->largest)
+        return ROTID_ERROR_STIFFNESS;
+    e->started = 1;
+    (void)choose_shift(e); /* for the next call */
+    return ROTID_OK;
+}

@@ -1,0 +1,118 @@
+#include "linalg/pencil.h"
+
+#include <string.h>
+
+#include "linalg/matrix.h"
+
+#define LANES  8
+#define INLINE static inline __attribute__((always_inline))
+
+int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *p)
+{
+    size_t n = (size_t)structure->n, most = n * (size_t)(structure->kd + 1);
+    *p = (struct pencil){.n = structure->n};
+    p->start = POOL_ARRAY(pool, int, n + 1);
+    p->row = POOL_ARRAY(pool, int, most);
+    p->k = POOL_ARRAY(pool, double, most);
+    p->m = POOL_ARRAY(pool, double, most);
+    p->block = POOL_ARRAY(pool, double, (size_t)structure->nfar *(size_t)structure->nfar);
+    p->x = POOL_ARRAY(pool, double, LANES *n);
+    p->y = POOL_ARRAY(pool, double, LANES *n);
+    return p->start && p->row && p->k && p->m && p->block && p->x && p->y ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int same = p->mass != NULL, at = 0;
+    p->stiffness = k;
+    p->mass = m;
+    for (int j = 0; j < p->n; j++) {
+        int reach = k->kd < p->n - 1 - j ? k->kd : p->n - 1 - j;
+        const double *kj = k->band + (ptrdiff_t)j * (k->kd + 1), *mj = m->band + (ptrdiff_t)j * (k->kd + 1);
+        same &= p->start[j] == at;
+        p->start[j] = at;
+        for (int d = 0; d <= reach; d++) {
+            if (d && d + MATRIX_STRETCH <= reach && matrix_stretch_is_zero(kj + d) && matrix_stretch_is_zero(mj + d)) {
+                d += MATRIX_STRETCH - 1;
+                continue;
+            }
+            if (d && kj[d] == 0 && mj[d] == 0)
+                continue;
+            same &= p->row[at] == j + d && p->m[at] == mj[d];
+            p->row[at] = j + d;
+            p->k[at] = kj[d];
+            p->m[at++] = mj[d];
+        }
+    }
+    same &= p->start[p->n] == at;
+    p->start[p->n] = at;
+    for (int i = 0; i < m->nfar * m->nfar; i++) {
+        same &= p->block[i] == m->block[i];
+        p->block[i] = m->block[i];
+    }
+    return same;
+}
+
+/* y += A x for `lanes` columns, compiled for each number of them as a constant */
+INLINE void multiply_lanes(const struct pencil *p, const double *restrict value, int lanes, const double *restrict x,
+                           double *restrict y)
+{
+    for (int j = 0; j < p->n; j++) {
+        double from[LANES], sum[LANES];
+        int at = p->start[j];
+        for (int c = 0; c < lanes; c++) {
+            from[c] = x[(ptrdiff_t)j * lanes + c];
+            sum[c] = value[at] * from[c];
+        }
+        while (++at < p->start[j + 1]) {
+            const double a = value[at], *restrict xi = x + (ptrdiff_t)p->row[at] * lanes;
+            double *restrict yi = y + (ptrdiff_t)p->row[at] * lanes;
+            for (int c = 0; c < lanes; c++) {
+                sum[c] += a * xi[c];
+                yi[c] += a * from[c];
+            }
+        }
+        for (int c = 0; c < lanes; c++)
+            y[(ptrdiff_t)j * lanes + c] += sum[c];
+    }
+}
+
+/* `columns` columns, at most `lanes` */
+INLINE void multiply_together(struct pencil *p, const double *value, const rotid_matrix *a, int lanes, int columns,
+                              const double *x, double *y)
+{
+    ptrdiff_t n = p->n;
+    memset(p->y, 0, (size_t)n * (size_t)lanes * sizeof *y);
+    for (int c = 0; c < lanes; c++)
+        for (ptrdiff_t i = 0; i < n; i++)
+            p->x[i * lanes + c] = c < columns ? x[i + c * n] : 0;
+    multiply_lanes(p, value, lanes, p->x, p->y);
+    for (int g = 0; g < a->nfar; g++)
+        for (int f = 0; f < a->nfar; f++)
+            for (int c = 0; c < lanes; c++)
+                p->y[(ptrdiff_t)a->far[f] * lanes + c] += a->block[f + g * a->nfar] * p->x[(ptrdiff_t)a->far[g] * lanes + c];
+    for (int c = 0; c < columns; c++)
+        for (ptrdiff_t i = 0; i < n; i++)
+            y[i + c * n] = p->y[i * lanes + c];
+}
+
+static void multiply(struct pencil *p, const double *value, const rotid_matrix *a, int columns, const double *x, double *y)
+{
+    ptrdiff_t n = p->n;
+    for (; columns > 4; columns -= LANES, x += LANES * n, y += LANES * n)
+        multiply_together(p, value, a, LANES, columns < LANES ? columns : LANES, x, y);
+    if (columns > 1)
+        multiply_together(p, value, a, 4, columns, x, y);
+    else if (columns == 1)
+        multiply_together(p, value, a, 1, 1, x, y);
+}
+
+void pencil_multiply_stiffness(struct pencil *p, int columns, const double *x, double *y)
+{
+    multiply(p, p->k, p->stiffness, columns, x, y);
+}
+
+void pencil_multiply_mass(struct pencil *p, int columns, const double *x, double *y)
+{
+    multiply(p, p->m, p->mass, columns, x, y);
+}
