@@ -137,7 +137,7 @@ static int project(struct lanczos *l)
         memcpy(a + (ptrdiff_t)j * size, l->projected + (ptrdiff_t)j * l->most, (size_t)(j + 1) * sizeof(double));
     lapack_int info =
         LAPACKE_dsyevr_work(LAPACK_COL_MAJOR, 'V', 'I', 'U', size, a, size, 0, 0, size - pairs + 1, size, 0, &found, l->theta,
-                            l->vector, size, l->iwork, l->work, 34 * l->most, l->iwork + 2 * l->most, 10 * l->most);
+                            l->vector, size, l->iwork, l->work, 34 * l->most, l->iwork + 2 * (ptrdiff_t)l->most, 10 * l->most);
     return info || found != pairs ? ROTID_ERROR_EIGEN : ROTID_OK;
 }
 
