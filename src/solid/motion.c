@@ -72,24 +72,24 @@ int motion_of_section(struct pool *pool, const struct solid_mesh *mesh, int line
     return status;
 }
 
-int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, double from, double to, struct motion *w)
+int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, double pitch, double reach, struct motion *w)
 {
     int first = mesh->line[2 * line], end = mesh->line[2 * line + 1], status = motion_new(pool, end - first, w);
-    double area = 0;
+    double inertia = 0;
     for (int n = first; n + 2 < end && !status; n += 2) {
         const double edge[3] = {mesh->node[n].r, mesh->node[n + 1].r, mesh->node[n + 2].r};
-        double low = fmax(from, edge[0]), high = fmin(to, edge[2]), shape[3];
+        double low = fmax(pitch - reach, edge[0]), high = fmin(pitch + reach, edge[2]), shape[3];
         for (int g = 0; g < 3 && low < high; g++) {
-            double r = (low + high) / 2 + (high - low) / 2 * place[g], share = weight[g] * (high - low) * r;
+            double r = (low + high) / 2 + (high - low) / 2 * place[g], share = weight[g] * (high - low) * r * r;
             shape_of_edge(edge, r, shape, NULL);
-            area += share;
+            inertia += share * r;
             for (int i = 0; i < 3; i++)
                 add_term(w, mesh->node[n + i].dof[2], share * shape[i]);
         }
     }
     for (int i = 0; i < w->count && !status; i++)
-        w->weight[i] /= area;
-    return status ? status : area > 0 ? ROTID_OK : ROTID_ERROR_SECTION;
+        w->weight[i] *= pitch / inertia;
+    return status ? status : inertia > 0 ? ROTID_OK : ROTID_ERROR_SECTION;
 }
 
 /* U of node 5 of an element whose sensor has taken that degree of freedom: (sensor - n1 U1 - n2 U2)/n5 */

@@ -45,9 +45,9 @@ static int build_lines(struct pool *pool, struct solid *solid, int *failed)
         double pitch = rotor->tierod[i].pitch, reach = WASHER / 2 * rotor->tierod[i].diameter;
         struct motion *stretch = &solid->stretch[2 * (ptrdiff_t)i];
         if (!status)
-            status = motion_axial(pool, &solid->mesh, from, pitch - reach, pitch + reach, &stretch[0]);
+            status = motion_axial(pool, &solid->mesh, from, pitch, reach, &stretch[0]);
         if (!status)
-            status = motion_axial(pool, &solid->mesh, to, pitch - reach, pitch + reach, &stretch[1]);
+            status = motion_axial(pool, &solid->mesh, to, pitch, reach, &stretch[1]);
     }
     return status;
 }
