@@ -104,7 +104,6 @@ TEST_PROGRAMS := $(addprefix $(BUILD)/tests/,$(TESTS))
 .PHONY: all abi schema demo figures test chain power bench bench-quick check-asan check-valgrind check-peers check-embedding check-mpi fuzz fuzzers \
         coverage lint format install uninstall clean
 .DELETE_ON_ERROR:
-.SECONDARY:
 
 all: $(BUILD)/rotid $(BUILD)/librotid.a $(BUILD)/librotid.so
 ifeq ($(MPI),1)
@@ -192,7 +191,7 @@ power: $(BUILD)/power
 # Some link hosts of their own, in the way the library was built.
 $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)"' -DROTID_PROGRAM='"$(abspath $(BUILD))/rotid"' \
     -DROTID_BUILD='"$(abspath $(BUILD))"' -DROTID_CC='"$(CC)"' -DROTID_CXX='"$(CXX)"' -DROTID_FLAGS='"$(CFLAGS) $(LDFLAGS)"'
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(SUPPORT) $(ROOMS) $(OBJECTS)
+$(TEST_PROGRAMS): %: %.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
 chain: $(BUILD)/tests/test_chain
@@ -276,9 +275,10 @@ check-embedding: all $(BUILD)/tests/test_fortran $(BUILD)/tests/test_embedding
 
 # Starts from the corpus in tests/fuzz; what is new goes into the build folder, what fails is written into crash-* there.
 FUZZERS := uff deck plan results
-$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz_one.o $(ROOMS) $(OBJECTS)
+FUZZ_PROGRAMS := $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
+$(FUZZ_PROGRAMS): %: %.o $(BUILD)/tests/fuzz_one.o $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(PROGRAM_LIBS) -o $@
-fuzzers: $(addprefix $(BUILD)/tests/fuzz/fuzz_,$(FUZZERS))
+fuzzers: $(FUZZ_PROGRAMS)
 fuzz:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) LDFLAGS='-fsanitize=fuzzer,address,undefined' \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' fuzzers

@@ -2,14 +2,15 @@
  * left when something fails, and how large and slow a large model is. */
 #include <dirent.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/times.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/clock.h"
 #include "export_readers.h"
 #include "folder.h"
 #include "json_value.h"
@@ -323,7 +324,7 @@ static void test_places_that_cannot_be_written(void **state)
     assert_int_equal(run("export s.inp --format dmig -o /dev/null"), 0);
 }
 
-/* Nine thousand elements are fitted for seconds. */
+/* Nine thousand elements are fitted for seconds. On a loaded machine the signal may come before the program can take it. */
 static void test_an_interrupted_fit_writes_nothing(void **state)
 {
     (void)state;
@@ -332,11 +333,14 @@ static void test_an_interrupted_fit_writes_nothing(void **state)
         "slow.inp", "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n0.3, 0.05, 0, 3000\n"
                     "*SHAFT, NAME=b, MATERIAL=s\n0.4, 0.1, 0.02, 3000\n*SHAFT, NAME=c, MATERIAL=s\n0.3, 0.05, 0, 3000\n" MODES
                     "*IDENTIFY\na.E, 1e9, 1e12, 2e10\nb.E, 1e9, 1e12, 2e10\nc.E, 1e9, 1e13, 2e12\n");
-    (void)snprintf(command, sizeof command,
-                   "cd %s && timeout --preserve-status -s TERM 0.2 %s export slow.inp --format dmig -o slow.bdf > out 2> err",
-                   folder, ROTID_PROGRAM);
-    int status = system(command); /* NOLINT: a fixed command of the test */
-    assert_int_equal(WEXITSTATUS(status), 1);
+    int status = 128 + SIGTERM;
+    for (double wait = 0.2; status == 128 + SIGTERM && wait < 20; wait *= 2) {
+        (void)snprintf(command, sizeof command,
+                       "cd %s && timeout --preserve-status -s TERM %g %s export slow.inp --format dmig -o slow.bdf > out 2> err",
+                       folder, wait, ROTID_PROGRAM);
+        status = WEXITSTATUS(system(command)); /* NOLINT: a fixed command of the test */
+    }
+    assert_int_equal(status, 1);
     assert_true(holds("err", "interrupted, nothing was written") && !holds("out", "mode"));
     assert_int_equal(count_files("slow."), 1);
 }
@@ -350,17 +354,25 @@ static long size_of(const char *name)
     return (long)state.st_size;
 }
 
+/* Of the programs that were run so far [s]: processor time, which other programs on the machine do not change. */
+static double time_of_children(void)
+{
+    struct tms spent;
+    assert_true(times(&spent) != (clock_t)-1);
+    return (double)(spent.tms_cutime + spent.tms_cstime) / (double)sysconf(_SC_CLK_TCK);
+}
+
 static void test_two_thousand_elements(void **state)
 {
     (void)state;
     (void)folder_write("long.inp",
                        "*MATERIAL, NAME=s\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=a, MATERIAL=s\n20, 0.4, 0.1, "
                        "2000\n" SENSORS);
-    double start = clock_seconds();
+    double start = time_of_children();
     assert_int_equal(run("export long.inp --format matrix-market -o long"), 0);
     assert_int_equal(run("export long.inp --format dmig -o long.bdf"), 0);
     assert_int_equal(run("export long.inp --format ross -o long.py"), 0);
-    double seconds = clock_seconds() - start;
+    double seconds = time_of_children() - start;
     assert_non_null(strstr(output, "ROSS solves dense matrices: 2000 elements"));
     print_message("2000 elements: %.2f s; %ld, %ld, %ld bytes\n", seconds, size_of("long.stiffness.mtx"), size_of("long.bdf"),
                   size_of("long.py"));

@@ -359,7 +359,7 @@ static void extra_lines_go_into_the_heading_and_harm_nothing(void **state)
     for (int i = 0; i < 5; i++)
         assert_string_equal(second.job.heading[i], expected[i]);
     assert_int_equal(strlen(second.job.heading[5]), 1023);
-    assert_true(second.job.nreference == 1 && second.job.reference[0].value[1] == 2);
+    assert_true(second.job.nreference == 1 && second.job.reference[0].values[1] == 2);
     pool_close(&first.pool);
     pool_close(&second.pool);
 }

@@ -169,6 +169,24 @@ static void one_wrong_reading_does_not_move_the_mean(void **state)
     assert_close(with.std, without.std, 1e-12, 0);
 }
 
+/* Readings a step above and below their mean by turns: the median of the sizes is a step, the noise that normal readings of this
+ * median have is 1.4826 steps. Of 21 readings, one beyond 4.2 such noises is wrong: 8 steps are 3.7 of them and 10 are 4.4, by the
+ * equations of drop_from_line with the mean of all. */
+static void a_median_of_sizes_stands_for_one_and_a_half_of_the_noise(void **state)
+{
+    (void)state;
+    for (int steps = 8; steps <= 10; steps += 2) {
+        double hz[POINTS], std[POINTS];
+        struct point_mean mean;
+        for (int j = 0; j < POINTS; j++) {
+            hz[j] = 100 + 0.01 * (j == 4 ? steps : j % 2 ? 1 : -1);
+            std[j] = 0.001; /* stated far too small: the scatter alone tells the noise */
+        }
+        assert_status(point_mean(&test_pool, POINTS, hz, std, NULL, &mean), ROTID_OK);
+        assert_int_equal(mean.dropped, steps == 10);
+    }
+}
+
 /* ------------------------------------------------------------------------------------------------ decks */
 
 struct reading {
@@ -391,6 +409,7 @@ int main(void)
         cmocka_unit_test(few_points_give_their_plain_mean),
         cmocka_unit_test(the_deviation_of_the_mean_is_what_it_scatters_by),
         cmocka_unit_test(one_wrong_reading_does_not_move_the_mean),
+        cmocka_unit_test(a_median_of_sizes_stands_for_one_and_a_half_of_the_noise),
         cmocka_unit_test(a_deck_without_them_has_none),
         cmocka_unit_test(the_card_sets_the_frequency_of_its_mode),
         cmocka_unit_test(floors_are_added_to_what_the_data_state_and_to_nothing_else),

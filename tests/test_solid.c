@@ -216,11 +216,27 @@ static void everything(struct bench *b)
     b->rotor.ndisk = 1;
     b->disk[0] = (struct disk){.name = "fan", .position = 1.72, .mass = 20, .diametral = 0.3};
     b->rotor.ntierod = 1;
-    b->tierod[0] = (struct tierod){.name = "rods", .material = steel, .from = 0.7, .to = 1.4, .model = BUNDLE_RODS,
-                                   .self_equilibrated = 1, .number = 8, .elements = 4, .diameter = 0.025, .pitch = 0.12, .tension = 0};
+    b->tierod[0] = (struct tierod){.name = "rods",
+                                   .material = steel,
+                                   .from = 0.7,
+                                   .to = 1.4,
+                                   .model = BUNDLE_RODS,
+                                   .self_equilibrated = 1,
+                                   .number = 8,
+                                   .elements = 4,
+                                   .diameter = 0.025,
+                                   .pitch = 0.12,
+                                   .tension = 0};
     b->rotor.nbars = 1;
-    b->bars[0] = (struct bars){.name = "bars", .material = steel, .center = 1.05, .length = 0.8, .model = BUNDLE_RODS, .number = 40,
-                               .elements = 4, .diameter = 0.015, .pitch = 0.17};
+    b->bars[0] = (struct bars){.name = "bars",
+                               .material = steel,
+                               .center = 1.05,
+                               .length = 0.8,
+                               .model = BUNDLE_RODS,
+                               .number = 40,
+                               .elements = 4,
+                               .diameter = 0.015,
+                               .pitch = 0.17};
     sensors(b, 68);
 }
 
@@ -288,9 +304,9 @@ static double difference(const rotid_matrix *a, const rotid_matrix *b)
 
 static void derivatives_agree_with_differences(void **state)
 {
-    static const char *const names[] = {"core.E",  "core.G", "core.nu",   "core.rho", "left.E",   "left.nu",   "ring.E", "rods.E",
-                                        "rods.tension", "fan.mass", "fan.inertia", "spring.k", "spring.k_rot", "zone.depth", "zone.z",
-                                        "zone.width", "add.mass", "add.z"};
+    static const char *const names[] = {"core.E",       "core.G",     "core.nu",      "core.rho",   "left.E",      "left.nu",
+                                        "ring.E",       "rods.E",     "rods.tension", "fan.mass",   "fan.inertia", "spring.k",
+                                        "spring.k_rot", "zone.depth", "zone.z",       "zone.width", "add.mass",    "add.z"};
     struct bench b;
     enum { COUNT = sizeof names / sizeof *names };
     struct parameter parameter[COUNT];
@@ -316,7 +332,9 @@ static void derivatives_agree_with_differences(void **state)
         struct solid solid;
         rotid_matrix k[2], m[2], dk, dm;
         int failed;
-        assert_status(solid_build(&test_pool, &b.rotor, COUNT, parameter, &(struct solid_rule){0.03, 0.15, 0}, 1, &solid, &failed), ROTID_OK);
+        assert_status(
+            solid_build(&test_pool, &b.rotor, COUNT, parameter, &(struct solid_rule){0.03, 0.15, 0}, 1, &solid, &failed),
+            ROTID_OK);
         rotid_matrix *all[] = {&k[0], &k[1], &m[0], &m[1], &dk, &dm};
         for (int i = 0; i < 6; i++)
             assert_status(matrix_new(&test_pool, solid.mesh.ndof, solid.mesh.kd, solid.nfar, solid.far, all[i]), ROTID_OK);
@@ -359,7 +377,8 @@ static void try(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh, open_test_pool,
+                                        close_test_pool),
         cmocka_unit_test_setup_teardown(uniform_strains_have_their_energy_exactly, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(derivatives_agree_with_differences, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(try, open_test_pool, close_test_pool),

@@ -75,13 +75,13 @@ static void check_ok(const struct reading *r)
     assert_int_equal(r->messages.errors, 0);
 }
 
-static int has_message(const struct reading *r, enum severity severity, int line, const char *part)
+static int has_message(const struct reading *r, int severity, int line, const char *part)
 {
     for (size_t i = 0; i < r->messages.count; ++i)
         if (r->messages.item[i].severity == severity && r->messages.item[i].line == line &&
             strstr(r->messages.item[i].text, part))
             return 1;
-    print_message("no message of severity %d in line %d with: %s\n", (int)severity, line, part);
+    print_message("no message of severity %d in line %d with: %s\n", severity, line, part);
     print_messages(r);
     return 0;
 }

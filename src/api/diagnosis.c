@@ -63,8 +63,9 @@ int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options
 {
     struct call call;
     int status = call_open(&call, environment, failure, result, "result");
-    if (result)
-        *result = NULL;
+    if (!result)
+        return call_close(&call, status);
+    *result = NULL;
     if (!status)
         status = diagnose(&call, deck, options, result);
     return call_close(&call, status);

@@ -39,8 +39,9 @@ int rotid_identify(const rotid_deck *deck, int baseline, const rotid_environment
 {
     struct call call;
     int status = call_open(&call, environment, failure, result, "result");
-    if (result)
-        *result = NULL;
+    if (!result)
+        return call_close(&call, status);
+    *result = NULL;
     if (!status)
         status = identify(&call, deck, baseline, result);
     return call_close(&call, status);

@@ -59,7 +59,7 @@ static rotid_spectrum *make_result(struct call *call, const struct job *job, con
 
 static int run(struct call *call, const struct job *job, const double *x, int nmode, rotid_spectrum **result)
 {
-    struct spectrum found;
+    struct spectrum found = {0};
     struct comparison compared;
     int count = comparison_candidates(job);
     if (nmode < 0)
@@ -81,8 +81,9 @@ int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, c
 {
     struct call call;
     int status = call_open(&call, environment, failure, spectrum, "spectrum");
-    if (spectrum)
-        *spectrum = NULL;
+    if (!spectrum)
+        return call_close(&call, status);
+    *spectrum = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
         status = job ? run(&call, job, x, nmode, spectrum) : ROTID_ERROR_ARGUMENT;

@@ -33,7 +33,7 @@ int command_read_deck(struct command *command)
         command_take_messages(command, command->read->nmessage, command->read->message);
         command->messages.errors = command->read->nerror;
     }
-    if (status && (!command->read || !command->read->nerror)) /* no message says why */
+    if (!command->read || (status && !command->read->nerror)) /* no message says why */
         return command_fail_with(command, status, failure);
     if (status)
         return command_fail(command, status);

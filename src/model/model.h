@@ -13,14 +13,15 @@ struct rotor_model {
     const struct rotor *rotor;         /* own copy, at the values of the last evaluation, with the springs of a sling */
     const struct parameter *parameter; /* [equations.nparam] */
     int naxis;
-    const double *z;  /* [naxis] m: the places along the axis where the model has degrees of freedom */
-    int *master;      /* [equations.nmaster] */
+    const double *z;          /* [naxis] m: the places along the axis where the model has degrees of freedom */
+    int *master;              /* [equations.nmaster] */
     struct discrete discrete; /* what src/export writes element by element and src/page draws; nobody else looks inside */
 };
 
 /* The model of a rotor with the given parameters at their values in the rotor; masters are the lateral degrees of freedom at the
  * sensors, without sensors all of the axis. refine >= 1 cuts every element. models: those built already, or NULL. Statuses of
- * discrete_build and discrete_count_rigid, ROTID_ERROR_ARGUMENT where two sensors fall on one node; *failed as for discrete_build. */
+ * discrete_build and discrete_count_rigid, ROTID_ERROR_ARGUMENT where two sensors fall on one node; *failed as for
+ * discrete_build. */
 int model_open(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                const struct parameter *parameter, int refine, struct rotor_model *model, int *failed);
 
@@ -46,8 +47,8 @@ int model_weigh(struct pool *pool, struct models *models, const struct rotor *ro
 /* Puts an effect in the place of the last one of the model's rotor. ROTID_OK or ROTID_ERROR_MEMORY. */
 int model_exchange_effect(struct pool *pool, struct rotor_model *model, const struct effect *effect);
 
-/* *alone: whether sensor s has a node of a beam that no other sensor reads; a solid, whose sensors may be nearer to each other, is
- * asked no less. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* *alone: whether sensor s has a node of a beam that no other sensor reads; a solid, whose sensors may be nearer to each other,
+ * is asked no less. ROTID_OK or ROTID_ERROR_MEMORY. */
 int model_sensor_alone(struct pool *pool, const struct rotor *rotor, int s, int *alone);
 
 #endif

@@ -55,8 +55,8 @@ static void add_to_section(rotid_matrix *a, const struct solid_line *line, doubl
         motion_add(a, theta, &line->theta, &line->theta);
 }
 
-/* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W. What inertia about a diameter a mass has
- * beyond that of a ring of the surface's radius acts on the slope W/R of the surface. */
+/* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W. What inertia about a diameter a mass
+ * has beyond that of a ring of the surface's radius acts on the slope W/R of the surface. */
 
 int attached_next_mass(const struct solid *solid, int *effect, int *i, struct effect_point *point)
 {

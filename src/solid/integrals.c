@@ -18,7 +18,7 @@ static void add_product(double w, const double *x, const double *y, double *sum)
 static void add_point(const struct solid_mesh *mesh, const struct solid_element *element, int ix, int iy, struct integrals *out)
 {
     double n[SOLID_NODES], by_x[SOLID_NODES], by_y[SOLID_NODES], by_r[SOLID_NODES], by_z[SOLID_NODES], r = 0, rx = 0, ry = 0,
-                                                                                                      zx = 0, zy = 0;
+                                                                                                       zx = 0, zy = 0;
     double(*sum)[SOLID_NODES * SOLID_NODES] = out->value[iy];
     shape_of_element(place[ix], place[iy], n, by_x, by_y);
     for (int a = 0; a < SOLID_NODES; a++) {

@@ -5,9 +5,9 @@
 #include "base/pool.h"
 
 struct stop {
-    double at;    /* m, where a line has to be */
-    double fine;  /* m: the size of the elements beside it; 0: not graded towards it */
-    double upto;  /* m: the largest element between this stop and the next */
+    double at;   /* m, where a line has to be */
+    double fine; /* m: the size of the elements beside it; 0: not graded towards it */
+    double upto; /* m: the largest element between this stop and the next */
 };
 
 /* Lines x [*count] through `nstop` >= 2 stops, increasing: from a graded stop the elements double until they reach the largest.

@@ -22,7 +22,8 @@ static struct member member_of(const struct solid *solid, int i)
     const struct rotor *rotor = &solid->rotor;
     const struct tierod *rod = i < rotor->ntierod ? &rotor->tierod[i] : NULL;
     const struct bars *bars = rod ? NULL : &rotor->bars[i - rotor->ntierod];
-    struct member member = {.number = rod ? rod->number : bars->number, .material = rod ? &rod->material : &bars->material, .young = 1};
+    struct member member = {
+        .number = rod ? rod->number : bars->number, .material = rod ? &rod->material : &bars->material, .young = 1};
     double area, own;
     section_rods(member.number, rod ? rod->diameter : bars->diameter, rod ? rod->pitch : bars->pitch, &area, &own, &member.pitch);
     member.section = (struct section){area, own, area, own, 0, 0};
@@ -192,7 +193,8 @@ void members_moments(const struct solid *solid, double moment[3])
         struct member member = member_of(solid, i);
         int from, to;
         solid_mesh_member(rotor, &solid->mesh, i, &from, &to);
-        double a = solid->mesh.z[from], b = solid->mesh.z[to], length = b - a, mass = member.material->rho * member.section.mass_area * length;
+        double a = solid->mesh.z[from], b = solid->mesh.z[to], length = b - a,
+               mass = member.material->rho * member.section.mass_area * length;
         moment[0] += mass;
         moment[1] += mass * (a + b) / 2;
         for (int l = from; l < to && solid_mesh_follows(rotor, i); l++) /* half of it on each of its lines */
@@ -215,7 +217,8 @@ void members_deflection(const struct solid *solid, int i, const double *u, int n
         end_of(solid, i, l, &a);
         end_of(solid, i, l + 1, &b);
         double h = mesh->z[l + 1] - mesh->z[l], s = (z[p] - mesh->z[l]) / h;
-        v[p] = (1 + s * s * (2 * s - 3)) * motion_value(&a.motion[0], u) - h * s * (1 - s) * (1 - s) * motion_value(&a.motion[1], u) +
-               s * s * (3 - 2 * s) * motion_value(&b.motion[0], u) + h * s * s * (1 - s) * motion_value(&b.motion[1], u);
+        v[p] = (1 + s * s * (2 * s - 3)) * motion_value(&a.motion[0], u) -
+               h * s * (1 - s) * (1 - s) * motion_value(&a.motion[1], u) + s * s * (3 - 2 * s) * motion_value(&b.motion[0], u) +
+               h * s * s * (1 - s) * motion_value(&b.motion[1], u);
     }
 }

@@ -1,7 +1,7 @@
-/* Tie rods and bars beside a solid: chains of beam elements from line to line of the mesh, which bend by themselves. Tie rods move
- * with the section at both ends and are stretched by W at their pitch radius there; bars move with the section at their centre.
- * Tie rods of one element move with the section everywhere (solid_mesh_follows): their mass and tension act line by line, and their
- * own bending stiffness, below a thousandth of that of what they press together, is left out. */
+/* Tie rods and bars beside a solid: chains of beam elements from line to line of the mesh, which bend by themselves. Tie rods
+ * move with the section at both ends and are stretched by W at their pitch radius there; bars move with the section at their
+ * centre. Tie rods of one element move with the section everywhere (solid_mesh_follows): their mass and tension act line by line,
+ * and their own bending stiffness, below a thousandth of that of what they press together, is left out. */
 #ifndef ROTID_SOLID_MEMBERS_H
 #define ROTID_SOLID_MEMBERS_H
 

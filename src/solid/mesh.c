@@ -6,9 +6,9 @@
 #include "solid/shape.h"
 
 #define AT_LINE 0.011 /* of a slice, from a line: a sensor is taken to be there, as in outline_lines, with some room */
-#define QUARTER 0.25 /* of its length from the corner: r^(1/2), the strains of a crack */
+#define QUARTER 0.25  /* of its length from the corner: r^(1/2), the strains of a crack */
 
-struct grid { /* nodes by line 0 ... 2 nslice and place 0 ... 2 nr, even ones at the ends of elements */
+struct grid {              /* nodes by line 0 ... 2 nslice and place 0 ... 2 nr, even ones at the ends of elements */
     int nr, places, *node; /* nr: elements from the axis to the surface */
     double *r;
 };
@@ -210,7 +210,7 @@ static void find_band(const struct rotor *rotor, struct solid_mesh *mesh)
 static int number_dofs(struct pool *pool, const struct rotor *rotor, struct solid_mesh *mesh)
 {
     int lines = mesh->nslice + 1, members = rotor->ntierod + rotor->nbars, next = 0;
-    mesh->member_dof = POOL_ARRAY(pool, int, members * lines);
+    mesh->member_dof = POOL_ARRAY(pool, int, members *lines);
     if (!mesh->member_dof)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < members * lines; i++)

@@ -10,7 +10,7 @@
 #include "base/pool.h"
 #include "rotor/rotor.h"
 
-#define SOLID_NODES 8                 /* of an element: four corners from (inner, left) by (outer, left), then the edges between */
+#define SOLID_NODES 8 /* of an element: four corners from (inner, left) by (outer, left), then the edges between */
 #define SOLID_DOFS  (3 * SOLID_NODES) /* U, V, W of each */
 
 /* How fine. What is 0 follows from the rotor. */
@@ -36,18 +36,18 @@ struct solid_element {
 
 struct solid_mesh {
     int nslice;
-    double *z;        /* [nslice + 1] lines */
-    int *segment;     /* [nslice] */
-    int *first;       /* [nslice + 1] first element of a slice */
+    double *z;    /* [nslice + 1] lines */
+    int *segment; /* [nslice] */
+    int *first;   /* [nslice + 1] first element of a slice */
     int nnode;
     struct solid_node *node; /* line by line, from the axis outwards */
-    int *line;        /* [2 nslice + 2] first node of each line: 2 i is line i, 2 i + 1 half-way to the next */
-    int *surface;     /* [2 nslice + 1] node at the surface of each */
-    double *surface_z; /* [2 nslice + 1] m: what U of that node is the motion of */
+    int *line;               /* [2 nslice + 2] first node of each line: 2 i is line i, 2 i + 1 half-way to the next */
+    int *surface;            /* [2 nslice + 1] node at the surface of each */
+    double *surface_z;       /* [2 nslice + 1] m: what U of that node is the motion of */
     int nelement;
     struct solid_element *element;
-    int *sensor_dof;  /* [nsensor] the motion of the surface at the sensor is an unknown itself */
-    int *member_dof;  /* [nmember * (nslice + 1)]: solid_mesh_member_dof */
+    int *sensor_dof; /* [nsensor] the motion of the surface at the sensor is an unknown itself */
+    int *member_dof; /* [nmember * (nslice + 1)]: solid_mesh_member_dof */
     int ndof, kd;
 };
 

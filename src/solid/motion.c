@@ -93,8 +93,8 @@ int motion_axial(struct pool *pool, const struct solid_mesh *mesh, int line, dou
 }
 
 /* U of node 5 of an element whose sensor has taken that degree of freedom: (sensor - n1 U1 - n2 U2)/n5 */
-static void add_surface_term(const struct solid_mesh *mesh, const struct solid_element *element, int node, int component, double w,
-                             struct motion *motion)
+static void add_surface_term(const struct solid_mesh *mesh, const struct solid_element *element, int node, int component,
+                             double w, struct motion *motion)
 {
     const double *at = element->at_sensor;
     if (component == 0 && node == 5 && element->sensor >= 0) {

@@ -4,13 +4,13 @@
 
 #include "solid/lines.h"
 
-#define SAME         1e-9 /* of the largest radius: radii that are one */
-#define CORNER       0.05 /* of the thinner radius: elements at a corner; leaves 0.03 % in the frequencies of stepped rotors */
-#define LARGEST      4    /* a quarter of the largest radius */
-#define SLICES       50   /* or the length over this, the larger */
-#define AT_LINE      0.01 /* of a slice: a sensor is taken to be at the line */
-#define MOVES        0.35 /* of the slices beside it: how far a line moves to a sensor */
-#define INTERFACE    0.1  /* of the radius: elements at a plain interface of two groups, where a joint may be */
+#define SAME      1e-9 /* of the largest radius: radii that are one */
+#define CORNER    0.05 /* of the thinner radius: elements at a corner; leaves 0.03 % in the frequencies of stepped rotors */
+#define LARGEST   4    /* a quarter of the largest radius */
+#define SLICES    50   /* or the length over this, the larger */
+#define AT_LINE   0.01 /* of a slice: a sensor is taken to be at the line */
+#define MOVES     0.35 /* of the slices beside it: how far a line moves to a sensor */
+#define INTERFACE 0.1  /* of the radius: elements at a plain interface of two groups, where a joint may be */
 
 double outline_inner(const struct rotor *rotor, int s)
 {
@@ -137,9 +137,8 @@ static int axial_stops(struct pool *pool, const struct rotor *rotor, const struc
     for (int s = 0; s < rotor->nsegment; s++) {
         double size = 0;
         end += rotor->segment[s].length;
-        if (s + 1 < rotor->nsegment &&
-            (differ(rotor, outline_outer(rotor, s), outline_outer(rotor, s + 1)) ||
-             differ(rotor, outline_inner(rotor, s), outline_inner(rotor, s + 1))))
+        if (s + 1 < rotor->nsegment && (differ(rotor, outline_outer(rotor, s), outline_outer(rotor, s + 1)) ||
+                                        differ(rotor, outline_inner(rotor, s), outline_inner(rotor, s + 1))))
             size = corner_size(rotor, rule, s, refine);
         else if (s + 1 < rotor->nsegment && rotor->segment[s].group != rotor->segment[s + 1].group)
             size = INTERFACE * outline_outer(rotor, s);
@@ -186,7 +185,8 @@ static int lines_at_sensors(struct pool *pool, const struct rotor *rotor, const 
         double distance = fabs(at - x[near]);
         if (distance <= AT_LINE * (x[i + 1] - x[i]) && fixed[near])
             continue;
-        if (!fixed[near] && !(near == i && inside == i) && distance < MOVES * fmin(x[near] - x[near - 1], x[near + 1] - x[near])) {
+        if (!fixed[near] && !(near == i && inside == i) &&
+            distance < MOVES * fmin(x[near] - x[near - 1], x[near + 1] - x[near])) {
             x[near] = at;
             fixed[near] = 1;
         } else if (inside < i) {
