@@ -2,7 +2,7 @@
  * beam_build refuses. */
 #include <math.h>
 
-#include "beam/beam.h"
+#include "model/discrete.h"
 #include "linalg/matrix.h"
 #include "paper_rotor.h"
 #include "support.h"
@@ -280,13 +280,13 @@ static void no_memory_is_reported_at_every_allocation_of_a_build(void **state)
     for (n = 1; status; n++) {
         struct failing_allocator failing;
         struct pool own;
-        struct beam beam;
+        struct discrete beam;
         int failed, nrigid;
         failing_allocator_open(&failing, n);
         pool_open(&own, &failing.allocator);
-        status = beam_build(&own, rotor, 0, NULL, 1, &beam, &failed);
+        status = discrete_build(&own, AS_BEAM, rotor, 0, NULL, 1, &beam, &failed);
         if (!status)
-            status = beam_count_rigid(&own, &beam, NULL, &nrigid);
+            status = discrete_count_rigid(&own, &beam, NULL, &nrigid);
         pool_close(&own);
         assert_int_equal(failing.in_use, 0);
         if (status)

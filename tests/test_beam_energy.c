@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "beam/beam.h"
+#include "model/discrete.h"
 #include "linalg/eigen.h"
 #include "linalg/matrix.h"
 #include "paper_rotor.h"
@@ -321,7 +321,8 @@ static int count_rigid(const struct rotor *rotor)
 {
     int nrigid = -1;
     assemble(rotor, 0, NULL, NULL);
-    assert_status(beam_count_rigid(&test_pool, &beam, NULL, &nrigid), ROTID_OK);
+    struct discrete discrete = {.as = AS_BEAM, .beam = beam};
+    assert_status(discrete_count_rigid(&test_pool, &discrete, NULL, &nrigid), ROTID_OK);
     return nrigid;
 }
 

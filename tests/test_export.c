@@ -81,8 +81,8 @@ static void test_matrices_come_back_to_the_last_bit(void **state)
         struct dense_file file[4] = {market(matrix_market_stiffness, &model), market(matrix_market_mass, &model),
                                      market(matrix_market_condensed_stiffness, &model),
                                      market(matrix_market_condensed_mass, &model)};
-        assert_int_equal(file[0].n, model.discrete->beam.mesh.ndof);
-        assert_int_equal(file[2].n, model.job->rotor.nsensor ? model.job->rotor.nsensor : model.discrete->beam.mesh.naxis);
+        assert_int_equal(file[0].n, model.discrete->discrete.beam.mesh.ndof);
+        assert_int_equal(file[2].n, model.job->rotor.nsensor ? model.job->rotor.nsensor : model.discrete->discrete.beam.mesh.naxis);
         assert_same(&file[0], k, 1);
         assert_same(&file[1], m, 1);
         for (int i = 0; i < file[2].n; i++) /* the lower triangle is written; rounding may differ in the upper one */

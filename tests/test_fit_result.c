@@ -31,7 +31,7 @@ static rotid_fit_result *compare_at(struct paper_fit *fit, const double *x)
 {
     rotid_fit_result *result = NULL;
     for (int p = 0; p < 2; p++)
-        *parameter_value(&fit->client.beam.rotor, paper_parameters[p]) = x[p];
+        *parameter_value(&fit->client.discrete.beam.rotor, paper_parameters[p]) = x[p];
     assert_status(rotid_fit(&fit->client.equations, NULL, &fit->measured, &fit->options, NULL, NULL, &result), ROTID_OK);
     return result;
 }

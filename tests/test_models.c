@@ -142,7 +142,7 @@ static void a_run_goes_on_with_what_the_deck_has_built(void **state)
     struct rotor_model one, two;
     int failed;
     (void)state;
-    assert_status(models_begin(&test_pool, rotor, &deck, &size, &failed), ROTID_OK);
+    assert_status(models_begin(&test_pool, AS_BEAM, rotor, &deck, &size, &failed), ROTID_OK);
     run = models_for_run(&test_pool, deck);
     assert_ptr_not_equal(run, deck); /* that of a deck takes up no others: several runs may share it */
     assert_ptr_equal(models_for_run(&test_pool, run), run);

@@ -113,9 +113,9 @@ int discrete_places(const struct discrete *discrete)
     return discrete->as == AS_SOLID ? 2 * discrete->solid.mesh.nslice + 1 : discrete->beam.mesh.naxis;
 }
 
-double discrete_place_z(const struct discrete *discrete, int i)
+const double *discrete_place_z(const struct discrete *discrete)
 {
-    return discrete->as == AS_SOLID ? discrete->solid.mesh.surface_z[i] : discrete->beam.mesh.z[i];
+    return discrete->as == AS_SOLID ? discrete->solid.mesh.surface_z : discrete->beam.mesh.z;
 }
 
 int discrete_place_dof(const struct discrete *discrete, int i)

@@ -39,7 +39,7 @@ int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const dou
 /* Places along the axis where the lateral motion of the rotor is one degree of freedom: their number, where they are [m], and
  * that degree of freedom. */
 int discrete_places(const struct discrete *discrete);
-double discrete_place_z(const struct discrete *discrete, int i);
+const double *discrete_place_z(const struct discrete *discrete);
 int discrete_place_dof(const struct discrete *discrete, int i);
 
 /* The degree of freedom of a sensor's motion, and where the mesh has it [m]. */

@@ -36,15 +36,6 @@ static int choose_masters(struct pool *pool, struct rotor_model *model)
     return ROTID_OK;
 }
 
-static int find_places(struct pool *pool, struct rotor_model *model)
-{
-    double *z = POOL_ARRAY(pool, double, model->naxis);
-    for (int i = 0; i < model->naxis && z; i++)
-        z[i] = discrete_place_z(&model->discrete, i);
-    model->z = z;
-    return z ? ROTID_OK : ROTID_ERROR_MEMORY;
-}
-
 int model_open(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                const struct parameter *parameter, int refine, struct rotor_model *model, int *failed)
 {
@@ -66,9 +57,8 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
     model->rotor = discrete_rotor(&model->discrete);
     model->parameter = parameter;
     model->naxis = discrete_places(&model->discrete);
-    status = find_places(pool, model);
-    if (!status)
-        status = choose_masters(pool, model);
+    model->z = discrete_place_z(&model->discrete);
+    status = choose_masters(pool, model);
     if (status || nrigid >= 0)
         return status;
     double *x = POOL_ARRAY(pool, double, nparameter);
@@ -82,15 +72,6 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
     return status;
 }
 
-static int nearest_place(const struct discrete *discrete, double z)
-{
-    int nearest = 0;
-    for (int i = 1; i < discrete_places(discrete); i++)
-        if (fabs(discrete_place_z(discrete, i) - z) < fabs(discrete_place_z(discrete, nearest) - z))
-            nearest = i;
-    return nearest;
-}
-
 double model_master_z(const struct rotor_model *model, int i)
 {
     return model->rotor->nsensor ? discrete_sensor_z(&model->discrete, i) : model->z[i];
@@ -98,7 +79,11 @@ double model_master_z(const struct rotor_model *model, int i)
 
 int model_lateral_dof(const struct rotor_model *model, double z)
 {
-    return discrete_place_dof(&model->discrete, nearest_place(&model->discrete, z));
+    int nearest = 0;
+    for (int i = 1; i < model->naxis; i++)
+        if (fabs(model->z[i] - z) < fabs(model->z[nearest] - z))
+            nearest = i;
+    return discrete_place_dof(&model->discrete, nearest);
 }
 
 double model_extrapolation(const struct rotor_model *model)
