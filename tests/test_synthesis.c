@@ -56,7 +56,7 @@ static void open_setup(struct setup *t, const struct rotor *rotor, double up_to_
         ROTID_OK);
     for (int r = 0; r < t->s.nmode; r++)
         t->zeta[r] = zeta;
-    beam_mass_properties(&t->client.beam, &t->mass);
+    beam_mass_properties(&t->client.discrete.beam, &t->mass);
 }
 
 static void evaluate(const struct setup *t, const struct synthesis_lines *lines, int pair, double complex *h)
