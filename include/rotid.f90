@@ -498,6 +498,7 @@ module rotid
     type(c_ptr) :: next_measurement = c_null_ptr ! text
     type(c_ptr) :: sentence = c_null_ptr ! text
     integer(c_int) :: undetermined_parameters = 0
+    integer(c_int) :: confident = 0
   end type rotid_verdict
 
   type, bind(C) :: rotid_data_finding

@@ -571,6 +571,7 @@ typedef struct rotid_verdict {
     const char *next_measurement;    /* what would settle it; NULL where nothing is open */
     const char *sentence;            /* the verdict for a person; NULL where there is none */
     int undetermined_parameters;     /* parameters of the base model that the data leave open */
+    int confident;                   /* modes, stated noise and reach of the sensors suffice for naming a cause */
 } rotid_verdict;
 
 /* A fault of the measurement chain, taken out of the data. */

@@ -67,8 +67,8 @@ static void a_diagnosis_agrees_with_its_fits(const rotid_diagnosis *d)
     assert_true(isnan(gain->holdout_frequency_rms_percent.before) && isnan(gain->holdout_shape_rms.after));
     /* what was left out is predicted worse than what was fitted */
     assert_true(gain->mode_out_frequency_rms_percent.after > rms[1]);
-    /* The rounds judge on a mesh whose error is below the noise (24 elements), base and extended are fitted once more on one whose
-     * error is below a tenth of it (48): on the same mesh both pairs are equal to 1e-9. */
+    /* The rounds judge on a mesh whose error is below the noise (24 elements), base and extended are fitted once more on one
+     * whose error is below a tenth of it (48): on the same mesh both pairs are equal to 1e-9. */
     assert_close(d->rounds[0].chi2, d->base->chi2, 0, 0.2);
     assert_true(d->rounds[0].chi2_frequency < d->rounds[0].chi2 && d->rounds[0].dof == d->base->dof);
     const rotid_candidate *named = &d->candidates[0];
@@ -90,6 +90,7 @@ static void what_was_hidden_is_named(void **state)
     rotid_deck_free(deck);
     assert_int_equal(d->verdict.kind, ROTID_NAMED);
     assert_int_equal(d->verdict.ncauses, 1);
+    assert_true(d->verdict.confident);
     assert_string_equal(d->verdict.causes[0].id, "stiffness_gradient");
     assert_string_equal(d->verdict.causes[0].target, "core");
     assert_string_equal(d->verdict.causes[0].parameters[0].name, "slope");

@@ -170,8 +170,8 @@ static void one_wrong_reading_does_not_move_the_mean(void **state)
 }
 
 /* Readings a step above and below their mean by turns: the median of the sizes is a step, the noise that normal readings of this
- * median have is 1.4826 steps. Of 21 readings, one beyond 4.2 such noises is wrong: 8 steps are 3.7 of them and 10 are 4.4, by the
- * equations of drop_from_line with the mean of all. */
+ * median have is 1.4826 steps. Of 21 readings, one beyond 4.2 such noises is wrong: 8 steps are 3.7 of them and 10 are 4.4, by
+ * the equations of drop_from_line with the mean of all. */
 static void a_median_of_sizes_stands_for_one_and_a_half_of_the_noise(void **state)
 {
     (void)state;

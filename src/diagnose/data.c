@@ -194,15 +194,16 @@ static void judge_amount(struct engine *engine)
 {
     const struct job *job = &engine->job;
     const struct rotor *rotor = &job->rotor;
-    engine->confident = 1;
+    int *confident = &engine->out->result.verdict.confident;
+    *confident = 1;
     if (count_fitted(job) < LEAST_MODES) {
-        engine->confident = 0;
+        *confident = 0;
         message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
                     "%d fitted mode%s cannot carry a name for what is wrong, expected at least %d", count_fitted(job),
                     count_fitted(job) == 1 ? "" : "s", LEAST_MODES);
     }
     if (engine->out->result.noise.frequency_assumed) {
-        engine->confident = 0;
+        *confident = 0;
         message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
                     "the deck states no noise of the frequencies (*NOISE, FREQUENCY=): %.2g %% are assumed, so only relative "
                     "statements can be made",
@@ -210,7 +211,7 @@ static void judge_amount(struct engine *engine)
     }
     if (job_fits_shapes(job) && rotor->nsensor &&
         rotor->sensor[rotor->nsensor - 1].position - rotor->sensor[0].position < LEAST_SPAN * rotor_length(rotor)) {
-        engine->confident = 0;
+        *confident = 0;
         message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
                     "the sensors cover %.0f %% of the rotor, expected at least %.0f %%: what lies elsewhere cannot be placed",
                     100 * (rotor->sensor[rotor->nsensor - 1].position - rotor->sensor[0].position) / rotor_length(rotor),

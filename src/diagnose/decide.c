@@ -190,9 +190,9 @@ int decide(const struct engine *engine, const struct before *before, struct diag
          !(first->result.chi2_drop > CLEAR * round->result.threshold) ||    /* or its place is open, or little is left over */
          first->other_chi2 - first->result.chi2 < round->result.required_margin ||
          before->dof - free_parameters(first) < LEAST_LEFT);
-    round->result.kind = round->result.set == 0                                           ? ROTID_UNEXPLAINED
-                         : round->result.set > 1 || !engine->confident || refused || weak ? ROTID_AMBIGUOUS
-                         : round->candidate[0].cause->class != CAUSE_PHYSICAL             ? ROTID_UNEXPLAINED
-                                                                                          : ROTID_NAMED;
+    round->result.kind = round->result.set == 0                                                               ? ROTID_UNEXPLAINED
+                         : round->result.set > 1 || !engine->out->result.verdict.confident || refused || weak ? ROTID_AMBIGUOUS
+                         : round->candidate[0].cause->class != CAUSE_PHYSICAL                                 ? ROTID_UNEXPLAINED
+                                                                                                              : ROTID_NAMED;
     return ROTID_OK;
 }

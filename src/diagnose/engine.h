@@ -19,7 +19,6 @@ struct engine {
     int *number, *holdout;               /* [nmode] */
     rotid_fit_result *fit;               /* of that job */
     double mode_out_rms, mode_out_shape; /* of that job, NaN where unknown: modes left out in turn, percent and shape */
-    int confident;                       /* the data are enough for a name */
     int user_reduction;                  /* of the deck's own FIT */
     int coloured;                        /* the noise of the shapes was raised for its smooth part */
     struct roving_accelerometer moving;  /* the accelerometer by the frequencies at single sensors; usable 0 where it has none */

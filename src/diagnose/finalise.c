@@ -187,7 +187,7 @@ static const char *verdict_sentence(struct engine *engine)
                 chance, others, faults, open);
         return pool_format(pool,
                            "The model does not explain the data (%s), and the data cannot tell which of %s is the cause%s.%s%s",
-                           chance, others, engine->confident ? "" : ", nor with confidence that any of them is", faults, open);
+                           chance, others, verdict->confident ? "" : ", nor with confidence that any of them is", faults, open);
     default:
         return pool_format(
             pool,

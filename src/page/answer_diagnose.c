@@ -57,12 +57,6 @@ static const char *faults(struct pool *pool, const rotid_diagnosis *d)
         human_plural(d->ndata_findings, "was", "were"), or_nothing(text), d->ndata_findings > LISTED ? "; and more" : ""));
 }
 
-/* The data are too few for that, or their noise is not stated: the result says so in its sentence alone. */
-static int unsure(const rotid_diagnosis *d)
-{
-    return d->verdict.sentence && strstr(d->verdict.sentence, "nor with confidence") != NULL;
-}
-
 static const char *named(struct pool *pool, const rotid_diagnosis *d)
 {
     const char *what = causes(pool, d, d->verdict.ncauses, d->verdict.causes, "; and "),
@@ -106,7 +100,8 @@ static const char *verdict(struct pool *pool, const rotid_diagnosis *d)
                               causes(pool, d, 1, d->verdict.alternative_causes, ""))
                 : pool_format(
                       pool, "Something is wrong with the model, and these data cannot tell which of %s causes is present%s: %s.",
-                      human_count(pool, d->verdict.nalternative_causes), unsure(d) ? ", nor surely that any of them is" : "",
+                      human_count(pool, d->verdict.nalternative_causes),
+                      !d->verdict.confident ? ", nor surely that any of them is" : "",
                       causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
         break;
     case ROTID_UNEXPLAINED:

@@ -59,7 +59,7 @@ static struct series *collect(struct document *document, const char *name, const
     }
     for (int l = 0; l < nline; l++)
         size[l] = hypot(re[l], im[l]);
-    int count = thin(nline, size, line);
+    int count = nline ? thin(nline, size, line) : 0;
     struct series *series = series_new(document, name, count, 3, columns);
     for (int i = 0; i < count; i++) {
         int l = line[i];

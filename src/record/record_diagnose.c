@@ -34,6 +34,7 @@ static const struct field verdict_fields[] = {
     TEXT(rotid_verdict, next_measurement, MAY_BE_NULL),
     TEXT(rotid_verdict, sentence, MAY_BE_NULL),
     INTEGER(rotid_verdict, undetermined_parameters, FROM_0),
+    FLAG(rotid_verdict, confident, SINCE_LATER),
     {0},
 };
 static const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);
