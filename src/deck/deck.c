@@ -146,17 +146,16 @@ static void check_model(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     struct model_size size;
-    int failed, status = models_begin(reader->pool, job->options.solid ? AS_SOLID : AS_BEAM, &job->rotor, &job->models, &size, &failed);
+    enum discretisation as = job->options.solid ? AS_SOLID : AS_BEAM;
+    int failed, status = models_begin(reader->pool, as, &job->rotor, &job->models, &size, &failed);
     if (status == ROTID_ERROR_SECTION) {
         reader->no_section = 1;
         int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
-        struct place place = rod < 0    ? reader->group_place[failed]
-                             : bars < 0 ? reader->tierod_place[rod]
-                                        : reader->bars_place[bars];
-        deck_error(reader, place,
-                   rod < 0 ? "the holes leave nothing of a section of this group, expected fewer or smaller ones"
-                           : "the rods have no equivalent cylinder (its squared inner diameter would be negative), expected a "
-                             "larger pitch radius or MODEL=RODS");
+        struct place place = bars >= job->rotor.nbars ? reader->group_place[0]
+                             : rod < 0                ? reader->group_place[failed]
+                             : bars < 0               ? reader->tierod_place[rod]
+                                                      : reader->bars_place[bars];
+        deck_error(reader, place, "%s", discrete_refusal(as, &job->rotor, failed));
     } else if (status) {
         reader->out_of_memory = 1;
     }

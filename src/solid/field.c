@@ -19,26 +19,34 @@ static double middle_of(const struct solid *solid, const struct solid_element *e
     return (solid->mesh.z[element->slice] + solid->mesh.z[element->slice + 1]) / 2;
 }
 
-/* ---- joints: the slice left of the interface is the softer along the axis by the flexibility c of a rotational spring,
- *   1/E := 1/E + c I/t,  I of the whole section, t the slice's length */
+/* ---- joints: the slice beside the interface, on the side that is thinner, is the softer along the axis by the flexibility c of a
+ * rotational spring, 1/E := 1/E + c I/t,  I of its section, t its length. On the thicker side the parts around it would hold it. */
+
+static double outer_radius(const struct solid_mesh *mesh, int slice)
+{
+    return mesh->node[mesh->element[solid_mesh_outermost(mesh, slice)].node[1]].r;
+}
 
 /* Whether the joint of an effect is in this slice. */
 static int joint_in(const struct solid *solid, const struct effect *effect, int slice)
 {
     const struct solid_mesh *mesh = &solid->mesh;
     const struct rotor *rotor = &solid->rotor;
-    return effect->kind->joint && slice + 1 < mesh->nslice && rotor->segment[mesh->segment[slice]].group == effect->target &&
-           rotor->segment[mesh->segment[slice + 1]].group != effect->target;
+    if (!effect->kind->joint)
+        return 0;
+    for (int left = slice > 0 ? slice - 1 : 0; left <= slice && left + 1 < mesh->nslice; left++)
+        if (rotor->segment[mesh->segment[left]].group == effect->target &&
+            rotor->segment[mesh->segment[left + 1]].group != effect->target)
+            return slice == left + (outer_radius(mesh, left + 1) < outer_radius(mesh, left));
+    return 0;
 }
 
 /* I/t of a slice */
 static double inertia_over_length(const struct solid *solid, int slice)
 {
     const struct solid_mesh *mesh = &solid->mesh;
-    double inner = mesh->node[mesh->line[2 * slice]].r, outer = mesh->node[mesh->line[2 * slice + 1]].r;
-    inner = mesh->node[mesh->element[mesh->first[slice]].node[0]].r;
-    outer = mesh->node[mesh->element[mesh->first[slice + 1] - 1].node[1]].r;
-    return pi / 4 * (pow(outer, 4) - pow(inner, 4)) / (mesh->z[slice + 1] - mesh->z[slice]);
+    double inner = mesh->node[mesh->element[mesh->first[slice]].node[0]].r;
+    return pi / 4 * (pow(outer_radius(mesh, slice), 4) - pow(inner, 4)) / (mesh->z[slice + 1] - mesh->z[slice]);
 }
 
 /* c I/t, or its derivative with respect to a parameter of an effect */
@@ -73,17 +81,13 @@ static struct elasticity_factors factors_of(const struct solid *solid, const str
 static double stiff_area(const struct solid *solid, int segment, int group)
 {
     const struct rotor *rotor = &solid->rotor;
+    struct section section;
     double area = 0;
-    if (rotor->segment[segment].group == group) {
-        struct section section;
-        (void)section_of_segment(rotor, segment, &section);
+    if (rotor->segment[segment].group == group && !section_of_segment(rotor, segment, &section))
         area = section.stiff_area;
-    }
-    for (int i = 0; i < rotor->nring; i++) {
-        const struct ring *ring = &rotor->ring[i];
-        if (ring->segment == segment && ring->group == group)
-            area += pi / 4 * (ring->outer * ring->outer - ring->inner * ring->inner);
-    }
+    for (int i = 0; i < rotor->nring; i++)
+        if (rotor->ring[i].segment == segment && rotor->ring[i].group == group && !section_of_ring(rotor, i, &section))
+            area += section.stiff_area;
     return area;
 }
 

@@ -6,7 +6,8 @@
 #include "solid/shape.h"
 
 #define AT_LINE 0.011 /* of a slice, from a line: a sensor is taken to be there, as in outline_lines, with some room */
-#define QUARTER 0.25  /* of its length from the corner: r^(1/2), the strains of a crack */
+#define UNKNOWNS 9 /* of three nodes that an element has of its own */
+#define QUARTER 0.25 /* of its length from the corner: r^(1/2), the strains of a crack */
 
 struct grid {              /* nodes by line 0 ... 2 nslice and place 0 ... 2 nr, even ones at the ends of elements */
     int nr, places, *node; /* nr: elements from the axis to the surface */
@@ -269,7 +270,7 @@ int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct 
     *mesh = (struct solid_mesh){0};
     for (int s = 0; s < rotor->nsegment; s++) {
         *failed = rotor->segment[s].group;
-        if (rotor->segment[s].rectangular)
+        if (rotor->segment[s].rectangular || (s > 0 && !outline_touch(rotor, s)))
             return ROTID_ERROR_SECTION;
     }
     int status = outline_lines(pool, rotor, rule, refine, &nr, &grid.r, &nz, &mesh->z, &mesh->segment);
@@ -277,6 +278,9 @@ int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct 
         return status;
     mesh->nslice = nz - 1;
     grid.nr = nr - 1;
+    *failed = rotor->ngroup + rotor->ntierod + rotor->nbars;
+    if (refine == 1 && UNKNOWNS * (double)count_elements(rotor, mesh, &grid) > SOLID_MOST_UNKNOWNS)
+        return ROTID_ERROR_SECTION;
     grid.places = 2 * nr - 1;
     grid.node = POOL_ARRAY(pool, int, (size_t)(2 * nz - 1) * (size_t)grid.places);
     status = grid.node ? lay_elements(pool, rotor, &grid, mesh, failed) : ROTID_ERROR_MEMORY;

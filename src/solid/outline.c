@@ -43,12 +43,14 @@ int outline_group(const struct rotor *rotor, int s, double r)
     return 2 * r > rotor->segment[s].inner && r < own_outer(&rotor->segment[s]) ? rotor->segment[s].group : -1;
 }
 
-/* The annulus over which the holes of a group are smeared, as broad as a hole. */
+/* The annulus over which the holes of a group are smeared, as broad as a hole; where its second moment is that of the holes,
+ * whose mean square radius is e^2 + d^2/8. */
 static int hole_zone(const struct rotor *rotor, int group, double *from, double *to)
 {
     const struct group *g = &rotor->group[group];
-    *from = g->hole_pitch - g->hole_diameter / 2;
-    *to = g->hole_pitch + g->hole_diameter / 2;
+    double e = g->hole_pitch, d = g->hole_diameter, center = sqrt(fmax(e * e - d * d / 8, 0));
+    *from = center - d / 2;
+    *to = center + d / 2;
     return g->holes > 0;
 }
 
@@ -67,6 +69,13 @@ static int differ(const struct rotor *rotor, double a, double b)
     for (int s = 0; s < rotor->nsegment; s++)
         scale = fmax(scale, outline_outer(rotor, s));
     return fabs(a - b) > SAME * scale;
+}
+
+int outline_touch(const struct rotor *rotor, int s)
+{
+    double inner = fmax(outline_inner(rotor, s - 1), outline_inner(rotor, s)),
+           outer = fmin(outline_outer(rotor, s - 1), outline_outer(rotor, s));
+    return inner < outer && differ(rotor, inner, outer);
 }
 
 int outline_corner(const struct rotor *rotor, int s, double r)
@@ -105,7 +114,7 @@ static int radial(struct pool *pool, const struct rotor *rotor, const struct sol
         stop[n++] = (struct stop){rotor->segment[s].inner / 2, 0, largest};
         stop[n++] = (struct stop){own_outer(&rotor->segment[s]), 0, largest};
         for (int side = 0; side < 2; side++)
-            for (int t = s - 1; t <= s && t >= 0 && t + 1 < rotor->nsegment; t++)
+            for (int t = s > 0 ? s - 1 : 0; t <= s && t + 1 < rotor->nsegment; t++)
                 if (outline_corner(rotor, t, side ? c : a)) {
                     double size = corner_size(rotor, rule, t, refine);
                     struct stop *here = &stop[n - 4 + side];

@@ -10,6 +10,9 @@
 double outline_inner(const struct rotor *rotor, int s);
 double outline_outer(const struct rotor *rotor, int s);
 
+/* Whether segment s > 0 touches the one before: more than a circle. */
+int outline_touch(const struct rotor *rotor, int s);
+
 /* The group whose material lies at radius r of segment s, or -1. */
 int outline_group(const struct rotor *rotor, int s, double r);
 

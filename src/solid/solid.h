@@ -1,7 +1,6 @@
 /* A rotor as a body of revolution: its first circumferential harmonic on the mesh of a meridian, with what is attached to it, and
  * the parameters that may vary. A client of src/rotor beside src/beam. What has no meaning here is refused with
- * ROTID_ERROR_SECTION: rectangular groups, members as tubes, tie rods outside the section they press on. What a cause does to the
- * sections of a beam (rotor/effect.h) does nothing here. */
+ * ROTID_ERROR_SECTION: see solid_refusal. What a cause does to the sections of a beam (rotor/effect.h) does nothing here. */
 #ifndef ROTID_SOLID_SOLID_H
 #define ROTID_SOLID_SOLID_H
 
@@ -29,11 +28,14 @@ struct solid {
     int elastic_only;                  /* leaves springs and axial forces out of K: what bends the rotor itself */
 };
 
-/* The solid of a rotor, with end springs from the sling added (44). `parameter` [nparameter] is kept; rule: NULL, what follows
- * from the rotor; refine >= 1. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group, tie rod or bars in *failed
- * (groups, then tie rods, then bars). */
+/* The solid of a rotor, with end springs from the sling added (44). `parameter` [nparameter] is kept; rule: NULL, what follows from
+ * the rotor; refine >= 1. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group, tie rod or bars in *failed (groups,
+ * then tie rods, then bars, then the mesh as a whole). */
 int solid_build(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
                 const struct solid_rule *rule, int refine, struct solid *solid, int *failed);
+
+/* Why solid_build refused a rotor with ROTID_ERROR_SECTION and this *failed, and what was expected; to follow the place. */
+const char *solid_refusal(const struct rotor *rotor, int failed);
 
 /* The same for a rotor of the same shape (rotor_same_shape) as that of `built`, whose mesh it shares. ROTID_OK or
  * ROTID_ERROR_MEMORY. */

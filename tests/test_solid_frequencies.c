@@ -1,0 +1,247 @@
+/* Frequencies of solids of revolution: references of an independent program, an exact three-dimensional solution, exact beams where
+ * they are slender, and orders of convergence. */
+#include <math.h>
+
+#include "exact.h"
+#include "linalg/eigen.h"
+#include "linalg/matrix.h"
+#include "solid_rig.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* ---- references: an independent program's straight-sided eight-node quadrilaterals on two meshes, whose corner elements halve */
+
+static double limit(double coarse, double fine) /* errors fall as the size to the power 2 x 0.5445 */
+{
+    return fine - (coarse - fine) / (pow(2, 1.089) - 1);
+}
+
+static void stepped_rotors_have_the_limit_of_an_independent_program(void **state)
+{
+    static const double laminated[2][6] = {{396.300, 687.293, 1128.543, 1618.094, 2148.762, 2766.570},
+                                           {396.198, 687.051, 1128.303, 1617.613, 2148.154, 2765.969}},
+                        steel[2][6] = {{463.503, 728.969, 1274.550, 1791.051, 2385.308, 3060.638},
+                                       {463.392, 728.740, 1274.281, 1790.577, 2384.744, 3059.936}},
+                        two_steps[2][5] = {{719.886, 1261.029, 3255.497, 3915.048, 6008.756},
+                                           {719.707, 1260.786, 3255.174, 3914.256, 6008.569}};
+    struct rig b;
+    double hz[6], expected[6];
+    (void)state;
+    for (int lam = 0; lam < 2; lam++) {
+        rig_rotor_a(&b, lam);
+        rig_solid(&b.rotor, NULL, 1, 2, 6, hz);
+        for (int j = 0; j < 6; j++)
+            expected[j] = lam ? limit(laminated[0][j], laminated[1][j]) : limit(steel[0][j], steel[1][j]);
+        assert_hz(6, hz, expected, 4e-4);
+    }
+    rig_two_steps(&b);
+    rig_solid(&b.rotor, NULL, 1, 2, 5, hz);
+    for (int j = 0; j < 5; j++)
+        expected[j] = limit(two_steps[0][j], two_steps[1][j]);
+    assert_hz(5, hz, expected, 4e-4);
+}
+
+/* ---- orders of convergence */
+
+static void errors_at_a_corner_fall_as_its_singularity_says(void **state)
+{
+    struct rig b;
+    double hz[3], least;
+    (void)state;
+    rig_two_steps(&b);
+    for (int i = 0; i < 3; i++)
+        rig_solid(&b.rotor, &(struct solid_rule){0.008 / (1 << i), 0.025, 1}, 1, 2, 1, &hz[i]);
+    double order = log2((hz[0] - hz[1]) / (hz[1] - hz[2]));
+    print_message("order at a corner %.3f\n", order);
+    assert_close(order, 1.089, 0.06, 0);
+    /* nodes at the quarter: less than half of that error on the same lines */
+    rig_solid(&b.rotor, &(struct solid_rule){0.008, 0.025, 0}, 1, 2, 1, &least);
+    double truth = limit(719.886, 719.707);
+    print_message("straight %.3f, quarter %.3f, truth %.3f\n", hz[0], least, truth);
+    assert_true(fabs(least - truth) < 0.5 * fabs(hz[0] - truth));
+}
+
+static void errors_of_a_smooth_rotor_fall_with_the_fourth_power(void **state)
+{
+    struct rig b;
+    double hz[3][3];
+    (void)state;
+    rig_begin(&b, 1);
+    rig_section(&b, 0, 0.8, 0.2);
+    for (int i = 0; i < 3; i++)
+        rig_solid(&b.rotor, &(struct solid_rule){0, 0.1 / (1 << i), 0}, 1, 2, 3, hz[i]);
+    for (int j = 0; j < 3; j++) {
+        double order = log2((hz[0][j] - hz[1][j]) / (hz[1][j] - hz[2][j]));
+        print_message("order of mode %d: %.3f\n", j + 1, order);
+        assert_close(order, 4, 0.1, 0);
+    }
+}
+
+/* ---- waves of Pochhammer and Chree, n = 1: u_r = U(r) cos t sin kz, u_t = V(r) sin t sin kz, u_z = W(r) cos t cos kz stand in a
+ * cylinder whose ends are held in U and V */
+
+struct radial { /* solution of f'' + f'/r + (p2 - 1/r2) f = 0 that is finite on the axis: J1, or I1 where p2 < 0 */
+    double f, d, dd;
+};
+
+static struct radial bessel(double p2, double r)
+{
+    struct radial b = {0, 0, 0};
+    double term = 1;
+    for (int m = 0; m < 60; m++) {
+        b.f += term * r;
+        b.d += term * (2 * m + 1);
+        term *= -p2 * r * r / 4 / ((m + 1.0) * (m + 2.0));
+    }
+    b.dd = -b.d / r - (p2 - 1 / (r * r)) * b.f;
+    return b;
+}
+
+static double determinant(double w, double k, double a)
+{
+    const struct material *steel = &rig_steel;
+    double mu = steel->e / (2 * (1 + steel->nu)), lame = steel->e * steel->nu / ((1 + steel->nu) * (1 - 2 * steel->nu));
+    double p2 = w * w * steel->rho / (lame + 2 * mu) - k * k, q2 = w * w * steel->rho / mu - k * k, t[3][3];
+    struct radial f = bessel(p2, a), g = bessel(q2, a);
+    const double u[3] = {f.d, g.f / a, -k * g.d}, du[3] = {f.dd, g.d / a - g.f / (a * a), -k * g.dd};
+    const double v[3] = {-f.f / a, -g.d, k * g.f / a}, dv[3] = {f.f / (a * a) - f.d / a, -g.dd, k * (g.d / a - g.f / (a * a))};
+    const double z[3] = {k * f.f, 0, q2 * g.f}, dz[3] = {k * f.d, 0, q2 * g.d};
+    for (int i = 0; i < 3; i++) {
+        t[0][i] = (lame * (du[i] + (u[i] + v[i]) / a - k * z[i]) + 2 * mu * du[i]) / mu;
+        t[1][i] = dv[i] - (u[i] + v[i]) / a;
+        t[2][i] = k * u[i] + dz[i];
+    }
+    return t[0][0] * (t[1][1] * t[2][2] - t[1][2] * t[2][1]) - t[0][1] * (t[1][0] * t[2][2] - t[1][2] * t[2][0]) +
+           t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0]);
+}
+
+/* The bending wave is the only one slower than shear waves. */
+static double wave_hz(double k, double a)
+{
+    double top = k * sqrt(rig_steel.e / (2 * (1 + rig_steel.nu)) / rig_steel.rho), low = 0.02 * top, high = low;
+    while (determinant(low, k, a) * determinant(high, k, a) > 0 && high < top)
+        high += 0.01 * top;
+    assert_true(high < top);
+    for (int i = 0; i < 60; i++) {
+        double middle = (low + high) / 2;
+        if (determinant(low, k, a) * determinant(middle, k, a) > 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low / (2 * pi);
+}
+
+static void a_cylinder_between_held_ends_bends_in_exact_waves(void **state)
+{
+    enum { COUNT = 4 };
+    const double a = 0.1, length = 0.8;
+    struct rig b;
+    struct solid solid;
+    struct eigen_band eigen;
+    rotid_matrix k, m;
+    double lambda[COUNT], hz[COUNT], expected[COUNT];
+    int failed;
+    (void)state;
+    rig_begin(&b, 1);
+    rig_section(&b, 0, length, 2 * a);
+    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){0, 0.02, 0}, 1, &solid, &failed), ROTID_OK);
+    const struct solid_mesh *mesh = &solid.mesh;
+    assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, 0, NULL, &k), ROTID_OK);
+    assert_status(matrix_new(&test_pool, mesh->ndof, mesh->kd, 0, NULL, &m), ROTID_OK);
+    solid_assemble(&solid, NULL, &k, &m);
+    for (int n = 0; n < mesh->nnode; n++)
+        for (int c = 0; c < 2 && (mesh->node[n].z == 0 || mesh->node[n].z == mesh->z[mesh->nslice]); c++)
+            matrix_add(&k, mesh->node[n].dof[c], mesh->node[n].dof[c], 1e16);
+    double *phi = POOL_ARRAY(&test_pool, double, COUNT *mesh->ndof);
+    assert_status(eigen_band_new(&test_pool, &k, COUNT, &eigen), ROTID_OK);
+    assert_status(eigen_band_solve(&eigen, &k, &m, lambda, phi), ROTID_OK);
+    for (int j = 0; j < COUNT; j++) {
+        hz[j] = sqrt(lambda[j]) / (2 * pi);
+        expected[j] = wave_hz((j + 1) * pi / length, a);
+        print_message("k a %.3f: %.4f, exact %.4f\n", (j + 1) * pi / length * a, hz[j], expected[j]);
+    }
+    assert_hz(COUNT, hz, expected, 3e-5);
+}
+
+/* ---- slender bars are beams */
+
+static void compare_with_beam(struct rig *b, int count, double rtol)
+{
+    double solid[6], beam[6];
+    int n = rig_solid(&b->rotor, NULL, 1, 2, count, solid);
+    limit_hz(&b->rotor, 4, 2, count, beam);
+    print_message("%d unknowns; solid over beam - 1:", n);
+    for (int j = 0; j < count; j++)
+        print_message(" %+.5f", solid[j] / beam[j] - 1);
+    print_message("\n");
+    assert_hz(count, solid, beam, rtol);
+}
+
+static void a_slender_rod_is_a_timoshenko_beam(void **state)
+{
+    struct rig b;
+    struct exact exact;
+    double solid[4], beam[4];
+    (void)state;
+    rig_begin(&b, 1);
+    rig_section(&b, 0, 2.4, 0.08);
+    exact_open(&b.rotor, &exact);
+    exact_hz(&exact, 3, 4, beam);
+    rig_solid(&b.rotor, NULL, 1, 2, 4, solid);
+    assert_hz(4, solid, beam, 1e-3);
+    b.segment[0].inner = 0.06;
+    compare_with_beam(&b, 3, 2e-3);
+}
+
+/* Bonded layers that contract alike. Where they do not, a solid is stiffer than its layers in parallel: see docs/solid.md. */
+static void layers_of_a_slender_bar_act_in_parallel(void **state)
+{
+    double solid[2], alike[2];
+    struct rig b;
+    (void)state;
+    rig_begin(&b, 3);
+    rig_section(&b, 0, 2.4, 0.05);
+    b.rotor.nring = 2;
+    b.ring[0] = (struct ring){.group = 1, .segment = 0, .outer = 0.07, .inner = 0.05};
+    b.ring[1] = (struct ring){.group = 2, .segment = 0, .outer = 0.08, .inner = 0.07};
+    b.group[1].layer_of = b.group[2].layer_of = 0;
+    b.group[1].material.e = 4e10;
+    b.group[2].material.e = 1.2e11;
+    b.group[2].material.rho = 8900;
+    compare_with_beam(&b, 3, 2e-3);
+    rig_solid(&b.rotor, NULL, 1, 2, 2, alike);
+    b.group[1].material = (struct material){.name = "stack", .e = 4e10, .g = 4e10 / 2.6, .nu = 0.3, .rho = 7850, .laminated = 1,
+                                            .sheet_e = 2.1e11, .stacking = 1};
+    rig_solid(&b.rotor, NULL, 1, 2, 2, solid);
+    print_message("a stack that does not contract, stiffer by %.4f\n", solid[0] / alike[0] - 1);
+    assert_true(solid[0] > 1.005 * alike[0] && solid[0] < 1.03 * alike[0]);
+}
+
+static void a_laminated_bar_shears_as_an_orthotropic_section_does(void **state)
+{
+    static const double e[] = {1.05e11, 1.05e11, 3e10}, g[] = {4.7e10, 1e10, 1.2e10};
+    struct rig b;
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        rig_begin(&b, 1);
+        rig_section(&b, 0, 1.6, 0.1);
+        b.group[0].material = (struct material){.name = "stack", .e = e[i], .g = g[i], .nu = 0.3, .rho = 7600, .laminated = 1,
+                                                .sheet_e = 2.1e11, .stacking = 1};
+        compare_with_beam(&b, 4, 3e-3);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(stepped_rotors_have_the_limit_of_an_independent_program, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(errors_at_a_corner_fall_as_its_singularity_says, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(errors_of_a_smooth_rotor_fall_with_the_fourth_power, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_cylinder_between_held_ends_bends_in_exact_waves, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_slender_rod_is_a_timoshenko_beam, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(layers_of_a_slender_bar_act_in_parallel, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_laminated_bar_shears_as_an_orthotropic_section_does, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
