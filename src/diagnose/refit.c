@@ -1,9 +1,9 @@
 #include "diagnose/refit.h"
-#include "diagnose/scan.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "diagnose/as_solid.h"
 #include "fit/bounds.h"
 
 #define STARTS     3    /* places a candidate is fitted from */
@@ -46,6 +46,10 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
     const struct job copy = *from, *job = &copy; /* `to` may be the same */
     const struct rotor *rotor = &job->rotor;
     int nown = job->unknowns.nparameter, nnew = cause_parameters(effect), index = rotor->neffect;
+    if (cause->solid) {
+        int status = job_as_solid(pool, job, to);
+        return status || !x ? status : job_started_at(pool, to, x, to);
+    }
     *to = *job;
     to->rotor.effect = POOL_ARRAY(pool, struct effect, index + 1);
     to->unknowns.parameter = POOL_ARRAY(pool, struct parameter, nown + nnew);

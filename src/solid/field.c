@@ -35,9 +35,8 @@ static int joint_in(const struct solid *solid, const struct effect *effect, int 
 static double inertia_over_length(const struct solid *solid, int slice)
 {
     const struct solid_mesh *mesh = &solid->mesh;
-    double inner = mesh->node[mesh->line[2 * slice]].r, outer = mesh->node[mesh->line[2 * slice + 1]].r;
-    inner = mesh->node[mesh->element[mesh->first[slice]].node[0]].r;
-    outer = mesh->node[mesh->element[mesh->first[slice + 1] - 1].node[1]].r;
+    double inner = mesh->node[mesh->element[mesh->first[slice]].node[0]].r;
+    double outer = mesh->node[mesh->element[mesh->first[slice + 1] - 1].node[1]].r;
     return pi / 4 * (pow(outer, 4) - pow(inner, 4)) / (mesh->z[slice + 1] - mesh->z[slice]);
 }
 
