@@ -134,6 +134,21 @@ static int choose_starts(const struct scan *scan, const struct scan_candidate *c
     return count;
 }
 
+/* The effects to start from; a solid has but one. */
+static int starting_effects(const struct scan *scan, const struct scan_candidate *c, double length, struct effect *effect)
+{
+    int item[STARTS], count = choose_starts(scan, c, length, item);
+    for (int s = 0; s < count; s++) {
+        const struct scan_item *start = &scan->item[item[s]];
+        effect[s] = start->effect;
+        if (!c->fixed[c->cause->size])
+            effect[s].value[c->cause->size] += start->amplitude * start->unit;
+    }
+    if (c->cause->solid)
+        effect[count++] = c->effect;
+    return count;
+}
+
 /* Another minimum at another place that is nearly as good means that the place is not known. */
 static void note_place(const struct job *extended, const struct cause_kind *cause, const rotid_fit_result *fit,
                        struct refit *refit)
@@ -222,15 +237,12 @@ static int fit_from(struct pool *pool, const struct job *job, const int *number,
                     struct refit *refit)
 {
     const struct cause_kind *cause = c->cause;
-    int start[STARTS], count = choose_starts(scan, c, rotor_length(&job->rotor), start);
+    struct effect start[STARTS];
+    int count = starting_effects(scan, c, rotor_length(&job->rotor), start);
     for (int s = 0; s < count; s++) {
-        const struct scan_item *item = &scan->item[start[s]];
-        struct effect effect = item->effect;
         struct job extended, started;
         rotid_fit_result *fit = NULL;
-        if (!c->fixed[cause->size])
-            effect.value[cause->size] += item->amplitude * item->unit;
-        int status = job_with_effect(pool, job, x, &effect, cause, c->fixed, &extended);
+        int status = job_with_effect(pool, job, x, &start[s], cause, c->fixed, &extended);
         if (!status)
             status = refit_job(pool, &extended, number, holdout, environment, &fit);
         if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
