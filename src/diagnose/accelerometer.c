@@ -116,13 +116,14 @@ static int take_modes(struct pool *pool, const struct engine *engine, struct wei
     if (!vector)
         return ROTID_ERROR_MEMORY;
     int status = nelson_band_new(pool, &p->k, 1, &nelson);
+    if (!status)
+        nelson_band_begin(&nelson, &p->k, &p->m);
     for (int m = 0; m < w->nmode && !status; m++) {
         const struct columns_mode *mode = &w->columns.mode[m];
         ptrdiff_t from = (ptrdiff_t)mode->k * w->npoint, to = (ptrdiff_t)m * w->npoint;
         memcpy(w->hz + to, job->measurement.point_frequency_hz + from, (size_t)w->npoint * sizeof *w->hz);
         memcpy(w->std + to, job->measurement.point_frequency_std + from, (size_t)w->npoint * sizeof *w->std);
-        status = nelson_band_prepare(&nelson, &p->k, &p->m, p->lambda[mode->pair], mode->members,
-                                     p->phi + (ptrdiff_t)mode->first * p->size);
+        status = nelson_band_prepare(&nelson, p->lambda[mode->pair], mode->members, p->phi + (ptrdiff_t)mode->first * p->size);
         if (!status)
             take_mode(w, m, &nelson, vector);
     }

@@ -16,7 +16,7 @@ static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const d
     mode->adjoint = POOL_ARRAY(c->pool, double, (size_t)n *(size_t)mode->sensors);
     if (!mode->adjoint)
         return ROTID_ERROR_MEMORY;
-    int status = nelson_band_prepare(nelson, &p->k, &p->m, p->lambda[mode->pair], mode->members, phi);
+    int status = nelson_band_prepare(nelson, p->lambda[mode->pair], mode->members, phi);
     if (status || !mode->sensors)
         return status;
     matrix_multiply(&p->m, mode->members, phi, m_phi);
@@ -131,6 +131,8 @@ int columns_prepare(struct columns *c)
         status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dm);
     if (!status)
         status = nelson_band_new(pool, k, most, &nelson);
+    if (!status)
+        nelson_band_begin(&nelson, k, &c->functional.prediction.m);
     for (int m = 0; m < c->nmode && !status; m++)
         status = solve_adjoints(c, &nelson, zero, m_phi, unit, &c->mode[m]);
     return status;

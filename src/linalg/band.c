@@ -1,10 +1,8 @@
 #include "linalg/band.h"
 
-#include <lapacke.h>
 #include <math.h>
 #include <stddef.h>
 
-#define NARROW 12 /* from here LAPACK is the faster one */
 #define INLINE static inline __attribute__((always_inline))
 
 INLINE int least(int a, int b)
@@ -37,11 +35,7 @@ INLINE int cholesky(int n, int kd, double *band)
 
 int band_cholesky(int n, int kd, double *band)
 {
-    if (kd == 3)
-        return cholesky(n, 3, band);
-    if (kd < NARROW)
-        return cholesky(n, kd, band);
-    return LAPACKE_dpbtrf_work(LAPACK_COL_MAJOR, 'L', n, kd, band, kd + 1) != 0;
+    return kd == 3 ? cholesky(n, 3, band) : cholesky(n, kd, band);
 }
 
 INLINE void cholesky_solve(int n, int kd, int lanes, const double *restrict band, double *restrict b)
@@ -115,11 +109,7 @@ INLINE int lu(int n, int kd, double *band, int *pivot)
 
 int band_lu(int n, int kd, double *band, int *pivot)
 {
-    if (kd == 3)
-        return lu(n, 3, band, pivot);
-    if (kd < NARROW)
-        return lu(n, kd, band, pivot);
-    return LAPACKE_dgbtrf_work(LAPACK_COL_MAJOR, n, n, kd, kd, band, 3 * kd + 1, pivot) != 0;
+    return kd == 3 ? lu(n, 3, band, pivot) : lu(n, kd, band, pivot);
 }
 
 INLINE void lu_solve(int n, int kd, int lanes, const double *restrict band, const int *pivot, double *restrict b)

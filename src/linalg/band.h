@@ -1,5 +1,5 @@
-/* Factors of a band and their solutions, in LAPACK's storage. A beam's band is so narrow that LAPACK, which calls a BLAS routine
- * for every column, spends its time on calls: narrow bands are done here, wide ones by LAPACK.
+/* Factors of a narrow band and their solutions, in LAPACK's storage. A beam's band is so narrow that LAPACK, which calls a BLAS
+ * routine for every column, would spend its time on calls. Wide bands: wide.h.
  * Right-hand sides are interleaved, b[i * lanes + lane], lanes = 1, 2, 4 or 8: the recurrences of one wait for each other; those
  * of eight fill the arithmetic units. What is computed in a lane does not depend on their number. */
 #ifndef ROTID_LINALG_BAND_H

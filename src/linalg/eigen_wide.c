@@ -1,253 +1,80 @@
 #include "linalg/eigen_wide.h"
 
 #include <cblas.h>
-#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/random.h"
 
-#define TOLERANCE   1e-12 /* of the residual |(K - s M)^-1 M phi - theta phi|_M / theta */
+#define TOLERANCE   2e-12 /* of the residual of a pair: a vector is then as good as its arithmetic */
 #define ROUGH       1e-3  /* of it, where eigenvalues are sought for their size */
 #define FIRST_SHIFT 1e-10 /* of the highest eigenvalue: far above its rounding */
 #define ZERO        1e-14 /* of the highest eigenvalue: below this, rounding of a rigid motion */
-#define GUARDS      4     /* vectors beyond those wanted, which a solution takes along for little */
-#define BLOCKS      8     /* in the basis, before it is condensed to the lowest pairs */
-#define MOST_BLOCKS 200
-#define NOTHING     1e-13 /* of the length of a vector: what is left of it after projection is rounding */
+#define GUARDS      5     /* pairs beyond those wanted that are kept: of equal eigenvalues, that many may follow the last */
 #define REPAIRS     4     /* times that random vectors look for pairs that were missed */
 
 int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_wide *e)
 {
-    int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n, most = BLOCKS * block;
-    *e = (struct eigen_wide){.n = n, .count = count, .block = block, .most = most};
-    size_t vectors = (size_t)n * (size_t)(most + block), squares = (size_t)most * (size_t)most;
+    int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
+    *e = (struct eigen_wide){.n = n, .count = count, .block = block};
     e->all = POOL_ARRAY(pool, int, n);
-    e->basis = POOL_ARRAY(pool, double, vectors);
-    e->mass_basis = POOL_ARRAY(pool, double, vectors);
     e->ritz = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
-    e->image = POOL_ARRAY(pool, double, (size_t)n *(size_t)block);
-    e->projected = POOL_ARRAY(pool, double, squares);
-    e->vector = POOL_ARRAY(pool, double, squares);
-    e->component = POOL_ARRAY(pool, double, squares);
     e->value = POOL_ARRAY(pool, double, block);
-    e->theta = POOL_ARRAY(pool, double, most);
-    e->remainder = POOL_ARRAY(pool, double, (size_t)block *(size_t)block);
-    e->work = POOL_ARRAY(pool, double, 34 * (size_t)most);
-    if (!e->all || !e->basis || !e->mass_basis || !e->ritz || !e->image || !e->projected || !e->vector || !e->component ||
-        !e->value || !e->theta || !e->remainder || !e->work)
+    if (!e->all || !e->ritz || !e->value)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         e->all[i] = i;
     int status = pencil_new(pool, structure, &e->pencil);
-    return status ? status : factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
-}
-
-/* Makes the columns of W [n * columns], M W beside it, M-orthonormal; W = Q R, r [columns * columns] or NULL. Columns that are
- * `least` of their length or less without those before them are dropped. Returns how many are left. */
-static int gram_schmidt(struct eigen_wide *e, int columns, const double *least, double *w, double *mw, double *r)
-{
-    int n = e->n, rank = 0;
-    for (int c = 0; c < columns; c++) {
-        double *x = w + (ptrdiff_t)rank * n, *mx = mw + (ptrdiff_t)rank * n;
-        if (rank < c) {
-            memcpy(x, w + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
-            memcpy(mx, mw + (ptrdiff_t)c * n, (size_t)n * sizeof *x);
-        }
-        for (int b = 0; b < rank; b++) {
-            double part = cblas_ddot(n, w + (ptrdiff_t)b * n, 1, mx, 1);
-            cblas_daxpy(n, -part, w + (ptrdiff_t)b * n, 1, x, 1);
-            cblas_daxpy(n, -part, mw + (ptrdiff_t)b * n, 1, mx, 1);
-            if (r)
-                r[b + c * e->block] = part;
-        }
-        double square = cblas_ddot(n, x, 1, mx, 1), length = square > 0 ? sqrt(square) : 0;
-        for (int b = rank; b < e->block && r; b++)
-            r[b + c * e->block] = 0;
-        if (!(length > least[c]))
-            continue;
-        cblas_dscal(n, 1 / length, x, 1);
-        cblas_dscal(n, 1 / length, mx, 1);
-        if (r)
-            r[rank + c * e->block] = length;
-        rank++;
-    }
-    return rank;
-}
-
-/* The `columns` columns behind the first `size` of the basis: taken orthogonal to those and to each other, twice because once
- * leaves errors of the size of the cancellation. coefficient [size * columns], leading dimension most: what was along the basis.
- * Sets `next`. */
-static void orthonormalise(struct eigen_wide *e, int size, int columns, double *coefficient)
-{
-    int n = e->n;
-    double *w = e->basis + (ptrdiff_t)size * n, *mw = e->mass_basis + (ptrdiff_t)size * n, *least = e->work, *part = coefficient;
-    pencil_multiply_mass(&e->pencil, columns, w, mw);
-    for (int c = 0; c < columns; c++)
-        least[c] = NOTHING * sqrt(fabs(cblas_ddot(n, w + (ptrdiff_t)c * n, 1, mw + (ptrdiff_t)c * n, 1)));
-    for (int pass = 0; pass < 2; pass++) {
-        if (size) {
-            cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, size, columns, n, 1, e->mass_basis, n, w, n, 0, part, e->most);
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, columns, size, -1, e->basis, n, part, e->most, 1, w, n);
-        }
-        if (size || pass)
-            pencil_multiply_mass(&e->pencil, columns, w, mw);
-        columns = gram_schmidt(e, columns, least, w, mw, pass ? NULL : e->remainder);
-        for (int c = 0; c < columns; c++)
-            least[c] = 0.5; /* of a vector of length 1 whose errors are taken off */
-        part = e->component;
-    }
-    e->next = columns;
-}
-
-/* One block more: what (K - s M)^-1 M makes of the last one. */
-static void expand(struct eigen_wide *e)
-{
-    int n = e->n, columns = e->next, size = e->size + columns;
-    double *w = e->basis + (ptrdiff_t)size * n;
-    memcpy(w, e->mass_basis + (ptrdiff_t)e->size * n, (size_t)n * (size_t)columns * sizeof *w);
-    factor_solve(&e->factor, columns, w);
-    orthonormalise(e, size, columns, e->projected + (ptrdiff_t)e->size * e->most);
-    e->last = columns;
-    e->size = size;
-}
-
-/* Random vectors, the last `columns` of the basis */
-static void add_random(struct eigen_wide *e)
-{
-    double *x = e->basis + (ptrdiff_t)e->size * e->n;
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->block; i++)
-        x[i] = random_normal(&e->stream);
-    orthonormalise(e, e->size, e->block, e->component);
-    e->last = 0; /* nothing is known to be left outside */
-}
-
-/* Eigenpairs of the projected operator, theta ascending: the last ones belong to the lowest eigenvalues. */
-static int project(struct eigen_wide *e)
-{
-    int size = e->size;
-    for (int j = 0; j < size; j++)
-        memcpy(e->vector + (ptrdiff_t)j * size, e->projected + (ptrdiff_t)j * e->most, (size_t)(j + 1) * sizeof(double));
-    return LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', size, e->vector, size, e->theta, e->work, 34 * e->most) ? ROTID_ERROR_EIGEN
-                                                                                                        : ROTID_OK;
-}
-
-static const double *components(const struct eigen_wide *e, int pair)
-{
-    return e->vector + (ptrdiff_t)(e->size - 1 - pair) * e->size;
-}
-
-/* Relative residual of a pair, 0 the lowest */
-static double residual(const struct eigen_wide *e, int pair)
-{
-    const double *y = components(e, pair) + e->size - e->last;
-    double square = 0;
-    for (int b = 0; b < e->next; b++) {
-        double sum = 0;
-        for (int c = 0; c < e->last; c++)
-            sum += e->remainder[b + c * e->block] * y[c];
-        square += sum * sum;
-    }
-    return sqrt(square) / e->theta[e->size - 1 - pair];
-}
-
-/* target [n * pairs] := the vectors of the lowest pairs from the basis or M times it; component is overwritten */
-static void combine(struct eigen_wide *e, const double *basis, int pairs, double *target)
-{
-    for (int j = 0; j < pairs; j++)
-        memcpy(e->component + (ptrdiff_t)j * e->size, components(e, j), (size_t)e->size * sizeof(double));
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, e->n, pairs, e->size, 1, basis, e->n, e->component, e->size, 0, target,
-                e->n);
-}
-
-static int known_pairs(const struct eigen_wide *e)
-{
-    return e->size < e->block ? e->size : e->block;
-}
-
-/* The lowest pairs become the basis, before the block that has not been multiplied (thick restart). */
-static void condense(struct eigen_wide *e)
-{
-    int n = e->n, pairs = known_pairs(e);
-    double *both[] = {e->basis, e->mass_basis};
-    for (int b = 0; b < 2; b++) {
-        combine(e, both[b], pairs, e->image);
-        memcpy(both[b], e->image, (size_t)n * (size_t)pairs * sizeof(double));
-        memmove(both[b] + (ptrdiff_t)pairs * n, both[b] + (ptrdiff_t)e->size * n, (size_t)n * (size_t)e->next * sizeof(double));
-    }
-    for (int j = 0; j < pairs; j++) {
-        memset(e->projected + (ptrdiff_t)j * e->most, 0, (size_t)pairs * sizeof(double));
-        e->projected[j + (ptrdiff_t)j * e->most] = e->theta[e->size - 1 - j];
-    }
-    e->size = pairs;
-}
-
-/* Until the residuals of the lowest `watched` pairs are below the tolerance. */
-static int iterate(struct eigen_wide *e, int watched, double tolerance)
-{
-    for (int step = 0; step < MOST_BLOCKS; step++) {
-        if (e->size + e->next > e->most)
-            condense(e);
-        expand(e);
-        int status = project(e), open = e->size < watched;
-        if (status)
-            return status;
-        for (int j = 0; j < watched && !open; j++)
-            open = !(e->theta[e->size - 1 - j] > 0) || !(residual(e, j) <= tolerance);
-        if (!open)
-            return ROTID_OK;
-        if (!e->next) { /* the basis holds all of its own images, and not yet the pairs */
-            condense(e);
-            add_random(e);
-        }
-    }
-    return ROTID_ERROR_EIGEN;
+    if (!status)
+        status = factor_new(pool, FACTOR_CHOLESKY, structure, n, e->all, &e->factor);
+    return status ? status : lanczos_new(pool, &e->pencil, &e->factor, count, block, &e->lanczos);
 }
 
 /* ritz and value := the lowest pairs of the basis */
 static void take_pairs(struct eigen_wide *e)
 {
-    int pairs = known_pairs(e);
-    combine(e, e->basis, pairs, e->ritz);
-    for (int j = 0; j < e->block; j++)
-        e->value[j] = j < pairs && e->theta[e->size - 1 - j] > 0 ? 1 / e->theta[e->size - 1 - j] + e->shift : INFINITY;
+    int pairs = lanczos_known(&e->lanczos);
+    lanczos_vectors(&e->lanczos, pairs, e->ritz);
+    for (int j = 0; j < e->block; j++) {
+        double theta = j < pairs ? lanczos_theta(&e->lanczos, j) : 0;
+        e->value[j] = theta > 0 ? 1 / theta + e->shift : INFINITY;
+    }
 }
 
-/* The basis begins with the vectors in ritz. */
+/* The iteration begins with the vectors in ritz. */
 static int begin(struct eigen_wide *e)
 {
-    e->size = e->last = 0;
-    memcpy(e->basis, e->ritz, (size_t)e->n * (size_t)e->block * sizeof(double));
-    orthonormalise(e, 0, e->block, e->component);
+    lanczos_begin(&e->lanczos, e->ritz);
     return factor_compute_pencil(&e->factor, &e->pencil, e->shift) ? ROTID_ERROR_STIFFNESS : ROTID_OK;
 }
 
 /* The first shift is far below the first mode and yet well above rounding; the next one, knowing the third eigenvalue (the first
  * two may be rigid-body modes at zero) or the first above it that is not zero, is of its size: the iteration then converges about
- * as fast as with none. */
+ * as fast as with none. Returns 0 where no such eigenvalue is known. */
 static int choose_shift(struct eigen_wide *e)
 {
     int j = e->block < 3 ? e->block - 1 : 2;
     while (j + 1 < e->block && e->value[j] < ZERO * e->largest)
         j++;
     if (!isfinite(e->value[j]) || e->value[j] < ZERO * e->largest)
-        return ROTID_ERROR_STIFFNESS;
+        return 0;
     e->shift = -0.1 * fabs(e->value[j]);
-    return ROTID_OK;
+    return 1;
 }
 
 static int start(struct eigen_wide *e)
 {
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->block; i++)
-        e->ritz[i] = random_normal(&e->stream);
+    struct random_stream stream = {20240229};
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)e->n * e->count; i++)
+        e->ritz[i] = random_normal(&stream);
     e->shift = -FIRST_SHIFT * e->largest;
     int status = begin(e);
     if (!status)
-        status = iterate(e, e->block < 3 ? e->block : 3, ROUGH);
+        status = lanczos_iterate(&e->lanczos, e->block < 3 ? e->block : 3, ROUGH);
     if (status)
         return status;
     take_pairs(e);
-    return choose_shift(e);
+    return choose_shift(e) ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
 /* Refuses what no rotor has, the same way whatever was solved before. */
@@ -264,33 +91,35 @@ static int check(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix
     return isfinite(e->largest) && e->largest > 0 ? ROTID_OK : ROTID_ERROR_STIFFNESS;
 }
 
-/* Are there exactly `count` eigenvalues below a shift just above the last one? Rounding limits how near it can be; a neighbour
- * closer than that is counted with it, and the Ritz values beyond `count` tell how many those are. */
-static int none_missed(struct eigen_wide *e)
+/* The number of eigenvalues below a shift just above the last pair, which rounding limits in how near it can be, less that of the
+ * Ritz values there: 0 proves that none was missed, also of those that lie between the last pair and the shift. Ritz values lie
+ * above the eigenvalues that they belong to, so no fewer can be there. */
+static int count_missed(struct eigen_wide *e)
 {
     double last = e->value[e->count - 1], shift = last + 1e-6 * (fabs(last) - e->shift);
-    int expected = e->count;
-    while (expected < e->block && e->value[expected] <= shift)
-        expected++;
-    return factor_negative_count_pencil(&e->factor, &e->pencil, shift) == expected;
+    int known = e->count;
+    while (known < e->block && e->value[known] <= shift)
+        known++;
+    return factor_negative_count_pencil(&e->factor, &e->pencil, shift) - known;
 }
 
-/* From the vectors in ritz to pairs of which none is missed. Equal eigenvalues beyond the size of the block come late, and with
+/* From the vectors in ritz to pairs of which none is missed. Equal eigenvalues beyond the number of vectors come late, and with
  * new random vectors. */
 static int attempt(struct eigen_wide *e)
 {
-    int status = begin(e);
+    int status = begin(e), watched = e->count;
     for (int repair = 0; !status; repair++) {
-        status = iterate(e, e->count, TOLERANCE);
+        status = lanczos_iterate(&e->lanczos, watched, TOLERANCE);
         if (status)
             break;
         take_pairs(e);
-        if (none_missed(e))
+        int missed = count_missed(e);
+        if (!missed)
             return ROTID_OK;
-        if (repair == REPAIRS || factor_compute_pencil(&e->factor, &e->pencil, e->shift))
+        if (repair == REPAIRS || missed < 0 || factor_compute_pencil(&e->factor, &e->pencil, e->shift))
             return ROTID_ERROR_EIGEN;
-        condense(e);
-        add_random(e);
+        watched = watched + missed < e->block ? watched + missed : e->block;
+        lanczos_extend(&e->lanczos);
     }
     return status;
 }
@@ -299,15 +128,16 @@ static int attempt(struct eigen_wide *e)
 static void give(struct eigen_wide *e, double *lambda, double *phi)
 {
     int n = e->n;
+    double *image = e->lanczos.image;
     memcpy(phi, e->ritz, (size_t)n * (size_t)e->count * sizeof *phi);
-    pencil_multiply_mass(&e->pencil, e->count, phi, e->image);
+    pencil_multiply_mass(&e->pencil, e->count, phi, image);
     for (int j = 0; j < e->count; j++) {
-        double square = cblas_ddot(n, phi + (ptrdiff_t)j * n, 1, e->image + (ptrdiff_t)j * n, 1);
+        double square = cblas_ddot(n, phi + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
         cblas_dscal(n, 1 / sqrt(square), phi + (ptrdiff_t)j * n, 1);
     }
-    pencil_multiply_stiffness(&e->pencil, e->count, phi, e->image);
+    pencil_multiply_stiffness(&e->pencil, e->count, phi, image);
     for (int j = 0; j < e->count; j++) {
-        double value = cblas_ddot(n, phi + (ptrdiff_t)j * n, 1, e->image + (ptrdiff_t)j * n, 1);
+        double value = cblas_ddot(n, phi + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
         int at = j;
         for (; at > 0 && lambda[at - 1] > value; at--) { /* of rigid motions, rounding is all there is */
             lambda[at] = lambda[at - 1];
@@ -320,7 +150,6 @@ static void give(struct eigen_wide *e, double *lambda, double *phi)
 int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
 {
     int status = check(e, k, m);
-    e->stream = (struct random_stream){20240229};
     if (status)
         return status;
     int warm = e->started;
@@ -337,5 +166,6 @@ int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_ma
     if (lambda[0] < -FIRST_SHIFT * e->largest)
         return ROTID_ERROR_STIFFNESS;
     e->started = 1;
-    return choose_shift(e);
+    (void)choose_shift(e); /* for the next call */
+    return ROTID_OK;
 }

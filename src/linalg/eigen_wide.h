@@ -2,27 +2,19 @@
 #ifndef ROTID_LINALG_EIGEN_WIDE_H
 #define ROTID_LINALG_EIGEN_WIDE_H
 
-#include "base/random.h"
-#include "linalg/factor.h"
+#include "linalg/lanczos.h"
 
 struct eigen_wide {
-    int n, count, block, most;
+    int n, count, block;
     int started;           /* ritz holds the pairs of the call before */
     int definite;          /* M of the call before was positive definite */
-    int size, next;        /* columns of the basis that were multiplied, and of the block behind them that were not */
-    int last;              /* columns that were multiplied last */
-    struct random_stream stream;
     double shift, largest; /* largest K_ii/M_ii: the size of the highest eigenvalue */
     int *all;              /* [n] 0 ... n - 1: no row is left out */
     struct pencil pencil;
-    struct factor factor;                   /* of K - shift M; in between of M and for the Sturm count */
-    double *basis, *mass_basis;             /* [n * (most + block)] V with V' M V = 1, and M V */
-    double *ritz, *image;                   /* [n * block] the current vectors, kept for the next call; workspace */
-    double *projected, *vector, *component; /* [most^2] V' M (K - shift M)^-1 M V, upper triangle; its vectors; workspace */
-    double *value;                          /* [block] ascending */
-    double *theta;                          /* [most] eigenvalues of `projected` */
-    double *remainder;                      /* [block^2] R: what (K - shift M)^-1 M makes of the last columns beyond them is Q R */
-    double *work;                           /* [34 most] */
+    struct factor factor; /* of K - shift M; in between of M and for the Sturm count */
+    struct lanczos lanczos;
+    double *ritz;  /* [n * block] the current vectors, kept for the next call */
+    double *value; /* [block] ascending, INFINITY where not known */
 };
 
 /* For the lowest `count` pairs of matrices structured as `structure`, a wide one. ROTID_OK or ROTID_ERROR_MEMORY. */

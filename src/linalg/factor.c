@@ -150,7 +150,7 @@ int factor_is_singular(const struct factor *f, const rotid_matrix *a)
 {
     double rounding = 256 * f->n * DBL_EPSILON; /* free beams of 2 to 1280 elements leave a sixth of it at most */
     for (int i = 0; i < f->nr; i++) {
-        double pivot = f->is_wide ? *wide_at(&f->wide, i, i) : f->band[(ptrdiff_t)i * f->lda];
+        double pivot = f->is_wide ? wide_column(&f->wide, i)[i] : f->band[(ptrdiff_t)i * f->lda];
         if (pivot * pivot <= rounding * a->band[(ptrdiff_t)f->kept[f->inner[i]] * (a->kd + 1)])
             return 1;
     }
@@ -248,7 +248,8 @@ void factor_solve(struct factor *f, int columns, double *b)
         return;
     }
     for (int c = 0; c < columns; c += BAND_LANES)
-        (f->is_wide ? solve_wide : solve_together)(f, columns - c < BAND_LANES ? columns - c : BAND_LANES, b + (ptrdiff_t)c * f->n);
+        (f->is_wide ? solve_wide : solve_together)(f, columns - c < BAND_LANES ? columns - c : BAND_LANES,
+                                                   b + (ptrdiff_t)c * f->n);
 }
 
 /* LDL' of the inner band in its own storage (unit lower L below, D on the diagonal); returns the number of negative pivots. A

@@ -3,6 +3,8 @@
 #include <limits.h>
 #include <string.h>
 
+#include "linalg/matrix.h"
+
 void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const int *kept)
 {
     f->n = n;
@@ -26,10 +28,6 @@ void factor_keep(struct factor *f, const rotid_matrix *structure, int n, const i
 /* Band storage of LAPACK: Cholesky keeps the lower triangle, LU both with kd rows of fill above. */
 static void put_inner(struct factor *f, int row, int column, double value)
 {
-    if (f->is_wide) {
-        *wide_at(&f->wide, row, column) = value;
-        return;
-    }
     if (f->kind == FACTOR_CHOLESKY) {
         f->band[(row - column) + (ptrdiff_t)column * f->lda] = value;
         return;
@@ -85,11 +83,14 @@ static int column_of_matrix(const struct factor *f, const rotid_matrix *a, int j
 {
     const double *column = a->band + (ptrdiff_t)j * (a->kd + 1);
     int reach = a->kd < a->n - 1 - j ? a->kd : a->n - 1 - j, count = 0;
-    for (int d = 0; d <= reach; d++)
-        if (column[d] != 0) {
+    for (int d = 0; d <= reach; d++) {
+        if (d + MATRIX_STRETCH <= reach && matrix_stretch_is_zero(column + d))
+            d += MATRIX_STRETCH - 1;
+        else if (column[d] != 0) {
             f->row[count] = j + d;
             f->value[count++] = column[d];
         }
+    }
     return count;
 }
 
@@ -118,9 +119,15 @@ static void gather_wide(struct factor *f, const struct factor_source *source)
     }
     wide_clear(&f->wide, f->nr, f->reach);
     for (int k = 0; k < f->n; k++) {
-        int count = column_of(f, source, f->kept[k]), position = f->position[f->kept[k]];
-        for (int e = 0; e < count; e++)
-            put(f, f->position[f->row[e]], position, f->value[e]);
+        int count = column_of(f, source, f->kept[k]), pj = f->position[f->kept[k]];
+        double *column = pj >= 0 ? wide_column(&f->wide, pj) : NULL;
+        for (int e = 0; e < count; e++) {
+            int pi = f->position[f->row[e]];
+            if (column && pi >= 0)
+                column[pi] = f->value[e];
+            else
+                put(f, pi, pj, f->value[e]);
+        }
     }
 }
 

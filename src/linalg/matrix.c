@@ -1,10 +1,10 @@
 #include "linalg/matrix.h"
 
-#include <cblas.h>
 #include <math.h>
 #include <string.h>
 
-#define WIDE 20 /* half band width from which BLAS is the faster one */
+#define WIDE    20 /* half band from which zeros are looked for: a finite element couples few of the rows between */
+#define STRETCH MATRIX_STRETCH
 
 int matrix_new(struct pool *pool, int n, int kd, int nfar, const int *far, rotid_matrix *a)
 {
@@ -87,23 +87,62 @@ static void multiply_rows(const rotid_matrix *a, int begin, int end, const doubl
         y[i] = row_product(a->band + (ptrdiff_t)i * ld, ld, kd < n - 1 - i ? kd : n - 1 - i, kd < i ? kd : i, x + i);
 }
 
+/* y += the part of column j in rows j + d ... of the lower triangle, and of the same row in the upper one, times x */
+static inline __attribute__((always_inline)) void multiply_stretch(int length, const double *restrict a, double xj,
+                                                                   const double *restrict x, double *restrict y,
+                                                                   double *restrict sum)
+{
+    double part = 0;
+    for (int i = 0; i < length; i++) {
+        y[i] += a[i] * xj;
+        part += a[i] * x[i];
+    }
+    *sum += part;
+}
+
+/* All columns in one pass over the band, which is longer than they are. */
+static void multiply_wide(const rotid_matrix *a, int columns, const double *x, double *y)
+{
+    ptrdiff_t n = a->n;
+    memset(y, 0, (size_t)n * (size_t)columns * sizeof *y);
+    for (ptrdiff_t j = 0; j < n; j++) {
+        const double *band = a->band + j * (a->kd + 1);
+        int reach = a->kd < n - 1 - j ? a->kd : (int)(n - 1 - j), d = 1;
+        for (int c = 0; c < columns; c++)
+            y[j + c * n] += band[0] * x[j + c * n];
+        for (; d + STRETCH <= reach + 1; d += STRETCH) {
+            if (matrix_stretch_is_zero(band + d))
+                continue;
+            for (int c = 0; c < columns; c++)
+                multiply_stretch(STRETCH, band + d, x[j + c * n], x + j + d + c * n, y + j + d + c * n, y + j + c * n);
+        }
+        for (int c = 0; c < columns; c++)
+            multiply_stretch(reach + 1 - d, band + d, x[j + c * n], x + j + d + c * n, y + j + d + c * n, y + j + c * n);
+    }
+}
+
+static void add_block_product(const rotid_matrix *a, const double *x, double *y)
+{
+    for (int g = 0; g < a->nfar; g++)
+        for (int f = 0; f < a->nfar; f++)
+            y[a->far[f]] += a->block[f + g * a->nfar] * x[a->far[g]];
+}
+
 void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y)
 {
     int n = a->n;
+    if (a->kd >= WIDE)
+        multiply_wide(a, columns, x, y);
     for (int c = 0; c < columns; c++, x += n, y += n) {
         if (a->kd == 3 && n > 6) { /* chains of beam elements: the loops of a row unrolled */
             multiply_rows(a, 0, 3, x, y);
             for (int i = 3; i < n - 3; i++)
                 y[i] = row_product(a->band + 4 * (ptrdiff_t)i, 4, 3, 3, x + i);
             multiply_rows(a, n - 3, n, x, y);
-        } else if (a->kd >= WIDE) {
-            cblas_dsbmv(CblasColMajor, CblasLower, n, a->kd, 1, a->band, a->kd + 1, x, 1, 0, y, 1);
-        } else {
+        } else if (a->kd < WIDE) {
             multiply_rows(a, 0, n, x, y);
         }
-        for (int g = 0; g < a->nfar; g++)
-            for (int f = 0; f < a->nfar; f++)
-                y[a->far[f]] += a->block[f + g * a->nfar] * x[a->far[g]];
+        add_block_product(a, x, y);
     }
 }
 
@@ -116,18 +155,45 @@ double matrix_product(const rotid_matrix *a, const double *x, const double *y, d
     return sum;
 }
 
+/* 0 where all of a [length] are finite, else NaN: 0 x is for every x that is not. In sums that need not wait for each other. */
+static double not_finite(size_t length, const double *a)
+{
+    double sum[STRETCH] = {0}, all = 0;
+    size_t i = 0;
+    for (; i + STRETCH <= length; i += STRETCH)
+        for (int s = 0; s < STRETCH; s++)
+            sum[s] += 0 * a[i + (size_t)s];
+    for (; i < length; i++)
+        all += 0 * a[i];
+    for (int s = 0; s < STRETCH; s++)
+        all += sum[s];
+    return all;
+}
+
 int matrix_is_finite(const rotid_matrix *a)
 {
-    double sum = 0; /* 0 * x is NaN for every x that is not finite */
-    int ld = a->kd + 1;
-    for (size_t i = 0, full = (size_t)(a->n - a->kd) * (size_t)ld; i < full; i++)
-        sum += 0 * a->band[i];
+    size_t ld = (size_t)a->kd + 1;
+    double sum = not_finite((size_t)(a->n - a->kd) * ld, a->band);
     for (int j = a->n - a->kd; j < a->n; j++) /* where the band ends below the matrix, its storage holds anything */
-        for (int d = 0; d < a->n - j; d++)
-            sum += 0 * a->band[d + (ptrdiff_t)j * ld];
-    for (size_t i = 0, length = block_length(a); i < length; i++)
-        sum += 0 * a->block[i];
-    return isfinite(sum);
+        sum += not_finite((size_t)(a->n - j), a->band + (size_t)j * ld);
+    return isfinite(sum + not_finite(block_length(a), a->block));
+}
+
+static int all_zero(size_t length, const double *a)
+{
+    size_t i = 0;
+    for (; i + STRETCH <= length; i += STRETCH)
+        if (!matrix_stretch_is_zero(a + i))
+            return 0;
+    for (; i < length; i++)
+        if (a[i] != 0)
+            return 0;
+    return 1;
+}
+
+int matrix_is_zero(const rotid_matrix *a)
+{
+    return all_zero(band_length(a), a->band) && all_zero(block_length(a), a->block);
 }
 
 void matrix_to_dense(const rotid_matrix *a, int ld, double *full)

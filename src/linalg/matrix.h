@@ -2,6 +2,9 @@
 #ifndef ROTID_LINALG_MATRIX_H
 #define ROTID_LINALG_MATRIX_H
 
+#include <stdint.h>
+#include <string.h>
+
 #include "base/pool.h"
 #include "rotid.h"
 
@@ -26,6 +29,20 @@ void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double
 double matrix_product(const rotid_matrix *a, const double *x, const double *y, double *work);
 
 int matrix_is_finite(const rotid_matrix *a);
+/* Nothing but zeros in all of the storage? Soon known where there is anything. */
+int matrix_is_zero(const rotid_matrix *a);
+
+#define MATRIX_STRETCH 8 /* entries of a wide band that are looked at together */
+
+/* Are MATRIX_STRETCH entries all zero? Bits tell faster than comparisons; a negative zero counts as an entry. */
+static inline int matrix_stretch_is_zero(const double *a)
+{
+    uint64_t bits[MATRIX_STRETCH], any = 0;
+    memcpy(bits, a, sizeof bits);
+    for (int i = 0; i < MATRIX_STRETCH; i++)
+        any |= bits[i];
+    return !any;
+}
 
 /* full [n, n], leading dimension ld, := A, both triangles. */
 void matrix_to_dense(const rotid_matrix *a, int ld, double *full);

@@ -1,10 +1,11 @@
 #include "linalg/pencil.h"
 
-#include <stdint.h>
 #include <string.h>
 
+#include "linalg/matrix.h"
+
 #define LANES  8
-#define STRIDE 8 /* entries that are looked at together */
+#define INLINE static inline __attribute__((always_inline))
 
 int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *p)
 {
@@ -20,17 +21,6 @@ int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *
     return p->start && p->row && p->k && p->m && p->block && p->x && p->y ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-/* Nothing but zeros in the next STRIDE entries? Their bits tell faster than comparisons. */
-static int all_zero(const double *a, const double *b)
-{
-    uint64_t bits[2 * STRIDE], any = 0;
-    memcpy(bits, a, STRIDE * sizeof *a);
-    memcpy(bits + STRIDE, b, STRIDE * sizeof *b);
-    for (int i = 0; i < 2 * STRIDE; i++)
-        any |= bits[i];
-    return !any;
-}
-
 int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
 {
     int same = p->mass != NULL, at = 0;
@@ -42,8 +32,8 @@ int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
         same &= p->start[j] == at;
         p->start[j] = at;
         for (int d = 0; d <= reach; d++) {
-            if (d + STRIDE <= reach && d && all_zero(kj + d, mj + d)) {
-                d += STRIDE - 1;
+            if (d && d + MATRIX_STRETCH <= reach && matrix_stretch_is_zero(kj + d) && matrix_stretch_is_zero(mj + d)) {
+                d += MATRIX_STRETCH - 1;
                 continue;
             }
             if (d && kj[d] == 0 && mj[d] == 0)
@@ -63,48 +53,58 @@ int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
     return same;
 }
 
-/* y += A x for LANES columns */
-static void multiply_lanes(const struct pencil *p, const double *restrict value, const double *restrict x, double *restrict y)
+/* y += A x for `lanes` columns, compiled for each number of them as a constant */
+INLINE void multiply_lanes(const struct pencil *p, const double *restrict value, int lanes, const double *restrict x,
+                           double *restrict y)
 {
     for (int j = 0; j < p->n; j++) {
-        const double *restrict xj = x + (ptrdiff_t)j * LANES;
-        double sum[LANES], from[LANES];
+        double from[LANES], sum[LANES];
         int at = p->start[j];
-        for (int c = 0; c < LANES; c++) {
-            from[c] = xj[c];
-            sum[c] = value[at] * xj[c];
+        for (int c = 0; c < lanes; c++) {
+            from[c] = x[(ptrdiff_t)j * lanes + c];
+            sum[c] = value[at] * from[c];
         }
         while (++at < p->start[j + 1]) {
-            const double a = value[at], *restrict xi = x + (ptrdiff_t)p->row[at] * LANES;
-            double *restrict yi = y + (ptrdiff_t)p->row[at] * LANES;
-            for (int c = 0; c < LANES; c++) {
+            const double a = value[at], *restrict xi = x + (ptrdiff_t)p->row[at] * lanes;
+            double *restrict yi = y + (ptrdiff_t)p->row[at] * lanes;
+            for (int c = 0; c < lanes; c++) {
                 sum[c] += a * xi[c];
                 yi[c] += a * from[c];
             }
         }
-        for (int c = 0; c < LANES; c++)
-            y[(ptrdiff_t)j * LANES + c] += sum[c];
+        for (int c = 0; c < lanes; c++)
+            y[(ptrdiff_t)j * lanes + c] += sum[c];
     }
+}
+
+/* `columns` columns, at most `lanes` */
+INLINE void multiply_together(struct pencil *p, const double *value, const rotid_matrix *a, int lanes, int columns,
+                              const double *x, double *y)
+{
+    ptrdiff_t n = p->n;
+    memset(p->y, 0, (size_t)n * (size_t)lanes * sizeof *y);
+    for (int c = 0; c < lanes; c++)
+        for (ptrdiff_t i = 0; i < n; i++)
+            p->x[i * lanes + c] = c < columns ? x[i + c * n] : 0;
+    multiply_lanes(p, value, lanes, p->x, p->y);
+    for (int g = 0; g < a->nfar; g++)
+        for (int f = 0; f < a->nfar; f++)
+            for (int c = 0; c < lanes; c++)
+                p->y[(ptrdiff_t)a->far[f] * lanes + c] += a->block[f + g * a->nfar] * p->x[(ptrdiff_t)a->far[g] * lanes + c];
+    for (int c = 0; c < columns; c++)
+        for (ptrdiff_t i = 0; i < n; i++)
+            y[i + c * n] = p->y[i * lanes + c];
 }
 
 static void multiply(struct pencil *p, const double *value, const rotid_matrix *a, int columns, const double *x, double *y)
 {
     ptrdiff_t n = p->n;
-    for (int first = 0; first < columns; first += LANES, x += LANES * n, y += LANES * n) {
-        int lanes = columns - first < LANES ? columns - first : LANES;
-        memset(p->y, 0, (size_t)n * LANES * sizeof *y);
-        for (ptrdiff_t i = 0; i < n; i++)
-            for (int c = 0; c < LANES; c++)
-                p->x[i * LANES + c] = c < lanes ? x[i + c * n] : 0;
-        multiply_lanes(p, value, p->x, p->y);
-        for (int g = 0; g < a->nfar; g++)
-            for (int f = 0; f < a->nfar; f++)
-                for (int c = 0; c < LANES; c++)
-                    p->y[(ptrdiff_t)a->far[f] * LANES + c] += a->block[f + g * a->nfar] * p->x[(ptrdiff_t)a->far[g] * LANES + c];
-        for (ptrdiff_t i = 0; i < n; i++)
-            for (int c = 0; c < lanes; c++)
-                y[i + c * n] = p->y[i * LANES + c];
-    }
+    for (; columns > 4; columns -= LANES, x += LANES * n, y += LANES * n)
+        multiply_together(p, value, a, LANES, columns < LANES ? columns : LANES, x, y);
+    if (columns > 1)
+        multiply_together(p, value, a, 4, columns, x, y);
+    else if (columns == 1)
+        multiply_together(p, value, a, 1, 1, x, y);
 }
 
 void pencil_multiply_stiffness(struct pencil *p, int columns, const double *x, double *y)

@@ -19,7 +19,8 @@ struct pencil {
 /* ROTID_OK or ROTID_ERROR_MEMORY. What is never written costs address space alone where the memory comes from calloc. */
 int pencil_new(struct pool *pool, const rotid_matrix *structure, struct pencil *p);
 
-/* Takes the entries of k and m, which must outlive it unchanged. Returns whether M is, entry by entry, that of the call before. */
+/* Takes the entries of k and m, which must outlive it unchanged. Returns whether M is, entry by entry, that of the call before.
+ */
 int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m);
 
 /* Y [n * columns] := K X or M X */

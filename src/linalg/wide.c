@@ -101,7 +101,7 @@ static int factor(struct wide *w, int indefinite)
 {
     int negative = 0;
     for (int j = 0; j < w->n && indefinite; j++) /* the size that a pivot has before it cancels, until its sign is known */
-        w->sign[j] = fabs(*wide_at(w, j, j));
+        w->sign[j] = fabs(wide_column(w, j)[j]);
     for (int p = 0; p < w->panels; p++) {
         int top = p * WIDE_PANEL, ld = w->end[p] - top, width = width_of(w, p), below = ld - width,
             found = factor_diagonal(w, p, indefinite);

@@ -25,11 +25,11 @@ int wide_new(struct pool *pool, int n, int kd, struct wide *w);
 /* Makes A [n, n] zero. last [n]: the last row below or on the diagonal where a column may get an entry. */
 void wide_clear(struct wide *w, int n, const int *last);
 
-/* A(i, j), i >= j, i <= last[j] */
-static inline double *wide_at(const struct wide *w, int i, int j)
+/* A(i, j) = wide_column(w, j)[i], i >= j, i <= last[j] */
+static inline double *wide_column(const struct wide *w, int j)
 {
     int p = j / WIDE_PANEL, top = p * WIDE_PANEL;
-    return w->value + w->place[p] + (i - top) + (ptrdiff_t)(j - top) * (w->end[p] - top);
+    return w->value + w->place[p] - top + (ptrdiff_t)(j - top) * (w->end[p] - top);
 }
 
 /* A = L L'. Returns 0, or 1 where A is not positive definite. */

@@ -67,7 +67,9 @@ static int differentiate(struct pool *pool, const struct pair *pair, char *failu
         if (!status)
             status = nelson_band_new(pool, pair->k, 1, &nelson);
         if (!status)
-            status = nelson_band_prepare(&nelson, pair->k, pair->m, pair->lambda[pair->j], 1, pair->phi);
+            nelson_band_begin(&nelson, pair->k, pair->m);
+        if (!status)
+            status = nelson_band_prepare(&nelson, pair->lambda[pair->j], 1, pair->phi);
         if (status)
             return status;
         nelson_band_solve(&nelson, 1, 1, pair->phi, m_phi, p, &q, dphi);

@@ -6,7 +6,8 @@
 #include "linalg/matrix.h"
 #include "linalg/product.h"
 
-#define ENOUGH 1e-9 /* relative change of V by a step of refinement whose square is below rounding */
+#define ENOUGH     1e-9 /* relative change of V by a step of refinement whose square is below rounding */
+#define MOST_STEPS 6    /* of refinement with the factor of a wide band, which has not pivoted */
 
 static int neighbours(int count, const double *lambda, int k, int most, int *first)
 {
@@ -187,30 +188,47 @@ int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, 
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
         b->all[i] = b->rows.kept[i] = i;
+    status = factor_new(pool, FACTOR_LU, structure, n, b->rows.kept, &b->factor);
+    if (status)
+        return status;
+    if (factor_is_wide(structure))
+        return pencil_new(pool, structure, &b->pencil);
     status = matrix_new(pool, n, structure->kd, structure->nfar, structure->far, &b->shifted);
-    if (!status)
-        status = factor_new(pool, FACTOR_CHOLESKY, structure, n, b->all, &b->inertia);
-    return status ? status : factor_new(pool, FACTOR_LU, structure, n, b->rows.kept, &b->factor);
+    return status ? status : factor_new(pool, FACTOR_CHOLESKY, structure, n, b->all, &b->inertia);
 }
 
-int nelson_band_below(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda)
+void nelson_band_begin(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m)
 {
-    matrix_combine(1, k, -lambda, m, &b->shifted);
+    b->k = k;
+    b->m = m;
+    if (b->factor.is_wide)
+        (void)pencil_take(&b->pencil, k, m);
+}
+
+int nelson_band_below(struct nelson_band *b, double lambda)
+{
+    if (b->factor.is_wide) {
+        factor_keep(&b->factor, b->k, b->n, b->all);
+        return factor_negative_count_pencil(&b->factor, &b->pencil, lambda);
+    }
+    matrix_combine(1, b->k, -lambda, b->m, &b->shifted);
     return factor_negative_count(&b->inertia, &b->shifted);
 }
 
-static int factor_band(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda)
+static int factor_band(struct nelson_band *b, double lambda)
 {
-    matrix_combine(1, k, -lambda, m, &b->shifted);
+    b->lambda = lambda;
+    if (b->factor.is_wide)
+        return factor_compute_pencil(&b->factor, &b->pencil, lambda);
+    matrix_combine(1, b->k, -lambda, b->m, &b->shifted);
     return factor_compute(&b->factor, &b->shifted);
 }
 
-int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda, int members,
-                        const double *phi)
+int nelson_band_prepare(struct nelson_band *b, double lambda, int members, const double *phi)
 {
     choose_rows(b->n, members, phi, &b->rows);
-    factor_keep(&b->factor, k, b->n - members, b->rows.kept);
-    if (!factor_band(b, k, m, lambda) || !factor_band(b, k, m, lambda * (1 + CLOSE_EIGENVALUES)))
+    factor_keep(&b->factor, b->k, b->n - members, b->rows.kept);
+    if (!factor_band(b, lambda) || !factor_band(b, lambda * (1 + CLOSE_EIGENVALUES)))
         return ROTID_OK;
     return ROTID_ERROR_CLOSE;
 }
@@ -236,6 +254,19 @@ static double largest(ptrdiff_t count, const double *x)
     return most;
 }
 
+/* y := (K - lambda M) x */
+static void multiply_shifted(struct nelson_band *b, int columns, const double *x, double *y)
+{
+    if (!b->factor.is_wide) {
+        matrix_multiply(&b->shifted, columns, x, y);
+        return;
+    }
+    pencil_multiply_stiffness(&b->pencil, columns, x, y);
+    pencil_multiply_mass(&b->pencil, columns, x, b->shorter);
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)b->n * columns; i++)
+        y[i] -= b->lambda * b->shorter[i];
+}
+
 /* dphi holds V of A V = P for `columns` right-hand sides; one step of refinement. Returns how much it changed V, the worst of the
  * columns. */
 static double refine(struct nelson_band *b, int columns, int members, const double *phi, const double *m_phi, const double *p,
@@ -243,7 +274,7 @@ static double refine(struct nelson_band *b, int columns, int members, const doub
 {
     int n = b->n;
     double worst = 0;
-    matrix_multiply(&b->shifted, columns, dphi, b->residual);
+    multiply_shifted(b, columns, dphi, b->residual);
     for (ptrdiff_t i = 0; i < (ptrdiff_t)n * columns; i++)
         b->residual[i] = p[i] - b->residual[i];
     for (int c = 0; c < columns; c++)
@@ -267,10 +298,15 @@ void nelson_band_solve(struct nelson_band *b, int columns, int members, const do
         set_components(n, members, phi, m_phi, NULL, dphi + (ptrdiff_t)c * n);
     solve_columns(b, columns, dphi);
     /* the bordered factors may lose digits where a clamped mode lies near, and a cluster counts as one eigenvalue in them; a
-     * second step would change V by the square of the first
+     * second step would change V by the square of the first. Where a step gains nothing, what is left is rounding of P
      */
-    if (refine(b, columns, members, phi, m_phi, p, dphi) > ENOUGH)
-        (void)refine(b, columns, members, phi, m_phi, p, dphi);
+    double change = INFINITY, before;
+    for (int most = b->factor.is_wide ? MOST_STEPS : 2; most > 0; most--) {
+        before = change;
+        change = refine(b, columns, members, phi, m_phi, p, dphi);
+        if (!(change > ENOUGH && change < before / 2))
+            break;
+    }
     for (int c = 0; c < columns; c++)
         set_components(n, members, m_phi, phi, q + (ptrdiff_t)c * members, dphi + (ptrdiff_t)c * n);
 }

@@ -69,7 +69,10 @@ void modal_superposition(int n, const double *lambda, const double *phi, int k, 
 struct nelson_band {
     int n;
     struct nelson_rows rows;
-    rotid_matrix shifted;
+    const rotid_matrix *k, *m; /* of nelson_band_begin */
+    double lambda;             /* of nelson_band_prepare */
+    rotid_matrix shifted;      /* of narrow bands: K - lambda M */
+    struct pencil pencil;      /* of wide ones: K and M */
     struct factor factor, inertia;
     int *all;                   /* [n] */
     double *residual, *shorter; /* [n * most] */
@@ -77,9 +80,11 @@ struct nelson_band {
 
 /* For at most `most` right-hand sides at once. */
 int nelson_band_new(struct pool *pool, const rotid_matrix *structure, int most, struct nelson_band *b);
-int nelson_band_below(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda);
-int nelson_band_prepare(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m, double lambda, int members,
-                        const double *phi);
+/* In what follows K and M are these, which must stay as they are. */
+void nelson_band_begin(struct nelson_band *b, const rotid_matrix *k, const rotid_matrix *m);
+/* A factor that was prepared is lost. */
+int nelson_band_below(struct nelson_band *b, double lambda);
+int nelson_band_prepare(struct nelson_band *b, double lambda, int members, const double *phi);
 /* dphi [n * columns] from P [n * columns] (kept), q [members * columns]. A P that has a part in the cluster loses it: the columns
  * of (K - lambda M)^+ come from unit vectors and q = 0. */
 void nelson_band_solve(struct nelson_band *b, int columns, int members, const double *phi, const double *m_phi, const double *p,

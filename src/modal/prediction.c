@@ -64,10 +64,12 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     p->kx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->mx = POOL_ARRAY(pool, double, with_vectors && !full ? vectors * nparam : 0);
     p->below = POOL_ARRAY(pool, double, with_vectors ? (size_t)p->size *nparam : 0);
+    p->image = POOL_ARRAY(pool, double, full ? 2 * vectors : 0);
+    p->dk_is_zero = p->dm_is_zero = 1; /* as the pool gives them */
     p->x = POOL_ARRAY(pool, double, nparam);
     p->work = POOL_ARRAY(pool, double, 6 * (size_t)model->n);
     if (!p->lambda || !p->phi || !p->dlambda || !p->dphi || !p->right || !p->constant || !p->m_phi || !p->kx || !p->mx ||
-        !p->below || !p->x || !p->work)
+        !p->below || !p->image || !p->x || !p->work)
         return ROTID_ERROR_MEMORY;
     int status = new_matrices(pool, model, p);
     return status ? status : new_solvers(pool, model, with_vectors, p);
@@ -110,6 +112,7 @@ static int difference(struct prediction *p, const double *x, int q)
                 {{-1, -2, -3, -4}, {-4, 3, -4.0 / 3, 1.0 / 4}}};
     double h = 2e-3 * (x[q] != 0 ? fabs(x[q]) : 1);
     int status = ROTID_OK;
+    p->dk_is_zero = p->dm_is_zero = 0;
     memcpy(p->x, x, (size_t)p->model->nparam * sizeof *x);
     for (size_t s = 0; s < sizeof side / sizeof *side && (!s || status); s++) {
         matrix_zero(&p->dk);
@@ -127,30 +130,66 @@ static int difference(struct prediction *p, const double *x, int q)
     return status;
 }
 
+/* A matrix of a wide band takes longer to look at than its products with a few vectors take: one that nothing was written to need
+ * be neither cleared again nor multiplied. */
+static void clear(rotid_matrix *a, int *is_zero)
+{
+    if (!*is_zero)
+        matrix_zero(a);
+    *is_zero = 0;
+}
+
+static int check_derivative(const char *name, const rotid_matrix *a, char *failure, int *is_zero)
+{
+    *is_zero = matrix_is_zero(a);
+    return *is_zero ? ROTID_OK : matrix_check_entries(name, a, failure);
+}
+
 int prediction_matrix_derivatives(struct prediction *p, const double *x, int q)
 {
     if (!p->model->derivatives)
         return difference(p, x, q);
-    matrix_zero(&p->dk);
-    matrix_zero(&p->dm);
+    clear(&p->dk, &p->dk_is_zero);
+    clear(&p->dm, &p->dm_is_zero);
     int failed = p->model->derivatives(p->model->user, x, q, &p->dk, &p->dm);
     if (failed)
         return failure_say(p->failure, ROTID_ERROR_CALLBACK, "model->derivatives returned %d for p = %d", failed, q);
-    int status = matrix_check_entries("the stiffness of model->derivatives", &p->dk, p->failure);
-    return status ? status : matrix_check_entries("the mass of model->derivatives", &p->dm, p->failure);
+    int status = check_derivative("the stiffness of model->derivatives", &p->dk, p->failure, &p->dk_is_zero);
+    return status ? status : check_derivative("the mass of model->derivatives", &p->dm, p->failure, &p->dm_is_zero);
+}
+
+/* image [size * count] := A phi of the wanted pairs, neighbours together */
+static void multiply_wanted(const struct prediction *p, const rotid_matrix *a, int is_zero, const int *wanted, double *image)
+{
+    for (int k = 0, end; k < p->count; k = end + 1) {
+        ptrdiff_t at = (ptrdiff_t)k * p->size;
+        for (end = k; end < p->count && wanted[end];)
+            end++;
+        if (is_zero)
+            memset(image + at, 0, (size_t)(end - k) * (size_t)p->size * sizeof *image);
+        else
+            matrix_multiply(a, end - k, p->phi + at, image + at);
+    }
+}
+
+/* With dK and dM in place: dK phi and dM phi of the full matrices */
+static void form_images(struct prediction *p, const int *wanted)
+{
+    if (p->reduction != ROTID_REDUCTION_NONE)
+        return;
+    multiply_wanted(p, &p->dk, p->dk_is_zero, wanted, p->image);
+    multiply_wanted(p, &p->dm, p->dm_is_zero, wanted, p->image + (ptrdiff_t)p->count * p->size);
 }
 
 /* (36) with the derivatives of the matrices in place */
 static double eigenvalue_derivative(struct prediction *p, int k)
 {
-    int n = p->model->n;
-    double *a = p->work, *b = a + n;
-    const double *phi = p->phi + (ptrdiff_t)k * p->size;
+    int n = p->size;
+    const double *phi = p->phi + (ptrdiff_t)k * n;
     if (p->reduction != ROTID_REDUCTION_NONE)
         return reduction_eigenvalue_derivative(&p->condensed, &p->dk, &p->dm, p->lambda[k], phi, &p->mode[k]);
-    matrix_multiply(&p->dk, 1, phi, a);
-    matrix_multiply(&p->dm, 1, phi, b);
-    return product_dot(n, phi, a) - p->lambda[k] * product_dot(n, phi, b);
+    const double *dk_phi = p->image + (ptrdiff_t)k * n, *dm_phi = dk_phi + (ptrdiff_t)p->count * n;
+    return product_dot(n, phi, dk_phi) - p->lambda[k] * product_dot(n, phi, dm_phi);
 }
 
 static void multiply_dense(int n, const double *a, const double *x, double *y)
@@ -177,11 +216,10 @@ static void form_right_side(struct prediction *p, int k, int q)
 {
     int n = p->size;
     ptrdiff_t place = prediction_place(p, k, q);
-    double *dk_phi = p->work, *dm_phi = dk_phi + n;
-    const double *phi = p->phi + (ptrdiff_t)k * n, *m_phi = p->m_phi + (ptrdiff_t)k * n;
+    const double *phi = p->phi + (ptrdiff_t)k * n, *m_phi = p->m_phi + (ptrdiff_t)k * n, *dk_phi, *dm_phi;
     if (p->reduction == ROTID_REDUCTION_NONE) {
-        matrix_multiply(&p->dk, 1, phi, dk_phi);
-        matrix_multiply(&p->dm, 1, phi, dm_phi);
+        dk_phi = p->image + (ptrdiff_t)k * n;
+        dm_phi = dk_phi + (ptrdiff_t)p->count * n;
     } else {
         reduction_derivative_multiply(&p->condensed, &p->dk, &p->dm, phi, p->kx + place, p->mx + place, p->work);
         dk_phi = p->kx + place;
@@ -208,7 +246,7 @@ static int cluster_goes_on(struct prediction *p, int k, int first, int members)
     if (members == 1 || p->count == p->size)
         return 0;
     return (p->reduction == ROTID_REDUCTION_NONE
-                ? nelson_band_below(&p->nelson_band, &p->k, &p->m, above)
+                ? nelson_band_below(&p->nelson_band, above)
                 : nelson_dense_below(&p->nelson_dense, p->condensed.kc, p->condensed.mc, above)) > p->count;
 }
 
@@ -220,7 +258,7 @@ static int solve_at(struct prediction *p, int k, int first, int members, double 
     const double *phi = p->phi + (ptrdiff_t)first * n, *m_phi = p->m_phi + (ptrdiff_t)first * n, *right = p->right + place,
                  *constant = constants_of(p, k);
     if (p->reduction == ROTID_REDUCTION_NONE) {
-        status = nelson_band_prepare(&p->nelson_band, &p->k, &p->m, lambda, left_out, phi);
+        status = nelson_band_prepare(&p->nelson_band, lambda, left_out, phi);
         if (!status)
             nelson_band_solve(&p->nelson_band, nparam, members, phi, m_phi, right, constant, dphi);
         return status;
@@ -253,23 +291,26 @@ static int solve_vectors(struct prediction *p, int k)
 /* dK and dM belong to a parameter and the factors to a mode: all right-hand sides first, so that each is formed once. */
 static int differentiate_vectors(struct prediction *p, const double *x, const int *wanted)
 {
-    int n = p->size, status = ROTID_OK;
-    for (int k = 0; k < p->count; k++) {
+    int n = p->size, full = p->reduction == ROTID_REDUCTION_NONE, status = ROTID_OK;
+    if (full) /* whatever is wanted: one pass over the band */
+        matrix_multiply(&p->m, p->count, p->phi, p->m_phi);
+    for (int k = 0; k < p->count && !full; k++) {
         int first, members = wanted[k] ? eigenvalue_cluster(p->count, p->lambda, k, &first) : 0;
         for (int j = 0; j < members; j++) {
             ptrdiff_t at = (ptrdiff_t)(first + j) * n;
-            if (p->reduction == ROTID_REDUCTION_NONE)
-                matrix_multiply(&p->m, 1, p->phi + at, p->m_phi + at);
-            else
-                multiply_dense(n, p->condensed.mc, p->phi + at, p->m_phi + at);
+            multiply_dense(n, p->condensed.mc, p->phi + at, p->m_phi + at);
         }
     }
     for (int q = 0; q < p->model->nparam && !status; q++) {
         status = prediction_matrix_derivatives(p, x, q);
+        if (!status)
+            form_images(p, wanted);
         for (int k = 0; k < p->count && !status; k++)
             if (wanted[k])
                 form_right_side(p, k, q);
     }
+    if (full)
+        nelson_band_begin(&p->nelson_band, &p->k, &p->m);
     for (int k = 0; k < p->count && !status; k++)
         if (wanted[k])
             status = solve_vectors(p, k);
@@ -286,6 +327,8 @@ int prediction_differentiate(struct prediction *p, const double *x, const int *w
             reduction_mode_prepare(&p->condensed, p->lambda[k], p->phi + (ptrdiff_t)k * p->size, &p->mode[k]);
     for (int q = 0; q < p->model->nparam && !status; q++) {
         status = prediction_matrix_derivatives(p, x, q);
+        if (!status)
+            form_images(p, wanted);
         for (int k = 0; k < p->count && !status; k++)
             if (wanted[k])
                 p->dlambda[k + (ptrdiff_t)q * p->count] = eigenvalue_derivative(p, k);

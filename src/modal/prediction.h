@@ -15,6 +15,7 @@ struct prediction {
     int count;     /* pairs computed, rigid ones included */
     int size;      /* length of a vector: nmaster when condensed, n when full */
     rotid_matrix k, m, dk, dm, other_k, other_m;
+    int dk_is_zero, dm_is_zero; /* most parameters leave one of the matrices alone */
     struct reduction condensed;
     struct reduction_mode *mode; /* [count], condensed */
     struct eigen_dense dense;
@@ -30,6 +31,7 @@ struct prediction {
     double *m_phi;    /* [size * count] */
     double *kx, *mx;  /* [size * nparam * count]: dK phi_k and dM phi_k of the condensed matrices */
     double *below;    /* [size * nparam]: of a cluster that goes on, dphi with an eigenvalue below */
+    double *image;    /* [2 size * count] dK phi and dM phi of the full matrices */
     double *x, *work;
 };
 
