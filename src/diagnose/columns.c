@@ -164,50 +164,70 @@ static void shape_part(const struct columns *c, const struct columns_mode *mode,
         part[i] -= mode->weighted[i] * along / mode->square;
 }
 
+/* Rows and columns from ... end - 1 of dK and dM hold all there is in either. */
+static void occupied_rows(const struct columns *c, int *from, int *end)
+{
+    int k_from, k_end, m_from, m_end;
+    matrix_occupied(&c->dk, &k_from, &k_end);
+    matrix_occupied(&c->dm, &m_from, &m_end);
+    if (k_from == k_end) {
+        k_from = m_from;
+        k_end = m_end;
+    } else if (m_from == m_end) {
+        m_from = k_from;
+        m_end = k_end;
+    }
+    *from = k_from < m_from ? k_from : m_from;
+    *end = k_end > m_end ? k_end : m_end;
+}
+
 /* What of a mode moves with dK and dM: dlambda, and dphi at its sensors: P by the adjoints, which do not see its middle part,
  * plus the parts along the cluster. P = -(dK - dlambda M - lambda dM) phi is local but for that part: most changes touch a few
- * elements. */
-static double mode_derivative(struct columns *c, const struct columns_mode *mode, double *dphi)
+ * elements, the rows from..from + length - 1. */
+static double mode_derivative(struct columns *c, const struct columns_mode *mode, int from, int length, double *dphi)
 {
     const rotid_model *equations = &c->model.equations;
     const struct prediction *prediction = &c->functional.prediction;
-    int n = equations->n, first = 0, last = n;
-    const double *phi = prediction->phi + (ptrdiff_t)mode->pair * n;
+    ptrdiff_t n = equations->n;
+    const double *phi = prediction->phi + mode->pair * n + from;
     double lambda = prediction->lambda[mode->pair];
-    matrix_multiply(&c->dk, 1, phi, c->dk_phi);
-    matrix_multiply(&c->dm, 1, phi, c->dm_phi);
-    for (int i = 0; i < n; i++)
+    rotid_matrix dk, dm;
+    matrix_rows(&c->dk, from, length, &dk);
+    matrix_rows(&c->dm, from, length, &dm);
+    matrix_multiply(&dk, 1, phi, c->dk_phi);
+    matrix_multiply(&dm, 1, phi, c->dm_phi);
+    for (int i = 0; i < length; i++)
         c->right[i] = c->dk_phi[i] - lambda * c->dm_phi[i];
-    while (first < n && c->right[first] == 0)
-        first++;
-    while (last > first && c->right[last - 1] == 0)
-        last--;
     for (int i = 0; i < mode->sensors; i++)
-        dphi[i] = -product_dot(last - first, mode->adjoint + (ptrdiff_t)i * n + first, c->right + first);
+        dphi[i] = -product_dot(length, mode->adjoint + i * n + from, c->right);
     for (int j = mode->first; j < mode->first + mode->members; j++) {
-        const double *member = prediction->phi + (ptrdiff_t)j * n;
-        double along = -0.5 * product_dot(n, member, c->dm_phi);
+        const double *member = prediction->phi + j * n;
+        double along = -0.5 * product_dot(length, member + from, c->dm_phi);
         for (int i = 0; i < mode->sensors; i++)
             dphi[i] += along * member[equations->master[mode->sensor[i]]];
     }
-    return product_dot(n, phi, c->right);
+    return product_dot(length, phi, c->right);
 }
 
 int columns_parameter(struct columns *c, int p, double *column)
 {
     const rotid_model *equations = &c->model.equations;
-    int row = c->nmode;
-    matrix_zero(&c->dk);
-    matrix_zero(&c->dm);
+    int row = c->nmode, from, end;
     if (equations->derivatives(equations->user, c->x, p, &c->dk, &c->dm))
         return ROTID_ERROR_CALLBACK;
+    occupied_rows(c, &from, &end);
     for (int m = 0; m < c->nmode; m++) {
         const struct columns_mode *mode = &c->mode[m];
-        double dlambda = mode_derivative(c, mode, c->dphi), lambda = c->functional.prediction.lambda[mode->pair];
+        double dlambda = mode_derivative(c, mode, from, end - from, c->dphi), lambda = c->functional.prediction.lambda[mode->pair];
         column[m] = dlambda / (2 * sqrt(lambda) * c->functional.omega[mode->k] * c->measured.frequency_std[mode->k]);
         shape_part(c, mode, c->dphi, c->r + row, column + row);
         row += mode->sensors;
     }
+    rotid_matrix used;
+    matrix_rows(&c->dk, from, end - from, &used);
+    matrix_zero(&used);
+    matrix_rows(&c->dm, from, end - from, &used);
+    matrix_zero(&used);
     return ROTID_OK;
 }
 
