@@ -103,6 +103,10 @@ void deck_shape(struct deck_reader *reader, const struct card *card);
 void deck_frequencies(struct deck_reader *reader, const struct card *card);
 void deck_noise(struct deck_reader *reader, const struct card *card);
 void deck_cause(struct deck_reader *reader, const struct card *card);
+
+/* The causes that MODEL=SOLID leaves without a meaning: an error each. */
+void deck_causes_of_solid(struct deck_reader *reader);
+
 void deck_identify(struct deck_reader *reader, const struct card *card);
 void deck_fit(struct deck_reader *reader, const struct card *card);
 /* The universal file of MEASURED: sensors, modes and shapes. */

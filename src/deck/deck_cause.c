@@ -9,6 +9,7 @@
 static const char *without_card(const struct cause_kind *kind)
 {
     return kind->target == TARGET_MODES  ? "modes are paired by their numbers, expected others in *MODES or the universal file"
+           : kind->solid                 ? "it is removed by *FIT, MODEL=SOLID, expected that"
            : same_text(kind->id, "mesh") ? "it is removed by more elements on *SHAFT, expected those"
            : same_text(kind->id, "guyan_reduction") ? "it is removed by *FIT, REDUCTION=NONE, expected that"
                                                     : "the diagnosis alone finds it, expected another TYPE";
@@ -16,7 +17,7 @@ static const char *without_card(const struct cause_kind *kind)
 
 static int has_card(const struct cause_kind *kind)
 {
-    return kind->class == CAUSE_PHYSICAL || kind->correct;
+    return (kind->class == CAUSE_PHYSICAL && !kind->solid) || kind->correct;
 }
 
 static const struct cause_kind *find_kind(struct deck_reader *reader, const struct card *card)
@@ -209,6 +210,20 @@ static void read_correction(struct cause_card *c)
     *added = c->correction;
     *place = c->card->place;
     job->measurement.ncorrection++;
+}
+
+void deck_causes_of_solid(struct deck_reader *reader)
+{
+    for (int c = 0; c < reader->text.ncard; c++) {
+        const struct card *card = &reader->text.card[c];
+        const struct card_option *type = same_text(card->name, "CAUSE") ? card_option(card, "TYPE") : NULL;
+        const struct cause_kind *kind = type ? catalogue_find(type->value) : NULL;
+        if (kind && has_card(kind) && cause_of_beam(kind))
+            deck_error(reader, type->value_place,
+                       "TYPE=%s corrects what a beam gets wrong, and a solid has no such error, expected no such cause with *FIT, "
+                       "MODEL=SOLID",
+                       kind->id);
+    }
 }
 
 void deck_cause(struct deck_reader *reader, const struct card *card)

@@ -155,6 +155,8 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
         reader->tie = option->value;
     if ((option = card_option(card, "MODEL")))
         job->options.solid = deck_option_word(reader, option, models) == 1;
+    if (job->options.solid)
+        deck_causes_of_solid(reader);
     option = card_option(card, "DERIVATIVE"); /* missing where a second *FIT takes the first one's */
     if (job->options.fit.derivative == ROTID_MODAL && job->options.fit.reduction == ROTID_REDUCTION_NONE)
         deck_error(reader, option ? option->value_place : card->place,

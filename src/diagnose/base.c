@@ -241,7 +241,7 @@ int base_prepare(struct engine *engine)
     for (int pass = 0; pass < MOST_REFINED && !status; pass++) {
         const struct spectrum *s = &out->base.spectrum;
         double ratio = against_noise(engine, s->mesh_error_percent, s->count, &at);
-        if (!(ratio > 1))
+        if (!(ratio > 1) || engine->job.options.solid) /* whose mesh follows from the rotor, not from its elements */
             break;
         if (!pass)
             status = add_numerical(engine, "mesh", s->count, s->mesh_error_percent,
@@ -300,7 +300,7 @@ int base_residuals(struct engine *engine)
 int base_refine(struct engine *engine, struct job *job, const struct spectrum *spectrum)
 {
     int at, status = ROTID_OK;
-    double ratio = against_noise(engine, spectrum->mesh_error_percent, spectrum->count, &at);
+    double ratio = job->options.solid ? 0 : against_noise(engine, spectrum->mesh_error_percent, spectrum->count, &at);
     for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status; pass++, ratio /= 4)
         status = refine_mesh(engine->pool, &job->rotor);
     return status;

@@ -117,14 +117,16 @@ int columns_prepare(struct columns *c)
     struct pool *pool = c->pool;
     const rotid_matrix *k = &c->functional.prediction.k;
     int n = c->model.equations.n, most = c->model.equations.nmaster > 1 ? c->model.equations.nmaster : 1;
-    double *vectors = POOL_ARRAY(pool, double, 3 * (size_t)n), *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
+    size_t images = (size_t)n * (size_t)c->nmode;
+    double *vectors = POOL_ARRAY(pool, double, 3 * images + (size_t)n), *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
            *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n), *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
     if (!c->dphi || !vectors || !zero || !m_phi || !unit)
         return ROTID_ERROR_MEMORY;
     c->dk_phi = vectors;
-    c->dm_phi = vectors + n;
-    c->right = vectors + 2 * (ptrdiff_t)n;
+    c->dm_phi = vectors + images;
+    c->rows = vectors + 2 * images;
+    c->right = vectors + 3 * images;
     struct nelson_band nelson;
     int status = matrix_new(pool, n, k->kd, k->nfar, k->far, &c->dk);
     if (!status)
@@ -164,46 +166,76 @@ static void shape_part(const struct columns *c, const struct columns_mode *mode,
         part[i] -= mode->weighted[i] * along / mode->square;
 }
 
+/* Rows and columns from ... end - 1 of dK and dM hold all there is in either: most changes touch a few elements. */
+static void occupied_rows(const struct columns *c, int *from, int *end)
+{
+    int m_from, m_end;
+    matrix_occupied(&c->dk, from, end);
+    matrix_occupied(&c->dm, &m_from, &m_end);
+    if (*from == *end) {
+        *from = m_from;
+        *end = m_end;
+    } else if (m_from < m_end) {
+        *from = m_from < *from ? m_from : *from;
+        *end = m_end > *end ? m_end : *end;
+    }
+}
+
+/* image [length * nmode] := those rows of A times those of the modes; A is zero again then */
+static void take_image(const struct columns *c, rotid_matrix *a, int from, int length, double *image)
+{
+    rotid_matrix part;
+    int first, end;
+    matrix_occupied(a, &first, &end);
+    if (first == end) {
+        memset(image, 0, (size_t)length * (size_t)c->nmode * sizeof *image);
+        return;
+    }
+    matrix_rows(a, from, length, &part);
+    matrix_multiply(&part, c->nmode, c->rows, image);
+    matrix_zero(&part);
+}
+
 /* What of a mode moves with dK and dM: dlambda, and dphi at its sensors: P by the adjoints, which do not see its middle part,
- * plus the parts along the cluster. P = -(dK - dlambda M - lambda dM) phi is local but for that part: most changes touch a few
- * elements. */
-static double mode_derivative(struct columns *c, const struct columns_mode *mode, double *dphi)
+ * plus the parts along the cluster. P = -(dK - dlambda M - lambda dM) phi is local but for that part, to the rows
+ * from..from + length - 1, of which dk_phi and dm_phi are. */
+static double mode_derivative(struct columns *c, const struct columns_mode *mode, int from, int length, const double *dk_phi,
+                              const double *dm_phi, double *dphi)
 {
     const rotid_model *equations = &c->model.equations;
     const struct prediction *prediction = &c->functional.prediction;
-    int n = equations->n, first = 0, last = n;
-    const double *phi = prediction->phi + (ptrdiff_t)mode->pair * n;
+    ptrdiff_t n = equations->n;
     double lambda = prediction->lambda[mode->pair];
-    matrix_multiply(&c->dk, 1, phi, c->dk_phi);
-    matrix_multiply(&c->dm, 1, phi, c->dm_phi);
-    for (int i = 0; i < n; i++)
-        c->right[i] = c->dk_phi[i] - lambda * c->dm_phi[i];
-    while (first < n && c->right[first] == 0)
-        first++;
-    while (last > first && c->right[last - 1] == 0)
-        last--;
+    for (int i = 0; i < length; i++)
+        c->right[i] = dk_phi[i] - lambda * dm_phi[i];
     for (int i = 0; i < mode->sensors; i++)
-        dphi[i] = -product_dot(last - first, mode->adjoint + (ptrdiff_t)i * n + first, c->right + first);
+        dphi[i] = -product_dot(length, mode->adjoint + i * n + from, c->right);
     for (int j = mode->first; j < mode->first + mode->members; j++) {
-        const double *member = prediction->phi + (ptrdiff_t)j * n;
-        double along = -0.5 * product_dot(n, member, c->dm_phi);
+        const double *member = prediction->phi + j * n;
+        double along = -0.5 * product_dot(length, member + from, dm_phi);
         for (int i = 0; i < mode->sensors; i++)
             dphi[i] += along * member[equations->master[mode->sensor[i]]];
     }
-    return product_dot(n, phi, c->right);
+    return product_dot(length, prediction->phi + mode->pair * n + from, c->right);
 }
 
 int columns_parameter(struct columns *c, int p, double *column)
 {
     const rotid_model *equations = &c->model.equations;
-    int row = c->nmode;
-    matrix_zero(&c->dk);
-    matrix_zero(&c->dm);
+    const struct prediction *prediction = &c->functional.prediction;
+    int row = c->nmode, from, end;
     if (equations->derivatives(equations->user, c->x, p, &c->dk, &c->dm))
         return ROTID_ERROR_CALLBACK;
+    occupied_rows(c, &from, &end);
+    ptrdiff_t length = end - from, n = equations->n;
+    for (int m = 0; m < c->nmode; m++)
+        memcpy(c->rows + m * length, prediction->phi + c->mode[m].pair * n + from, (size_t)length * sizeof *c->rows);
+    take_image(c, &c->dk, from, (int)length, c->dk_phi);
+    take_image(c, &c->dm, from, (int)length, c->dm_phi);
     for (int m = 0; m < c->nmode; m++) {
         const struct columns_mode *mode = &c->mode[m];
-        double dlambda = mode_derivative(c, mode, c->dphi), lambda = c->functional.prediction.lambda[mode->pair];
+        double dlambda = mode_derivative(c, mode, from, (int)length, c->dk_phi + m * length, c->dm_phi + m * length, c->dphi),
+               lambda = prediction->lambda[mode->pair];
         column[m] = dlambda / (2 * sqrt(lambda) * c->functional.omega[mode->k] * c->measured.frequency_std[mode->k]);
         shape_part(c, mode, c->dphi, c->r + row, column + row);
         row += mode->sensors;

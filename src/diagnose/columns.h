@@ -28,7 +28,8 @@ struct columns {
     int nrow, nmode;                 /* residuals, fitted modes */
     struct columns_mode *mode;       /* [nmode] */
     double *x, *r;                   /* [nparam], [nrow]: the point and its residual */
-    double *dk_phi, *dm_phi, *right; /* [n] */
+    double *rows, *dk_phi, *dm_phi;  /* [n * nmode] what a change touches of the modes, and what it makes of that */
+    double *right;                   /* [n] */
     double *dphi;                    /* [nmaster] */
     rotid_matrix dk, dm;
 };

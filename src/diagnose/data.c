@@ -161,8 +161,8 @@ static int look_like_radians(struct engine *engine)
     for (int p = 0; p < job->unknowns.nparameter; p++)
         x[p] = job->unknowns.bounds[p].start;
     pool_open(&scratch, engine->pool->allocator);
-    int status = spectrum_compute(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x,
-                                  ROTID_GUYAN, highest, &spectrum);
+    int status = spectrum_compute_parts(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x,
+                                        ROTID_REDUCTION_NONE, highest, 0, &spectrum);
     for (int k = 0; k < job->measurement.nmode && !status && count < 64; k++)
         if (job->measurement.number[k] <= spectrum.count)
             ratio[count++] = job->measurement.frequency_hz[k] / spectrum.full_hz[job->measurement.number[k] - 1];

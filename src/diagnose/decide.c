@@ -24,7 +24,7 @@ static int free_parameters(const struct candidate *c)
     int count = 0;
     for (int p = 0; p < c->nparameter; p++)
         count += !c->fixed[p];
-    return count ? count : 1; /* one that is there or not was searched for too */
+    return count ? count : !c->cause->solid; /* one that is there or not was searched for too; what a rotor is, was not */
 }
 
 double candidate_score(const struct candidate *c)

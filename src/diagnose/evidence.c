@@ -28,8 +28,8 @@ static int ends_at_bound(const rotid_parameter *bounds, double neutral, double x
 static void take_parameters(const struct refit *refit, int own, struct candidate *c)
 {
     const rotid_fit_result *fit = refit->fit;
-    int last = refit->job.rotor.neffect - 1;
-    c->effect = refit->job.rotor.effect[last];
+    if (!c->cause->solid)
+        c->effect = refit->job.rotor.effect[refit->job.rotor.neffect - 1];
     for (int p = own; p < fit->n; p++) {
         int component = refit->job.unknowns.parameter[p].component;
         c->std[component] = fit->std[p];

@@ -154,7 +154,11 @@ static const char *verdict_sentence(struct engine *engine)
     struct pool *pool = engine->pool;
     const struct diagnosis_round *last = out->nround ? &out->round[out->nround - 1] : NULL;
     const char *causes = list(pool, out->ncause, out->cause), *others = list(pool, out->nalternative, out->alternative);
-    const char *open = open_parameters(engine), *faults = "";
+    const char *open = open_parameters(engine), *faults = "", *solid = "";
+    for (int c = 0; c < out->ncause; c++)
+        if (out->cause[c].cause->solid)
+            solid = " The rotor is no beam: near its steps and in its short sections it bends as a beam cannot, so moduli that are "
+                    "identified with the beam carry the error of beam theory. Identify with *FIT, MODEL=SOLID.";
     if (out->result.ndata_findings)
         faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->result.ndata_findings,
                              out->result.ndata_findings == 1 ? "" : "s", out->result.ndata_findings == 1 ? "was" : "were");
@@ -174,12 +178,12 @@ static const char *verdict_sentence(struct engine *engine)
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case ROTID_NAMED:
         if (!verdict->adequate_after && out->nalternative)
-            return pool_format(pool, "The model lacks %s (%s before); the data cannot tell which of %s causes the rest.%s%s",
-                               causes, chance, others, faults, open);
+            return pool_format(pool, "The model lacks %s (%s before); the data cannot tell which of %s causes the rest.%s%s%s",
+                               causes, chance, others, solid, faults, open);
         return pool_format(
-            pool, "The model lacks %s; with %s %s (%s before).%s%s", causes, out->ncause > 1 ? "these causes" : "this cause",
+            pool, "The model lacks %s; with %s %s (%s before).%s%s%s", causes, out->ncause > 1 ? "these causes" : "this cause",
             verdict->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
-            chance, faults, open);
+            chance, solid, faults, open);
     case ROTID_AMBIGUOUS:
         if (out->nalternative == 1)
             return pool_format(

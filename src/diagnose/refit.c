@@ -1,9 +1,9 @@
 #include "diagnose/refit.h"
-#include "diagnose/scan.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "diagnose/as_solid.h"
 #include "fit/bounds.h"
 
 #define STARTS     3    /* places a candidate is fitted from */
@@ -46,6 +46,10 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
     const struct job copy = *from, *job = &copy; /* `to` may be the same */
     const struct rotor *rotor = &job->rotor;
     int nown = job->unknowns.nparameter, nnew = cause_parameters(effect), index = rotor->neffect;
+    if (cause->solid) {
+        int status = job_as_solid(pool, job, to);
+        return status || !x ? status : job_started_at(pool, to, x, to);
+    }
     *to = *job;
     to->rotor.effect = POOL_ARRAY(pool, struct effect, index + 1);
     to->unknowns.parameter = POOL_ARRAY(pool, struct parameter, nown + nnew);
@@ -127,6 +131,21 @@ static int choose_starts(const struct scan *scan, const struct scan_candidate *c
             break;
         start[count++] = best;
     }
+    return count;
+}
+
+/* The effects to start from; a solid has but one. */
+static int starting_effects(const struct scan *scan, const struct scan_candidate *c, double length, struct effect *effect)
+{
+    int item[STARTS], count = choose_starts(scan, c, length, item);
+    for (int s = 0; s < count; s++) {
+        const struct scan_item *start = &scan->item[item[s]];
+        effect[s] = start->effect;
+        if (!c->fixed[c->cause->size])
+            effect[s].value[c->cause->size] += start->amplitude * start->unit;
+    }
+    if (c->cause->solid)
+        effect[count++] = c->effect;
     return count;
 }
 
@@ -218,15 +237,12 @@ static int fit_from(struct pool *pool, const struct job *job, const int *number,
                     struct refit *refit)
 {
     const struct cause_kind *cause = c->cause;
-    int start[STARTS], count = choose_starts(scan, c, rotor_length(&job->rotor), start);
+    struct effect start[STARTS];
+    int count = starting_effects(scan, c, rotor_length(&job->rotor), start);
     for (int s = 0; s < count; s++) {
-        const struct scan_item *item = &scan->item[start[s]];
-        struct effect effect = item->effect;
         struct job extended, started;
         rotid_fit_result *fit = NULL;
-        if (!c->fixed[cause->size])
-            effect.value[cause->size] += item->amplitude * item->unit;
-        int status = job_with_effect(pool, job, x, &effect, cause, c->fixed, &extended);
+        int status = job_with_effect(pool, job, x, &start[s], cause, c->fixed, &extended);
         if (!status)
             status = refit_job(pool, &extended, number, holdout, environment, &fit);
         if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)

@@ -12,8 +12,8 @@
 #define REFIT_WORSE 0.01
 
 /* *to := the job `from` with the effect in its rotor and its parameters (those not fixed) behind the job's own, between their
- * physical bounds; starts are x [nparameter] (the job's own starts, where NULL) and the effect's values, moved off the bounds.
- * `to` may be the job itself. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * physical bounds; a cause that asks for a solid makes the rotor one instead. Starts are x [nparameter] (the job's own starts,
+ * where NULL) and the effect's values, moved off the bounds. `to` may be the job itself. ROTID_OK or ROTID_ERROR_MEMORY. */
 int job_with_effect(struct pool *pool, const struct job *from, const double *x, const struct effect *effect,
                     const struct cause_kind *cause, const int *fixed, struct job *to);
 

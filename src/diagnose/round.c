@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "diagnose/as_solid.h"
 #include "diagnose/bootstrap.h"
 #include "diagnose/clean.h"
 #include "diagnose/evidence.h"
@@ -133,6 +134,12 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     result->candidate = POOL_ARRAY(pool, int, scan->ncandidate);
     if (!result->candidate)
         return ROTID_ERROR_MEMORY;
+    if (!adequate) {
+        status = scan_solid(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan);
+        engine_step(engine, "scan");
+    }
+    if (status)
+        return status;
     result->nrefit = adequate ? 0 : choose(scan, b->threshold, result->candidate);
     status = engine_stage(engine, "fits of candidates, round", engine->out->nround + 1);
     if (!status)

@@ -26,6 +26,8 @@ static int searches(const struct scan_candidate *c, int p)
 static int item_count(const struct scan_candidate *c, int naxis)
 {
     int stride = place_stride(naxis);
+    if (c->cause->solid) /* no column: as_solid.h */
+        return 0;
     int places = searches(c, c->cause->place) ? (naxis + stride - 1) / stride : 1;
     return places * (searches(c, c->cause->width) ? WIDTHS : 1);
 }
@@ -213,5 +215,5 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
 double scan_best_drop(const struct scan *scan, int candidate)
 {
     const struct scan_candidate *c = &scan->candidate[candidate];
-    return c->best < 0 ? 0 : scan->item[c->best].drop;
+    return c->best < 0 ? c->promise : scan->item[c->best].drop;
 }

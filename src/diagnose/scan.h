@@ -23,6 +23,7 @@ struct scan_candidate { /* a cause at a target, with all its places */
     int suspect, fixed[EFFECT_MOST_PARAMETERS];
     int first, count; /* items */
     int best;         /* item of the largest drop, -1: none is usable */
+    double promise;   /* drop where there is no column */
 };
 
 struct scan {
@@ -48,7 +49,7 @@ const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const c
 /* Columns and drops at the parameters x of the fitted job. Statuses of columns_open. */
 int scan_run(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x, struct scan *scan);
 
-/* Largest drop that a candidate promises, 0 where none of its columns is usable. */
+/* Largest drop that a candidate promises, 0 where none of its columns is usable, or nobody asked. */
 double scan_best_drop(const struct scan *scan, int candidate);
 
 #endif

@@ -25,6 +25,17 @@ static int is_in_model(const struct rotor *rotor, const struct cause_kind *cause
     return count >= (cause->place < 0 ? 1 : 2);
 }
 
+/* A solid has none of the errors of beams, and a beam that is corrected for one of them is not to become a solid as well. */
+static int is_of_this_model(const struct job *job, const struct cause_kind *cause)
+{
+    if (job->options.solid)
+        return !cause_of_beam(cause);
+    int corrected = !models_solids(job->models);
+    for (int i = 0; i < job->rotor.neffect; i++)
+        corrected |= job->rotor.effect[i].kind->section != NULL;
+    return !(cause->solid && corrected);
+}
+
 static int target_count(const struct rotor *rotor, enum cause_target target)
 {
     switch (target) {
@@ -117,7 +128,8 @@ int scan_list(struct pool *pool, const struct job *job, struct scan *scan)
     for (int i = 0; i < catalogue_count() && !status; i++) {
         const struct cause_kind *cause = catalogue_item(i);
         for (int t = 0; t < target_count(rotor, cause->target) && cause->class == CAUSE_PHYSICAL && !status; t++)
-            if (!is_in_model(rotor, cause, cause->target == TARGET_NONE || cause->target == TARGET_SENSOR ? -1 : t) &&
+            if (is_of_this_model(job, cause) &&
+                !is_in_model(rotor, cause, cause->target == TARGET_NONE || cause->target == TARGET_SENSOR ? -1 : t) &&
                 (!cause->applies || cause->applies(rotor, t, identified)))
                 status = add(pool, job, cause, t, scan);
     }

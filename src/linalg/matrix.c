@@ -196,6 +196,29 @@ int matrix_is_zero(const rotid_matrix *a)
     return all_zero(band_length(a), a->band) && all_zero(block_length(a), a->block);
 }
 
+void matrix_occupied(const rotid_matrix *a, int *from, int *end)
+{
+    size_t ld = (size_t)a->kd + 1;
+    *from = 0;
+    *end = a->n;
+    if (!all_zero(block_length(a), a->block))
+        return;
+    while (*from < *end && all_zero(ld, a->band + (size_t)*from * ld))
+        ++*from;
+    while (*end > *from && all_zero(ld, a->band + (size_t)(*end - 1) * ld))
+        --*end;
+    if (*end > *from) /* the rows that the last of the columns reaches */
+        *end = *end + a->kd < a->n ? *end + a->kd : a->n;
+}
+
+void matrix_rows(const rotid_matrix *a, int from, int length, rotid_matrix *part)
+{
+    *part = *a;
+    if (length == a->n)
+        return;
+    *part = (rotid_matrix){.n = length, .kd = a->kd, .band = a->band + (ptrdiff_t)from * (a->kd + 1)};
+}
+
 void matrix_to_dense(const rotid_matrix *a, int ld, double *full)
 {
     for (int j = 0; j < a->n; j++)

@@ -28,6 +28,13 @@ void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double
 /* x' A y; work [n]. */
 double matrix_product(const rotid_matrix *a, const double *x, const double *y, double *work);
 
+/* Rows and columns *from ... *end - 1 hold all that is not zero; all of them where the block holds anything, *from = *end where
+ * there is nothing. */
+void matrix_occupied(const rotid_matrix *a, int *from, int *end);
+
+/* *part := rows and columns from ... from + length - 1 of a, in the same storage, with the block where those are all. */
+void matrix_rows(const rotid_matrix *a, int from, int length, rotid_matrix *part);
+
 int matrix_is_finite(const rotid_matrix *a);
 /* Nothing but zeros in all of the storage? Soon known where there is anything. */
 int matrix_is_zero(const rotid_matrix *a);

@@ -16,6 +16,7 @@ struct models {
     enum discretisation as;
     int takes_up;
     const struct models *older;
+    struct models *solids; /* of the same run */
     struct entry *first;
 };
 
@@ -104,13 +105,26 @@ int models_begin(struct pool *pool, enum discretisation as, const struct rotor *
 
 struct models *models_for_run(struct pool *pool, struct models *given)
 {
-    return given && given->takes_up ? given : models_new(pool, models_discretisation(given), given);
+    if (given && given->takes_up)
+        return given;
+    struct models *models = models_new(pool, models_discretisation(given), given);
+    if (!models || models->as == AS_SOLID)
+        return models;
+    models->solids = models_new(pool, AS_SOLID, NULL);
+    return models->solids ? models : NULL;
+}
+
+struct models *models_solids(struct models *models)
+{
+    return models && models->as != AS_SOLID ? models->solids : models;
 }
 
 void models_end_run(struct pool *pool, struct models *models, const struct models *given)
 {
     if (models == given)
         return;
+    if (models->solids)
+        models_end_run(pool, models->solids, NULL);
     models->takes_up = 0;
     (void)pthread_mutex_destroy(&models->lock);
     pool_absorb(pool, &models->pool);

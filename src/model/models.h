@@ -28,6 +28,9 @@ int models_begin(struct pool *pool, enum discretisation as, const struct rotor *
  * out. */
 struct models *models_for_run(struct pool *pool, struct models *given);
 
+/* Models of the same run, of rotors as solids: `models` itself where its rotors are; NULL outside of a run. */
+struct models *models_solids(struct models *models);
+
 /* Ends what models_for_run began: the memory goes to the pool, and nothing is taken up any more. */
 void models_end_run(struct pool *pool, struct models *models, const struct models *given);
 

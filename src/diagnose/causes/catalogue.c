@@ -15,6 +15,7 @@
     X(duplicate_channel)                                                                                                         \
     X(noise_level)                                                                                                               \
     X(mode_pairing)                                                                                                              \
+    X(beam_theory)                                                                                                               \
     X(step_stiffness)                                                                                                            \
     X(stiffness_gradient)                                                                                                        \
     X(stiffness_profile)                                                                                                         \

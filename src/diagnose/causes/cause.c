@@ -1,5 +1,10 @@
 #include "diagnose/causes/cause.h"
 
+int cause_of_beam(const struct cause_kind *cause)
+{
+    return cause->solid || (cause->effect && cause->effect->section);
+}
+
 int cause_parameters(const struct effect *effect)
 {
     return effect_parameters(effect);

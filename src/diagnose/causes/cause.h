@@ -36,6 +36,7 @@ struct cause_kind {
     int place;                  /* index of the parameter that is a place z, or -1 */
     int width;                  /* index of the parameter that is a width, or -1 */
     int secant;                 /* no derivative at neutral: the scan uses the difference to `typical` */
+    int solid;                  /* the remedy is not in the rotor: the rotor is to be a solid */
     const char *variant[5];     /* words of option SHAPE= (stiffness_local) or MOUNT= (accelerometer_mass), NULL at the end */
     const char *variant_option; /* "SHAPE", "MOUNT" or NULL */
     /* the cause is an approximation: what it leaves, relative to frequencies and to the largest component of a shape */
@@ -52,6 +53,9 @@ struct cause_kind {
     const char *sentence; /* what it is: "a zone softer than its surroundings" */
     const char *check;    /* how to tell it apart in the workshop: "weigh the end pieces" */
 };
+
+/* Whether a cause is an error of beams alone, which a solid does not have. */
+int cause_of_beam(const struct cause_kind *cause);
 
 /* The number of parameters of an effect in use, the first ones of its kind: a soft zone of one depth has no depth_shear. */
 int cause_parameters(const struct effect *effect);

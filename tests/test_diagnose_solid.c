@@ -1,0 +1,162 @@
+/* A diagnosis on solids: data of a stepped solid on a finer mesh, judged as a beam and as the solid it is. */
+#include "folder.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "deck/deck.h"
+#include "deck/deck_extended.h"
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/diagnose.h"
+#include "modal/prediction.h"
+#include "model/model.h"
+
+#define SENSORS 13
+#define MODES   4
+
+static const double true_e = 2e11, true_g = 0.77e11, frequency_noise = 0.001, shape_noise = 0.01;
+
+/* A shaft with one thick part, whose moduli are wanted; sensors at even distances. */
+static const char rotor_text[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n"
+                                 "*MATERIAL, NAME=cast\n*ELASTIC, TYPE=SHEAR\n2e11, 0.77e11, 0.30\n*DENSITY\n7850\n"
+                                 "*SHAFT, NAME=left, MATERIAL=steel\n0.25, 0.10, 0, 20\n"
+                                 "*SHAFT, NAME=core, MATERIAL=cast\n0.35, 0.20, 0, 20\n"
+                                 "*SHAFT, NAME=right, MATERIAL=steel\n0.20, 0.10, 0, 20\n";
+
+static void put_sensors(char *text)
+{
+    strcat(text, "*SENSORS\n");
+    for (int s = 0; s < SENSORS; s++)
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", s + 1, 0.8 * (s + 0.5) / SENSORS);
+}
+
+/* Modes of the rotor, with the effect (may be NULL) in it, as a solid of a mesh twice as fine, with noise, as cards. */
+static void put_measured(const struct effect *effect, char *text)
+{
+    struct message_list messages;
+    struct job job;
+    struct rotor_model model;
+    struct prediction p;
+    struct random_stream noise = {7};
+    int failed;
+    message_open(&messages, &test_pool);
+    assert_status(deck_read(&test_pool, folder_write("rotor.inp", text), 0, NULL, &messages, &job), ROTID_OK);
+    if (effect) {
+        job.rotor.effect = POOL_ARRAY(&test_pool, struct effect, 1);
+        job.rotor.effect[job.rotor.neffect++] = *effect;
+    }
+    assert_status(model_open(&test_pool, models_as(&test_pool, AS_SOLID), &job.rotor, 0, NULL, 2, &model, &failed), ROTID_OK);
+    int rigid = model.equations.nrigid;
+    assert_status(prediction_new(&test_pool, &model.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, rigid + MODES, 0, &p), ROTID_OK);
+    assert_status(prediction_compute(&p, NULL), ROTID_OK);
+    (void)sprintf(text + strlen(text), "*NOISE, FREQUENCY=%g, SHAPE=%g\n*MODES\n", frequency_noise, shape_noise);
+    for (int k = 0; k < MODES; k++)
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", k + 1,
+                      prediction_hz(&p, rigid + k) * (1 + frequency_noise * random_normal(&noise)));
+    for (int k = 0; k < MODES; k++) {
+        double largest = 0;
+        for (int s = 0; s < SENSORS; s++)
+            largest = fmax(largest, fabs(prediction_at_sensor(&p, rigid + k, s)));
+        (void)sprintf(text + strlen(text), "*SHAPE, MODE=%d\n", k + 1);
+        for (int s = 0; s < SENSORS; s++)
+            (void)sprintf(text + strlen(text), "%d, %.17g\n", s + 1,
+                          prediction_at_sensor(&p, rigid + k, s) / largest + shape_noise * random_normal(&noise));
+    }
+}
+
+static void diagnose(const struct effect *effect, const char *fit, struct diagnosis *d)
+{
+    const struct diagnose_options options = {.threads = 2, .seed = 1, .replicates = 300};
+    struct message_list messages;
+    struct job job;
+    char text[16384];
+    strcpy(text, rotor_text);
+    put_sensors(text);
+    put_measured(effect, text);
+    (void)sprintf(text + strlen(text), "%s*IDENTIFY\ncore.E, 1e10, 4e11, 1.8e11\ncore.G, 1e10, 1.5e11, 0.7e11\n", fit);
+    message_open(&messages, &test_pool);
+    assert_status(deck_read(&test_pool, folder_write("deck.inp", text), 0, NULL, &messages, &job), ROTID_OK);
+    assert_status(diagnose_run(&test_pool, &job, &options, NULL, &messages, d), ROTID_OK);
+    print_message("%s\n", d->result.verdict.sentence);
+}
+
+static const struct candidate *find(const struct diagnosis *d, const char *id)
+{
+    for (int r = 0; r < d->nround; r++)
+        for (int i = 0; i < d->round[r].ncandidate; i++)
+            if (!strcmp(d->round[r].candidate[i].cause->id, id))
+                return &d->round[r].candidate[i];
+    return NULL;
+}
+
+static void a_beam_that_is_a_solid_is_told_so(void **state)
+{
+    struct diagnosis d;
+    struct message_list messages;
+    (void)state;
+    diagnose(NULL, "*FIT, REDUCTION=NONE\n", &d);
+    assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
+    assert_int_equal(d.ncause, 1);
+    assert_string_equal(d.cause[0].cause->id, "beam_theory");
+    assert_int_equal(d.cause[0].nparameter, 0);
+    assert_non_null(find(&d, "step_stiffness")); /* its rival, with one parameter more */
+    assert_true(d.result.verdict.adequate_after);
+    assert_non_null(strstr(d.result.verdict.sentence, "MODEL=SOLID"));
+    assert_true(d.extended_job.options.solid);
+    assert_int_equal(d.extended_job.rotor.neffect, 0);
+    assert_int_equal(d.extended.fit->n, 2);
+    assert_close(d.extended.fit->x[0], true_e, 0.015, 0);
+    assert_close(d.extended.fit->x[1], true_g, 0.03, 0);
+    char *deck;
+    assert_status(deck_write_extended(&test_pool, &d, "deck.inp", &deck), ROTID_OK);
+    assert_non_null(strstr(deck, "MODEL=SOLID"));
+    struct job again;
+    message_open(&messages, &test_pool);
+    assert_status(deck_read(&test_pool, folder_write("extended.inp", deck), 0, NULL, &messages, &again), ROTID_OK);
+    assert_true(again.options.solid);
+    diagnose_free(&d);
+}
+
+static void a_solid_that_explains_its_data_is_adequate(void **state)
+{
+    struct diagnosis d;
+    (void)state;
+    diagnose(NULL, "*FIT, MODEL=SOLID\n", &d);
+    assert_int_equal(d.result.verdict.kind, ROTID_ADEQUATE);
+    assert_close(d.base.fit->x[0], true_e, 0.015, 0);
+    assert_int_equal(d.result.nnumerical_findings, 0);
+    diagnose_free(&d);
+}
+
+static void what_a_solid_lacks_is_named_and_sized(void **state)
+{
+    struct diagnosis d;
+    struct effect ring = {.name = "ring", .kind = catalogue_find("added_mass")->effect, .target = -1, .value = {1.5, 0.7}};
+    (void)state;
+    diagnose(&ring, "*FIT, MODEL=SOLID\n", &d);
+    assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
+    assert_int_equal(d.ncause, 1);
+    assert_string_equal(d.cause[0].cause->id, "added_mass");
+    assert_close(d.cause[0].effect.value[0], 1.5, 0.1, 0);
+    assert_close(d.cause[0].effect.value[1], 0.7, 0, 0.02);
+    static const char *const of_beams[] = {"beam_theory", "step_stiffness", "shear_coefficient"};
+    for (size_t i = 0; i < sizeof of_beams / sizeof *of_beams; i++) {
+        assert_null(find(&d, of_beams[i]));
+        for (int j = 0; j < d.result.ndetectable; j++)
+            assert_string_not_equal(d.result.detectable[j].id, of_beams[i]);
+    }
+    diagnose_free(&d);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_beam_that_is_a_solid_is_told_so, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_solid_that_explains_its_data_is_adequate, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(what_a_solid_lacks_is_named_and_sized, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
