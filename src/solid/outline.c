@@ -105,7 +105,7 @@ static int radial(struct pool *pool, const struct rotor *rotor, const struct sol
         stop[n++] = (struct stop){rotor->segment[s].inner / 2, 0, largest};
         stop[n++] = (struct stop){own_outer(&rotor->segment[s]), 0, largest};
         for (int side = 0; side < 2; side++)
-            for (int t = s - 1; t <= s && t >= 0 && t + 1 < rotor->nsegment; t++)
+            for (int t = s > 0 ? s - 1 : 0; t <= s && t + 1 < rotor->nsegment; t++)
                 if (outline_corner(rotor, t, side ? c : a)) {
                     double size = corner_size(rotor, rule, t, refine);
                     struct stop *here = &stop[n - 4 + side];
