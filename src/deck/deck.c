@@ -146,17 +146,15 @@ static void check_model(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     struct model_size size;
-    int failed, status = models_begin(reader->pool, job->options.solid ? AS_SOLID : AS_BEAM, &job->rotor, &job->models, &size, &failed);
+    enum discretisation as = job->options.solid ? AS_SOLID : AS_BEAM;
+    int failed, status = models_begin(reader->pool, as, &job->rotor, &job->models, &size, &failed);
     if (status == ROTID_ERROR_SECTION) {
         reader->no_section = 1;
         int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
         struct place place = rod < 0    ? reader->group_place[failed]
                              : bars < 0 ? reader->tierod_place[rod]
                                         : reader->bars_place[bars];
-        deck_error(reader, place,
-                   rod < 0 ? "the holes leave nothing of a section of this group, expected fewer or smaller ones"
-                           : "the rods have no equivalent cylinder (its squared inner diameter would be negative), expected a "
-                             "larger pitch radius or MODEL=RODS");
+        deck_error(reader, place, "%s", discrete_refusal(as, &job->rotor, failed));
     } else if (status) {
         reader->out_of_memory = 1;
     }
@@ -170,6 +168,28 @@ static void check_model(struct deck_reader *reader)
             deck_error(reader, (reader->modes_card ? reader->modes_card : reader->measured_card)->place,
                        "mode %d is measured and the mesh has %d, expected more elements, or mode numbers that count from 1",
                        job->measurement.number[k], modes);
+}
+
+/* What a solid takes for granted where the deck says nothing of it. */
+static void note_assumptions(struct deck_reader *reader)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    int shear = -1, holes = -1;
+    for (int g = rotor->ngroup - 1; g >= 0 && reader->job->options.solid; g--) {
+        const struct group *group = &rotor->group[g];
+        shear = !group->material.isotropic && !group->material.laminated ? g : shear;
+        holes = group->holes > 0 ? g : holes;
+    }
+    if (shear >= 0)
+        deck_note(reader, reader->group_place[shear],
+                  "E, G and nu of %s say nothing of E across the axis: a solid takes that for E along it, and nu in every "
+                  "direction; *ELASTIC, TYPE=LAMINATED states the sheets",
+                  rotor->group[shear].name);
+    if (holes >= 0)
+        deck_note(
+            reader, reader->group_place[holes],
+            "a solid smears the holes of %s over a ring as broad as a hole, whose stiffness and density fall by their share",
+            rotor->group[holes].name);
 }
 
 static void check_elements(struct deck_reader *reader)
@@ -236,6 +256,7 @@ static void read_cards(struct deck_reader *reader)
     choose_functional(reader);
     check_masters(reader);
     check_model(reader);
+    note_assumptions(reader);
 }
 
 static int add_cards(struct pool *pool, struct deck_text *text, int ncard, const struct card *card)

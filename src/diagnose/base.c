@@ -238,7 +238,9 @@ int base_prepare(struct engine *engine)
         if (!status)
             status = engine_stage(engine, "measurement chain, pass", pass + 1);
     }
-    for (int pass = 0; pass < MOST_REFINED && !status; pass++) {
+    if (!status && engine->job.options.solid) /* whose mesh follows from its outline, not from elements of the deck */
+        comparison_warn_of_mesh(&engine->job, &out->base.spectrum, &out->base.compared, engine->notes);
+    for (int pass = 0; pass < MOST_REFINED && !status && !engine->job.options.solid; pass++) {
         const struct spectrum *s = &out->base.spectrum;
         double ratio = against_noise(engine, s->mesh_error_percent, s->count, &at);
         if (!(ratio > 1))
@@ -301,7 +303,7 @@ int base_refine(struct engine *engine, struct job *job, const struct spectrum *s
 {
     int at, status = ROTID_OK;
     double ratio = against_noise(engine, spectrum->mesh_error_percent, spectrum->count, &at);
-    for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status; pass++, ratio /= 4)
+    for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status && !job->options.solid; pass++, ratio /= 4)
         status = refine_mesh(engine->pool, &job->rotor);
     return status;
 }

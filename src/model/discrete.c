@@ -14,6 +14,36 @@ int discrete_build(struct pool *pool, enum discretisation as, const struct rotor
                           : beam_build(pool, rotor, nparameter, parameter, refine, &discrete->beam, failed);
 }
 
+static int is_rectangular(const struct rotor *rotor, int group)
+{
+    for (int s = 0; s < rotor->nsegment; s++)
+        if (rotor->segment[s].group == group && rotor->segment[s].rectangular)
+            return 1;
+    return 0;
+}
+
+static int is_tube(const struct rotor *rotor, int member)
+{
+    return (member < rotor->ntierod ? rotor->tierod[member].model : rotor->bars[member - rotor->ntierod].model) == BUNDLE_TUBE;
+}
+
+const char *discrete_refusal(enum discretisation as, const struct rotor *rotor, int failed)
+{
+    int member = failed - rotor->ngroup;
+    if (as == AS_SOLID && member < 0 && is_rectangular(rotor, failed))
+        return "a rectangular section is no body of revolution, expected *SHAFT, or MODEL=BEAM on *FIT";
+    if (member < 0)
+        return "the holes leave nothing of a section of this group, expected fewer or smaller ones";
+    if (as == AS_SOLID && is_tube(rotor, member))
+        return "MODEL=TUBE is the equivalent cylinder of a beam and has no counterpart in a solid, expected MODEL=RODS, or "
+               "MODEL=BEAM on *FIT";
+    if (as == AS_SOLID)
+        return "the rods end where the section does not reach, so that they press on nothing, expected a pitch radius within "
+               "the section at both ends";
+    return "the rods have no equivalent cylinder (its squared inner diameter would be negative), expected a larger pitch radius "
+           "or MODEL=RODS";
+}
+
 int discrete_of_shape(struct pool *pool, const struct discrete *built, const struct rotor *rotor, int nparameter,
                       const struct parameter *parameter, struct discrete *discrete)
 {

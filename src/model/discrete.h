@@ -17,6 +17,9 @@ struct discrete {
 int discrete_build(struct pool *pool, enum discretisation as, const struct rotor *rotor, int nparameter,
                    const struct parameter *parameter, int refine, struct discrete *discrete, int *failed);
 
+/* Why that was ROTID_ERROR_SECTION, and what is expected, of the *failed that it gave. */
+const char *discrete_refusal(enum discretisation as, const struct rotor *rotor, int failed);
+
 /* The same for a rotor of the same shape, whose mesh it shares. ROTID_OK or ROTID_ERROR_MEMORY. */
 int discrete_of_shape(struct pool *pool, const struct discrete *built, const struct rotor *rotor, int nparameter,
                       const struct parameter *parameter, struct discrete *discrete);
