@@ -420,6 +420,15 @@ module rotid
     type(c_ptr) :: memory = c_null_ptr
   end type rotid_identification
 
+  type, bind(C) :: rotid_meridian_mode
+    integer(c_int) :: nu = 0
+    type(c_ptr) :: u = c_null_ptr ! real
+    integer(c_int) :: nw = 0
+    type(c_ptr) :: w = c_null_ptr ! real
+    integer(c_int) :: nenergy = 0
+    type(c_ptr) :: energy = c_null_ptr ! real
+  end type rotid_meridian_mode
+
   type, bind(C) :: rotid_model_mode
     integer(c_int) :: mode = 0
     real(c_double) :: full_hz = 0
@@ -429,7 +438,51 @@ module rotid
     integer(c_int) :: nshape = 0
     type(c_ptr) :: shape = c_null_ptr ! real
     type(c_ptr) :: measured = c_null_ptr ! rotid_compared_mode
+    type(c_ptr) :: meridian = c_null_ptr ! rotid_meridian_mode
   end type rotid_model_mode
+
+  type, bind(C) :: rotid_meridian_element
+    integer(c_int) :: group = 0
+    integer(c_int) :: corner(4) = 0
+  end type rotid_meridian_element
+
+  type, bind(C) :: rotid_meridian
+    integer(c_int) :: nr_m = 0
+    type(c_ptr) :: r_m = c_null_ptr ! real
+    type(c_ptr) :: z_m = c_null_ptr ! real
+    integer(c_int) :: nelements = 0
+    type(c_ptr) :: elements = c_null_ptr ! rotid_meridian_element
+  end type rotid_meridian
+
+  type, bind(C) :: rotid_beside_mode
+    integer(c_int) :: mode = 0
+    integer(c_int) :: beam_mode = 0
+    real(c_double) :: solid_hz = 0
+    real(c_double) :: beam_hz = 0
+    real(c_double) :: difference_percent = 0
+    real(c_double) :: nco = 0
+    real(c_double) :: mac = 0
+    real(c_double) :: solid_mesh_error_percent = 0
+    real(c_double) :: beam_mesh_error_percent = 0
+  end type rotid_beside_mode
+
+  type, bind(C) :: rotid_beside_modulus
+    type(c_ptr) :: name = c_null_ptr ! text
+    real(c_double) :: stated_pa = 0
+    real(c_double) :: found_pa = 0
+    real(c_double) :: change_percent = 0
+  end type rotid_beside_modulus
+
+  type, bind(C) :: rotid_beam_beside_solid
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! rotid_beside_mode
+    integer(c_int) :: nmoduli = 0
+    type(c_ptr) :: moduli = c_null_ptr ! rotid_beside_modulus
+    integer(c_int) :: nfitted_modes = 0
+    type(c_ptr) :: fitted_modes = c_null_ptr ! integer
+    real(c_double) :: fitted_rms_percent = 0
+    type(c_ptr) :: sentence = c_null_ptr ! text
+  end type rotid_beam_beside_solid
 
   type, bind(C) :: rotid_spectrum
     type(c_ptr) :: reduction = c_null_ptr ! text
@@ -440,11 +493,21 @@ module rotid
     integer(c_int) :: nmodes = 0
     type(c_ptr) :: modes = c_null_ptr ! rotid_model_mode
     type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
+    type(c_ptr) :: meridian = c_null_ptr ! rotid_meridian
+    type(c_ptr) :: beside = c_null_ptr ! rotid_beam_beside_solid
     type(c_ptr) :: master_mass = c_null_ptr ! real
     integer(c_int) :: nmessage = 0
     type(c_ptr) :: message = c_null_ptr ! rotid_message
     type(c_ptr) :: memory = c_null_ptr
   end type rotid_spectrum
+
+  type, bind(C) :: rotid_solid_mesh
+    integer(c_int) :: unknowns = 0
+    integer(c_int) :: half_band = 0
+    integer(c_int) :: slices = 0
+    real(c_double) :: corner_m = 0
+    real(c_double) :: largest_m = 0
+  end type rotid_solid_mesh
 
   type, bind(C) :: rotid_check
     real(c_double) :: length_m = 0
@@ -453,6 +516,7 @@ module rotid
     real(c_double) :: inertia_kg_m2 = 0
     integer(c_int) :: nodes = 0
     integer(c_int) :: elements = 0
+    type(c_ptr) :: solid = c_null_ptr ! rotid_solid_mesh
     integer(c_int) :: rigid_modes = 0
     integer(c_int) :: nrigid_hz = 0
     type(c_ptr) :: rigid_hz = c_null_ptr ! real
@@ -914,6 +978,17 @@ module rotid
       type(c_ptr), intent(out) :: spectrum
       integer(c_int) :: status
     end function rotid_spectrum_compute
+
+    function rotid_spectrum_beside(deck, x, nmode, environment, failure, spectrum) result(status) &
+      bind(C, name="rotid_spectrum_beside")
+      import :: c_ptr, c_int
+      type(c_ptr), value :: deck
+      type(c_ptr), value :: x           ! real [nparameter]
+      integer(c_int), value :: nmode
+      type(c_ptr), value :: environment, failure
+      type(c_ptr), intent(out) :: spectrum
+      integer(c_int) :: status
+    end function rotid_spectrum_beside
 
     subroutine rotid_spectrum_free(spectrum) bind(C, name="rotid_spectrum_free")
       import :: c_ptr

@@ -481,6 +481,16 @@ typedef struct rotid_identification {
     void *memory;                 /* internal */
 } rotid_identification;
 
+/* A mode of a solid of revolution in the plane of bending. Four significant digits. */
+typedef struct rotid_meridian_mode {
+    int nu;
+    double *u; /* radial motion of the corners of the mesh where they are farthest from the neutral plane, largest 1 [1] */
+    int nw;
+    double *w; /* axial motion there, to the same scale [1] */
+    int nenergy;
+    double *energy; /* per element: its share of the strain energy of all elements [1] */
+} rotid_meridian_mode;
+
 /* A mode of the model, and the measured mode that is paired with it. */
 typedef struct rotid_model_mode {
     int mode;          /* number, from 1 */
@@ -491,7 +501,58 @@ typedef struct rotid_model_mode {
     int nshape;
     double *shape;                 /* deflection of the full model at sensor_z_m, largest component 1 [1] */
     rotid_compared_mode *measured; /* NULL where no measured mode is paired with it; residual is NaN */
+    rotid_meridian_mode *meridian; /* of a solid, the first six modes; else NULL */
 } rotid_model_mode;
+
+/* An element of the mesh of a solid: a quadrilateral with eight nodes, four of them corners. */
+typedef struct rotid_meridian_element {
+    int group;     /* whose material it has: index into groups of geometry, from 0 */
+    int corner[4]; /* indices into r_m and z_m, from 0: inner left, outer left, outer right, inner right */
+} rotid_meridian_element;
+
+/* The mesh of a solid of revolution: half of its section through the axis. */
+typedef struct rotid_meridian {
+    int nr_m;
+    double *r_m; /* corners of the elements: distance from the axis [m] */
+    double *z_m; /* of the same, from the left end [m] */
+    int nelements;
+    rotid_meridian_element *elements; /* slice by slice from the left, from the axis outwards */
+} rotid_meridian;
+
+/* A mode of the rotor as a solid, and the mode of the rotor as a beam that looks most like it. */
+typedef struct rotid_beside_mode {
+    int mode;                  /* of the solid, from 1 */
+    int beam_mode;             /* of the beam, from 1 */
+    double solid_hz;           /* frequency of the solid [Hz] */
+    double beam_hz;            /* frequency of the beam [Hz] */
+    double difference_percent; /* beam_hz over solid_hz, less one [%] */
+    double nco; /* between their shapes at the sensors, by the mass of the beam condensed onto these [1]; NaN where that is
+                   impossible */
+    double mac; /* modal assurance criterion between these shapes [1]; NaN with fewer than two sensors */
+    double solid_mesh_error_percent; /* solid_hz over its limit for a fine mesh, less one [%] */
+    double beam_mesh_error_percent;  /* beam_hz over its limit for a fine mesh, less one [%] */
+} rotid_beside_mode;
+
+/* A modulus of the rotor, and what a beam would take it for. */
+typedef struct rotid_beside_modulus {
+    const char *name;      /* such as core.E */
+    double stated_pa;      /* of the solid [Pa] */
+    double found_pa;       /* of the beam whose frequencies are nearest to those of the solid [Pa] */
+    double change_percent; /* found_pa over stated_pa, less one [%] */
+} rotid_beside_modulus;
+
+/* The rotor as a beam beside the same rotor as a solid of revolution. */
+typedef struct rotid_beam_beside_solid {
+    int nmodes;
+    rotid_beside_mode *modes; /* of the solid by rising frequency */
+    int nmoduli;
+    rotid_beside_modulus *moduli; /* those of *IDENTIFY; without any, E and G of the longest group of sheets, else of the first one
+                                     whose G is its own. Empty where there is none, and where the fit did not end well */
+    int nfitted_modes;
+    int *fitted_modes;         /* numbers of the modes of the solid to which they were fitted: the measured ones, else the first six */
+    double fitted_rms_percent; /* what the fitted beam leaves of these frequencies, rms [%]; NaN without moduli */
+    const char *sentence;      /* the same for a person; NULL without moduli */
+} rotid_beam_beside_solid;
 
 /* The modes of the model of a deck. */
 typedef struct rotid_spectrum {
@@ -504,6 +565,8 @@ typedef struct rotid_spectrum {
     int nmodes;
     rotid_model_mode *modes;  /* bending modes by rising frequency; fewer than asked for where the model has fewer */
     rotid_geometry *geometry; /* the model at the values of its parameters; NULL in old results */
+    rotid_meridian *meridian;        /* of a solid, else NULL */
+    rotid_beam_beside_solid *beside; /* of rotid_spectrum_beside, else NULL */
     double *master_mass; /* [nsensor_z_m * nsensor_z_m] condensed by Guyan onto the components of the shapes, for rotid_nco; NULL
                             where it cannot be had */
     int nmessage;
@@ -511,14 +574,24 @@ typedef struct rotid_spectrum {
     void *memory;                 /* internal */
 } rotid_spectrum;
 
+/* How fine a solid of revolution is discretised. */
+typedef struct rotid_solid_mesh {
+    int unknowns;           /* degrees of freedom */
+    int half_band;          /* of the matrices: most that two coupled degrees of freedom are apart */
+    int slices;             /* of the mesh, across the axis */
+    double corner_m;        /* longest side of an element at a re-entrant corner [m]; NaN where the outline has none */
+    double largest_m;       /* longest side of any element [m] */
+} rotid_solid_mesh;
+
 /* The model of a deck as the deck states it. */
 typedef struct rotid_check {
     double length_m;         /* length of the rotor [m] */
     double mass_kg;          /* mass, disks and rods included [kg] */
     double center_of_mass_m; /* from the left end [m] */
     double inertia_kg_m2;    /* about a diameter through the centre of mass [kg.m2] */
-    int nodes;               /* nodes on the axis */
-    int elements;            /* elements on the axis */
+    int nodes;               /* nodes on the axis; of a solid those of its meridian */
+    int elements;            /* elements on the axis; of a solid those of its meridian */
+    rotid_solid_mesh *solid; /* NULL of a beam */
     int rigid_modes;         /* number of modes that are not counted as bending modes */
     int nrigid_hz;
     double *rigid_hz;       /* modes of the rotor on its supports, or of free motion, below the first bending mode [Hz] */
@@ -747,6 +820,11 @@ ROTID_API void rotid_check_free(rotid_check *check);
  * UNPAIRED, RANK, SYNTAX and IO. *spectrum is NULL on an error. */
 ROTID_API int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
                                      char *failure, rotid_spectrum **spectrum);
+/* The same with `beside`: the rotor as a beam and as a solid at these values, whichever of them the deck asks for, and the moduli
+ * that a beam fitted to the frequencies of the solid would have. ROTID_ERROR_SECTION where a part of the rotor has no meaning in
+ * the other one; failure says which. */
+ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
+                                    char *failure, rotid_spectrum **spectrum);
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
 /* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again. With nothing to identify the model is

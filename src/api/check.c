@@ -2,6 +2,7 @@
 #include "api/deck_handle.h"
 #include "api/keep.h"
 #include "api/result_geometry.h"
+#include "model/meridian.h"
 #include "run/spectrum.h"
 
 static rotid_check *make_result(struct call *call, const struct job *job, const struct spectrum *s)
@@ -15,6 +16,7 @@ static rotid_check *make_result(struct call *call, const struct job *job, const 
                      .inertia_kg_m2 = mass.inertia,
                      .nodes = s->nnode,
                      .elements = s->nnode - 1,
+                     .solid = meridian_size(pool, s->model),
                      .rigid_modes = s->nrigid,
                      .nrigid_hz = s->nrigid,
                      .rigid_hz = s->rigid_hz,
@@ -22,6 +24,7 @@ static rotid_check *make_result(struct call *call, const struct job *job, const 
                      .functional = functional_words[job->options.fit.functional],
                      .reduction = reduction_words[job->options.fit.reduction],
                      .geometry = result_geometry(pool, &job->rotor, s->model)};
+    meridian_count(s->model, &r.nodes, &r.elements);
     r.nsensors = r.geometry ? r.geometry->nsensors : 0;
     r.sensors = r.geometry ? r.geometry->sensors : NULL;
     r.nparameters = POOL_LIST(pool, r.parameters, job->unknowns.nparameter);

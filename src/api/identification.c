@@ -26,7 +26,7 @@ static int identify(struct call *call, const rotid_deck *deck, int baseline, rot
     int status = identify_run(&call->entry.scratch, job, baseline, &call->environment, &call->notes, &found);
     if (status)
         return status;
-    identify_warn_of_mesh(job, &found, &call->notes);
+    comparison_warn_of_mesh(job, &found.spectrum, &found.compared, &call->notes);
     *result = make_result(call, job, &found);
     if (*result)
         return ROTID_OK;

@@ -5,15 +5,20 @@
 #include "api/keep.h"
 #include "api/result_geometry.h"
 #include "api/result_identification.h"
+#include "model/meridian.h"
+#include "run/beside.h"
 #include "run/compare.h"
 
 #define MODES_SHOWN 6 /* at least, where the caller does not say how many */
+#define MODES_DRAWN 6 /* of a solid on its meridian: two thousand numbers each */
 
-static int compute(const struct job *job, const double *x, int nmode, struct entry *entry, struct spectrum *spectrum)
+static int compute(const struct job *job, const double *x, int nmode, struct entry *entry, double **values,
+                   struct spectrum *spectrum)
 {
     struct pool *scratch = &entry->scratch;
     int reduction = job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
     double *at = POOL_ARRAY(scratch, double, job->unknowns.nparameter);
+    *values = at;
     if (!at)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < job->unknowns.nparameter; p++) {
@@ -28,7 +33,7 @@ static int compute(const struct job *job, const double *x, int nmode, struct ent
 
 /* compared NULL: the measured modes could not be paired */
 static rotid_spectrum *make_result(struct call *call, const struct job *job, const struct spectrum *s,
-                                   const struct comparison *compared)
+                                   const struct comparison *compared, rotid_beam_beside_solid *beside)
 {
     struct pool *pool = &call->entry.scratch;
     rotid_spectrum r = {.reduction = job->options.fit.reduction == ROTID_IRS ? "IRS" : "GUYAN",
@@ -37,6 +42,8 @@ static rotid_spectrum *make_result(struct call *call, const struct job *job, con
                         .nsensor_z_m = s->nmaster,
                         .sensor_z_m = s->master_z,
                         .geometry = result_geometry(pool, &job->rotor, s->model),
+                        .meridian = meridian_mesh(pool, s->model),
+                        .beside = beside,
                         .master_mass = s->mass,
                         .nmessage = (int)call->notes.count,
                         .message = call->notes.item};
@@ -50,6 +57,8 @@ static rotid_spectrum *make_result(struct call *call, const struct job *job, con
                                    .mesh_error_percent = s->mesh_error_percent[j],
                                    .nshape = s->nmaster,
                                    .shape = s->shape + (ptrdiff_t)j * s->nmaster};
+        if (j < MODES_DRAWN)
+            mode->meridian = meridian_mode(pool, s->model, s->phi + (ptrdiff_t)j * s->model->equations.n);
         for (int k = 0; compared && k < compared->nmode; k++)
             if (compared->number[k] == j + 1 && (mode->measured = POOL_NEW(pool, rotid_compared_mode)))
                 *mode->measured = result_compared_mode(job, compared, k, s->full_hz[j]);
@@ -57,8 +66,10 @@ static rotid_spectrum *make_result(struct call *call, const struct job *job, con
     return call_keep(call, &spectrum_whole_record, &r, &r.memory);
 }
 
-static int run(struct call *call, const struct job *job, const double *x, int nmode, rotid_spectrum **result)
+static int run(struct call *call, const struct job *job, const double *x, int nmode, int with_other, rotid_spectrum **result)
 {
+    double *at;
+    rotid_beam_beside_solid *beside = NULL;
     struct spectrum found = {0};
     struct comparison compared;
     int count = comparison_candidates(job);
@@ -66,18 +77,24 @@ static int run(struct call *call, const struct job *job, const double *x, int nm
         return refuse(call->entry.failure, "nmode is %d, expected 0 or more", nmode);
     if (!nmode)
         nmode = count > MODES_SHOWN ? count : MODES_SHOWN;
-    int status = compute(job, x, nmode, &call->entry, &found), paired;
+    int status = compute(job, x, nmode, &call->entry, &at, &found), paired;
     if (status)
         return status;
     paired = comparison_make(&call->entry.scratch, job, &found, &call->notes, &compared);
     if (paired && paired != ROTID_ERROR_UNPAIRED)
         return paired;
-    *result = make_result(call, job, &found, paired ? NULL : &compared);
+    if (!paired)
+        comparison_warn_of_mesh(job, &found, &compared, &call->notes);
+    if (with_other)
+        status = beside_make(&call->entry.scratch, job, at, nmode, &call->environment, &call->notes, &beside);
+    if (status)
+        return status;
+    *result = make_result(call, job, &found, paired ? NULL : &compared, beside);
     return *result ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
-                           char *failure, rotid_spectrum **spectrum)
+static int open_and_run(const rotid_deck *deck, const double *x, int nmode, int with_other, const rotid_environment *environment,
+                        char *failure, rotid_spectrum **spectrum)
 {
     struct call call;
     int status = call_open(&call, environment, failure, spectrum, "spectrum");
@@ -86,8 +103,20 @@ int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, c
     *spectrum = NULL;
     const struct job *job = status ? NULL : deck_job(deck, &call);
     if (!status)
-        status = job ? run(&call, job, x, nmode, spectrum) : ROTID_ERROR_ARGUMENT;
+        status = job ? run(&call, job, x, nmode, with_other, spectrum) : ROTID_ERROR_ARGUMENT;
     return call_close(&call, status);
+}
+
+int rotid_spectrum_compute(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment,
+                           char *failure, rotid_spectrum **spectrum)
+{
+    return open_and_run(deck, x, nmode, 0, environment, failure, spectrum);
+}
+
+int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int nmode, const rotid_environment *environment, char *failure,
+                          rotid_spectrum **spectrum)
+{
+    return open_and_run(deck, x, nmode, 1, environment, failure, spectrum);
 }
 
 void rotid_spectrum_free(rotid_spectrum *spectrum)

@@ -35,7 +35,7 @@ struct command {
     const char *name, *deck, *json, *at, *extended, *output;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
-    int quiet, verbose, threads, no_baseline, points, replicates, start, condensed;
+    int quiet, verbose, threads, no_baseline, compare, points, replicates, start, condensed;
     int format; /* of --output: enum export_format, or a word of uff */
     unsigned long seed;
     double step, range;

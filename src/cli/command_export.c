@@ -114,9 +114,25 @@ static int export(struct command *command, const struct identification *identifi
     return refused ? refused : write_files(command, &files, &model, is_ross ? &ross : NULL, code);
 }
 
+/* 0, or an exit code after saying why a solid has no such form. */
+static int refuse_solid(struct command *command)
+{
+    enum export_format format = (enum export_format)command->format;
+    if (!command->job->options.solid || format == EXPORT_MATRIX_MARKET || (format == EXPORT_DMIG && command->condensed))
+        return 0;
+    message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1,
+                "%s has beam elements and this rotor is a solid, expected --format matrix-market%s, or --set FIT.MODEL=BEAM",
+                format == EXPORT_ROSS ? "a ROSS script" : "a Nastran deck of rotid",
+                format == EXPORT_DMIG ? ", --condensed (onto the sensors)" : "");
+    return command_fail(command, ROTID_ERROR_ARGUMENT);
+}
+
 int command_export(struct command *command)
 {
     struct identification identified = {0};
+    int refused = refuse_solid(command);
+    if (refused)
+        return refused;
     int status = identify(command, &identified);
     if (status)
         return command_fail(command, status);

@@ -18,7 +18,9 @@ int command_modes(struct command *command)
 {
     char failure[ROTID_FAILURE_LENGTH];
     rotid_spectrum *spectrum;
-    int status = rotid_spectrum_compute(command->read, command->read->stated, 0, NULL, failure, &spectrum);
+    const double *x = command->read->stated;
+    int status = command->compare ? rotid_spectrum_beside(command->read, x, 0, NULL, failure, &spectrum)
+                                  : rotid_spectrum_compute(command->read, x, 0, NULL, failure, &spectrum);
     if (status)
         return command_fail_with(command, status, failure);
     int code = show(command, spectrum);

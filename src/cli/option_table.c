@@ -34,6 +34,10 @@ const struct option_row option_table[] = {
     {.name = "set", .commands = DECKS " study", .kind = OPTION_OVERRIDE, .value = "CARD.OPTION=VALUE",
      .help = "another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated"},
 
+    {.name = "compare", .commands = "modes", .kind = OPTION_SWITCH, AT(compare),
+     .help = "the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find",
+     .more = "At the values of the deck, whichever of the two MODEL on *FIT asks for."},
+
     {.name = "at", .commands = "sensitivity", .kind = OPTION_TEXT, AT(at), .value = "NAME[=VALUE],...",
      .help = "these parameters instead of those of *IDENTIFY, at these values or those of the deck"},
     {.name = "step", .commands = "sensitivity", .kind = OPTION_REAL, AT(step), FROM(1e-9, 0.5), .standard = 0.01, .value = "S",

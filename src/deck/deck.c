@@ -171,6 +171,28 @@ static void check_model(struct deck_reader *reader)
                        job->measurement.number[k], modes);
 }
 
+/* What a solid takes for granted where the deck says nothing of it. */
+static void note_assumptions(struct deck_reader *reader)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    int shear = -1, holes = -1;
+    for (int g = rotor->ngroup - 1; g >= 0 && reader->job->options.solid; g--) {
+        const struct group *group = &rotor->group[g];
+        shear = !group->material.isotropic && !group->material.laminated ? g : shear;
+        holes = group->holes > 0 ? g : holes;
+    }
+    if (shear >= 0)
+        deck_note(reader, reader->group_place[shear],
+                  "E, G and nu of %s say nothing of E across the axis: a solid takes that for E along it, and nu in every "
+                  "direction; *ELASTIC, TYPE=LAMINATED states the sheets",
+                  rotor->group[shear].name);
+    if (holes >= 0)
+        deck_note(
+            reader, reader->group_place[holes],
+            "a solid smears the holes of %s over a ring as broad as a hole, whose stiffness and density fall by their share",
+            rotor->group[holes].name);
+}
+
 static void check_elements(struct deck_reader *reader)
 {
     const struct rotor *rotor = &reader->job->rotor;
@@ -235,6 +257,7 @@ static void read_cards(struct deck_reader *reader)
     choose_functional(reader);
     check_masters(reader);
     check_model(reader);
+    note_assumptions(reader);
 }
 
 static int add_cards(struct pool *pool, struct deck_text *text, int ncard, const struct card *card)

@@ -238,10 +238,12 @@ int base_prepare(struct engine *engine)
         if (!status)
             status = engine_stage(engine, "measurement chain, pass", pass + 1);
     }
-    for (int pass = 0; pass < MOST_REFINED && !status; pass++) {
+    if (!status && engine->job.options.solid) /* whose mesh follows from its outline, not from elements of the deck */
+        comparison_warn_of_mesh(&engine->job, &out->base.spectrum, &out->base.compared, engine->notes);
+    for (int pass = 0; pass < MOST_REFINED && !status && !engine->job.options.solid; pass++) {
         const struct spectrum *s = &out->base.spectrum;
         double ratio = against_noise(engine, s->mesh_error_percent, s->count, &at);
-        if (!(ratio > 1) || engine->job.options.solid) /* whose mesh follows from the rotor, not from its elements */
+        if (!(ratio > 1))
             break;
         if (!pass)
             status = add_numerical(engine, "mesh", s->count, s->mesh_error_percent,

@@ -137,7 +137,7 @@ static int write_deck(struct writer *w, const char *const *name, const struct so
     const struct export_model *model = w->model;
     const struct source stiffness = w->source;
     const int remainder[2] = {count_remainders(&stiffness) > 0, count_remainders(mass) > 0};
-    int condensed = !stiffness.full, count = condensed ? stiffness.n : model->discrete->discrete.beam.mesh.nnode;
+    int condensed = !stiffness.full, count = condensed ? stiffness.n : model->nnode;
     put_remarks(stream, model, condensed);
     put_case(stream, model, name, remainder);
     for (int i = 0; i < count; i++)

@@ -1,5 +1,7 @@
 #include "export/matrix_market.h"
 
+#include <math.h>
+
 #include "export/remark.h"
 #include "export/triplets.h"
 
@@ -17,10 +19,18 @@ static struct remark begin(FILE *stream, const struct export_model *model, const
 static int write_full(FILE *stream, const struct export_model *model, const rotid_matrix *a, const char *what)
 {
     struct remark remark = begin(stream, model, "coordinate", what);
-    remark_put(&remark,
-               "Lower triangle. Rows 2 i - 1 and 2 i are v [m] and theta [rad] of node i = 1 ... %d, theta = -dv/dz; their "
-               "positions stand in the file NAME.nodes.csv beside this one.",
-               a->n / 2);
+    if (model->is_solid)
+        remark_put(
+            &remark,
+            "Lower triangle. Rows are U, V, W [m] of the nodes of a solid of revolution that bends: u_r = U cos t, u_t = V "
+            "sin t, u_z = W cos t; on the axis V = -U and W = 0. Those of rods and bars beside it are v [m] and theta [rad] "
+            "= -dv/dz. Which row is which, and where, stands in the file NAME.nodes.csv beside this one; in the row of a "
+            "sensor U is that of the surface at the sensor.");
+    else
+        remark_put(&remark,
+                   "Lower triangle. Rows 2 i - 1 and 2 i are v [m] and theta [rad] of node i = 1 ... %d, theta = -dv/dz; their "
+                   "positions stand in the file NAME.nodes.csv beside this one.",
+                   a->n / 2);
     (void)fprintf(stream, "%d %d %ld\n", a->n, a->n, triplet_count(a));
     for (struct triplet t = {.row = -1}; triplet_next(a, &t);)
         (void)fprintf(stream, "%d %d %.17g\n", t.row + 1, t.column + 1, t.value);
@@ -62,12 +72,24 @@ int matrix_market_condensed_mass(FILE *stream, const struct export_model *model)
     return write_condensed(stream, model, model->condensed.m, "Condensed mass matrix [kg]");
 }
 
+static void put_row(FILE *stream, int row)
+{
+    (void)fprintf(stream, row ? "%d," : ",", row);
+}
+
 int matrix_market_nodes(FILE *stream, const struct export_model *model)
 {
-    (void)fprintf(stream, "node,z_m,row_v,row_theta,member,sensor\n");
-    for (int i = 0; i < model->discrete->discrete.beam.mesh.nnode; i++) {
+    int solid = model->is_solid;
+    (void)fprintf(stream, solid ? "node,r_m,z_m,row_u,row_v,row_w,row_theta,member,sensor\n"
+                                : "node,z_m,row_v,row_theta,member,sensor\n");
+    for (int i = 0; i < model->nnode; i++) {
         const struct export_node *node = &model->node[i];
-        (void)fprintf(stream, "%d,%.17g,%d,%d,", i + 1, node->z, 2 * i + 1, 2 * i + 2);
+        (void)fprintf(stream, "%d,", i + 1);
+        if (isfinite(node->r))
+            (void)fprintf(stream, "%.17g", node->r);
+        (void)fprintf(stream, solid ? ",%.17g," : "%.17g,", node->z);
+        for (int c = 0; c < (solid ? 4 : 2); c++)
+            put_row(stream, node->row[c]);
         remark_word(stream, node->member);
         (void)fprintf(stream, node->sensor ? ",%d\n" : ",\n", node->sensor);
     }

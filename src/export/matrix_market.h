@@ -12,7 +12,8 @@ int matrix_market_stiffness(FILE *stream, const struct export_model *model);
 int matrix_market_mass(FILE *stream, const struct export_model *model);
 int matrix_market_condensed_stiffness(FILE *stream, const struct export_model *model);
 int matrix_market_condensed_mass(FILE *stream, const struct export_model *model);
-/* node, z_m, row_v, row_theta (from 1), member, sensor */
+/* node, z_m, row_v, row_theta (from 1), member, sensor; of a solid node, r_m, z_m, row_u, row_v, row_w, row_theta, member, sensor
+ */
 int matrix_market_nodes(FILE *stream, const struct export_model *model);
 
 #endif

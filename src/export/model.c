@@ -78,7 +78,9 @@ double export_parameter_std(const struct export_model *model, int p)
 int export_master_id(const struct export_model *model, int i)
 {
     const struct rotor *rotor = &model->job->rotor;
-    return rotor->nsensor ? rotor->sensor[i].id : model->discrete->master[i] / 2 + 1;
+    if (rotor->nsensor)
+        return rotor->sensor[i].id;
+    return model->is_solid ? model->discrete->discrete.solid.mesh.surface[i] + 1 : model->discrete->master[i] / 2 + 1;
 }
 
 double export_master_z(const struct export_model *model, int i)

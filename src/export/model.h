@@ -1,4 +1,4 @@
-/* The model that is exported: matrices of the beam at the values that were identified or that the deck states, the same condensed
+/* The model that is exported: its matrices at the values that were identified or that the deck states, the same condensed
  * onto the sensors, and the texts of the files beside the numbers. */
 #ifndef ROTID_EXPORT_MODEL_H
 #define ROTID_EXPORT_MODEL_H
@@ -17,18 +17,20 @@ struct export_condensed {
 };
 
 struct export_node {
-    double z;           /* m */
-    const char *member; /* "axis", or the name of rods or bars */
+    double r, z;        /* m; r NaN of a beam */
+    const char *member; /* "axis" or, of a solid, "section"; or the name of rods or bars */
     int sensor;         /* id, 0 where there is none */
+    int row[4]; /* from 1, 0 where there is none: of v and theta; of a solid U, V, W, and theta of a member, whose v is U */
 };
 
 struct export_model {
     const struct job *job;
     const char *version;
     const struct identification *identified; /* NULL: as the deck states it */
-    struct rotor_model *discrete;            /* its beam stands at the exported values */
+    struct rotor_model *discrete;            /* stands at the exported values */
     rotid_matrix k, m;
-    struct export_node *node; /* [mesh.nnode]: of the axis, then the inner ones of rods and bars */
+    int nnode, is_solid;
+    struct export_node *node; /* [nnode]: of the axis or of the section, then the inner ones of rods and bars */
     struct export_condensed condensed;
     struct spectrum spectrum;
     struct mass_properties mass;

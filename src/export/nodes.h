@@ -4,7 +4,7 @@
 
 #include "export/model.h"
 
-/* Fills model->node. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* Fills model->node, nnode and is_solid. ROTID_OK or ROTID_ERROR_MEMORY. */
 int export_nodes(struct pool *pool, struct export_model *model);
 
 #endif

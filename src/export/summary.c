@@ -44,7 +44,7 @@ void table_export(FILE *out, const struct result_head *head, const struct export
         (void)fputc('\n', out);
     }
     (void)fprintf(out, "mass            %.4f kg, centre at %.6f m\n", model->mass.mass, model->mass.center);
-    (void)fprintf(out, "matrices        %d nodes, %d degrees of freedom\n", model->k.n / 2, model->k.n);
+    (void)fprintf(out, "matrices        %d nodes, %d degrees of freedom\n", model->nnode, model->k.n);
     if (model->condensed.k)
         (void)fprintf(out, "condensed       by %s onto %d %s\n", reduction_words[model->condensed.kind], model->condensed.count,
                       job->rotor.nsensor ? "sensors" : "nodes");
@@ -89,7 +89,7 @@ const struct export_result *export_result_of(struct pool *pool, const struct exp
         .nparameters = model->job->unknowns.nparameter,
         .mass_kg = model->mass.mass,
         .center_of_mass_m = model->mass.center,
-        .nodes = model->discrete->discrete.beam.mesh.nnode,
+        .nodes = model->nnode,
         .degrees_of_freedom = model->k.n,
         .reduction = model->condensed.k ? reduction_words[model->condensed.kind] : NULL,
         .masters = model->condensed.k ? model->condensed.count : ROTID_NONE,

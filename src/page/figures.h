@@ -29,6 +29,9 @@ void figure_matrices(struct document *document, const struct result *result, con
 
 /* Shapes of the model alone. */
 void figure_modes(struct document *document, const struct result *result);
+/* Of a solid: the mesh of its meridian, and its motion and strain energy in the first modes. */
+void figure_meridian(struct document *document, const struct result *result);
+void figure_meridian_modes(struct document *document, const struct result *result);
 /* Sensitivity of each mode (Table 1), how the functional grows with each parameter (5), and f(E) against f(F) (3). */
 void figure_sensitivity(struct document *document, const struct result *result);
 void figure_sensitivity_curves(struct document *document, const struct result *result);

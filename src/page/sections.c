@@ -36,7 +36,19 @@ void section_modes(struct document *document, const struct result *result)
 {
     document_section(document, "model-modes", "Modes of the model");
     figure_modes(document, result);
+    figure_meridian(document, result);
+    figure_meridian_modes(document, result);
     document_table(document, "Modes of the full and of the condensed model", tables_modes(document->pool, result->modes));
+    if (!result->modes->beside)
+        return;
+    document_section(document, "beside", "The beam beside the solid");
+    if (result->modes->beside->sentence)
+        document_paragraph(document, "In short, %s.", result->modes->beside->sentence);
+    document_table(document, "Modes of the rotor as a beam and as a solid: the difference is beam over solid, less one",
+                   tables_beside(document->pool, result->modes->beside));
+    if (result->modes->beside->nmoduli)
+        document_table(document, "Moduli of the beam whose frequencies are nearest to those of the solid",
+                       tables_beside_moduli(document->pool, result->modes->beside));
 }
 
 void section_sensitivity(struct document *document, const struct result *result)

@@ -114,6 +114,44 @@ struct number_table *tables_modes(struct pool *pool, const rotid_spectrum *modes
     return table;
 }
 
+struct number_table *tables_beside(struct pool *pool, const rotid_beam_beside_solid *beside)
+{
+    static const char *const head[] = {"mode",    "solid [Hz]", "mode of the beam",  "beam [Hz]",       "difference [%]",
+                                       "NCO [1]", "MAC [1]",    "mesh of solid [%]", "mesh of beam [%]"};
+    struct number_table *table = table_new(pool, beside->nmodes, 9);
+    for (int j = 0; j < 9; j++)
+        table_head(table, j, head[j]);
+    for (int k = 0; k < beside->nmodes; k++) {
+        const rotid_beside_mode *mode = &beside->modes[k];
+        table_cell(table, k, 0, human_fixed(pool, mode->mode, 0));
+        table_cell(table, k, 1, human_fixed(pool, mode->solid_hz, 3));
+        table_cell(table, k, 2, human_fixed(pool, mode->beam_mode, 0));
+        table_cell(table, k, 3, human_fixed(pool, mode->beam_hz, 3));
+        table_cell(table, k, 4, human_signed(pool, mode->difference_percent, 2));
+        table_cell(table, k, 5, human_fixed(pool, mode->nco, 4));
+        table_cell(table, k, 6, human_fixed(pool, mode->mac, 4));
+        table_cell(table, k, 7, human_signed(pool, mode->solid_mesh_error_percent, 4));
+        table_cell(table, k, 8, human_signed(pool, mode->beam_mesh_error_percent, 4));
+    }
+    return table;
+}
+
+struct number_table *tables_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside)
+{
+    static const char *const head[] = {"modulus", "solid", "fitted beam", "change [%]"};
+    struct number_table *table = table_new(pool, beside->nmoduli, 4);
+    for (int j = 0; j < 4; j++)
+        table_head(table, j, head[j]);
+    for (int p = 0; p < beside->nmoduli; p++) {
+        const rotid_beside_modulus *modulus = &beside->moduli[p];
+        table_cell(table, p, 0, modulus->name);
+        table_cell(table, p, 1, human_value(pool, modulus->stated_pa, "Pa"));
+        table_cell(table, p, 2, human_value(pool, modulus->found_pa, "Pa"));
+        table_cell(table, p, 3, human_signed(pool, modulus->change_percent, 1));
+    }
+    return table;
+}
+
 struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_result *out)
 {
     static const char *const head[] = {"mode",         "model [Hz]", "measured [Hz]", "damping ratio [%]",

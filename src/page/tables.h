@@ -11,6 +11,9 @@ struct number_table *tables_fitted_modes(struct pool *pool, const struct result 
 /* Levenberg-Marquardt and NLopt side by side. */
 struct number_table *tables_minimisers(struct pool *pool, const rotid_identification *fit);
 struct number_table *tables_modes(struct pool *pool, const rotid_spectrum *modes);
+/* The beam beside the solid: modes, and what it would take the moduli for. */
+struct number_table *tables_beside(struct pool *pool, const rotid_beam_beside_solid *beside);
+struct number_table *tables_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside);
 struct number_table *tables_transfer_modes(struct pool *pool, const struct transfer_result *out);
 
 #endif

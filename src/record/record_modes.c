@@ -14,6 +14,14 @@ static const struct field measured_fields[] = {
 };
 static const struct record measured_record = RECORD(rotid_compared_mode, measured_fields);
 
+static const struct field meridian_mode_fields[] = {
+    NUMBERS(rotid_meridian_mode, u, ROUNDED),
+    NUMBERS(rotid_meridian_mode, w, ROUNDED),
+    NUMBERS(rotid_meridian_mode, energy, ROUNDED),
+    {0},
+};
+static const struct record meridian_mode_record = RECORD(rotid_meridian_mode, meridian_mode_fields);
+
 static const struct field mode_fields[] = {
     INTEGER(rotid_model_mode, mode, FROM_1),
     NUMBER(rotid_model_mode, full_hz, FROM_0),
@@ -22,9 +30,58 @@ static const struct field mode_fields[] = {
     NUMBER(rotid_model_mode, mesh_error_percent, 0),
     NUMBERS(rotid_model_mode, shape, 0),
     INLINE(rotid_model_mode, measured, IF_KNOWN | BEHIND_POINTER, measured_record),
+    STRUCT(rotid_model_mode, meridian, IF_KNOWN | BEHIND_POINTER, meridian_mode_record),
     {0},
 };
 static const struct record mode_record = RECORD(rotid_model_mode, mode_fields);
+
+static const struct field meridian_element_fields[] = {
+    INTEGER(rotid_meridian_element, group, FROM_0),
+    INDICES(rotid_meridian_element, corner, 4),
+    {0},
+};
+static const struct record meridian_element_record = RECORD(rotid_meridian_element, meridian_element_fields);
+
+static const struct field meridian_fields[] = {
+    NUMBERS(rotid_meridian, r_m, ROUNDED | FROM_0),
+    NUMBERS_BY(rotid_meridian, z_m, ROUNDED, nr_m, "r_m"),
+    STRUCTS(rotid_meridian, elements, NOT_EMPTY, meridian_element_record),
+    {0},
+};
+static const struct record meridian_record = RECORD(rotid_meridian, meridian_fields);
+
+static const struct field beside_mode_fields[] = {
+    INTEGER(rotid_beside_mode, mode, FROM_1),
+    INTEGER(rotid_beside_mode, beam_mode, FROM_1),
+    NUMBER(rotid_beside_mode, solid_hz, ABOVE_0),
+    NUMBER(rotid_beside_mode, beam_hz, ABOVE_0),
+    NUMBER(rotid_beside_mode, difference_percent, 0),
+    NUMBER(rotid_beside_mode, nco, CORRELATION | MAY_BE_NULL),
+    NUMBER(rotid_beside_mode, mac, CORRELATION | MAY_BE_NULL),
+    NUMBER(rotid_beside_mode, solid_mesh_error_percent, 0),
+    NUMBER(rotid_beside_mode, beam_mesh_error_percent, 0),
+    {0},
+};
+static const struct record beside_mode_record = RECORD(rotid_beside_mode, beside_mode_fields);
+
+static const struct field beside_modulus_fields[] = {
+    TEXT(rotid_beside_modulus, name, 0),
+    NUMBER(rotid_beside_modulus, stated_pa, ABOVE_0),
+    NUMBER(rotid_beside_modulus, found_pa, ABOVE_0),
+    NUMBER(rotid_beside_modulus, change_percent, 0),
+    {0},
+};
+static const struct record beside_modulus_record = RECORD(rotid_beside_modulus, beside_modulus_fields);
+
+static const struct field beside_fields[] = {
+    STRUCTS(rotid_beam_beside_solid, modes, NOT_EMPTY, beside_mode_record),
+    STRUCTS(rotid_beam_beside_solid, moduli, 0, beside_modulus_record),
+    INTEGERS(rotid_beam_beside_solid, fitted_modes, FROM_1),
+    NUMBER(rotid_beam_beside_solid, fitted_rms_percent, MAY_BE_NULL | FROM_0),
+    TEXT(rotid_beam_beside_solid, sentence, MAY_BE_NULL),
+    {0},
+};
+static const struct record beside_record = RECORD(rotid_beam_beside_solid, beside_fields);
 
 static const struct field spectrum_fields[] = {
     TEXT_OF(rotid_spectrum, reduction, 0, reduction_words),
@@ -32,6 +89,8 @@ static const struct field spectrum_fields[] = {
     NUMBERS(rotid_spectrum, sensor_z_m, 0),
     STRUCTS(rotid_spectrum, modes, 0, mode_record),
     STRUCT(rotid_spectrum, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
+    STRUCT(rotid_spectrum, meridian, IF_KNOWN | BEHIND_POINTER, meridian_record),
+    STRUCT(rotid_spectrum, beside, IF_KNOWN | BEHIND_POINTER, beside_record),
     {0},
 };
 const struct record spectrum_record = RECORD(rotid_spectrum, spectrum_fields);
@@ -51,6 +110,13 @@ static const struct field spectrum_whole_fields[] = {
 };
 const struct record spectrum_whole_record = RECORD(rotid_spectrum, spectrum_whole_fields);
 
+static const struct field solid_mesh_fields[] = {
+    INTEGER(rotid_solid_mesh, unknowns, FROM_1),  INTEGER(rotid_solid_mesh, half_band, FROM_1),
+    INTEGER(rotid_solid_mesh, slices, FROM_1),    NUMBER(rotid_solid_mesh, corner_m, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_solid_mesh, largest_m, ABOVE_0), {0},
+};
+static const struct record solid_mesh_record = RECORD(rotid_solid_mesh, solid_mesh_fields);
+
 static const struct field check_fields[] = {
     NUMBER(rotid_check, length_m, ABOVE_0),
     NUMBER(rotid_check, mass_kg, ABOVE_0),
@@ -58,6 +124,7 @@ static const struct field check_fields[] = {
     NUMBER(rotid_check, inertia_kg_m2, ABOVE_0),
     INTEGER(rotid_check, nodes, FROM_1),
     INTEGER(rotid_check, elements, FROM_1),
+    STRUCT(rotid_check, solid, IF_KNOWN | BEHIND_POINTER, solid_mesh_record),
     INTEGER(rotid_check, rigid_modes, FROM_0),
     NUMBERS(rotid_check, rigid_hz, FROM_0),
     INTEGER(rotid_check, measured_modes, FROM_0),

@@ -1,5 +1,6 @@
 #include "report/table.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "report/layout.h"
@@ -53,6 +54,15 @@ static void print_causes(FILE *out, const struct job *job)
     }
 }
 
+static void print_solid(FILE *out, const rotid_solid_mesh *solid)
+{
+    (void)fprintf(out, "solid           %12d unknowns, half band %d, %d slices\n", solid->unknowns, solid->half_band,
+                  solid->slices);
+    if (isfinite(solid->corner_m))
+        (void)fprintf(out, "corner element  %12.6f m, where the diameter steps\n", solid->corner_m);
+    (void)fprintf(out, "largest element %12.6f m\n", solid->largest_m);
+}
+
 void table_check(FILE *out, const struct result *result, const struct job *job)
 {
     const rotid_check *check = result->check;
@@ -62,6 +72,8 @@ void table_check(FILE *out, const struct result *result, const struct job *job)
     (void)fprintf(out, "centre of mass  %12.6f m from the left end\n", check->center_of_mass_m);
     (void)fprintf(out, "inertia         %12.4f kg.m2 about a diameter there\n", check->inertia_kg_m2);
     (void)fprintf(out, "mesh            %12d nodes, %d elements\n", check->nodes, check->elements);
+    if (check->solid)
+        print_solid(out, check->solid);
     (void)fprintf(out, "sensors         %12d\n", check->nsensors);
     (void)fprintf(out, "measured modes  %12d\n", check->measured_modes);
     (void)fprintf(out, "rigid-body modes%12d", check->rigid_modes);

@@ -19,6 +19,32 @@ static void print_shapes(FILE *out, const rotid_spectrum *s)
     }
 }
 
+static void print_beside(FILE *out, const rotid_beam_beside_solid *beside)
+{
+    (void)fprintf(out, "\nmode        solid          beam  difference     NCO     MAC   mesh of solid   of beam\n"
+                       "             [Hz]          [Hz]         [%%]                              [%%]       [%%]\n");
+    for (int j = 0; j < beside->nmodes; j++) {
+        const rotid_beside_mode *mode = &beside->modes[j];
+        (void)fprintf(out, "%3d ", mode->mode);
+        number_cell(out, 13, 4, mode->solid_hz);
+        number_cell(out, 14, 4, mode->beam_hz);
+        signed_cell(out, 12, 2, mode->difference_percent);
+        number_cell(out, 8, 4, mode->nco);
+        number_cell(out, 8, 4, mode->mac);
+        signed_cell(out, 16, 4, mode->solid_mesh_error_percent);
+        signed_cell(out, 10, 4, mode->beam_mesh_error_percent);
+        (void)fprintf(out, mode->beam_mode == mode->mode ? "\n" : "  mode %d of the beam\n", mode->beam_mode);
+    }
+    for (int p = 0; p < beside->nmoduli; p++) {
+        const rotid_beside_modulus *modulus = &beside->moduli[p];
+        (void)fprintf(out, "%s", p ? "" : "\nmodulus              solid [Pa]     beam [Pa]  change [%]\n");
+        name_cell(out, 16, modulus->name);
+        (void)fprintf(out, " %14.4e %13.4e %+11.1f\n", modulus->stated_pa, modulus->found_pa, modulus->change_percent);
+    }
+    if (beside->sentence)
+        (void)fprintf(out, "\n%s\n", beside->sentence);
+}
+
 void table_modes(FILE *out, const struct result *result, int shapes)
 {
     const rotid_spectrum *s = result->modes;
@@ -41,6 +67,8 @@ void table_modes(FILE *out, const struct result *result, int shapes)
         number_cell(out, 8, 3, measured ? measured->nco : NAN);
         (void)fputc('\n', out);
     }
+    if (s->beside)
+        print_beside(out, s->beside);
     if (shapes)
         print_shapes(out, s);
 }

@@ -49,6 +49,29 @@ static void check_shapes(const struct json_place *at, const rotid_shapes *shapes
     }
 }
 
+static void check_meridian(const struct json_place *at, const rotid_spectrum *modes)
+{
+    const rotid_meridian *meridian = modes->meridian;
+    int corners = meridian ? meridian->nr_m : 0, groups = modes->geometry ? modes->geometry->ngroups : 0, good = 1;
+    for (int e = 0; meridian && e < meridian->nelements; e++) {
+        const rotid_meridian_element *element = &meridian->elements[e];
+        good &= element->group >= 0 && element->group < groups;
+        for (int c = 0; c < 4; c++)
+            good &= element->corner[c] >= 0 && element->corner[c] < corners;
+    }
+    if (!good)
+        place_wrong(at, "meridian.elements[] has a group or a corner that is none, expected less than %d and %d", groups,
+                    corners);
+    for (int j = 0; j < modes->nmodes; j++) {
+        const rotid_meridian_mode *mode = modes->modes[j].meridian;
+        if (!mode)
+            continue;
+        expect(at, "modes[].meridian.u", mode->nu, corners, "meridian.r_m");
+        expect(at, "modes[].meridian.w", mode->nw, corners, "meridian.r_m");
+        expect(at, "modes[].meridian.energy", mode->nenergy, meridian ? meridian->nelements : 0, "meridian.elements");
+    }
+}
+
 static void check_fit(const struct json_place *at, const rotid_identification *fit)
 {
     for (int i = 0; i < fit->nhistory; i++)
@@ -111,4 +134,6 @@ void result_check(const struct json_place *root, const struct result *result)
         check_diagnosis(root, result->diagnose);
     for (int k = 0; result->modes && k < result->modes->nmodes; k++)
         expect(root, "modes[].shape", result->modes->modes[k].nshape, result->modes->nsensor_z_m, "sensor_z_m");
+    if (result->modes)
+        check_meridian(root, result->modes);
 }

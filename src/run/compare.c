@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#define BEYOND 3 /* modes of the model above the highest number that a measured shape may turn out to be */
+#define BEYOND      3         /* modes of the model above the highest number that a measured shape may turn out to be */
+#define SOLID_SHARE (1.0 / 3) /* of the noise: what the mesh of a solid may leave of a frequency */
 
 int comparison_highest(const struct job *job)
 {
@@ -107,4 +108,33 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
     }
     say_what_is_odd(job, spectrum, c, notes);
     return ROTID_OK;
+}
+
+void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spectrum, const struct comparison *comparison,
+                             struct message_list *notes)
+{
+    int worst = -1, solid = job->options.solid;
+    double largest = solid ? SOLID_SHARE : 1;
+    for (int k = 0; k < comparison->nmode && job_knows_frequency_noise(job); k++) {
+        int mode = comparison->number[k] - 1;
+        double ratio =
+            mode < spectrum->count ? fabs(spectrum->mesh_error_percent[mode]) / (100 * job->measurement.frequency_std[k]) : NAN;
+        if (ratio > largest) {
+            largest = ratio;
+            worst = k;
+        }
+    }
+    if (worst < 0)
+        return;
+    double error = spectrum->mesh_error_percent[comparison->number[worst] - 1];
+    if (solid)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "the mesh of the solid moves measured mode %d by %+.4f %%, more than a third of its noise of %.4f %%: the "
+                    "intervals do not allow for it",
+                    job->measurement.number[worst], error, 100 * job->measurement.frequency_std[worst]);
+    else
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "
+                    "allow for it",
+                    job->measurement.number[worst], error, largest);
 }

@@ -25,4 +25,9 @@ int comparison_candidates(const struct job *job);
 int comparison_make(struct pool *pool, const struct job *job, const struct spectrum *spectrum, struct message_list *notes,
                     struct comparison *comparison);
 
+/* Warns where the mesh moves a measured mode by more than the noise of its frequency, on a solid by more than a third: the
+ * intervals rest on the noise alone. */
+void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spectrum, const struct comparison *comparison,
+                             struct message_list *notes);
+
 #endif

@@ -165,27 +165,6 @@ int identify_run_bare(struct pool *pool, const struct job *job, int baseline, co
     return identify(pool, job, baseline, 1, environment, notes, out);
 }
 
-void identify_warn_of_mesh(const struct job *job, const struct identification *result, struct message_list *notes)
-{
-    const struct spectrum *s = &result->spectrum;
-    const int *number = result->compared.number;
-    double largest = 1;
-    int worst = -1;
-    for (int k = 0; k < job->measurement.nmode && job_knows_frequency_noise(job); k++) {
-        int mode = number[k] - 1;
-        double ratio = mode < s->count ? fabs(s->mesh_error_percent[mode]) / (100 * job->measurement.frequency_std[k]) : NAN;
-        if (ratio > largest) {
-            largest = ratio;
-            worst = k;
-        }
-    }
-    if (worst >= 0)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "
-                    "allow for it",
-                    job->measurement.number[worst], s->mesh_error_percent[number[worst] - 1], largest);
-}
-
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
                                 struct message_list *notes)
 {

@@ -30,8 +30,6 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
 int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                       struct message_list *notes, struct identification *out);
 
-/* Warns where the mesh moves a measured mode by more than the noise of its frequency: the intervals rest on the noise alone. */
-void identify_warn_of_mesh(const struct job *job, const struct identification *result, struct message_list *notes);
 
 /* Warns where the condensed model that was fitted has other frequencies than the full one, of which `what` is said: "written". */
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
