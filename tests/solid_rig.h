@@ -1,4 +1,5 @@
-/* Rotors for tests of src/solid, built in place: sections end to end, what is attached to them, and their frequencies as a solid. */
+/* Rotors for tests of src/solid, built in place: sections end to end, what is attached to them, and their frequencies as a solid.
+ */
 #ifndef SOLID_RIG_H
 #define SOLID_RIG_H
 
@@ -21,8 +22,8 @@ struct rig {
     struct rotor rotor;
 };
 
-extern const struct material rig_steel;  /* E 2.1e11, nu 0.3, rho 7850 */
-extern const struct material rig_stack;  /* laminated */
+extern const struct material rig_steel; /* E 2.1e11, nu 0.3, rho 7850 */
+extern const struct material rig_stack; /* laminated */
 
 void rig_begin(struct rig *b, int ngroup); /* all of steel */
 void rig_section(struct rig *b, int group, double length, double diameter);
@@ -30,8 +31,8 @@ void rig_springs(struct rig *b, double left, double right);
 void rig_sensors(struct rig *b, int count); /* even, all of them off the ends */
 const struct effect_kind *rig_kind(const char *id);
 
-/* Two-step steel shaft 0.3 x 0.10, 0.3 x 0.20, 0.3 x 0.10 m on soft springs; rotor A of seven sections, whose core is laminated or
- * of steel: each has frequencies of an independent program that the tests state. */
+/* Two-step steel shaft 0.3 x 0.10, 0.3 x 0.20, 0.3 x 0.10 m on soft springs; rotor A of seven sections, whose core is laminated
+ * or of steel: each has frequencies of an independent program that the tests state. */
 void rig_two_steps(struct rig *b);
 void rig_rotor_a(struct rig *b, int laminated);
 

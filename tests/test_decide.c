@@ -14,13 +14,15 @@ static struct candidate candidates[MOST];
 static struct engine engine;
 static struct diagnosis_round decided;
 static struct before before;
+static struct diagnosis made;
 
 /* Before: 400 degrees of freedom, chi2 as noise has it but for 60 that a cause may take; frequencies sound. */
 static void open_round(void)
 {
     for (int k = 0; k < MODES; k++)
         noise[k] = 0.001;
-    engine = (struct engine){.pool = &test_pool, .confident = 1};
+    made = (struct diagnosis){.result.verdict.confident = 1};
+    engine = (struct engine){.pool = &test_pool, .out = &made};
     engine.job.measurement.nmode = MODES;
     engine.job.measurement.frequency_std = noise;
     memset(candidates, 0, sizeof candidates);
@@ -337,7 +339,7 @@ static void too_little_data_name_nothing(void **state)
 {
     (void)state;
     open_round();
-    engine.confident = 0;
+    made.result.verdict.confident = 0;
     add("stiffness_gradient", "core", 1, 60);
     add("joint", "core|right", 1, 20);
     conclude_as(ROTID_AMBIGUOUS, 1);

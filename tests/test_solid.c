@@ -106,14 +106,30 @@ static void everything(struct rig *b)
     b->rotor.ndisk = 1;
     b->disk[0] = (struct disk){.name = "fan", .position = 1.72, .mass = 20, .diametral = 0.3};
     b->rotor.ntierod = 1;
-    b->tierod[0] = (struct tierod){.name = "rods", .material = rig_steel, .from = 0.7, .to = 1.4, .model = BUNDLE_RODS,
-                                   .self_equilibrated = 1, .number = 8, .elements = 4, .diameter = 0.025, .pitch = 0.12, .tension = 1e5};
+    b->tierod[0] = (struct tierod){.name = "rods",
+                                   .material = rig_steel,
+                                   .from = 0.7,
+                                   .to = 1.4,
+                                   .model = BUNDLE_RODS,
+                                   .self_equilibrated = 1,
+                                   .number = 8,
+                                   .elements = 4,
+                                   .diameter = 0.025,
+                                   .pitch = 0.12,
+                                   .tension = 1e5};
     b->group[3].holes = 6;
     b->group[3].hole_diameter = 0.01;
     b->group[3].hole_pitch = 0.19;
     b->rotor.nbars = 1;
-    b->bars[0] = (struct bars){.name = "bars", .material = rig_steel, .center = 1.05, .length = 0.8, .model = BUNDLE_RODS, .number = 40,
-                               .elements = 4, .diameter = 0.015, .pitch = 0.17};
+    b->bars[0] = (struct bars){.name = "bars",
+                               .material = rig_steel,
+                               .center = 1.05,
+                               .length = 0.8,
+                               .model = BUNDLE_RODS,
+                               .number = 40,
+                               .elements = 4,
+                               .diameter = 0.015,
+                               .pitch = 0.17};
     rig_sensors(b, 68);
 }
 
@@ -170,10 +186,11 @@ static double largest_difference(const rotid_matrix *a, const rotid_matrix *b) /
 
 static void derivatives_agree_with_differences(void **state)
 {
-    static const char *const names[] = {
-        "core.E", "core.G", "core.nu", "core.rho", "left.E", "left.nu", "ring.E", "rods.E", "rods.tension", "fan.mass", "fan.inertia",
-        "spring.k", "spring.k_rot", "zone.depth", "zone.z", "zone.width", "add.mass", "add.z", "joint.flexibility", "slope.slope",
-        "profile.profile", "dense.factor", "soft.factor", "tie_e.factor", "tie_t.factor"};
+    static const char *const names[] = {"core.E",          "core.G",       "core.nu",      "core.rho",          "left.E",
+                                        "left.nu",         "ring.E",       "rods.E",       "rods.tension",      "fan.mass",
+                                        "fan.inertia",     "spring.k",     "spring.k_rot", "zone.depth",        "zone.z",
+                                        "zone.width",      "add.mass",     "add.z",        "joint.flexibility", "slope.slope",
+                                        "profile.profile", "dense.factor", "soft.factor",  "tie_e.factor",      "tie_t.factor"};
     static const struct effect effects[] = {{.name = "zone", .target = -1, .value = {0.4, 1.0, 0.05}},
                                             {.name = "add", .target = -1, .value = {3, 1.113}},
                                             {.name = "joint", .target = 0, .value = {2e-9}},
@@ -183,8 +200,9 @@ static void derivatives_agree_with_differences(void **state)
                                             {.name = "soft", .target = 0, .value = {0.8}},
                                             {.name = "tie_e", .target = 0, .value = {0.9}},
                                             {.name = "tie_t", .target = 0, .value = {1.2}}};
-    static const char *const kinds[] = {"stiffness_local", "added_mass", "joint",         "stiffness_gradient", "stiffness_profile",
-                                        "density",         "stiffness",  "tie_stiffness", "tie_tension"};
+    static const char *const kinds[] = {"stiffness_local",    "added_mass",        "joint",
+                                        "stiffness_gradient", "stiffness_profile", "density",
+                                        "stiffness",          "tie_stiffness",     "tie_tension"};
     struct rig b;
     enum { COUNT = sizeof names / sizeof *names };
     struct parameter parameter[COUNT];
@@ -210,7 +228,9 @@ static void derivatives_agree_with_differences(void **state)
         struct solid solid;
         rotid_matrix k[2], m[2], dk, dm;
         int failed;
-        assert_status(solid_build(&test_pool, &b.rotor, COUNT, parameter, &(struct solid_rule){0.03, 0.15, 0}, 1, &solid, &failed), ROTID_OK);
+        assert_status(
+            solid_build(&test_pool, &b.rotor, COUNT, parameter, &(struct solid_rule){0.03, 0.15, 0}, 1, &solid, &failed),
+            ROTID_OK);
         rotid_matrix *all[] = {&k[0], &k[1], &m[0], &m[1], &dk, &dm};
         for (int i = 0; i < 6; i++)
             assert_status(matrix_new(&test_pool, solid.mesh.ndof, solid.mesh.kd, solid.nfar, solid.far, all[i]), ROTID_OK);
@@ -225,7 +245,8 @@ static void derivatives_agree_with_differences(void **state)
         double scale_k = largest_difference(&k[0], NULL) * 1e-9 / h, scale_m = largest_difference(&m[0], NULL) * 1e-9 / h;
         matrix_combine(0.5 / h, &k[1], -0.5 / h, &k[0], &k[0]);
         matrix_combine(0.5 / h, &m[1], -0.5 / h, &m[0], &m[0]);
-        double ek = largest_difference(&k[0], &dk), em = largest_difference(&m[0], &dm), sk = largest_difference(&dk, NULL), sm = largest_difference(&dm, NULL);
+        double ek = largest_difference(&k[0], &dk), em = largest_difference(&m[0], &dm), sk = largest_difference(&dk, NULL),
+               sm = largest_difference(&dm, NULL);
         if (sk + sm == 0 || ek > 2e-6 * sk + 1e-3 * scale_k || em > 2e-6 * sm + 1e-3 * scale_m)
             fail_msg("%s: dK off by %.2e of %.2e, dM by %.2e of %.2e", names[p], ek, sk, em, sm);
     }
@@ -234,7 +255,8 @@ static void derivatives_agree_with_differences(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(rigid_motions_cost_nothing_and_weigh_what_the_parts_weigh, open_test_pool,
+                                        close_test_pool),
         cmocka_unit_test_setup_teardown(uniform_strains_have_their_energy_exactly, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(derivatives_agree_with_differences, open_test_pool, close_test_pool),
     };

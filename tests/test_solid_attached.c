@@ -25,7 +25,8 @@ static void compare(const struct rig *plain, const struct rig *b, double rtol)
     rig_solid(&b->rotor, NULL, 1, 2, MODES, solid);
     limit_hz(&b->rotor, 4, 2, MODES, beam);
     for (int j = 0; j < MODES; j++) {
-        print_message("  mode %d: solid moves by %+.5f, beam by %+.5f\n", j + 1, solid[j] / plain_solid[j] - 1, beam[j] / plain_beam[j] - 1);
+        print_message("  mode %d: solid moves by %+.5f, beam by %+.5f\n", j + 1, solid[j] / plain_solid[j] - 1,
+                      beam[j] / plain_beam[j] - 1);
         assert_close(solid[j] / plain_solid[j], beam[j] / plain_beam[j], rtol, 0);
     }
 }
@@ -66,13 +67,22 @@ static void masses_and_joints_act_as_on_a_beam(void **state)
 static void rods(struct rig *b, int elements, double tension)
 {
     b->rotor.ntierod = 1;
-    b->tierod[0] = (struct tierod){.name = "rods", .material = rig_steel, .from = 0.8, .to = 1.4, .model = BUNDLE_RODS,
-                                   .self_equilibrated = 1, .number = 8, .elements = elements, .diameter = 0.01, .pitch = 0.025,
+    b->tierod[0] = (struct tierod){.name = "rods",
+                                   .material = rig_steel,
+                                   .from = 0.8,
+                                   .to = 1.4,
+                                   .model = BUNDLE_RODS,
+                                   .self_equilibrated = 1,
+                                   .number = 8,
+                                   .elements = elements,
+                                   .diameter = 0.01,
+                                   .pitch = 0.025,
                                    .tension = tension};
 }
 
-/* Of several elements they bend by themselves; of one they follow the section, and in a beam have their mass at their ends: without
- * mass, both are a spring between the ends. Tension and what it presses together cancel where rods follow, and a beam's bow. */
+/* Of several elements they bend by themselves; of one they follow the section, and in a beam have their mass at their ends:
+ * without mass, both are a spring between the ends. Tension and what it presses together cancel where rods follow, and a beam's
+ * bow. */
 static void tie_rods_act_as_on_a_beam(void **state)
 {
     static const double tension[] = {0, 2e4};
@@ -116,8 +126,15 @@ static void holes_bores_and_bars_act_as_in_a_beam(void **state)
     compare(&plain, &b, 2e-3);
     b.group[0].holes = 0;
     b.rotor.nbars = 1;
-    b.bars[0] = (struct bars){.name = "bars", .material = rig_steel, .center = 0.8, .length = 0.6, .model = BUNDLE_RODS,
-                              .number = 12, .elements = 12, .diameter = 0.008, .pitch = 0.03};
+    b.bars[0] = (struct bars){.name = "bars",
+                              .material = rig_steel,
+                              .center = 0.8,
+                              .length = 0.6,
+                              .model = BUNDLE_RODS,
+                              .number = 12,
+                              .elements = 12,
+                              .diameter = 0.008,
+                              .pitch = 0.03};
     compare(&plain, &b, 2e-3);
 }
 
@@ -213,7 +230,8 @@ static void sensors_at_steps_at_ends_and_close_together_are_distinct(void **stat
         for (int j = 0; j < i; j++)
             assert_int_not_equal(s.solid.mesh.sensor_dof[i], s.solid.mesh.sensor_dof[j]);
         double u = s.phi[s.solid.mesh.sensor_dof[i] + (ptrdiff_t)2 * s.solid.mesh.ndof];
-        assert_close(u, surface(&s, 2, at[i] == 0.6 ? 0.6 - 1e-9 : at[i]), 0, 1e-3 * fabs(surface(&s, 2, 0))); /* 0.01 of a slice is taken to be a line */
+        assert_close(u, surface(&s, 2, at[i] == 0.6 ? 0.6 - 1e-9 : at[i]), 0,
+                     1e-3 * fabs(surface(&s, 2, 0))); /* 0.01 of a slice is taken to be a line */
     }
 }
 
@@ -271,7 +289,8 @@ static void what_has_no_meaning_is_refused_with_its_place(void **state)
     assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, NULL, 1, &solid, &failed), ROTID_ERROR_SECTION);
     assert_int_equal(failed, 2);
     slender(&b, 1);
-    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){0, 2e-4, 0}, 1, &solid, &failed), ROTID_ERROR_SECTION);
+    assert_status(solid_build(&test_pool, &b.rotor, 0, NULL, &(struct solid_rule){0, 2e-4, 0}, 1, &solid, &failed),
+                  ROTID_ERROR_SECTION);
     assert_int_equal(failed, 1);
 }
 
@@ -285,7 +304,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(holes_bores_and_bars_act_as_in_a_beam, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_sensor_inside_an_element_moves_with_its_surface, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(sensors_do_not_move_frequencies, open_test_pool, close_test_pool),
-        cmocka_unit_test_setup_teardown(sensors_at_steps_at_ends_and_close_together_are_distinct, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(sensors_at_steps_at_ends_and_close_together_are_distinct, open_test_pool,
+                                        close_test_pool),
         cmocka_unit_test_setup_teardown(extreme_dimensions_are_solved, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(what_has_no_meaning_is_refused_with_its_place, open_test_pool, close_test_pool),
     };

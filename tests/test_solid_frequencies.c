@@ -1,5 +1,5 @@
-/* Frequencies of solids of revolution: references of an independent program, an exact three-dimensional solution, exact beams where
- * they are slender, and orders of convergence. */
+/* Frequencies of solids of revolution: references of an independent program, an exact three-dimensional solution, exact beams
+ * where they are slender, and orders of convergence. */
 #include <math.h>
 
 #include "exact.h"
@@ -9,7 +9,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- references: an independent program's straight-sided eight-node quadrilaterals on two meshes, whose corner elements halve */
+/* ---- references: an independent program's straight-sided eight-node quadrilaterals on two meshes, whose corner elements halve
+ */
 
 static double limit(double coarse, double fine) /* errors fall as the size to the power 2 x 0.5445 */
 {
@@ -153,7 +154,7 @@ static void a_cylinder_between_held_ends_bends_in_exact_waves(void **state)
     for (int n = 0; n < mesh->nnode; n++)
         for (int c = 0; c < 2 && (mesh->node[n].z == 0 || mesh->node[n].z == mesh->z[mesh->nslice]); c++)
             matrix_add(&k, mesh->node[n].dof[c], mesh->node[n].dof[c], 1e16);
-    double *phi = POOL_ARRAY(&test_pool, double, COUNT *mesh->ndof);
+    double *phi = POOL_ARRAY(&test_pool, double, COUNT * mesh->ndof);
     assert_status(eigen_band_new(&test_pool, &k, COUNT, &eigen), ROTID_OK);
     assert_status(eigen_band_solve(&eigen, &k, &m, lambda, phi), ROTID_OK);
     for (int j = 0; j < COUNT; j++) {
@@ -211,8 +212,8 @@ static void layers_of_a_slender_bar_act_in_parallel(void **state)
     b.group[2].material.rho = 8900;
     compare_with_beam(&b, 3, 2e-3);
     rig_solid(&b.rotor, NULL, 1, 2, 2, alike);
-    b.group[1].material = (struct material){.name = "stack", .e = 4e10, .g = 4e10 / 2.6, .nu = 0.3, .rho = 7850, .laminated = 1,
-                                            .sheet_e = 2.1e11, .stacking = 1};
+    b.group[1].material = (struct material){
+        .name = "stack", .e = 4e10, .g = 4e10 / 2.6, .nu = 0.3, .rho = 7850, .laminated = 1, .sheet_e = 2.1e11, .stacking = 1};
     rig_solid(&b.rotor, NULL, 1, 2, 2, solid);
     print_message("a stack that does not contract, stiffer by %.4f\n", solid[0] / alike[0] - 1);
     assert_true(solid[0] > 1.005 * alike[0] && solid[0] < 1.03 * alike[0]);
@@ -226,8 +227,8 @@ static void a_laminated_bar_shears_as_an_orthotropic_section_does(void **state)
     for (int i = 0; i < 3; i++) {
         rig_begin(&b, 1);
         rig_section(&b, 0, 1.6, 0.1);
-        b.group[0].material = (struct material){.name = "stack", .e = e[i], .g = g[i], .nu = 0.3, .rho = 7600, .laminated = 1,
-                                                .sheet_e = 2.1e11, .stacking = 1};
+        b.group[0].material = (struct material){
+            .name = "stack", .e = e[i], .g = g[i], .nu = 0.3, .rho = 7600, .laminated = 1, .sheet_e = 2.1e11, .stacking = 1};
         compare_with_beam(&b, 4, 3e-3);
     }
 }
