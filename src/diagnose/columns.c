@@ -118,7 +118,8 @@ int columns_prepare(struct columns *c)
     const rotid_matrix *k = &c->functional.prediction.k;
     int n = c->model.equations.n, most = c->model.equations.nmaster > 1 ? c->model.equations.nmaster : 1;
     size_t images = (size_t)n * (size_t)c->nmode;
-    double *vectors = POOL_ARRAY(pool, double, 3 * images + (size_t)n), *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
+    double *vectors = POOL_ARRAY(pool, double, 3 * images + (size_t)n),
+           *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
            *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n), *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
     if (!c->dphi || !vectors || !zero || !m_phi || !unit)
@@ -232,7 +233,8 @@ int columns_parameter(struct columns *c, int p, double *column)
     take_image(c, &c->dm, m, rows, c->dm_phi);
     for (int i = 0; i < c->nmode; i++) {
         const struct columns_mode *mode = &c->mode[i];
-        double dlambda = mode_derivative(c, mode, rows.from, (int)length, c->dk_phi + i * length, c->dm_phi + i * length, c->dphi),
+        double dlambda =
+                   mode_derivative(c, mode, rows.from, (int)length, c->dk_phi + i * length, c->dm_phi + i * length, c->dphi),
                lambda = prediction->lambda[mode->pair];
         column[i] = dlambda / (2 * sqrt(lambda) * c->functional.omega[mode->k] * c->measured.frequency_std[mode->k]);
         shape_part(c, mode, c->dphi, c->r + row, column + row);

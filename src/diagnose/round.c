@@ -35,7 +35,8 @@ static int refit_task(void *context, int index, int worker)
 static int choose(const struct scan *scan, double threshold, int solid, int *chosen)
 {
     int count = 0;
-    double half = threshold / 2, rival = SHARE * scan->largest, least = fmax(WORTH, solid ? fmax(half, rival) : fmin(half, rival));
+    double half = threshold / 2, rival = SHARE * scan->largest,
+           least = fmax(WORTH, solid ? fmax(half, rival) : fmin(half, rival));
     for (int rank = 0; rank < scan->ncandidate; rank++) {
         int best = -1;
         for (int i = 0; i < scan->ncandidate; i++) {

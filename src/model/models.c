@@ -36,8 +36,8 @@ static struct entry *find(const struct models *models, const struct rotor *rotor
     return found;
 }
 
-/* What has been counted, -1: nothing. Of a solid, where counting costs as much as its modes: with any mesh, and whatever causes are in
- * the rotor, which make no suspension of a bending mode. */
+/* What has been counted, -1: nothing. Of a solid, where counting costs as much as its modes: with any mesh, and whatever causes
+ * are in the rotor, which make no suspension of a bending mode. */
 static int counted(const struct models *models, const struct rotor *rotor, int refine)
 {
     for (; models; models = models->older)
