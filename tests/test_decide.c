@@ -128,8 +128,10 @@ static void parameters_cost(void **state)
     assert_close(candidate_score(&c), 100 + 3 * PARAMETER_PENALTY, 1e-15, 0);
     c.fixed[1] = 1;
     assert_close(candidate_score(&c), 100 + 2 * PARAMETER_PENALTY, 1e-15, 0);
-    c = (struct candidate){.result.chi2 = 100}; /* there or not: a choice too */
+    c = (struct candidate){.result.chi2 = 100, .cause = catalogue_find("tie_shear")}; /* there or not: a choice too */
     assert_close(candidate_score(&c), 100 + PARAMETER_PENALTY, 1e-15, 0);
+    c.cause = catalogue_find("beam_theory"); /* what the rotor is was not chosen */
+    assert_close(candidate_score(&c), 100, 1e-15, 0);
     open_round();
     add("stiffness_local", "", 3, 63);
     add("joint", "core|right", 1, 60);

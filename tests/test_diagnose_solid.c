@@ -50,7 +50,8 @@ static void put_measured(const struct effect *effect, char *text)
     }
     assert_status(model_open(&test_pool, models_as(&test_pool, AS_SOLID), &job.rotor, 0, NULL, 2, &model, &failed), ROTID_OK);
     int rigid = model.equations.nrigid;
-    assert_status(prediction_new(&test_pool, &model.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, rigid + MODES, 0, &p), ROTID_OK);
+    assert_status(prediction_new(&test_pool, &model.equations, ROTID_REDUCTION_NONE, ROTID_NELSON, rigid + MODES, 0, &p),
+                  ROTID_OK);
     assert_status(prediction_compute(&p, NULL), ROTID_OK);
     (void)sprintf(text + strlen(text), "*NOISE, FREQUENCY=%g, SHAPE=%g\n*MODES\n", frequency_noise, shape_noise);
     for (int k = 0; k < MODES; k++)

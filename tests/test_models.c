@@ -50,9 +50,9 @@ static void a_rotor_with_other_values_shares_the_mesh_and_nothing_else(void **st
     assert_status(open_in(models, rotor, 1, &second), ROTID_OK);
     assert_status(open_in(models, rotor, 1, &again), ROTID_OK);
     assert_status(open_in(NULL, rotor, 1, &alone), ROTID_OK);
-    assert_ptr_equal(first.z, second.z);
-    assert_ptr_equal(first.z, again.z);
-    assert_ptr_not_equal(first.z, alone.z);
+    assert_ptr_equal(first.discrete.beam.mesh.z, second.discrete.beam.mesh.z);
+    assert_ptr_equal(first.discrete.beam.mesh.z, again.discrete.beam.mesh.z);
+    assert_ptr_not_equal(first.discrete.beam.mesh.z, alone.discrete.beam.mesh.z);
     assert_same_model(&second, &alone);
     assert_same_model(&again, &alone);
     assert_true(second.rotor->spring[0].lateral > 1.01 * stiffness);
@@ -117,7 +117,7 @@ static void a_rotor_of_another_shape_is_built_anew(void **state)
         change(rotor, what); /* in place: the models must not look at the caller's arrays later */
         assert_status(open_in(models, rotor, 1, &second), ROTID_OK);
         assert_status(open_in(NULL, rotor, 1, &alone), ROTID_OK);
-        assert_ptr_not_equal(first.z, second.z);
+        assert_ptr_not_equal(first.discrete.beam.mesh.z, second.discrete.beam.mesh.z);
         assert_same_model(&second, &alone);
         models_end_run(&test_pool, models, NULL);
     }
@@ -148,13 +148,13 @@ static void a_run_goes_on_with_what_the_deck_has_built(void **state)
     assert_ptr_equal(models_for_run(&test_pool, run), run);
     assert_status(open_in(deck, rotor, 1, &one), ROTID_OK);
     assert_status(open_in(run, rotor, 1, &two), ROTID_OK);
-    assert_ptr_equal(one.z, two.z);
+    assert_ptr_equal(one.discrete.beam.mesh.z, two.discrete.beam.mesh.z);
     assert_int_equal(size.ndof, one.equations.n);
     assert_same_model(&one, &two);
     models_end_run(&test_pool, run, deck);
     assert_status(open_in(run, rotor, 2, &two), ROTID_OK); /* after its end: built, and not kept */
     assert_status(open_in(run, rotor, 2, &one), ROTID_OK);
-    assert_ptr_not_equal(one.z, two.z);
+    assert_ptr_not_equal(one.discrete.beam.mesh.z, two.discrete.beam.mesh.z);
 }
 
 static void every_failing_allocation_is_survived(void **state)

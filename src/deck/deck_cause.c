@@ -219,10 +219,11 @@ void deck_causes_of_solid(struct deck_reader *reader)
         const struct card_option *type = same_text(card->name, "CAUSE") ? card_option(card, "TYPE") : NULL;
         const struct cause_kind *kind = type ? catalogue_find(type->value) : NULL;
         if (kind && has_card(kind) && cause_of_beam(kind))
-            deck_error(reader, type->value_place,
-                       "TYPE=%s corrects what a beam gets wrong, and a solid has no such error, expected no such cause with *FIT, "
-                       "MODEL=SOLID",
-                       kind->id);
+            deck_error(
+                reader, type->value_place,
+                "TYPE=%s corrects what a beam gets wrong, and a solid has no such error, expected no such cause with *FIT, "
+                "MODEL=SOLID",
+                kind->id);
     }
 }
 

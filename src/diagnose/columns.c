@@ -118,7 +118,8 @@ int columns_prepare(struct columns *c)
     const rotid_matrix *k = &c->functional.prediction.k;
     int n = c->model.equations.n, most = c->model.equations.nmaster > 1 ? c->model.equations.nmaster : 1;
     size_t images = (size_t)n * (size_t)c->nmode;
-    double *vectors = POOL_ARRAY(pool, double, 3 * images + (size_t)n), *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
+    double *vectors = POOL_ARRAY(pool, double, 3 * images + (size_t)n),
+           *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
            *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n), *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
     if (!c->dphi || !vectors || !zero || !m_phi || !unit)
@@ -166,32 +167,27 @@ static void shape_part(const struct columns *c, const struct columns_mode *mode,
         part[i] -= mode->weighted[i] * along / mode->square;
 }
 
-/* Rows and columns from ... end - 1 of dK and dM hold all there is in either: most changes touch a few elements. */
-static void occupied_rows(const struct columns *c, int *from, int *end)
+struct rows { /* that hold all there is in a matrix */
+    int from, end;
+};
+
+static struct rows either(struct rows a, struct rows b)
 {
-    int m_from, m_end;
-    matrix_occupied(&c->dk, from, end);
-    matrix_occupied(&c->dm, &m_from, &m_end);
-    if (*from == *end) {
-        *from = m_from;
-        *end = m_end;
-    } else if (m_from < m_end) {
-        *from = m_from < *from ? m_from : *from;
-        *end = m_end > *end ? m_end : *end;
-    }
+    if (a.from == a.end || b.from == b.end)
+        return a.from == a.end ? b : a;
+    return (struct rows){a.from < b.from ? a.from : b.from, a.end > b.end ? a.end : b.end};
 }
 
-/* image [length * nmode] := those rows of A times those of the modes; A is zero again then */
-static void take_image(const struct columns *c, rotid_matrix *a, int from, int length, double *image)
+/* image [length * nmode] := the rows `all` of A times those of the modes; A, which occupies `own` of them, is zero again then */
+static void take_image(const struct columns *c, rotid_matrix *a, struct rows own, struct rows all, double *image)
 {
     rotid_matrix part;
-    int first, end;
-    matrix_occupied(a, &first, &end);
-    if (first == end) {
+    int length = all.end - all.from;
+    if (own.from == own.end) {
         memset(image, 0, (size_t)length * (size_t)c->nmode * sizeof *image);
         return;
     }
-    matrix_rows(a, from, length, &part);
+    matrix_rows(a, all.from, length, &part);
     matrix_multiply(&part, c->nmode, c->rows, image);
     matrix_zero(&part);
 }
@@ -223,20 +219,24 @@ int columns_parameter(struct columns *c, int p, double *column)
 {
     const rotid_model *equations = &c->model.equations;
     const struct prediction *prediction = &c->functional.prediction;
-    int row = c->nmode, from, end;
+    struct rows k, m;
+    int row = c->nmode;
     if (equations->derivatives(equations->user, c->x, p, &c->dk, &c->dm))
         return ROTID_ERROR_CALLBACK;
-    occupied_rows(c, &from, &end);
-    ptrdiff_t length = end - from, n = equations->n;
-    for (int m = 0; m < c->nmode; m++)
-        memcpy(c->rows + m * length, prediction->phi + c->mode[m].pair * n + from, (size_t)length * sizeof *c->rows);
-    take_image(c, &c->dk, from, (int)length, c->dk_phi);
-    take_image(c, &c->dm, from, (int)length, c->dm_phi);
-    for (int m = 0; m < c->nmode; m++) {
-        const struct columns_mode *mode = &c->mode[m];
-        double dlambda = mode_derivative(c, mode, from, (int)length, c->dk_phi + m * length, c->dm_phi + m * length, c->dphi),
+    matrix_occupied(&c->dk, &k.from, &k.end);
+    matrix_occupied(&c->dm, &m.from, &m.end);
+    const struct rows rows = either(k, m);
+    ptrdiff_t length = rows.end - rows.from, n = equations->n;
+    for (int i = 0; i < c->nmode; i++)
+        memcpy(c->rows + i * length, prediction->phi + c->mode[i].pair * n + rows.from, (size_t)length * sizeof *c->rows);
+    take_image(c, &c->dk, k, rows, c->dk_phi);
+    take_image(c, &c->dm, m, rows, c->dm_phi);
+    for (int i = 0; i < c->nmode; i++) {
+        const struct columns_mode *mode = &c->mode[i];
+        double dlambda =
+                   mode_derivative(c, mode, rows.from, (int)length, c->dk_phi + i * length, c->dm_phi + i * length, c->dphi),
                lambda = prediction->lambda[mode->pair];
-        column[m] = dlambda / (2 * sqrt(lambda) * c->functional.omega[mode->k] * c->measured.frequency_std[mode->k]);
+        column[i] = dlambda / (2 * sqrt(lambda) * c->functional.omega[mode->k] * c->measured.frequency_std[mode->k]);
         shape_part(c, mode, c->dphi, c->r + row, column + row);
         row += mode->sensors;
     }

@@ -157,8 +157,9 @@ static const char *verdict_sentence(struct engine *engine)
     const char *open = open_parameters(engine), *faults = "", *solid = "";
     for (int c = 0; c < out->ncause; c++)
         if (out->cause[c].cause->solid)
-            solid = " The rotor is no beam: near its steps and in its short sections it bends as a beam cannot, so moduli that are "
-                    "identified with the beam carry the error of beam theory. Identify with *FIT, MODEL=SOLID.";
+            solid =
+                " The rotor is no beam: near its steps and in its short sections it bends as a beam cannot, so moduli that are "
+                "identified with the beam carry the error of beam theory. Identify with *FIT, MODEL=SOLID.";
     if (out->result.ndata_findings)
         faults = pool_format(pool, " %d finding%s about the measurement %s taken into account.", out->result.ndata_findings,
                              out->result.ndata_findings == 1 ? "" : "s", out->result.ndata_findings == 1 ? "was" : "were");

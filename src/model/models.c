@@ -36,6 +36,23 @@ static struct entry *find(const struct models *models, const struct rotor *rotor
     return found;
 }
 
+/* What has been counted, -1: nothing. Of a solid, where counting costs as much as its modes: with any mesh, and whatever causes
+ * are in the rotor, which make no suspension of a bending mode. */
+static int counted(const struct models *models, const struct rotor *rotor, int refine)
+{
+    for (; models; models = models->older)
+        for (const struct entry *e = models->first; e; e = e->next) {
+            int solid = models->as == AS_SOLID;
+            struct rotor known = e->rotor, asked = *rotor;
+            if (solid)
+                known.neffect = asked.neffect = 0;
+            if (e->nrigid >= 0 && (solid || e->refine == refine) && rotor_same_shape(&known, &asked) &&
+                rotor_same_values(&known, &asked))
+                return e->nrigid;
+        }
+    return -1;
+}
+
 static int add(struct models *models, const struct rotor *rotor, int refine, const struct entry *built, struct entry **added,
                int *failed)
 {
@@ -140,7 +157,7 @@ int models_discretise(struct pool *pool, struct models *models, const struct rot
     struct entry *e = find(models, rotor, refine, &same_values);
     if (takes_up && (!same_values || e->owner != models))
         status = add(models, rotor, refine, e, &e, failed);
-    *nrigid = !status && same_values ? e->nrigid : -1;
+    *nrigid = status ? -1 : counted(models, rotor, refine);
     if (takes_up)
         (void)pthread_mutex_unlock(&models->lock);
     if (status)
