@@ -47,28 +47,28 @@ static void test_ross_sections_give_the_element(void **state)
     struct export_model model = model_of(STEEL CORE "*SHAFT, NAME=left, MATERIAL=steel\n0.25, 0.08, 0.02, 4\n*SHAFT, NAME=core, "
                                                     "MATERIAL=sheets\n0.5, 0.2, 0.05, 8\n");
     struct ross_section section;
-    assert_int_equal(check_sections(&model.discrete->beam), 0);
-    assert_status(ross_axis_section(&test_pool, &model.discrete->beam, 6, &section), ROTID_OK);
+    assert_int_equal(check_sections(&model.discrete->discrete.beam), 0);
+    assert_status(ross_axis_section(&test_pool, &model.discrete->discrete.beam, 6, &section), ROTID_OK);
     assert_true(section.outer == 0.2 && section.inner == 0.05 && section.e == 1.1e11 && section.g == 0.35e11 &&
                 section.nu == 0.28 && section.rho == 7600);
     model =
         model_of(MIXED); /* a stiffness diameter in 4, a perforated core with a gradient in 9 (a sensor cuts one), density in 6 */
-    const struct mesh *mesh = &model.discrete->beam.mesh;
-    assert_int_equal(check_sections(&model.discrete->beam), mesh->nelement);
-    assert_status(ross_axis_section(&test_pool, &model.discrete->beam, 0, &section), ROTID_OK);
+    const struct mesh *mesh = &model.discrete->discrete.beam.mesh;
+    assert_int_equal(check_sections(&model.discrete->discrete.beam), mesh->nelement);
+    assert_status(ross_axis_section(&test_pool, &model.discrete->discrete.beam, 0, &section), ROTID_OK);
     assert_true(section.outer == 0.08 && section.inner == 0.02);
     assert_string_equal(section.equivalent, "heavy");
     assert_close(section.rho, 1.1 * 7850, 1e-14, 0);
     assert_close(section.e, 2.1e11, 1e-14, 0);
-    assert_status(ross_axis_section(&test_pool, &model.discrete->beam, mesh->nelement - 1, &section), ROTID_OK);
+    assert_status(ross_axis_section(&test_pool, &model.discrete->discrete.beam, mesh->nelement - 1, &section), ROTID_OK);
     assert_true(section.outer == 0.09 && section.inner == 0); /* the mass is real, the stiffness is not */
     assert_close(section.e, 2.1e11 * pow(0.08 / 0.09, 4), 1e-13, 0);
     model = model_of(STEEL "*BEAM, NAME=bar, MATERIAL=steel\n0.72, 0.0127, 0.0254, 8\n");
-    assert_int_equal(check_sections(&model.discrete->beam), 8);
+    assert_int_equal(check_sections(&model.discrete->discrete.beam), 8);
     /* holes so far out that what is left has less inertia than a disc of its area would */
     model = model_of(STEEL "*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.2, 0, 4\n*PERFORATION, GROUP=core\n24, 0.014, 0.088\n");
-    assert_int_equal(check_sections(&model.discrete->beam), 4);
-    assert_status(ross_axis_section(&test_pool, &model.discrete->beam, 0, &section), ROTID_OK);
+    assert_int_equal(check_sections(&model.discrete->discrete.beam), 4);
+    assert_status(ross_axis_section(&test_pool, &model.discrete->discrete.beam, 0, &section), ROTID_OK);
     assert_true(section.outer < 0.2 && section.inner == 0);
 }
 
@@ -82,8 +82,8 @@ static void test_ross_tie_rods_as_rods_and_as_tube(void **state)
         struct ross_section section;
         struct element element;
         struct stretch stretch;
-        ross_tierod_section(&model.discrete->beam, 0, &section, &stretch);
-        tierod_quantities(&model.discrete->beam, 0, 0.5, &element, &stretch);
+        ross_tierod_section(&model.discrete->discrete.beam, 0, &section, &stretch);
+        tierod_quantities(&model.discrete->discrete.beam, 0, 0.5, &element, &stretch);
         assert_gives(&section, &element);
         assert_close(section.e, (tube ? 1 : 8) * 2.1e11, 1e-14, 0);
         assert_true(tube ? stretch.stiffness == 0 : section.outer == 0.016 && stretch.stiffness > 0);
@@ -95,7 +95,7 @@ static void test_ross_matrices_of_joint_and_mass(void **state)
 {
     (void)state;
     struct export_model model = model_of(MIXED);
-    const struct beam *beam = &model.discrete->beam;
+    const struct beam *beam = &model.discrete->discrete.beam;
     int found = 0;
     for (int e = 0; e < beam->mesh.nelement; e++) {
         struct ross_matrices matrices;
@@ -133,7 +133,7 @@ static void test_what_ross_leaves_out_is_said(void **state)
     assert_non_null(strstr(notes.item[2].text, "moves its bending modes"));
     assert_true(ross.discrete != model.discrete && ross.deck_hz);
     struct mass_properties mass;
-    beam_mass_properties(&ross.discrete->beam, &mass); /* nothing is lost but flexibility */
+    beam_mass_properties(&ross.discrete->discrete.beam, &mass); /* nothing is lost but flexibility */
     assert_close(mass.mass, model.mass.mass, 1e-13, 0);
     assert_close(mass.center, model.mass.center, 1e-13, 0);
     assert_close(mass.inertia, model.mass.inertia, 1e-13, 0);
