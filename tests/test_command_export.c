@@ -226,6 +226,19 @@ static void test_rectangles_are_said_to_be_no_rotor(void **state)
 }
 
 /* Names of a deck end in Python texts and in comments: they stay what they are. */
+static void test_a_solid_has_no_beam_elements(void **state)
+{
+    (void)state;
+    folder_write("solid.inp", MODEL SENSORS "*FIT, MODEL=SOLID\n");
+    refuses("export solid.inp --format ross -o x.py", 2, "a ROSS script has beam elements and this rotor is a solid");
+    refuses("export solid.inp --format dmig -o x.bdf", 2, "a Nastran deck of rotid has beam elements");
+    assert_int_equal(run("export solid.inp --format dmig --condensed -o x.bdf"), 0);
+    assert_int_equal(run("export solid.inp --format matrix-market -o x"), 0);
+    read_into("x.nodes.csv", output, sizeof output);
+    assert_non_null(strstr(output, "node,r_m,z_m,row_u,row_v,row_w,row_theta,member,sensor\n1,0,0,1,1,,,section,\n"));
+    assert_int_equal(run("export solid.inp --format ross -o x.py --set FIT.MODEL=BEAM"), 0);
+}
+
 static void test_names_cannot_break_out(void **state)
 {
     (void)state;
@@ -413,6 +426,7 @@ int main(void)
         cmocka_unit_test_teardown(test_too_few_sensors_to_condense_onto, clear),
         cmocka_unit_test_teardown(test_sensors_are_the_grids_of_the_condensed_model, clear),
         cmocka_unit_test_teardown(test_rectangles_are_said_to_be_no_rotor, clear),
+        cmocka_unit_test_teardown(test_a_solid_has_no_beam_elements, clear),
         cmocka_unit_test_teardown(test_names_cannot_break_out, clear),
         cmocka_unit_test_teardown(test_wrong_arguments, clear),
         cmocka_unit_test_teardown(test_all_files_or_none, clear),

@@ -7,6 +7,7 @@
 #include "export/matrix_market.h"
 #include "export/remark.h"
 #include "exported.h"
+#include "linalg/matrix.h"
 
 /* A writer's output as a stream to read. */
 static FILE *written(int (*write)(FILE *, const struct export_model *), const struct export_model *model)
@@ -82,7 +83,8 @@ static void test_matrices_come_back_to_the_last_bit(void **state)
                                      market(matrix_market_condensed_stiffness, &model),
                                      market(matrix_market_condensed_mass, &model)};
         assert_int_equal(file[0].n, model.discrete->discrete.beam.mesh.ndof);
-        assert_int_equal(file[2].n, model.job->rotor.nsensor ? model.job->rotor.nsensor : model.discrete->discrete.beam.mesh.naxis);
+        assert_int_equal(file[2].n,
+                         model.job->rotor.nsensor ? model.job->rotor.nsensor : model.discrete->discrete.beam.mesh.naxis);
         assert_same(&file[0], k, 1);
         assert_same(&file[1], m, 1);
         for (int i = 0; i < file[2].n; i++) /* the lower triangle is written; rounding may differ in the upper one */
@@ -104,6 +106,34 @@ static void test_matrices_come_back_to_the_last_bit(void **state)
         for (size_t i = 0; i < sizeof all / sizeof *all; i++)
             free(all[i]);
     }
+}
+
+/* The rows that the table of nodes tells, moved as a rigid body: U = 1, V = -1, and v = 1 of rods. */
+static void test_nodes_of_a_solid_tell_its_rows(void **state)
+{
+    (void)state;
+    struct export_model model = model_of(FREE TIES ", 4\n*FIT, MODEL=SOLID\n");
+    double *u = calloc((size_t)model.k.n, sizeof *u), *ku = calloc((size_t)model.k.n, sizeof *ku);
+    int sensors = 0, members = 0;
+    assert_true(u && ku && model.is_solid);
+    for (int i = 0; i < model.nnode; i++) {
+        const struct export_node *node = &model.node[i];
+        sensors += node->sensor != 0;
+        members += node->row[3] != 0;
+        u[node->row[0] - 1] = 1;
+        if (node->row[1] && node->row[1] != node->row[0]) /* on the axis V = -U has the row of U */
+            u[node->row[1] - 1] = -1;
+        assert_true((node->r == 0) == (node->row[1] == node->row[0]));
+    }
+    assert_int_equal(sensors, model.job->rotor.nsensor);
+    assert_true(members > 0);
+    assert_close(matrix_product(&model.m, u, u, ku), model.mass.mass, 1e-9, 0);
+    double largest = 0;
+    for (int i = 0; i < model.k.n; i++)
+        largest = fmax(largest, model.k.band[(ptrdiff_t)i * (model.k.kd + 1)]);
+    assert_close(matrix_product(&model.k, u, u, ku), 0, 0, 1e-9 * largest);
+    free(u);
+    free(ku);
 }
 
 /* Mass, centre and inertia of the rotor by hand: three cylinders. */
@@ -221,6 +251,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         WITH_POOL(test_matrices_come_back_to_the_last_bit),
+        WITH_POOL(test_nodes_of_a_solid_tell_its_rows),
         WITH_POOL(test_rigid_bodies_and_signs),
         WITH_POOL(test_one_element_by_hand),
         cmocka_unit_test(test_numbers_of_sixteen_columns),

@@ -412,12 +412,48 @@ static void what_is_computed_of_a_study_is_that_of_its_definition(void **state)
     close_bench();
 }
 
+/* Energies stand beside the extents of their elements; the density is the share of the energy over that of the volume. */
+static void a_solid_is_plotted_as_it_is(void **state)
+{
+    (void)state;
+    static const struct expected expected[] = {
+        {"meridian", "elements", "group [1]", "meridian.elements[].group", 1},
+        {"meridian", "sensors", "z [m]", "geometry.sensors[].z_m", 1},
+        {"strain-energy", "energy2", "share of the strain energy [1]", "modes[1].meridian.energy[]", 1},
+        {"strain-energy", "motion2", "z [m]", "meridian.z_m[]", 1},
+        {"strain-energy", "motion2", "radius [m]", "meridian.r_m[]", 1},
+        {"strain-energy", "motion2", "radial motion [1]", "modes[1].meridian.u[]", 1},
+        {"strain-energy", "motion2", "axial motion [1]", "modes[1].meridian.w[]", 1},
+    };
+    static double from[PLOTTED_MOST], to[PLOTTED_MOST], inner[PLOTTED_MOST], outer[PLOTTED_MOST], share[PLOTTED_MOST],
+        density[PLOTTED_MOST];
+    const double volume = 0.4 * 0.03 * 0.03 + 0.3 * 0.06 * 0.06; /* over pi */
+    page_write_file("stepped.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                                   "*SHAFT, NAME=thin, MATERIAL=steel\n0.4, 0.06, 0, 8\n"
+                                   "*SHAFT, NAME=thick, MATERIAL=steel\n0.3, 0.12, 0, 6\n"
+                                   "*SENSORS\n1, 0.1\n2, 0.3\n3, 0.6\n*FIT, MODEL=SOLID\n");
+    open_bench("modes", "stepped.inp");
+    compare(sizeof expected / sizeof *expected, expected);
+    const char *script = script_of("strain-energy");
+    int n = plotted(script, "energy1", "from [m]", from);
+    (void)plotted(script, "energy1", "to [m]", to);
+    (void)plotted(script, "energy1", "inner radius [m]", inner);
+    (void)plotted(script, "energy1", "outer radius [m]", outer);
+    (void)plotted(script, "energy1", "share of the strain energy [1]", share);
+    assert_int_equal(plotted(script, "energy1", "density over its mean [1]", density), n);
+    assert_true(n > 50);
+    for (int e = 0; e < n; e++)
+        assert_close(density[e], share[e] * volume / ((outer[e] * outer[e] - inner[e] * inner[e]) * (to[e] - from[e])), 2e-5, 0);
+    close_bench();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_identification_is_plotted_as_it_is),
         cmocka_unit_test(layers_are_drawn_as_rings),
         cmocka_unit_test(what_is_computed_for_a_plot_is_that_of_its_definition),
+        cmocka_unit_test(a_solid_is_plotted_as_it_is),
         cmocka_unit_test(a_diagnosis_is_plotted_as_it_is),
         cmocka_unit_test(bars_of_the_evidence_are_as_long_as_the_drops),
         cmocka_unit_test(sensitivities_are_plotted_as_they_are),

@@ -302,10 +302,10 @@ void figure_meridian_modes(struct document *document, const struct result *resul
     struct figure *figure = document_figure(document, "strain-energy", "Where the solid is strained, and how it moves");
     figure->caption = pool_format(
         pool,
-        "Strain energy per volume in the first %s modes, from none (pale) to %g times the mean of the rotor or more (dark); "
-        "lines "
-        "are sections of the mesh as they move. %s\xc2\xa0%% of the volume stay below a tenth of the mean in all of these modes: "
-        "such corners a beam counts in full.",
+        "Strain energy per volume in the first %s modes: the more colour the more, in full from %g times the mean of the rotor "
+        "on; "
+        "lines are sections of the mesh as they move. %s\xc2\xa0%% of the volume stay below a tenth of the mean in all of these "
+        "modes: such corners a beam counts in full.",
         human_count(pool, count), DARKEST, human_fixed(pool, 100 * idle_share(modes, count), 1));
     figure->alt =
         pool_format(pool,

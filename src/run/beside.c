@@ -200,6 +200,22 @@ static int choose_modes(struct pool *pool, const struct job *job, const struct b
     return measure(pool, &both->solid_modes, n, number, &fitted->measurement);
 }
 
+/* fit NULL: there was none */
+static void say_why_not(const struct job *fitted, const rotid_fit_result *fit, struct message_list *notes)
+{
+    int at = fit && fit->any_at_bound ? 0 : -1;
+    while (at >= 0 && !fit->at_bound[at])
+        at++;
+    if (at >= 0)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "no moduli make a beam follow this solid: fitted to %d frequencies, %s ends at %.3g times its value",
+                    fitted->measurement.nmode, fitted->unknowns.bounds[at].name, fit->x[at] / fitted->unknowns.bounds[at].start);
+    else
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "what a beam would find cannot be said: %d frequencies of the solid do not determine %d moduli",
+                    fitted->measurement.nmode, fitted->unknowns.nparameter);
+}
+
 /* Nothing where there are no moduli, or fewer modes than moduli. */
 static int fit_beam(struct pool *pool, const struct job *job, const struct both *both, const rotid_environment *environment,
                     struct message_list *notes, rotid_beam_beside_solid *out)
@@ -221,10 +237,9 @@ static int fit_beam(struct pool *pool, const struct job *job, const struct both 
                  : identify_run_bare(pool, &fitted, 0, environment, &quiet, &found);
     if (status == ROTID_ERROR_MEMORY)
         return status;
-    if (status || !found.fit->converged || found.fit->any_at_bound || found.fit->any_undetermined)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "what a beam would find cannot be said: its fit to %d frequencies of the solid did not end well",
-                    fitted.measurement.nmode);
+    /* the frequencies have no noise: intervals, which the misfit widens, and what they call undetermined, say nothing here */
+    if (status || !found.fit->converged || found.fit->any_at_bound || !isfinite(found.fit->condition_number))
+        say_why_not(&fitted, status ? NULL : found.fit, notes);
     else
         status = keep_moduli(pool, &fitted, &found, out);
     rotid_fit_free(found.fit);
