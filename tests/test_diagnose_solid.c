@@ -14,23 +14,22 @@
 #include "modal/prediction.h"
 #include "model/model.h"
 
-#define SENSORS 13
+#define SENSORS 9
 #define MODES   4
 
 static const double true_e = 2e11, true_g = 0.77e11, frequency_noise = 0.001, shape_noise = 0.01;
 
-/* A shaft with one thick part, whose moduli are wanted; sensors at even distances. */
+/* A shaft with one thick end, whose moduli are wanted; sensors at even distances. */
 static const char rotor_text[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n"
                                  "*MATERIAL, NAME=cast\n*ELASTIC, TYPE=SHEAR\n2e11, 0.77e11, 0.30\n*DENSITY\n7850\n"
                                  "*SHAFT, NAME=left, MATERIAL=steel\n0.25, 0.10, 0, 20\n"
-                                 "*SHAFT, NAME=core, MATERIAL=cast\n0.35, 0.20, 0, 20\n"
-                                 "*SHAFT, NAME=right, MATERIAL=steel\n0.20, 0.10, 0, 20\n";
+                                 "*SHAFT, NAME=core, MATERIAL=cast\n0.35, 0.20, 0, 20\n";
 
 static void put_sensors(char *text)
 {
     strcat(text, "*SENSORS\n");
     for (int s = 0; s < SENSORS; s++)
-        (void)sprintf(text + strlen(text), "%d, %.17g\n", s + 1, 0.8 * (s + 0.5) / SENSORS);
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", s + 1, 0.6 * (s + 0.5) / SENSORS);
 }
 
 /* Modes of the rotor, with the effect (may be NULL) in it, as a solid of a mesh twice as fine, with noise, as cards. */
@@ -135,14 +134,14 @@ static void a_solid_that_explains_its_data_is_adequate(void **state)
 static void what_a_solid_lacks_is_named_and_sized(void **state)
 {
     struct diagnosis d;
-    struct effect ring = {.name = "ring", .kind = catalogue_find("added_mass")->effect, .target = -1, .value = {1.5, 0.7}};
+    struct effect ring = {.name = "ring", .kind = catalogue_find("added_mass")->effect, .target = -1, .value = {1.5, 0.5}};
     (void)state;
     diagnose(&ring, "*FIT, MODEL=SOLID\n", &d);
     assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
     assert_int_equal(d.ncause, 1);
     assert_string_equal(d.cause[0].cause->id, "added_mass");
     assert_close(d.cause[0].effect.value[0], 1.5, 0.1, 0);
-    assert_close(d.cause[0].effect.value[1], 0.7, 0, 0.02);
+    assert_close(d.cause[0].effect.value[1], 0.5, 0, 0.02);
     static const char *const of_beams[] = {"beam_theory", "step_stiffness", "shear_coefficient"};
     for (size_t i = 0; i < sizeof of_beams / sizeof *of_beams; i++) {
         assert_null(find(&d, of_beams[i]));
