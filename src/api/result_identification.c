@@ -29,7 +29,7 @@ static void fill_parameters(struct pool *pool, const struct job *job, const roti
     rotid_component *next = POOL_ARRAY(pool, rotid_component, undetermined * fit->n);
     out->undetermined_directions = next;
     out->nundetermined_directions = next ? undetermined : 0;
-    for (int j = 0; j < fit->n && next; j++)
+    for (int j = 0; j < out->nparameters && next; j++)
         for (int p = 0; p < fit->n && fit->direction_undetermined[j]; p++)
             *next++ = (rotid_component){out->parameters[p].name, fit->direction[p + (ptrdiff_t)j * fit->n]};
     out->intervals_widened_by = fit->widened_by;

@@ -137,7 +137,8 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     if (!result->candidate)
         return ROTID_ERROR_MEMORY;
     if (!adequate) {
-        status = scan_solid(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan);
+        status = scan_solid(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan,
+                            engine->out->nround ? NULL : engine->notes);
         engine_step(engine, "scan");
     }
     if (status)

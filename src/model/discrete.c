@@ -18,9 +18,10 @@ const char *discrete_refusal(enum discretisation as, const struct rotor *rotor, 
 {
     if (as == AS_SOLID)
         return solid_refusal(rotor, failed);
-    return failed < rotor->ngroup ? "the holes leave nothing of a section of this group, expected fewer or smaller ones"
-                                  : "the rods have no equivalent cylinder (its squared inner diameter would be negative), expected a "
-                                    "larger pitch radius or MODEL=RODS";
+    return failed < rotor->ngroup
+               ? "the holes leave nothing of a section of this group, expected fewer or smaller ones"
+               : "the rods have no equivalent cylinder (its squared inner diameter would be negative), expected a "
+                 "larger pitch radius or MODEL=RODS";
 }
 
 int discrete_of_shape(struct pool *pool, const struct discrete *built, const struct rotor *rotor, int nparameter,

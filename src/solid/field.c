@@ -19,8 +19,9 @@ static double middle_of(const struct solid *solid, const struct solid_element *e
     return (solid->mesh.z[element->slice] + solid->mesh.z[element->slice + 1]) / 2;
 }
 
-/* ---- joints: the slice beside the interface, on the side that is thinner, is the softer along the axis by the flexibility c of a
- * rotational spring, 1/E := 1/E + c I/t,  I of its section, t its length. On the thicker side the parts around it would hold it. */
+/* ---- joints: the slice beside the interface, on the side that is thinner, is the softer along the axis by the flexibility c of
+ * a rotational spring, 1/E := 1/E + c I/t,  I of its section, t its length. On the thicker side the parts around it would hold
+ * it. */
 
 static double outer_radius(const struct solid_mesh *mesh, int slice)
 {

@@ -5,9 +5,9 @@
 #include "solid/outline.h"
 #include "solid/shape.h"
 
-#define AT_LINE 0.011 /* of a slice, from a line: a sensor is taken to be there, as in outline_lines, with some room */
-#define UNKNOWNS 9 /* of three nodes that an element has of its own */
-#define QUARTER 0.25 /* of its length from the corner: r^(1/2), the strains of a crack */
+#define AT_LINE  0.011 /* of a slice, from a line: a sensor is taken to be there, as in outline_lines, with some room */
+#define UNKNOWNS 9     /* of three nodes that an element has of its own */
+#define QUARTER  0.25  /* of its length from the corner: r^(1/2), the strains of a crack */
 
 struct grid {              /* nodes by line 0 ... 2 nslice and place 0 ... 2 nr, even ones at the ends of elements */
     int nr, places, *node; /* nr: elements from the axis to the surface */

@@ -88,16 +88,19 @@ const char *solid_refusal(const struct rotor *rotor, int failed)
     if (bars >= rotor->nbars)
         return "a solid of this rotor has too many unknowns, expected fewer steps of the diameter, or *FIT, MODEL=BEAM";
     if (bars >= 0 || (rod >= 0 && rotor->tierod[rod].model == BUNDLE_TUBE))
-        return "an equivalent tube has no counterpart in a solid, whose sections need not stay plane, expected MODEL=RODS, or *FIT, "
+        return "an equivalent tube has no counterpart in a solid, whose sections need not stay plane, expected MODEL=RODS, or "
+               "*FIT, "
                "MODEL=BEAM";
     if (rod >= 0)
-        return "the rods end where there is no material: their pitch radius is outside the section at one of their ends, expected "
+        return "the rods end where there is no material: their pitch radius is outside the section at one of their ends, "
+               "expected "
                "ends inside the shaft";
     for (int s = 0; s < rotor->nsegment; s++) {
         if (rotor->segment[s].group == failed && rotor->segment[s].rectangular)
             return "a solid is a body of revolution, and a *BEAM is not, expected *SHAFT, or *FIT, MODEL=BEAM";
         if (rotor->segment[s].group == failed && s > 0 && !outline_touch(rotor, s))
-            return "a section of this group does not touch the one before: its bore is as wide as that one, expected sections that "
+            return "a section of this group does not touch the one before: its bore is as wide as that one, expected sections "
+                   "that "
                    "overlap, or *FIT, MODEL=BEAM";
     }
     return "the holes leave nothing of the annulus that they lie in, expected fewer or smaller ones";

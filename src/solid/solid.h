@@ -28,9 +28,9 @@ struct solid {
     int elastic_only;                  /* leaves springs and axial forces out of K: what bends the rotor itself */
 };
 
-/* The solid of a rotor, with end springs from the sling added (44). `parameter` [nparameter] is kept; rule: NULL, what follows from
- * the rotor; refine >= 1. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group, tie rod or bars in *failed (groups,
- * then tie rods, then bars, then the mesh as a whole). */
+/* The solid of a rotor, with end springs from the sling added (44). `parameter` [nparameter] is kept; rule: NULL, what follows
+ * from the rotor; refine >= 1. ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group, tie rod or bars in *failed
+ * (groups, then tie rods, then bars, then the mesh as a whole). */
 int solid_build(struct pool *pool, const struct rotor *rotor, int nparameter, const struct parameter *parameter,
                 const struct solid_rule *rule, int refine, struct solid *solid, int *failed);
 
