@@ -214,7 +214,7 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
 {
     struct pool *pool = engine->pool;
     const struct scan *scan = &result->scan;
-    int room = scan->ncandidate + 1, status = ROTID_OK;
+    int room = scan->ncandidate + 2, status = ROTID_OK;
     double unused, shape;
     round->candidate = POOL_ARRAY(pool, struct candidate, room);
     if (!round->candidate)
@@ -236,6 +236,8 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
             round->ncandidate++;
         }
     }
+    if (result->fault)
+        round->candidate[round->ncandidate++] = *result->fault;
     struct before before = {.dof = scan->dof,
                             .nfrequency = scan->nfrequency,
                             .chi2 = scan->chi2,

@@ -13,6 +13,7 @@ struct round_result {
     int nrefit;
     struct refit *refit; /* [nrefit] */
     int *candidate;      /* [nrefit] of the scan */
+    struct candidate *fault; /* of a channel, which stays open beside physical causes; NULL: none */
 };
 
 int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result);
