@@ -28,13 +28,15 @@ static int allows_for_more(const struct rotor *rotor)
     return 0;
 }
 
-/* The stated noise is kept where it is a little too large: a user may have allowed for what a model leaves. */
-static int is_misstated(const struct engine *engine, const struct noise_estimate *noise)
+/* The stated noise is kept where it is a little too large, since a user may have allowed for what a model leaves, and where no
+ * model leaves as little as the estimate says. chi2: of the shapes, a degree of freedom. */
+static int is_misstated(const struct engine *engine, const struct noise_estimate *noise, double chi2)
 {
     if (!noise->usable || !noise->misstated)
         return 0;
     if (noise->factor < 1)
-        return noise->factor < MUCH_LESS && !engine->job.measurement.has_noise_floor && !allows_for_more(&engine->job.rotor);
+        return fmax(noise->factor, sqrt(chi2)) < MUCH_LESS && !engine->job.measurement.has_noise_floor &&
+               !allows_for_more(&engine->job.rotor);
     return noise->factor > 1 && noise->factor < NOISIER;
 }
 
@@ -89,13 +91,11 @@ static void neighbours(const struct engine *engine, const double *r, double *rho
 
 /* Factor on the noise of smooth shapes where neighbours share it, 1 where they do not: the spectrum of such noise rises to
  * (1 + rho)/(1 - rho) towards long waves. Only where the fit has left little else. */
-static double shared_noise(const struct engine *engine, const struct scan *scan, const double *r)
+static double shared_noise(const struct engine *engine, const double *r, double chi2)
 {
-    double rho, sigma, chi2 = 0;
-    for (int i = scan->nfrequency; i < scan->nrow; i++)
-        chi2 += r[i] * r[i];
+    double rho, sigma;
     neighbours(engine, r, &rho, &sigma);
-    if (!(rho > SHARED) || chi2 > LITTLE * (scan->nrow - scan->nfrequency))
+    if (!(rho > SHARED) || chi2 > LITTLE)
         return 1;
     return fmin(fmax(1, sigma * sqrt((1 + rho) / (1 - rho))), NOISIER);
 }
@@ -110,9 +110,13 @@ int noise_settle(struct engine *engine, const struct scan *scan, const double *r
     int status = check_noise(engine, scan, r, &noise);
     if (status)
         return status;
-    double shared = shared_noise(engine, scan, r);
+    int dof = scan->dof - scan->nfrequency;
+    double chi2 = 0;
+    for (int i = scan->nfrequency; i < scan->nrow; i++)
+        chi2 += r[i] * r[i] / (dof > 0 ? dof : 1);
+    double shared = shared_noise(engine, r, chi2);
     int coloured = shared > 1 + SLIGHT;
-    if (!coloured && !is_misstated(engine, &noise))
+    if (!coloured && !is_misstated(engine, &noise, chi2))
         return ROTID_OK;
     double factor = coloured ? shared : noise.factor;
     const char *text = pool_format(
