@@ -134,21 +134,21 @@ static int look_again(struct engine *engine, const int *id, struct rival *rival)
     return status || !rival->right ? status : weigh(engine, id, rival);
 }
 
-/* The highest score within the margin of a name. */
+/* The highest score within the margin of a name; where nothing explains the data, every rival has a say: what the model lacks then
+ * looks like faults beside one model, and otherwise beside the next. */
 static double find_limit(int count, const struct rival *rival, int *best)
 {
     *best = 0;
     for (int i = 1; i < count; i++)
         *best = rival[i].score < rival[*best].score ? i : *best;
     const struct rival *r = &rival[*best];
-    double dispersion = chi_square_tail(r->chi2, r->dof) < 0.01 ? r->chi2 / r->dof : 1;
-    return r->score + LEAST_MARGIN * fmax(1, dispersion);
+    return chi_square_tail(r->chi2, r->dof) < 0.01 ? (double)INFINITY : r->score + LEAST_MARGIN;
 }
 
 static int same(const struct sensor_fault *a, const struct sensor_fault *b)
 {
-    return a->kind == b->kind && ((a->sensor == b->sensor && (a->kind != FAULT_SWAP || a->other == b->other)) ||
-                                  (a->kind == FAULT_SWAP && a->sensor == b->other && a->other == b->sensor));
+    return a->kind == b->kind && ((a->sensor == b->sensor && a->other == b->other) ||
+                                  (a->sensor == b->other && a->other == b->sensor));
 }
 
 static int has(const struct rival *rival, const struct sensor_fault *fault)
