@@ -37,14 +37,32 @@ static int solid_unknowns(struct pool *pool, const struct job *solid, int *unkno
     return status;
 }
 
+#define HOPELESS 4 /* times the chi2 of the beam, by the coarse mesh: whose error is a twentieth of what a beam lacks at a step */
+
+/* chi2 that the residual of the solid at x leaves where the beam's columns take what is fitted anyway. */
+static int chi2_left(struct pool *pool, const struct job *solid, const int *number, const int *holdout, const double *x,
+                     const struct scan *scan, double *left)
+{
+    struct columns columns;
+    int status = columns_open(pool, solid, number, holdout, NULL, x, &columns);
+    if (status)
+        return status;
+    *left = product_dot(scan->nrow, columns.r, columns.r);
+    for (int b = 0; b < scan->nbasis; b++) {
+        double along = product_dot(scan->nrow, scan->basis + (ptrdiff_t)b * scan->nrow, columns.r);
+        *left -= along * along;
+    }
+    return ROTID_OK;
+}
+
 int scan_solid(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
                struct scan *scan, struct message_list *notes)
 {
-    int unknowns, status;
+    double left, before = product_dot(scan->nrow, scan->r, scan->r);
     for (int i = 0; i < scan->ncandidate; i++) {
         struct scan_candidate *c = &scan->candidate[i];
-        struct columns columns;
         struct job solid;
+        int unknowns, status;
         if (!c->cause->solid)
             continue;
         status = job_as_solid(pool, job, &solid);
@@ -54,22 +72,21 @@ int scan_solid(struct pool *pool, const struct job *job, const int *number, cons
             if (notes)
                 message_add(notes, SEVERITY_NOTE, NULL, 0, 0,
                             "the rotor as a solid has %d unknowns, too many to be a rival here (at most %d): see rotid modes "
-                            "--compare, and "
-                            "diagnose the deck with MODEL=SOLID on *FIT",
+                            "--compare, and diagnose the deck with MODEL=SOLID on *FIT",
                             unknowns, MOST_UNKNOWNS);
             return ROTID_OK;
         }
         if (!status)
-            status = identify_hold(pool, &solid, x);
+            status = identify_hold(pool, &solid, NULL);
         if (!status)
-            status = columns_open(pool, &solid, number, holdout, NULL, x, &columns);
+            status = chi2_left(pool, &solid, number, holdout, x, scan, &left);
+        if (!status && left < HOPELESS * before) {
+            status = identify_hold(pool, &solid, x);
+            if (!status)
+                status = chi2_left(pool, &solid, number, holdout, x, scan, &left);
+        }
         if (status) /* the rotor can be no solid: nothing to propose */
             return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
-        double left = product_dot(scan->nrow, columns.r, columns.r), before = product_dot(scan->nrow, scan->r, scan->r);
-        for (int b = 0; b < scan->nbasis; b++) {
-            double along = product_dot(scan->nrow, scan->basis + (ptrdiff_t)b * scan->nrow, columns.r);
-            left -= along * along;
-        }
         c->promise = fmax(0, before - left);
     }
     return ROTID_OK;

@@ -31,7 +31,7 @@ static int fits_coarse(const struct job *job)
     return job->options.solid && job->options.fit.reduction == ROTID_REDUCTION_NONE;
 }
 
-/* Where nothing is held: the coarse mesh as it stands, until a first fit has shown where to compare both. */
+/* Where nothing is held: the coarse mesh as it stands, until somebody has compared both. */
 static int hold_nothing(struct pool *pool, const struct job *job, int count)
 {
     int known;
@@ -64,6 +64,8 @@ int identify_hold(struct pool *pool, const struct job *job, const double *x)
 {
     struct spectrum spectrum;
     double moved;
+    if (!x)
+        return hold_nothing(pool, job, comparison_candidates(job));
     int status = compute_spectrum(pool, job, x, comparison_candidates(job), SPECTRUM_MESH, &spectrum);
     return status ? status : hold_mesh(pool, job, &spectrum, &moved);
 }

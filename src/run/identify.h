@@ -20,8 +20,9 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit);
 
-/* Fits of a solid run on its coarse mesh: holds its frequencies to those of the mesh that counts, at x [nparameter]. identify_run
- * does so itself. Statuses of spectrum_compute. */
+/* Fits of a solid run on its coarse mesh: holds its frequencies to those of the mesh that counts, at x [nparameter]; x
+ * NULL: takes the coarse mesh as it stands, unless something is held. identify_run does so itself. Statuses of spectrum_compute.
+ */
 int identify_hold(struct pool *pool, const struct job *job, const double *x);
 
 /* The mesh for fits of a job with this pairing [nmode], model_open's refine, and the measured frequencies as that mesh has them,
