@@ -14,6 +14,12 @@
 #define VALUE_STDS      4.0
 #define BEST            3 /* causes fitted without noise */
 
+const char *hidden_class_name(enum hidden_class class)
+{
+    static const char *const names[] = {"nothing", "one effect", "two effects", "data", "noise stated wrongly", "outside"};
+    return names[class];
+}
+
 const char *hidden_outcome_name(enum hidden_outcome outcome)
 {
     static const char *const names[] = {"right", "in set", "silent", "unexplained", "other set", "wrong", "failed"};
@@ -28,7 +34,7 @@ int hidden_covers(const struct hidden_value *value)
 struct hidden_score hidden_score_none(void)
 {
     return (struct hidden_score){
-        .drop = NAN, .margin = NAN, .left = NAN, .place_error = NAN, .size_error = NAN, .outcome = HIDDEN_FAILED};
+        .drop = NAN, .lesser = NAN, .margin = NAN, .left = NAN, .place_error = NAN, .size_error = NAN, .outcome = HIDDEN_FAILED};
 }
 
 /* ---- the truth */
@@ -256,6 +262,14 @@ static double fitted_chi2(struct pool *pool, const struct diagnosis *d, const st
     return chi2;
 }
 
+int hidden_drop(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth, double *drop)
+{
+    struct job quiet;
+    int same, status = quiet_job(pool, d, read, truth, &quiet, &same);
+    *drop = !status && same ? fitted_chi2(pool, d, &quiet) : NAN;
+    return status;
+}
+
 /* Without noise: what the base model leaves, and outside the catalogue what the best single causes leave. */
 static int measure_chi2(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth,
                         struct hidden_score *s)
@@ -302,7 +316,7 @@ static void add_value(struct hidden_score *s, const char *id, const char *name, 
     if (s->nvalue == HIDDEN_VALUES || !isfinite(truth))
         return;
     struct hidden_value *v = &s->value[s->nvalue++];
-    *v = (struct hidden_value){.truth = truth, .estimate = estimate, .lower = lower, .upper = upper};
+    *v = (struct hidden_value){.of_cause = id[0] != 0, .truth = truth, .estimate = estimate, .lower = lower, .upper = upper};
     snprintf(v->name, sizeof v->name, "%s%s%s", id, id[0] ? "." : "", name);
 }
 
@@ -393,9 +407,10 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     }
     if (s->class == HIDDEN_NOTHING && s->outcome == HIDDEN_SILENT)
         take_parameters(&d->job, d->base.fit, truth, s);
-    if (s->class == HIDDEN_PHYSICAL && s->outcome == HIDDEN_RIGHT && d->extended.fit) {
+    int whole = s->outcome == HIDDEN_RIGHT && d->extended.fit && s->names == s->truths; /* the model has all that is there */
+    if (whole && (s->class == HIDDEN_PHYSICAL || s->class == HIDDEN_PAIR))
         take_parameters(&d->extended_job, d->extended.fit, truth, s);
+    if (whole && s->class == HIDDEN_PHYSICAL)
         take_cause(&d->cause[0], truth, effect, s);
-    }
     return status;
 }
