@@ -154,8 +154,7 @@ static int read_layer(struct reader *r)
             continue;
         if (s->rings == HIDE_MOST_RINGS || s->rectangular || (line == r->card->lines && line > 1))
             return expected(r, "a line for all sections or one for each, round ones, and fewer layers");
-        if (line < r->card->lines &&
-            (status = read_line(r, line++, 0, NULL, 2, 2, v, "outer, inner diameter")))
+        if (line < r->card->lines && (status = read_line(r, line++, 0, NULL, 2, 2, v, "outer, inner diameter")))
             return status;
         if (!(v[1] >= 0 && v[0] > v[1]))
             return expected(r, "an outer diameter above the inner one");

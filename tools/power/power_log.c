@@ -115,8 +115,8 @@ static void add_score(cJSON *line, const struct hidden_score *s)
         if (field[i].type == TEXT)
             cJSON_AddStringToObject(line, field[i].name, at);
         else
-            add_number(line, field[i].name, field[i].type == INTEGER ? *(const int *)(const void *)at
-                                                                     : *(const double *)(const void *)at);
+            add_number(line, field[i].name,
+                       field[i].type == INTEGER ? *(const int *)(const void *)at : *(const double *)(const void *)at);
     }
     cJSON *values = cJSON_AddArrayToObject(line, "value");
     for (int i = 0; i < s->nvalue; i++) {

@@ -26,9 +26,9 @@ struct row {
 /* How a case ends in these tables; no name: it is seen that something is wrong, and a set, if any, does not hold the truth. */
 static int end_of(const struct hidden_score *s)
 {
-    static const int end[HIDDEN_OUTCOMES] = {[HIDDEN_RIGHT] = NAMED,      [HIDDEN_IN_SET] = IN_SET,
-                                             [HIDDEN_SILENT] = MISSED,    [HIDDEN_UNEXPLAINED] = NO_NAME,
-                                             [HIDDEN_OTHER_SET] = NO_NAME, [HIDDEN_WRONG] = WRONG};
+    static const int end[HIDDEN_OUTCOMES] = {
+        [HIDDEN_RIGHT] = NAMED,         [HIDDEN_IN_SET] = IN_SET,     [HIDDEN_SILENT] = MISSED,
+        [HIDDEN_UNEXPLAINED] = NO_NAME, [HIDDEN_OTHER_SET] = NO_NAME, [HIDDEN_WRONG] = WRONG};
     return s->class == HIDDEN_PAIR && s->outcome == HIDDEN_RIGHT && s->names < 2 ? HALF : end[s->outcome];
 }
 

@@ -156,8 +156,8 @@ int power_requirements(FILE *out, int count, const struct power_result *result)
     for (int i = 0; i < LINES; i++) {
         double lower, upper, part = share[i].count ? (double)share[i].right / share[i].count : 0;
         power_interval(share[i], &lower, &upper);
-        int holds = table[i].bad ? part <= table[i].most && upper >= table[i].least
-                                 : part >= table[i].least && lower <= table[i].most;
+        int holds =
+            table[i].bad ? part <= table[i].most && upper >= table[i].least : part >= table[i].least && lower <= table[i].most;
         if (i == REQUIRED)
             fprintf(out, "beside that\n");
         if (!share[i].count) {

@@ -55,6 +55,7 @@ static void draw_sections(struct drawn *d)
     d->length = log_between(d, 0.25, 4);
     d->diameter = d->length / log_between(d, 4, 30);
     double core = middle == d->sections ? 1 : between(d, 0.25, 0.7), weight[MOST_SECTIONS], sum[2] = {0, 0};
+    int widest = d->left + hide_pick(&d->random, middle);
     double bore = chance(d, 0.25) ? between(d, 0.15, 0.6) : 0, through = chance(d, 0.5);
     for (int i = 0; i < d->sections; i++) {
         int in_core = i >= d->left && i < d->left + middle;
@@ -64,7 +65,7 @@ static void draw_sections(struct drawn *d)
         struct stretch *s = &d->section[i];
         int in_core = i >= d->left && i < d->left + middle, stepped = !in_core || d->sections == middle;
         s->length = d->length * weight[i] / sum[in_core] * (in_core ? core : 1 - core);
-        s->outer = d->diameter * (stepped ? between(d, 0.35, 1) : middle == 1 ? 1 : between(d, 0.85, 1));
+        s->outer = d->diameter * (i == widest ? 1 : between(d, stepped ? 0.35 : 0.85, 1));
         s->inner = in_core || through ? bore * s->outer : 0;
         s->length = ceil(s->length * 1e6) * 1e-6;
         s->outer = ceil(s->outer * 1e6) * 1e-6;

@@ -52,8 +52,8 @@ static void show_progress(struct run *run, const struct hidden_score *score)
     run->wrong += score->outcome == HIDDEN_WRONG;
     if (isatty(STDERR_FILENO)) {
         double each = (clock_seconds() - run->begin) / run->finished;
-        fprintf(stderr, "\r%d of %d, %.2f s each, %.0f s to go, %d wrong names ", run->found + run->finished,
-                run->options->cases, each, each * (run->options->cases - run->found - run->finished), run->wrong);
+        fprintf(stderr, "\r%d of %d, %.2f s each, %.0f s to go, %d wrong names ", run->found + run->finished, run->options->cases,
+                each, each * (run->options->cases - run->found - run->finished), run->wrong);
     }
     pthread_mutex_unlock(&run->lock);
 }
@@ -118,7 +118,9 @@ int power_run(const struct power_options *options, const volatile sig_atomic_t *
     if (isatty(STDERR_FILENO))
         fprintf(stderr, "\r%79s\r", "");
     fprintf(out, "%d cases in %.0f s, %d of the log%s\n", run.finished, clock_seconds() - run.begin, run.found,
-            !status ? "" : *interrupted ? ", interrupted" : ", ended without memory");
+            !status        ? ""
+            : *interrupted ? ", interrupted"
+                           : ", ended without memory");
     if (!options->keep)
         rmdir(run.directory);
     if (run.log)
