@@ -277,17 +277,17 @@ static void effects_are_what_other_cards_say(void **state)
     }
 }
 
-/* A pin in the bore of a shaft makes a solid one, but for the shear of its parts, which shear as if each stood alone: made stiff in
- * shear, both are the same beam. */
+/* A pin in the bore of a shaft makes a solid one, but for the shear of its parts, which shear as if each stood alone: made stiff
+ * in shear, both are the same beam. */
 static void a_layer_is_a_part_of_the_section(void **state)
 {
     (void)state;
-    static const char solid_bar[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=bar, MATERIAL=steel\n"
-                                    "0.4, 0.1, 0, 9\n0.6, 0.12, 0, 9\n*SENSORS\n1, 0.3\n";
+    static const char solid_bar[] =
+        "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=bar, MATERIAL=steel\n"
+        "0.4, 0.1, 0, 9\n0.6, 0.12, 0, 9\n*SENSORS\n1, 0.3\n";
     char *tube = edited(solid_bar, "0.4, 0.1, 0, 9\n0.6, 0.12, 0, 9", "0.4, 0.1, 0.05, 9\n0.6, 0.12, 0.07, 9");
     char *lined = edited(tube, "*SENSORS", "*LAYER, NAME=pin, GROUP=bar, MATERIAL=steel\n0.05, 0\n0.07, 0\n*SENSORS");
-    char *harder = edited(lined, "NAME=pin, GROUP=bar, MATERIAL=steel",
-                          "NAME=pin, GROUP=bar, MATERIAL=hard\n** of its own");
+    char *harder = edited(lined, "NAME=pin, GROUP=bar, MATERIAL=steel", "NAME=pin, GROUP=bar, MATERIAL=hard\n** of its own");
     char *hard = edited(harder, "*SHAFT", "*MATERIAL, NAME=hard\n*ELASTIC\n3e11, 0.3\n*DENSITY\n7800\n*SHAFT");
     const char *stiff[] = {"shear_coefficient:group=bar,factor=100", "shear_coefficient:group=pin,factor=100"};
     const char *factor = "stiffness:group=pin,factor=1.5", *cone = "step_stiffness:angle=45";
