@@ -56,7 +56,8 @@ static void draw_sections(struct drawn *d)
     d->diameter = d->length / log_between(d, 4, 30);
     double core = middle == d->sections ? 1 : between(d, 0.25, 0.7), weight[MOST_SECTIONS], sum[2] = {0, 0};
     int widest = d->left + hide_pick(&d->random, middle);
-    double bore = chance(d, 0.25) ? between(d, 0.15, 0.6) : 0, through = chance(d, 0.5);
+    double bore = chance(d, 0.25) ? between(d, 0.2, 0.6) : 0, least = d->diameter;
+    int through = chance(d, 0.5);
     for (int i = 0; i < d->sections; i++) {
         int in_core = i >= d->left && i < d->left + middle;
         sum[in_core] += weight[i] = between(d, 0.3, 1);
@@ -66,11 +67,13 @@ static void draw_sections(struct drawn *d)
         int in_core = i >= d->left && i < d->left + middle, stepped = !in_core || d->sections == middle;
         s->length = d->length * weight[i] / sum[in_core] * (in_core ? core : 1 - core);
         s->outer = d->diameter * (i == widest ? 1 : between(d, stepped ? 0.35 : 0.85, 1));
-        s->inner = in_core || through ? bore * s->outer : 0;
         s->length = ceil(s->length * 1e6) * 1e-6;
         s->outer = ceil(s->outer * 1e6) * 1e-6;
-        s->inner = floor(s->inner * 1e6) * 1e-6;
+        least = fmin(least, s->outer);
     }
+    for (int i = 0; i < d->sections; i++) /* one drill: what lies side by side keeps a common wall */
+        if (through || (i >= d->left && i < d->left + middle))
+            d->section[i].inner = floor(bore * least * 1e6) * 1e-6;
     d->layered = d->sections > middle && bore == 0 && chance(d, 0.2);
     d->length = 0;
     for (int i = 0; i < d->sections; i++) {

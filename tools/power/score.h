@@ -61,7 +61,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *diagnosis, cons
                       struct hidden_score *score);
 struct hidden_score hidden_score_none(void);
 
-/* The drop of the data of `truth`, of the same rotor with the same noise: NaN where they have other modes than the diagnosis, or
+/* The drop of the data of `truth`, of the same rotor with the same noise and as many modes: NaN where
  * the fit fails. ROTID_OK or ROTID_ERROR_MEMORY. */
 int hidden_drop(struct pool *pool, const struct diagnosis *diagnosis, const struct job *read, const cJSON *truth, double *drop);
 
