@@ -12,9 +12,6 @@
 #define NOISIER  3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
 #define COLOURED 2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
 #define CLEAR    2.0 /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
-#define LEAST_LEFT                                                                                                               \
-    3               /* residuals more than parameters, that could still contradict a name: six frequencies carry one parameter   \
-                     */
 #define SURE   3.0  /* standard deviations that exclude a mass */
 #define WORSE  1.1  /* held-out modes predicted worse than this factor speak against a cause */
 #define BETTER 0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
@@ -199,7 +196,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         (before->chi2 - before->beyond_drop + PARAMETER_PENALTY <= limit || /* a bound of the deck may be all that is wrong */
          !(first->result.chi2_drop > CLEAR * round->result.threshold) ||    /* or its place is open, or little is left over */
          first->other_chi2 - first->result.chi2 < round->result.required_margin ||
-         before->dof - free_parameters(first) < LEAST_LEFT);
+         before->dof - free_parameters(first) < LEAST_RESIDUALS);
     round->result.kind = round->result.set == 0                                                               ? ROTID_UNEXPLAINED
                          : round->result.set > 1 || !engine->out->result.verdict.confident || refused || weak ? ROTID_AMBIGUOUS
                          : round->candidate[0].cause->class != CAUSE_PHYSICAL                                 ? ROTID_UNEXPLAINED

@@ -83,14 +83,14 @@ static double best_items(const struct scan *scan, const double *gram, const doub
 /* A pair into the list of the best ones, which is kept in order. */
 static void enter(const struct scan *scan, const struct scan_set *pair, int most, struct scan_set *set, int *count)
 {
-    double score = PARAMETER_PENALTY * (searched(&scan->candidate[pair->candidate[0]]) +
-                                        searched(&scan->candidate[pair->candidate[1]])) -
-                   pair->drop;
+    double score =
+        PARAMETER_PENALTY * (searched(&scan->candidate[pair->candidate[0]]) + searched(&scan->candidate[pair->candidate[1]])) -
+        pair->drop;
     int at = *count < most ? (*count)++ : most;
     for (; at > 0; at--) {
         const struct scan_set *other = &set[at - 1];
-        if (PARAMETER_PENALTY * (searched(&scan->candidate[other->candidate[0]]) +
-                                 searched(&scan->candidate[other->candidate[1]])) -
+        if (PARAMETER_PENALTY *
+                    (searched(&scan->candidate[other->candidate[0]]) + searched(&scan->candidate[other->candidate[1]])) -
                 other->drop <=
             score)
             break;
@@ -116,7 +116,8 @@ int pairs_choose(struct pool *pool, const struct job *job, const struct scan *sc
     for (int a = 0; a < scan->ncandidate; a++)
         for (int b = a; b < scan->ncandidate; b++) {
             struct scan_set pair;
-            if (scan_allows(job, scan, a, b) &&
+            int left = scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]);
+            if (left >= LEAST_RESIDUALS && scan_allows(job, scan, a, b) &&
                 best_items(scan, gram, along, a, b, APART * rotor_length(&job->rotor), &pair) > 0)
                 enter(scan, &pair, most, set, count);
         }

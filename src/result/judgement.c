@@ -93,7 +93,8 @@ static int searched_by(const rotid_candidate *c)
 
 int verdict_is_pair(const rotid_verdict *v, int i)
 {
-    return i > 0 && i < v->nalternative_sets && v->alternative_sets[i] == v->alternative_sets[i - 1];
+    return i > 0 && i < v->nalternative_sets && v->alternative_sets[i] > 0 &&
+           v->alternative_sets[i] == v->alternative_sets[i - 1];
 }
 
 int verdict_sets(const rotid_verdict *v)
