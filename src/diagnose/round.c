@@ -5,6 +5,7 @@
 #include "diagnose/as_solid.h"
 #include "diagnose/bootstrap.h"
 #include "diagnose/clean.h"
+#include "diagnose/decide.h"
 #include "diagnose/evidence.h"
 #include "diagnose/explains.h"
 #include "diagnose/pairs.h"
@@ -12,11 +13,11 @@
 #include "diagnose/round.h"
 #include "diagnose/scan.h"
 
-#define MOST_REFITS 16
-#define MOST_PAIRS  16 /* the true one is seldom the first of the linear list: where effects are large its fit shows it */
+#define MOST_REFITS         16
+#define MOST_PAIRS          16 /* the true one is seldom the first of the linear list: where effects are large its fit shows it */
 #define MOST_PAIRS_OF_SOLID 4
-#define WORTH       3.0  /* a promised drop below this is noise */
-#define SHARE       0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
+#define WORTH               3.0  /* a promised drop below this is noise */
+#define SHARE               0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
 
 struct refits {
     const struct engine *engine;
@@ -85,21 +86,22 @@ static int run_refits(struct engine *engine, struct round_result *result, int co
     return status;
 }
 
-/* Pairs where no single cause explains the data. Where a solid does most for them the rounds go on with it first: it is no column
- * that could be one of two. */
+/* Pairs, where the best single cause does not explain the data. Where that is the rotor as a solid the rounds go on with it
+ * first: it is no column that could be one of two. */
 static int run_pairs(struct engine *engine, struct round_result *result)
 {
-    int best = -1, count = 0, most = engine->job.options.solid ? MOST_PAIRS_OF_SOLID : MOST_PAIRS;
     const struct scan *scan = &result->scan;
+    int best = -1, count = 0, most = engine->job.options.solid ? MOST_PAIRS_OF_SOLID : MOST_PAIRS;
+    double least = INFINITY;
     for (int i = 0; i < result->nrefit; i++) {
-        if (!result->refit[i].fit)
-            continue;
-        if (fit_explains(&result->refit[i], scan, &result->set[i], engine->holdout))
-            return ROTID_OK;
-        if (best < 0 || result->refit[i].chi2 < result->refit[best].chi2)
+        double score = result->refit[i].fit ? result->refit[i].chi2 + PARAMETER_PENALTY * result->refit[i].fit->n : INFINITY;
+        if (score < least) {
+            least = score;
             best = i;
+        }
     }
-    if (best < 0 || scan->candidate[result->set[best].candidate[0]].cause->solid)
+    if (best < 0 || scan->candidate[result->set[best].candidate[0]].cause->solid ||
+        fit_explains(&result->refit[best], scan, &result->set[best], engine->holdout))
         return ROTID_OK;
     int status = pairs_choose(engine->pool, &engine->job, scan, most, result->set + result->nrefit, &count);
     return status ? status : run_refits(engine, result, count);
