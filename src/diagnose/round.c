@@ -15,7 +15,7 @@
 
 #define MOST_REFITS         16
 #define MOST_PAIRS          16 /* the true one is seldom the first of the linear list: where effects are large its fit shows it */
-#define MOST_PAIRS_OF_SOLID 4
+#define MOST_PAIRS_OF_SOLID 6
 #define WORTH               3.0  /* a promised drop below this is noise */
 #define SHARE               0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
 
@@ -37,13 +37,11 @@ static int refit_task(void *context, int index, int worker)
                      &refits->result->set[i], e->environment, &refits->result->refit[i]);
 }
 
-/* Candidates worth a nonlinear fit, the most promising first, and every suspect. A fit of a solid takes seconds: there the rivals
- * alone are fitted. */
-static int choose(const struct scan *scan, double threshold, int solid, struct scan_set *set)
+/* Candidates worth a nonlinear fit, the most promising first, and every suspect. */
+static int choose(const struct scan *scan, double threshold, struct scan_set *set)
 {
     int count = 0;
-    double half = threshold / 2, rival = SHARE * scan->largest,
-           least = fmax(WORTH, solid ? fmax(half, rival) : fmin(half, rival));
+    double least = fmax(WORTH, fmin(threshold / 2, SHARE * scan->largest));
     for (int rank = 0; rank < scan->ncandidate; rank++) {
         int best = -1;
         for (int i = 0; i < scan->ncandidate; i++) {
@@ -171,7 +169,7 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     }
     if (status)
         return status;
-    int single = adequate ? 0 : choose(scan, b->threshold, engine->job.options.solid, result->set);
+    int single = adequate ? 0 : choose(scan, b->threshold, result->set);
     status = engine_stage(engine, "fits of candidates, round", engine->out->nround + 1);
     if (!status)
         status = run_refits(engine, result, single);
