@@ -559,6 +559,8 @@ module rotid
     type(c_ptr) :: alternatives = c_null_ptr ! texts
     integer(c_int) :: nalternative_causes = 0
     type(c_ptr) :: alternative_causes = c_null_ptr ! rotid_cause
+    integer(c_int) :: nalternative_sets = 0
+    type(c_ptr) :: alternative_sets = c_null_ptr ! integer
     type(c_ptr) :: next_measurement = c_null_ptr ! text
     type(c_ptr) :: sentence = c_null_ptr ! text
     integer(c_int) :: undetermined_parameters = 0
@@ -622,6 +624,7 @@ module rotid
     type(c_ptr) :: collinear_target = c_null_ptr ! text
     real(c_double) :: cosine = 0
     type(c_ptr) :: rejected_because = c_null_ptr ! text
+    type(c_ptr) :: with = c_null_ptr ! rotid_cause
   end type rotid_candidate
 
   type, bind(C) :: rotid_pair

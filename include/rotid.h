@@ -641,6 +641,8 @@ typedef struct rotid_verdict {
     const char **alternatives; /* ids of the candidates that cannot be told apart, best first */
     int nalternative_causes;
     rotid_cause *alternative_causes; /* the same with targets and values */
+    int nalternative_sets;
+    int *alternative_sets; /* a number from 1 for each of them: two causes of one number are meant together */
     const char *next_measurement;    /* what would settle it; NULL where nothing is open */
     const char *sentence;            /* the verdict for a person; NULL where there is none */
     int undetermined_parameters;     /* parameters of the base model that the data leave open */
@@ -708,6 +710,7 @@ typedef struct rotid_candidate {
     const char *collinear_target; /* its target */
     double cosine;                /* between the two after what is identified has been projected out [1] */
     const char *rejected_because; /* NULL: named, or one of those that cannot be told apart, or not needed */
+    rotid_cause *with;            /* the second cause of two that are tried at once, NULL where this one is alone */
 } rotid_candidate;
 
 /* Of the base and of the extended model. */
@@ -781,7 +784,7 @@ typedef struct rotid_diagnosis {
     int nnumerical_findings;
     rotid_numerical_finding *numerical_findings; /* errors of the model's own numbers, removed */
     int nrounds;
-    rotid_round *rounds; /* one cause a round; the last names nothing more */
+    rotid_round *rounds; /* one cause a round, or two at once; the last names nothing more */
     int ncandidates;
     rotid_candidate *candidates; /* of all rounds, best first within a round */
     rotid_gain gain;
