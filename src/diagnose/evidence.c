@@ -7,11 +7,11 @@
 #include "diagnose/bootstrap.h"
 #include "diagnose/decide.h"
 #include "diagnose/evidence.h"
-#include "diagnose/explains.h"
 #include "diagnose/leave_out.h"
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
 #include "diagnose/scan.h"
+#include "fit/quantile.h"
 
 #define MOST_OUT   5     /* candidates for which modes are left out in turn */
 #define OUT_MARGIN 25.0  /* of chi2 from the best one: further ones do not win whatever they predict */
@@ -77,6 +77,13 @@ static double frequency_chi2(const rotid_fit_result *fit, int nfrequency)
     return sum;
 }
 
+int fit_explains(const struct scan *scan, const rotid_fit_result *fit)
+{
+    int dof = scan->dof - (fit->n - scan->nfree);
+    return dof > 0 && chi_square_tail(frequency_chi2(fit, scan->nfrequency), scan->nfrequency) > BLOCK_LEVEL &&
+           chi_square_tail(fit->chi2, dof) > BLOCK_LEVEL;
+}
+
 /* Candidate `index` of the scan as it was listed. */
 static struct candidate listed(const struct scan *scan, int index)
 {
@@ -131,7 +138,7 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->result.bic = refit->chi2 + log(scan->nrow) * refit->job.unknowns.nparameter;
     c->result.p_value = pair ? NAN : bootstrap_p(&result->bootstrap, c->result.chi2_drop);
     c->result.chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
-    c->explains = fit_explains(refit, scan, set, engine->holdout);
+    c->explains = fit_explains(scan, refit->fit);
     take_parameters(refit, last - set->count, c);
     mend_intervals(scan, pair ? NULL : &scan->candidate[set->candidate[0]], c);
     if (pair) {
