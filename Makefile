@@ -4,7 +4,7 @@
 #   make demo       identifies the paper's rotor from its measured frequencies, diagnoses a beam, and makes a page of that
 #   make figures    the paper's figures and Table 1 for its rotor, beside the paper's numbers, as pages
 #   make test       builds and runs every test; ends with one line "N passed, N failed"
-#   make power      hides effects in simulated data a thousand times and counts what the diagnosis makes of them
+#   make power      hides effects in a thousand random rotors and counts what the diagnosis makes of them
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-tsan   calls from several threads under the thread sanitizer
@@ -182,7 +182,7 @@ $(BUILD)/tools/hide/%.o $(BUILD)/tools/power/%.o $(BUILD)/tools/hammer/%.o: ALL_
 $(BUILD)/hammer: $(call OBJECTS_OF,$(wildcard tools/hammer/*.c tools/oracle/*.c) $(filter-out %/hide_main.c,$(wildcard tools/hide/*.c)))
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lm -o $@
 
-# Fresh hidden effects by the thousand; POWER holds options, such as "--cases 200 --no-shapes".
+# Fresh rotors with hidden effects by the thousand; POWER holds options, such as "--cases 200 --log FILE".
 $(BUILD)/power: $(BUILD)/tools/power/power.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ -lcmocka $(PROGRAM_LIBS) -o $@
 power: $(BUILD)/power

@@ -1,5 +1,6 @@
 #include "hidden.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -30,6 +31,35 @@ static int write_text(const char *path, const char *text)
     return bad;
 }
 
+/* What each of two effects is worth alone, on the same rotor: the lesser of both. */
+static int measure_each(struct pool *pool, const struct hidden_case *c, const struct diagnosis *d, const struct job *job,
+                        const cJSON *truth, struct hidden_score *s)
+{
+    struct hide_request one = c->request;
+    char message[300], *deck, *text;
+    const cJSON *effect;
+    double drop;
+    int status = ROTID_OK;
+    one.random = NULL;
+    one.effects = 1;
+    cJSON_ArrayForEach(effect, cJSON_GetObjectItem(truth, "effects"))
+    {
+        const char *spec = cJSON_GetStringValue(cJSON_GetObjectItem(effect, "spec"));
+        one.effect = &spec;
+        if (hide_case(&one, &deck, &text, message, sizeof message))
+            return ROTID_OK; /* the rotor buckles with one of them, say */
+        cJSON *alone = cJSON_Parse(text);
+        status = alone ? hidden_drop(pool, d, job, alone, &drop) : ROTID_ERROR_MEMORY;
+        cJSON_Delete(alone);
+        free(deck);
+        free(text);
+        if (status)
+            return status;
+        s->lesser = isfinite(s->lesser) ? fmin(s->lesser, drop) : drop;
+    }
+    return status;
+}
+
 static int diagnose(struct pool *pool, const struct hidden_case *c, const char *path, const rotid_environment *environment,
                     hidden_look *look, void *context, const char *truth, struct hidden_score *s)
 {
@@ -55,6 +85,8 @@ static int diagnose(struct pool *pool, const struct hidden_case *c, const char *
     }
     cJSON *json = cJSON_Parse(truth); /* not before the diagnosis is done */
     status = json ? hidden_score_make(pool, &d, &job, json, s) : ROTID_ERROR_SYNTAX;
+    if (!status && s->class == HIDDEN_PAIR)
+        status = measure_each(pool, c, &d, &job, json, s);
     if (!status && look)
         look(context, c, &d, json, s);
     cJSON_Delete(json);
@@ -65,7 +97,7 @@ static int diagnose(struct pool *pool, const struct hidden_case *c, const char *
 int hidden_run(const struct hidden_case *c, const rotid_environment *environment, hidden_look *look, void *context,
                struct hidden_score *s)
 {
-    char path[1000], *deck = NULL, *truth = NULL;
+    char path[1000], other[1000], *deck = NULL, *truth = NULL;
     struct pool pool;
     int status;
     *s = hidden_score_none();
@@ -73,9 +105,13 @@ int hidden_run(const struct hidden_case *c, const rotid_environment *environment
         return ROTID_OK;
     s->failure[0] = 0;
     snprintf(path, sizeof path, "%s/case_%d.inp", c->directory, c->number);
+    snprintf(other, sizeof other, "%s/case_%d.json", c->directory, c->number);
     pool_open(&pool, NULL);
-    status = write_text(path, deck) ? ROTID_ERROR_IO : diagnose(&pool, c, path, environment, look, context, truth, s);
-    remove(path);
+    status = write_text(path, deck) || (c->keep && write_text(other, truth))
+                 ? ROTID_ERROR_IO
+                 : diagnose(&pool, c, path, environment, look, context, truth, s);
+    if (!c->keep)
+        remove(path);
     pool_close(&pool);
     free(deck);
     free(truth);

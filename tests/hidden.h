@@ -8,8 +8,9 @@
 
 struct hidden_case {
     struct hide_request request; /* with the deck's text and its path as the name */
-    const char *directory;       /* for the deck with its data, which is removed again; file names follow the number */
+    const char *directory;       /* for the deck with its data: case_NUMBER.inp */
     int number;
+    int keep; /* leaves the deck there, and the truth: case_NUMBER.json */
 };
 
 /* What was found, while it is there. */

@@ -277,6 +277,54 @@ static void effects_are_what_other_cards_say(void **state)
     }
 }
 
+/* A pin in the bore of a shaft makes a solid one, but for the shear of its parts, which shear as if each stood alone: made stiff
+ * in shear, both are the same beam. */
+static void a_layer_is_a_part_of_the_section(void **state)
+{
+    (void)state;
+    static const char solid_bar[] =
+        "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SHAFT, NAME=bar, MATERIAL=steel\n"
+        "0.4, 0.1, 0, 9\n0.6, 0.12, 0, 9\n*SENSORS\n1, 0.3\n";
+    char *tube = edited(solid_bar, "0.4, 0.1, 0, 9\n0.6, 0.12, 0, 9", "0.4, 0.1, 0.05, 9\n0.6, 0.12, 0.07, 9");
+    char *lined = edited(tube, "*SENSORS", "*LAYER, NAME=pin, GROUP=bar, MATERIAL=steel\n0.05, 0\n0.07, 0\n*SENSORS");
+    char *harder = edited(lined, "NAME=pin, GROUP=bar, MATERIAL=steel", "NAME=pin, GROUP=bar, MATERIAL=hard\n** of its own");
+    char *hard = edited(harder, "*SHAFT", "*MATERIAL, NAME=hard\n*ELASTIC\n3e11, 0.3\n*DENSITY\n7800\n*SHAFT");
+    const char *stiff[] = {"shear_coefficient:group=bar,factor=100", "shear_coefficient:group=pin,factor=100"};
+    const char *factor = "stiffness:group=pin,factor=1.5", *cone = "step_stiffness:angle=45";
+    struct hide_request r = hide_request_default();
+    r.deck = solid_bar;
+    r.effect = stiff;
+    r.effects = 1;
+    struct result bar = make(&r);
+    r.deck = lined;
+    r.effects = 2;
+    struct result both = make(&r);
+    r.effect = &factor;
+    r.effects = 1;
+    struct result factored = make(&r);
+    r.deck = hard;
+    r.effects = 0;
+    struct result stated = make(&r);
+    for (int k = 0; k < MODES; k++) {
+        assert_close(hz(&both, "with", k), hz(&bar, "with", k), 3e-3, 0); /* a hundredth of what shear lowers mode 6 by */
+        assert_true(hz(&both, "without", k) < hz(&bar, "without", k));
+        assert_close(hz(&factored, "with", k), hz(&stated, "without", k), 1e-10, 0);
+    }
+    char *deck, *truth, message[300];
+    r.effect = &cone;
+    r.effects = 1;
+    assert_int_equal(hide_case(&r, &deck, &truth, message, sizeof message), HIDE_INPUT);
+    assert_non_null(strstr(message, "expected a deck without *LAYER"));
+    close_result(&bar);
+    close_result(&both);
+    close_result(&factored);
+    close_result(&stated);
+    free(tube);
+    free(lined);
+    free(harder);
+    free(hard);
+}
+
 /* input/solid_steel_stiff.inp has cones of 30 degrees as stairs of four: within 1e-3, of an effect of up to 6 %. */
 static void cones_are_those_of_the_deck_with_stairs(void **state)
 {
@@ -595,6 +643,7 @@ int main(void)
         cmocka_unit_test(frequencies_move_as_they_must),
         cmocka_unit_test(effects_vanish_smoothly),
         cmocka_unit_test(effects_are_what_other_cards_say),
+        cmocka_unit_test(a_layer_is_a_part_of_the_section),
         cmocka_unit_test(cones_are_those_of_the_deck_with_stairs),
         cmocka_unit_test(varying_stiffness_is_converged),
         cmocka_unit_test(noise_is_as_stated),

@@ -5,6 +5,7 @@
 
 #include "modal/prediction.h"
 #include "model/model.h"
+#include "run/doubt.h"
 
 #define ROUNDS 3    /* of fitting and pairing, should the pairs change with the model */
 #define HELD   1e-5 /* of a frequency: a hundredth of the noise of a good measurement */
@@ -178,6 +179,8 @@ static int with_models(struct pool *pool, const struct job *job, int baseline, i
     status = compute_spectrum(pool, job, start, candidates, paired | (coarse ? SPECTRUM_COARSE : 0), &out->spectrum);
     if (!status && coarse)
         status = hold_nothing(pool, job, out->spectrum.count);
+    if (!status)
+        (void)doubt_units(job, &out->spectrum, SEVERITY_WARNING, notes);
     if (!status)
         status = comparison_make(pool, job, &out->spectrum, &quiet, &before);
     if (status) {

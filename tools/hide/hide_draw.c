@@ -13,17 +13,31 @@ struct draw {
     struct hide_random *random;
 };
 
+static void add_part(struct draw *d, int group, double length, double area, double second)
+{
+    const struct hide_material *m = &d->rotor->group[group].material;
+    d->mass += m->rho * area * length;
+    d->bending += m->e * second * length / d->rotor->length;
+}
+
+static void add_ring(struct draw *d, int group, double length, double outer, double inner)
+{
+    double o2 = outer * outer, i2 = inner * inner;
+    add_part(d, group, length, pi / 4 * (o2 - i2), pi / 64 * (o2 * o2 - i2 * i2));
+}
+
 static void measure(struct draw *d)
 {
     d->mass = d->bending = 0;
     for (int i = 0; i < d->rotor->segments; i++) {
         const struct hide_segment *s = &d->rotor->segment[i];
-        const struct hide_material *m = &d->rotor->group[s->group].material;
-        double length = s->to - s->from, o2 = s->outer * s->outer, i2 = s->inner * s->inner;
-        double area = s->rectangular ? s->height * s->width : pi / 4 * (o2 - i2);
-        double second = s->rectangular ? s->width * pow(s->height, 3) / 12 : pi / 64 * (o2 * o2 - i2 * i2);
-        d->mass += m->rho * area * length;
-        d->bending += m->e * second * length / d->rotor->length;
+        double length = s->to - s->from;
+        if (s->rectangular)
+            add_part(d, s->group, length, s->height * s->width, s->width * pow(s->height, 3) / 12);
+        else
+            add_ring(d, s->group, length, s->outer, s->inner);
+        for (int k = 0; k < s->rings; k++)
+            add_ring(d, s->ring[k].group, length, s->ring[k].outer, s->ring[k].inner);
     }
 }
 
@@ -107,7 +121,7 @@ static int of_tie(struct draw *d, const char *id, double value, char spec[HIDE_S
 
 static int has_step(const struct hide_rotor *rotor)
 {
-    for (int i = 0; i + 1 < rotor->segments; i++)
+    for (int i = 0; i + 1 < rotor->segments && rotor->groups == rotor->shafts; i++)
         if (!rotor->segment[i].rectangular && !rotor->segment[i + 1].rectangular &&
             fabs(rotor->segment[i].outer - rotor->segment[i + 1].outer) > 1e-9)
             return 1;
@@ -138,10 +152,10 @@ static int draw_stiffness(struct draw *d, const char *id, char spec[HIDE_SPEC])
                  length * (box ? sized(d, 0.02, 0.08) : sized(d, 0.0075, 0.03)), box ? "box" : "gaussian");
         return 1;
     }
-    if (d->rotor->groups < 2) /* a joint */
+    if (d->rotor->shafts < 2) /* a joint */
         return 0;
     snprintf(spec, HIDE_SPEC, "%s:at=%s.end,flexibility=%.6g", id,
-             d->rotor->group[hide_pick(d->random, d->rotor->groups - 1)].name, length / d->bending * sized(d, 6e-4, 0.2));
+             d->rotor->group[hide_pick(d->random, d->rotor->shafts - 1)].name, length / d->bending * sized(d, 6e-4, 0.2));
     return 1;
 }
 

@@ -50,7 +50,7 @@ static int interface(const struct hide_rotor *rotor, const char *text, double *z
 {
     if (!hide_position(rotor, text, z))
         return -1;
-    for (int g = 0; g + 1 < rotor->groups; g++)
+    for (int g = 0; g + 1 < rotor->shafts; g++)
         if (fabs(rotor->group[g].to - *z) <= 1e-6 * rotor->length) {
             *z = rotor->group[g].to;
             return g;
@@ -154,6 +154,8 @@ static int check_together(const struct spec *spec, const struct hide_effect *eff
         return expected(spec, "at", "tie rods with MODEL=TUBE in the deck");
     if (hide_is(effect, "density") && spec->rotor->group[hide_get(effect, "group")->index].free_density)
         return expected(spec, "group", "a group whose density is not identified");
+    if (hide_is(effect, "step_stiffness") && spec->rotor->groups > spec->rotor->shafts)
+        return expected(spec, "step_stiffness", "a deck without *LAYER: this program has no cones through rings");
     if (hide_is(effect, "accelerometer_mass") && (hide_get(effect, "mount")->index == 0) != on->given)
         return expected(spec, "sensor", "the id of a sensor with mount=fixed, none with mount=moving");
     if (hide_is(effect, "sensor_position")) {

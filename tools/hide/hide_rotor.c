@@ -131,6 +131,35 @@ static int read_group(struct reader *r)
             return expected(r, what);
     }
     group->to = rotor->length;
+    rotor->shafts = ++rotor->groups;
+    return HIDE_OK;
+}
+
+/* LAYER: a ring of each section of a group, or of all the same */
+static int read_layer(struct reader *r)
+{
+    struct hide_rotor *rotor = r->rotor;
+    const char *name = hide_card_option(r->card, "GROUP");
+    int around = name ? hide_find_group(rotor, name) : -1, line = 0, status;
+    double v[2] = {0, 0};
+    if (rotor->groups == HIDE_MOST_GROUPS || around < 0 || around >= rotor->shafts || !r->card->lines)
+        return expected(r, "GROUP= a shaft that the deck has, a data line, and fewer layers");
+    struct hide_group *group = &rotor->group[rotor->groups];
+    *group = (struct hide_group){.from = rotor->group[around].from, .to = rotor->group[around].to};
+    if ((status = take_name(r, "NAME", group->name)) || (status = find_material(r, &group->material)))
+        return status;
+    for (int i = 0; i < rotor->segments; i++) {
+        struct hide_segment *s = &rotor->segment[i];
+        if (s->group != around)
+            continue;
+        if (s->rings == HIDE_MOST_RINGS || s->rectangular || (line == r->card->lines && line > 1))
+            return expected(r, "a line for all sections or one for each, round ones, and fewer layers");
+        if (line < r->card->lines && (status = read_line(r, line++, 0, NULL, 2, 2, v, "outer, inner diameter")))
+            return status;
+        if (!(v[1] >= 0 && v[0] > v[1]))
+            return expected(r, "an outer diameter above the inner one");
+        s->ring[s->rings++] = (struct hide_ring){rotor->groups, v[0], v[1]};
+    }
     rotor->groups++;
     return HIDE_OK;
 }
@@ -277,11 +306,11 @@ static const struct {
              {"INCLUDE", 0, refuse},
              {"BARS", 0, refuse}, /* the oracle has no branches */
              {"CAUSE", 0, refuse},
-             {"LAYER", 0, refuse}, /* nor sections of several materials */
              {"MATERIAL", 0, read_material},
              {"ELASTIC", 0, read_elastic},
              {"DENSITY", 0, read_density},
              {"SHAFT", 1, read_group},
+             {"LAYER", 2, read_layer},
              {"BEAM", 1, read_group},
              {"PERFORATION", 2, read_of_group},
              {"PRELOAD", 2, read_of_group},

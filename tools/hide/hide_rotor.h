@@ -7,6 +7,7 @@
 
 #define HIDE_NAME            64
 #define HIDE_MOST_GROUPS     32
+#define HIDE_MOST_RINGS      4
 #define HIDE_MOST_SEGMENTS   256
 #define HIDE_MOST_TIES       8
 #define HIDE_MOST_ATTACHED   128
@@ -28,11 +29,17 @@ struct hide_group {
     int free_modulus, free_density; /* E, G or nu, rho are identified */
 };
 
+struct hide_ring {
+    int group;
+    double outer, inner;
+};
+
 struct hide_segment {
-    int group, rectangular;
+    int group, rectangular, rings;
     double from, to;
     double outer, inner, stiff; /* diameters; stiff: the outer one that carries stiffness */
     double height, width;
+    struct hide_ring ring[HIDE_MOST_RINGS]; /* layers */
 };
 
 struct hide_tie {
@@ -64,8 +71,8 @@ struct hide_parameter {
 };
 
 struct hide_rotor {
-    int materials, groups, segments, ties, disks, springs, sensors, parameters;
-    double length, sling; /* sling: 0 where there is none */
+    int materials, groups, shafts, segments, ties, disks, springs, sensors, parameters;
+    double length, sling; /* sling: 0 where there is none; groups: first the shafts, end to end, then the layers */
     struct hide_material material[HIDE_MOST_GROUPS];
     struct hide_group group[HIDE_MOST_GROUPS];
     struct hide_segment segment[HIDE_MOST_SEGMENTS];

@@ -98,6 +98,25 @@ static struct hide_section factors(const struct hide_rotor *rotor, const struct 
     return (struct hide_section){bending * stiffness, shear * stiffness, mass, mass};
 }
 
+/* A part of the section with the effects on its group: parts turn and deflect alike, so theirs are sums. */
+static void add_part(const struct hide_physics *physics, int group, const struct hide_segment *s, double stiff, double z,
+                     struct hide_section *section)
+{
+    struct hide_section part;
+    section_of(&physics->rotor->group[group], s, stiff, &part);
+    for (int i = 0; i < physics->effects; i++) {
+        struct hide_section f = factors(physics->rotor, &physics->effect[i], group, z);
+        part.bending *= f.bending;
+        part.shear *= f.shear;
+        part.mass *= f.mass;
+        part.inertia *= f.inertia;
+    }
+    section->bending += part.bending;
+    section->shear += part.shear;
+    section->mass += part.mass;
+    section->inertia += part.inertia;
+}
+
 void hide_section_at(const struct hide_physics *physics, int segment, double z, struct hide_section *section)
 {
     const struct hide_rotor *rotor = physics->rotor;
@@ -108,12 +127,10 @@ void hide_section_at(const struct hide_physics *physics, int segment, double z, 
             stiff = fmin(stiff, cone(rotor, hide_get(&physics->effect[i], "angle")->number, z));
     /* A cone from a solid end into a wide bore would leave nothing at all; a sleeve of 2 % of the wall keeps it one piece. */
     stiff = fmax(stiff, s->inner + 0.02 * (s->stiff - s->inner));
-    section_of(&rotor->group[s->group], s, stiff, section);
-    for (int i = 0; i < physics->effects; i++) {
-        struct hide_section f = factors(rotor, &physics->effect[i], s->group, z);
-        section->bending *= f.bending;
-        section->shear *= f.shear;
-        section->mass *= f.mass;
-        section->inertia *= f.inertia;
+    *section = (struct hide_section){0, 0, 0, 0};
+    add_part(physics, s->group, s, stiff, z, section);
+    for (int i = 0; i < s->rings; i++) {
+        struct hide_segment ring = {.outer = s->ring[i].outer, .inner = s->ring[i].inner};
+        add_part(physics, s->ring[i].group, &ring, ring.outer, z, section);
     }
 }

@@ -1,56 +1,69 @@
-/* What the diagnosis can do: many cases with hidden effects, and how often it says what is true. */
+/* What the diagnosis can do: random rotors with hidden effects, and how often it says what is true. */
 #ifndef POWER_H
 #define POWER_H
 
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 
 #include "hidden.h"
 
-#define POWER_MOST_DECKS 8
-
-struct power_deck {
-    const char *path;
-    char *text;
-    int sensors; /* 0: it has its own */
-};
-
 struct power_options {
-    int cases, first, jobs, modes, half_sensors, no_shapes, decks, quick;
+    int cases, first, jobs;
     uint64_t seed;
-    const char *only, *log;
+    const char *only; /* kind of effect of `hide --random`, or NULL: the mixture */
+    const char *log;  /* a line of JSON a case; what it holds is not done again. NULL: none */
+    const char *keep; /* directory for decks and truths, NULL: they are removed */
 };
 
-/* A case drawn from the seed of the run and its number: kind of effect, noise. Texts of effects live in *effect. */
-void power_draw(const struct power_options *options, int ndeck, const struct power_deck *deck, int number, struct hidden_case *c,
-                char effect[64], const char **list);
+/* ---- a case */
 
-/* The arguments of `hide` that make the case again. */
-void power_command(const struct hidden_case *c, size_t room, char *command);
+struct power_case {
+    struct hidden_case hidden; /* points into what follows */
+    char *deck, effect[64], again[200];
+    const char *list;
+};
 
-/* One line of JSON about a case: everything that was said, and everything that is true. d and truth are NULL where there was no
- * diagnosis. The text is to be freed. */
-char *power_line(const struct hidden_case *c, const struct diagnosis *d, const cJSON *truth, const struct hidden_score *score);
+/* The case of a number: rotor, kind of effect, noise, how much is measured. `again` are the options of power that make it again.
+ * Nonzero without memory; deck is to be freed. */
+int power_draw(const struct power_options *options, int number, struct power_case *c);
+
+/* A rotor as a deck without data; to be freed, NULL without memory. */
+char *power_rotor(uint64_t seed);
 
 struct power_result {
     int done; /* there is a score */
-    uint64_t seed;
-    int number;
-    const char *deck;
+    char again[200];
     struct hidden_score score;
 };
 
-/* Tables and requirements; 0 where all of these hold. */
+/* ---- a line of JSON a case: all that was said, and all that is true */
+
+/* d and truth are NULL where there was no diagnosis. To be freed. */
+char *power_line(const struct power_case *c, const struct diagnosis *d, const cJSON *truth, const struct hidden_score *score);
+
+/* Opens the log to go on with it, and takes what it holds of these cases into result[options->cases]. A line that is not whole,
+ * which a power cut may leave, is cut off. NULL where the file cannot be opened, or holds cases of another run: then standard
+ * error says so. */
+FILE *power_log(const struct power_options *options, struct power_result *result);
+
+/* ---- the run */
+
+/* Runs the cases, shows the progress on a terminal, writes the report. Ends after the cases under way as soon as *interrupted is
+ * set. 0 where all requirements hold, 1 where one does not, 3 a file or memory. */
+int power_run(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
+
+/* Tables and requirements of what is done; 0 where all of these hold. */
 int power_report(FILE *out, int count, const struct power_result *result);
+
+/* The requirements alone. */
+int power_requirements(FILE *out, int count, const struct power_result *result);
 
 /* ---- shares */
 
 struct power_share {
     int right, count;
 };
-
-/* The requirements alone. */
-int power_requirements(FILE *out, int count, const struct power_result *result);
 
 /* Wilson's 95 % interval of a share. */
 void power_interval(struct power_share share, double *lower, double *upper);

@@ -1,7 +1,10 @@
-/* One line of JSON a case. */
+/* One line of JSON a case, and the scores of a log read back. */
+#include <errno.h>
 #include <math.h>
-#include <stdio.h>
+#include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "power.h"
 
@@ -78,28 +81,49 @@ static void add_diagnosis(cJSON *line, const struct diagnosis *d)
         cJSON_AddNumberToObject(list, d->result.steps[i].name, round(1e3 * d->result.steps[i].seconds) / 1e3);
 }
 
+/* What a score is but for its class, outcome and values. */
+static const struct {
+    const char *name;
+    enum { TEXT, INTEGER, NUMBER } type;
+    size_t offset, room; /* room of a text */
+} field[] = {{"id", TEXT, offsetof(struct hidden_score, id), HIDDEN_NAME},
+             {"wrong", TEXT, offsetof(struct hidden_score, wrong), HIDDEN_NAME},
+             {"failure", TEXT, offsetof(struct hidden_score, failure), sizeof((struct hidden_score *)0)->failure},
+             {"coloured", INTEGER, offsetof(struct hidden_score, coloured), 0},
+             {"reported", INTEGER, offsetof(struct hidden_score, reported), 0},
+             {"names", INTEGER, offsetof(struct hidden_score, names), 0},
+             {"truths", INTEGER, offsetof(struct hidden_score, truths), 0},
+             {"found", INTEGER, offsetof(struct hidden_score, found), 0},
+             {"nset", INTEGER, offsetof(struct hidden_score, nset), 0},
+             {"accused", INTEGER, offsetof(struct hidden_score, accused), 0},
+             {"drop", NUMBER, offsetof(struct hidden_score, drop), 0},
+             {"lesser", NUMBER, offsetof(struct hidden_score, lesser), 0},
+             {"margin", NUMBER, offsetof(struct hidden_score, margin), 0},
+             {"left", NUMBER, offsetof(struct hidden_score, left), 0},
+             {"place_error", NUMBER, offsetof(struct hidden_score, place_error), 0},
+             {"size_error", NUMBER, offsetof(struct hidden_score, size_error), 0},
+             {"seconds", NUMBER, offsetof(struct hidden_score, seconds), 0}};
+
+#define FIELDS ((int)(sizeof field / sizeof *field))
+
 static void add_score(cJSON *line, const struct hidden_score *s)
 {
-    cJSON_AddStringToObject(line, "id", s->id);
-    add_number(line, "class", s->class);
+    cJSON_AddStringToObject(line, "class", hidden_class_name(s->class));
     cJSON_AddStringToObject(line, "outcome", hidden_outcome_name(s->outcome));
-    cJSON_AddStringToObject(line, "wrong", s->wrong);
-    add_number(line, "D", s->drop);
-    add_number(line, "margin", s->margin);
-    add_number(line, "left", s->left);
-    add_number(line, "nset", s->nset);
-    add_number(line, "found", s->found);
-    add_number(line, "accused", s->accused);
-    add_number(line, "place_error", s->place_error);
-    add_number(line, "size_error", s->size_error);
-    add_number(line, "seconds", s->seconds);
-    if (s->failure[0])
-        cJSON_AddStringToObject(line, "failure", s->failure);
+    for (int i = 0; i < FIELDS; i++) {
+        const char *at = (const char *)s + field[i].offset;
+        if (field[i].type == TEXT)
+            cJSON_AddStringToObject(line, field[i].name, at);
+        else
+            add_number(line, field[i].name,
+                       field[i].type == INTEGER ? *(const int *)(const void *)at : *(const double *)(const void *)at);
+    }
     cJSON *values = cJSON_AddArrayToObject(line, "value");
     for (int i = 0; i < s->nvalue; i++) {
         const struct hidden_value *v = &s->value[i];
         cJSON *o = cJSON_CreateObject();
         cJSON_AddStringToObject(o, "name", v->name);
+        cJSON_AddBoolToObject(o, "of_cause", v->of_cause);
         add_number(o, "truth", v->truth);
         add_number(o, "estimate", v->estimate);
         add_number(o, "lower", v->lower);
@@ -108,21 +132,109 @@ static void add_score(cJSON *line, const struct hidden_score *s)
     }
 }
 
-char *power_line(const struct hidden_case *c, const struct diagnosis *d, const cJSON *truth, const struct hidden_score *score)
+char *power_line(const struct power_case *c, const struct diagnosis *d, const cJSON *truth, const struct hidden_score *score)
 {
-    char command[600];
+    static const char *const of_truth[] = {"noise", "modes", "rigid_modes", "length", "effects", "parameters"};
+    const struct hide_request *r = &c->hidden.request;
     cJSON *line = cJSON_CreateObject();
-    power_command(c, sizeof command, command);
-    cJSON_AddNumberToObject(line, "case", c->number);
-    cJSON_AddStringToObject(line, "hide", command);
-    if (truth) {
-        cJSON_AddItemToObject(line, "effects", cJSON_Duplicate(cJSON_GetObjectItem(truth, "effects"), 1));
-        cJSON_AddItemToObject(line, "parameters", cJSON_Duplicate(cJSON_GetObjectItem(truth, "parameters"), 1));
-    }
+    cJSON_AddNumberToObject(line, "case", c->hidden.number);
+    cJSON_AddStringToObject(line, "again", c->again);
+    cJSON_AddBoolToObject(line, "shapes", !r->no_shapes);
+    for (size_t i = 0; truth && i < sizeof of_truth / sizeof *of_truth; i++)
+        cJSON_AddItemToObject(line, of_truth[i], cJSON_Duplicate(cJSON_GetObjectItem(truth, of_truth[i]), 1));
     add_score(line, score);
     if (d)
         add_diagnosis(line, d);
     char *text = cJSON_PrintUnformatted(line);
     cJSON_Delete(line);
     return text;
+}
+
+/* ---- read back */
+
+static double number_of(const cJSON *object, const char *name)
+{
+    const cJSON *item = cJSON_GetObjectItem(object, name);
+    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
+}
+
+static const char *text_of(const cJSON *object, const char *name)
+{
+    const char *text = cJSON_GetStringValue(cJSON_GetObjectItem(object, name));
+    return text ? text : "";
+}
+
+static void take_score(const cJSON *line, struct hidden_score *s)
+{
+    const cJSON *value;
+    *s = hidden_score_none();
+    while ((int)s->class + 1 < HIDDEN_CLASSES && strcmp(hidden_class_name(s->class), text_of(line, "class")) != 0)
+        s->class ++;
+    for (int o = 0; o < HIDDEN_OUTCOMES; o++)
+        if (!strcmp(hidden_outcome_name((enum hidden_outcome)o), text_of(line, "outcome")))
+            s->outcome = (enum hidden_outcome)o;
+    for (int i = 0; i < FIELDS; i++) {
+        char *at = (char *)s + field[i].offset;
+        if (field[i].type == TEXT)
+            snprintf(at, field[i].room, "%s", text_of(line, field[i].name));
+        else if (field[i].type == INTEGER)
+            *(int *)(void *)at = (int)number_of(line, field[i].name);
+        else
+            *(double *)(void *)at = number_of(line, field[i].name);
+    }
+    cJSON_ArrayForEach(value, cJSON_GetObjectItem(line, "value"))
+    {
+        if (s->nvalue == HIDDEN_VALUES)
+            break;
+        struct hidden_value *v = &s->value[s->nvalue++];
+        snprintf(v->name, sizeof v->name, "%s", text_of(value, "name"));
+        v->of_cause = cJSON_IsTrue(cJSON_GetObjectItem(value, "of_cause"));
+        v->truth = number_of(value, "truth");
+        v->estimate = number_of(value, "estimate");
+        v->lower = number_of(value, "lower");
+        v->upper = number_of(value, "upper");
+    }
+}
+
+/* Nonzero where the line is not one of this run. */
+static int take_line(const char *text, const struct power_options *options, struct power_result *result)
+{
+    cJSON *line = cJSON_Parse(text);
+    double number = number_of(line, "case") - options->first;
+    int other = isnan(number);
+    if (number >= 0 && number < options->cases) {
+        struct power_case c;
+        struct power_result *r = &result[(int)number];
+        other = power_draw(options, options->first + (int)number, &c) || strcmp(c.again, text_of(line, "again")) != 0;
+        r->done = !other;
+        memcpy(r->again, c.again, sizeof c.again);
+        take_score(line, &r->score);
+        free(c.deck);
+    }
+    cJSON_Delete(line);
+    return other;
+}
+
+FILE *power_log(const struct power_options *options, struct power_result *result)
+{
+    FILE *file = fopen(options->log, "a+b");
+    char *text = NULL;
+    size_t room = 0;
+    ssize_t length;
+    long whole = 0;
+    int other = 0;
+    if (file)
+        rewind(file);
+    while (file && !other && (length = getline(&text, &room, file)) > 0) {
+        int ends = text[length - 1] == '\n';
+        other = ends ? take_line(text, options, result) : *text != '{';
+        whole += ends ? length : 0;
+    }
+    free(text);
+    if (file && !other && !ftruncate(fileno(file), whole) && !fseek(file, 0, SEEK_END))
+        return file;
+    fprintf(stderr, "power: %s: %s\n", options->log, other ? "expected a log of this run, or no file" : strerror(errno));
+    if (file)
+        fclose(file);
+    return NULL;
 }

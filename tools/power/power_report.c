@@ -7,16 +7,79 @@
 
 #define MOST_ROWS 64
 #define BINS      5
+#define LARGE     (BINS - 1)
 
-static const double bin_from[BINS] = {0, 5, 15, 30, 60};
-static const char *const bin_name[BINS] = {"< 5", "5-15", "15-30", "30-60", "> 60"};
+static const double bin_from[BINS] = {0, 10, 30, 60, 150};
+static const char *const bin_name[BINS] = {"below 10", "10 to 30", "30 to 60", "60 to 150", "150 or more"};
+
+enum { NAMED, HALF, IN_SET, NO_NAME, MISSED, WRONG, ENDS };
+
+static const char heading[] = " cases   named in set no name missed  wrong";
 
 struct row {
     enum hidden_class class;
     const char *id;
-    int count, outcome[HIDDEN_OUTCOMES];
-    struct power_share reported[BINS];
+    int count, end[ENDS];
+    struct power_share large; /* named, of those worth 150 or more */
 };
+
+/* How a case ends in these tables; no name: it is seen that something is wrong, and a set, if any, does not hold the truth. */
+static int end_of(const struct hidden_score *s)
+{
+    static const int end[HIDDEN_OUTCOMES] = {
+        [HIDDEN_RIGHT] = NAMED,         [HIDDEN_IN_SET] = IN_SET,     [HIDDEN_SILENT] = MISSED,
+        [HIDDEN_UNEXPLAINED] = NO_NAME, [HIDDEN_OTHER_SET] = NO_NAME, [HIDDEN_WRONG] = WRONG};
+    return s->class == HIDDEN_PAIR && s->outcome == HIDDEN_RIGHT && s->names < 2 ? HALF : end[s->outcome];
+}
+
+static int bin_of(double drop)
+{
+    int bin = 0;
+    while (bin + 1 < BINS && drop >= bin_from[bin + 1])
+        bin++;
+    return bin;
+}
+
+static int is_counted(const struct power_result *r)
+{
+    return r->done && r->score.outcome != HIDDEN_FAILED;
+}
+
+static void show_ends(FILE *out, const char *name, int count, const int *end)
+{
+    fprintf(out, "  %-24s %6d %7d %6d %7d %6d %6d", name, count, end[NAMED] + end[HALF], end[IN_SET], end[NO_NAME], end[MISSED],
+            end[WRONG]);
+}
+
+static void show_singles(FILE *out, int count, const struct power_result *result)
+{
+    fprintf(out, "\n%-26s%s\n", "one effect, worth a drop", heading);
+    for (int b = 0; b < BINS; b++) {
+        int cases = 0, end[ENDS] = {0};
+        for (int i = 0; i < count; i++)
+            if (is_counted(&result[i]) && result[i].score.class == HIDDEN_PHYSICAL && bin_of(result[i].score.drop) == b) {
+                cases++;
+                end[end_of(&result[i].score)]++;
+            }
+        show_ends(out, bin_name[b], cases, end);
+        fprintf(out, "\n");
+    }
+}
+
+static void show_pairs(FILE *out, int count, const struct power_result *result)
+{
+    fprintf(out, "\n%-26s cases    both    one in set no name missed  wrong\n", "two, the lesser worth");
+    for (int b = 0; b < BINS; b++) {
+        int cases = 0, end[ENDS] = {0};
+        for (int i = 0; i < count; i++)
+            if (is_counted(&result[i]) && result[i].score.class == HIDDEN_PAIR && bin_of(result[i].score.lesser) == b) {
+                cases++;
+                end[end_of(&result[i].score)]++;
+            }
+        fprintf(out, "  %-24s %6d %7d %6d %6d %7d %6d %6d\n", bin_name[b], cases, end[NAMED], end[HALF], end[IN_SET],
+                end[NO_NAME], end[MISSED], end[WRONG]);
+    }
+}
 
 static int order(const void *left, const void *right)
 {
@@ -30,27 +93,30 @@ static const char *row_id(const struct hidden_score *s)
     return s->class == HIDDEN_PAIR ? "two effects" : s->id;
 }
 
+static int is_of_row(const struct power_result *r, const struct row *row)
+{
+    return is_counted(r) && r->score.class == row->class && !strcmp(row_id(&r->score), row->id);
+}
+
 static int collect(int count, const struct power_result *result, struct row row[MOST_ROWS])
 {
     int rows = 0;
     for (int i = 0; i < count; i++) {
         const struct hidden_score *s = &result[i].score;
-        int r = 0, bin = 0;
-        if (!result[i].done || s->outcome == HIDDEN_FAILED)
+        int r = 0, end = end_of(s);
+        if (!is_counted(&result[i]))
             continue;
-        while (r < rows && (strcmp(row[r].id, row_id(s)) != 0 || row[r].class != s->class))
+        while (r < rows && !is_of_row(&result[i], &row[r]))
             r++;
         if (r == MOST_ROWS)
             continue;
         if (r == rows)
             row[rows++] = (struct row){.class = s->class, .id = row_id(s)};
         row[r].count++;
-        row[r].outcome[s->outcome]++;
-        while (bin + 1 < BINS && s->drop >= bin_from[bin + 1])
-            bin++;
-        if (isfinite(s->drop)) {
-            row[r].reported[bin].count++;
-            row[r].reported[bin].right += s->reported || (s->class == HIDDEN_DATA && s->outcome == HIDDEN_RIGHT);
+        row[r].end[end]++;
+        if (bin_of(s->class == HIDDEN_PAIR ? s->lesser : s->drop) == LARGE) {
+            row[r].large.count++;
+            row[r].large.right += end == NAMED;
         }
     }
     qsort(row, (size_t)rows, sizeof *row, order);
@@ -63,51 +129,27 @@ static const char *usual_mistake(int count, const struct power_result *result, c
     const char *best = "";
     int most = 0;
     for (int i = 0; i < count; i++) {
-        const struct hidden_score *s = &result[i].score;
         int same = 0;
-        if (!result[i].done || s->outcome != HIDDEN_WRONG || s->class != row->class || strcmp(row_id(s), row->id) != 0)
-            continue;
-        for (int j = 0; j < count; j++) {
-            const struct hidden_score *t = &result[j].score;
-            same += result[j].done && t->outcome == HIDDEN_WRONG && t->class == row->class && !strcmp(row_id(t), row->id) &&
-                    !strcmp(t->wrong, s->wrong);
-        }
+        for (int j = 0; j < count && is_of_row(&result[i], row); j++)
+            same += is_of_row(&result[j], row) && *result[i].score.wrong && !strcmp(result[i].score.wrong, result[j].score.wrong);
         if (same > most) {
             most = same;
-            best = s->wrong;
+            best = result[i].score.wrong;
         }
     }
     return best;
 }
 
-static void show_confusion(FILE *out, int count, const struct power_result *result, int rows, const struct row *row)
+static void show_kinds(FILE *out, int count, const struct power_result *result)
 {
-    static const char *const class_name[] = {"nothing", "one effect", "two effects", "data", "noise stated wrongly", "outside"};
-    fprintf(out, "\n%-22s %6s %6s %6s %6s %11s %9s %6s\n", "hidden", "cases", "right", "in set", "silent", "unexplained",
-            "other set", "wrong");
+    struct row row[MOST_ROWS];
+    int rows = collect(count, result, row);
+    fprintf(out, "\n%-26s%s  of those worth 150\n", "hidden", heading);
     for (int r = 0; r < rows; r++) {
         if (!r || row[r].class != row[r - 1].class)
-            fprintf(out, "%s\n", class_name[row[r].class]);
-        fprintf(out, "  %-20s %6d %6d %6d %6d %11d %9d %6d %s\n", row[r].id, row[r].count, row[r].outcome[HIDDEN_RIGHT],
-                row[r].outcome[HIDDEN_IN_SET], row[r].outcome[HIDDEN_SILENT], row[r].outcome[HIDDEN_UNEXPLAINED],
-                row[r].outcome[HIDDEN_OTHER_SET], row[r].outcome[HIDDEN_WRONG], usual_mistake(count, result, &row[r]));
-    }
-}
-
-static void show_detection(FILE *out, int rows, const struct row *row)
-{
-    fprintf(out, "\nshare reported, by the chi2 drop that the effect is worth\n%-22s", "");
-    for (int b = 0; b < BINS; b++)
-        fprintf(out, " %13s", bin_name[b]);
-    fprintf(out, "\n");
-    for (int r = 0; r < rows; r++) {
-        fprintf(out, "  %-20s", row[r].id);
-        for (int b = 0; b < BINS; b++)
-            if (row[r].reported[b].count)
-                fprintf(out, " %5d of %-5d", row[r].reported[b].right, row[r].reported[b].count);
-            else
-                fprintf(out, " %13s", "-");
-        fprintf(out, "\n");
+            fprintf(out, "%s\n", hidden_class_name(row[r].class));
+        show_ends(out, row[r].id, row[r].count, row[r].end);
+        fprintf(out, "  %3d of %-3d %s\n", row[r].large.right, row[r].large.count, usual_mistake(count, result, &row[r]));
     }
 }
 
@@ -121,7 +163,7 @@ static void show_quantiles(FILE *out, const char *what, int n, double *value)
 {
     qsort(value, (size_t)n, sizeof *value, ascending);
     if (n)
-        fprintf(out, "  %-44s median %6.2f %%   95 %% below %6.2f %%   (%d)\n", what, 100 * value[n / 2],
+        fprintf(out, "  %-32s median %6.2f %%   95 %% below %6.2f %%   (%d)\n", what, 100 * value[n / 2],
                 100 * value[(int)(0.95 * (n - 1) + 0.5)], n);
 }
 
@@ -149,7 +191,7 @@ static int show_errors(FILE *out, int count, const struct power_result *result)
 
 static void show_coverage(FILE *out, int count, const struct power_result *result)
 {
-    static struct { /* the report is made once, in one thread */
+    struct {
         const char *name;
         struct power_share share;
     } kind[MOST_ROWS];
@@ -163,8 +205,10 @@ static void show_coverage(FILE *out, int count, const struct power_result *resul
                 k++;
             if (k == MOST_ROWS)
                 continue;
-            if (k == kinds)
-                kind[kinds++].name = value->name;
+            if (k == kinds) {
+                kind[kinds].name = value->name;
+                kind[kinds++].share = (struct power_share){0, 0};
+            }
             kind[k].share.count++;
             kind[k].share.right += hidden_covers(value);
         }
@@ -180,7 +224,7 @@ static void show_mistakes(FILE *out, int count, const struct power_result *resul
 {
     double seconds = 0, longest = 0;
     int done = 0;
-    fprintf(out, "\nwrong names, and cases without a diagnosis\n");
+    fprintf(out, "\nwrong names, false alarms, and errors\n");
     for (int i = 0; i < count; i++) {
         const struct hidden_score *s = &result[i].score;
         if (!result[i].done)
@@ -188,9 +232,9 @@ static void show_mistakes(FILE *out, int count, const struct power_result *resul
         done++;
         seconds += s->seconds;
         longest = fmax(longest, s->seconds);
-        if (s->outcome == HIDDEN_WRONG || s->outcome == HIDDEN_FAILED)
-            fprintf(out, "  case %d, seed %llu, %s: %s -> %s%s (drop %.3g, margin %.3g)\n", result[i].number,
-                    (unsigned long long)result[i].seed, result[i].deck, s->id, s->wrong, s->failure, s->drop, s->margin);
+        if (s->outcome == HIDDEN_WRONG || s->outcome == HIDDEN_FAILED || (s->class == HIDDEN_NOTHING && s->reported))
+            fprintf(out, "  %s: %s -> %s%s (drop %.3g, margin %.3g)\n", result[i].again, s->id,
+                    *s->wrong || *s->failure ? s->wrong : hidden_outcome_name(s->outcome), s->failure, s->drop, s->margin);
     }
     if (done)
         fprintf(out, "\n%.2f s a case, the longest %.2f s\n", seconds / done, longest);
@@ -198,10 +242,10 @@ static void show_mistakes(FILE *out, int count, const struct power_result *resul
 
 int power_report(FILE *out, int count, const struct power_result *result)
 {
-    struct row row[MOST_ROWS];
-    int rows = collect(count, result, row), bad;
-    show_confusion(out, count, result, rows, row);
-    show_detection(out, rows, row);
+    int bad;
+    show_singles(out, count, result);
+    show_pairs(out, count, result);
+    show_kinds(out, count, result);
     show_coverage(out, count, result);
     bad = show_errors(out, count, result);
     show_mistakes(out, count, result);

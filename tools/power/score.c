@@ -14,6 +14,12 @@
 #define VALUE_STDS      4.0
 #define BEST            3 /* causes fitted without noise */
 
+const char *hidden_class_name(enum hidden_class class)
+{
+    static const char *const names[] = {"nothing", "one effect", "two effects", "data", "noise stated wrongly", "outside"};
+    return names[class];
+}
+
 const char *hidden_outcome_name(enum hidden_outcome outcome)
 {
     static const char *const names[] = {"right", "in set", "silent", "unexplained", "other set", "wrong", "failed"};
@@ -28,7 +34,7 @@ int hidden_covers(const struct hidden_value *value)
 struct hidden_score hidden_score_none(void)
 {
     return (struct hidden_score){
-        .drop = NAN, .margin = NAN, .left = NAN, .place_error = NAN, .size_error = NAN, .outcome = HIDDEN_FAILED};
+        .drop = NAN, .lesser = NAN, .margin = NAN, .left = NAN, .place_error = NAN, .size_error = NAN, .outcome = HIDDEN_FAILED};
 }
 
 /* ---- the truth */
@@ -218,26 +224,26 @@ static int judge_findings(const struct diagnosis *d, const cJSON *effects, struc
 
 /* ---- chi2 */
 
-/* The job with the data as they would be without noise; *same: with the modes of the diagnosis. */
-static int quiet_job(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth, struct job *job,
-                     int *same)
+/* The job with the data as they would be without noise, on the mesh of the diagnosis: that of the deck may be worth more than the
+ * effect. */
+static int quiet_job(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth, struct job *job)
 {
     const cJSON *with = cJSON_GetObjectItem(truth, "with"), *hz = cJSON_GetObjectItem(with, "frequency_hz");
     const cJSON *shapes = cJSON_GetObjectItem(with, "shape"), *sensor;
     int nsensor = read->rotor.nsensor, row = 0;
     *job = *read;
     job->options.fit = d->job.options.fit;
+    job->rotor.segment = d->job.rotor.segment;
     job->measurement.frequency_hz = POOL_ARRAY(pool, double, job->measurement.nmode);
     job->measurement.shape =
         job->measurement.shape ? POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)job->measurement.nmode) : NULL;
-    *same = cJSON_GetArraySize(hz) == job->measurement.nmode && d->base.compared.nmode == job->measurement.nmode;
     if (!job->measurement.frequency_hz || (read->measurement.shape && !job->measurement.shape))
         return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < job->measurement.nmode && *same; k++)
+    for (int k = 0; k < job->measurement.nmode; k++)
         job->measurement.frequency_hz[k] = cJSON_GetArrayItem(hz, k)->valuedouble;
     cJSON_ArrayForEach(sensor, cJSON_GetObjectItem(truth, "sensors"))
     {
-        for (int s = 0; s < nsensor && job->measurement.shape && *same; s++)
+        for (int s = 0; s < nsensor && job->measurement.shape; s++)
             for (int k = 0; k < job->measurement.nmode && job->rotor.sensor[s].id == number_of(sensor, "id"); k++)
                 job->measurement.shape[s + (ptrdiff_t)k * nsensor] =
                     cJSON_GetArrayItem(cJSON_GetArrayItem(shapes, k), row)->valuedouble;
@@ -250,10 +256,20 @@ static double fitted_chi2(struct pool *pool, const struct diagnosis *d, const st
 {
     rotid_fit_result *fit = NULL;
     double chi2 = NAN;
-    if (!identify_fit(pool, job, d->base.compared.number, job->measurement.holdout, &job->options.fit, NULL, NULL, &fit))
+    int all = d->base.compared.nmode == job->measurement.nmode; /* or the diagnosis has left one out */
+    if (!identify_fit(pool, job, all ? d->base.compared.number : job->measurement.number, job->measurement.holdout,
+                      &job->options.fit, NULL, NULL, &fit))
         chi2 = fit->chi2;
     rotid_fit_free(fit);
     return chi2;
+}
+
+int hidden_drop(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth, double *drop)
+{
+    struct job quiet;
+    int status = quiet_job(pool, d, read, truth, &quiet);
+    *drop = status ? NAN : fitted_chi2(pool, d, &quiet);
+    return status;
 }
 
 /* Without noise: what the base model leaves, and outside the catalogue what the best single causes leave. */
@@ -261,8 +277,8 @@ static int measure_chi2(struct pool *pool, const struct diagnosis *d, const stru
                         struct hidden_score *s)
 {
     struct job quiet, with;
-    int same, status = quiet_job(pool, d, read, truth, &quiet, &same);
-    if (status || !same)
+    int status = quiet_job(pool, d, read, truth, &quiet);
+    if (status)
         return status;
     s->drop = fitted_chi2(pool, d, &quiet);
     for (int i = 0, tried = 0; s->class == HIDDEN_OUTSIDE && d->nround && i < d->round[0].ncandidate && tried < BEST; i++) {
@@ -302,7 +318,7 @@ static void add_value(struct hidden_score *s, const char *id, const char *name, 
     if (s->nvalue == HIDDEN_VALUES || !isfinite(truth))
         return;
     struct hidden_value *v = &s->value[s->nvalue++];
-    *v = (struct hidden_value){.truth = truth, .estimate = estimate, .lower = lower, .upper = upper};
+    *v = (struct hidden_value){.of_cause = id[0] != 0, .truth = truth, .estimate = estimate, .lower = lower, .upper = upper};
     snprintf(v->name, sizeof v->name, "%s%s%s", id, id[0] ? "." : "", name);
 }
 
@@ -393,9 +409,10 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     }
     if (s->class == HIDDEN_NOTHING && s->outcome == HIDDEN_SILENT)
         take_parameters(&d->job, d->base.fit, truth, s);
-    if (s->class == HIDDEN_PHYSICAL && s->outcome == HIDDEN_RIGHT && d->extended.fit) {
+    int whole = s->outcome == HIDDEN_RIGHT && d->extended.fit && s->names == s->truths; /* the model has all that is there */
+    if (whole && (s->class == HIDDEN_PHYSICAL || s->class == HIDDEN_PAIR))
         take_parameters(&d->extended_job, d->extended.fit, truth, s);
+    if (whole && s->class == HIDDEN_PHYSICAL)
         take_cause(&d->cause[0], truth, effect, s);
-    }
     return status;
 }

@@ -6,7 +6,7 @@
 
 #include "diagnose/diagnose.h"
 
-enum hidden_class { HIDDEN_NOTHING, HIDDEN_PHYSICAL, HIDDEN_PAIR, HIDDEN_DATA, HIDDEN_NOISE, HIDDEN_OUTSIDE };
+enum hidden_class { HIDDEN_NOTHING, HIDDEN_PHYSICAL, HIDDEN_PAIR, HIDDEN_DATA, HIDDEN_NOISE, HIDDEN_OUTSIDE, HIDDEN_CLASSES };
 
 enum hidden_outcome {
     HIDDEN_RIGHT,       /* named, and only what is true; a fault of the data found */
@@ -24,6 +24,7 @@ enum hidden_outcome {
 
 struct hidden_value {       /* a parameter with a stated 95 % interval */
     char name[HIDDEN_NAME]; /* "core.E", "stiffness_local.depth" */
+    int of_cause;           /* the latter */
     double truth, estimate, lower, upper;
 };
 
@@ -39,6 +40,7 @@ struct hidden_score {
     int nset;          /* members of the ambiguous set, 0 without one */
     int accused;       /* findings about the data that are not true */
     double drop;       /* chi2 of the base model fitted to the data without their noise */
+    double lesser;     /* two effects: the smaller drop of each of them alone; NaN elsewhere */
     double margin;     /* least chi2 of the other refitted candidates minus that of the true one; NaN where it was not refitted */
     double left;       /* outside the catalogue: chi2 of the best single cause for the data without noise; NaN elsewhere */
     double place_error, size_error; /* of the length, of the size; NaN unless named right and there is one */
@@ -48,6 +50,7 @@ struct hidden_score {
     char failure[300];
 };
 
+const char *hidden_class_name(enum hidden_class class);
 const char *hidden_outcome_name(enum hidden_outcome outcome);
 
 int hidden_covers(const struct hidden_value *value); /* its interval holds the truth */
@@ -57,5 +60,9 @@ int hidden_covers(const struct hidden_value *value); /* its interval holds the t
 int hidden_score_make(struct pool *pool, const struct diagnosis *diagnosis, const struct job *read, const cJSON *truth,
                       struct hidden_score *score);
 struct hidden_score hidden_score_none(void);
+
+/* The drop of the data of `truth`, of the same rotor with the same noise and as many modes: NaN where
+ * the fit fails. ROTID_OK or ROTID_ERROR_MEMORY. */
+int hidden_drop(struct pool *pool, const struct diagnosis *diagnosis, const struct job *read, const cJSON *truth, double *drop);
 
 #endif
