@@ -73,7 +73,7 @@ static int check_value(const struct cause_card *c, int p, const char *name, cons
     double lower, upper;
     if (!c->kind->bounds)
         return 0;
-    c->kind->bounds(&c->reader->job->rotor, &c->effect, p, &lower, &upper);
+    cause_reach(c->kind, &c->reader->job->rotor, &c->effect, p, &lower, &upper);
     double neutral = c->kind->parameter[p].neutral;
     int has_neutral = c->kind->class == CAUSE_DATA ||
                       (p != c->kind->place && p != c->kind->width); /* of a place or width none is without effect */

@@ -217,7 +217,7 @@ static double inside_physical(const struct deck_writer *w, const struct effect *
     double lower, upper;
     if (!kind || !kind->bounds)
         return value;
-    kind->bounds(&w->rotor, effect, p, &lower, &upper);
+    cause_reach(kind, &w->rotor, effect, p, &lower, &upper);
     return fmin(fmax(value, lower), upper);
 }
 

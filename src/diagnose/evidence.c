@@ -11,20 +11,12 @@
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
 #include "diagnose/scan.h"
+#include "diagnose/widen.h"
 #include "fit/quantile.h"
 
-#define MOST_OUT   5     /* candidates for which modes are left out in turn */
-#define OUT_MARGIN 25.0  /* of chi2 from the best one: further ones do not win whatever they predict */
-#define AT_BOUND   0.005 /* of the physical range: so near a bound a size is not the one the data want */
-#define SHOWN      0.05  /* of the best promise: candidates not fitted but worth a line */
-
-/* A bound at which the effect vanishes is none: a small size lies near it. */
-static int ends_at_bound(const rotid_parameter *bounds, double neutral, double x)
-{
-    double range = bounds->upper - bounds->lower, near = AT_BOUND * range;
-    return (x < bounds->lower + near && fabs(bounds->lower - neutral) > near) ||
-           (x > bounds->upper - near && fabs(bounds->upper - neutral) > near);
-}
+#define MOST_OUT   5    /* candidates for which modes are left out in turn */
+#define OUT_MARGIN 25.0 /* of chi2 from the best one: further ones do not win whatever they predict */
+#define SHOWN      0.05 /* of the best promise: candidates not fitted but worth a line */
 
 /* The effect and its parameters, those of the fit that belong to it: the last effects of the job are those of the set. */
 static void take_parameters(const struct refit *refit, int e, struct candidate *c)
@@ -43,7 +35,7 @@ static void take_parameters(const struct refit *refit, int e, struct candidate *
         if (!isfinite(fit->std[p])) /* fmax and fmin prefer the number */
             c->ci_lower[component] = c->ci_upper[component] = NAN;
         if (component == c->cause->size)
-            c->result.at_bound = ends_at_bound(&refit->job.unknowns.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
+            c->result.at_bound = size_at_bound(&refit->job.unknowns.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
     }
 }
 
