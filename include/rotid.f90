@@ -559,6 +559,8 @@ module rotid
     type(c_ptr) :: alternatives = c_null_ptr ! texts
     integer(c_int) :: nalternative_causes = 0
     type(c_ptr) :: alternative_causes = c_null_ptr ! rotid_cause
+    integer(c_int) :: nalternative_sets = 0
+    type(c_ptr) :: alternative_sets = c_null_ptr ! integer
     type(c_ptr) :: next_measurement = c_null_ptr ! text
     type(c_ptr) :: sentence = c_null_ptr ! text
     integer(c_int) :: undetermined_parameters = 0
@@ -622,6 +624,7 @@ module rotid
     type(c_ptr) :: collinear_target = c_null_ptr ! text
     real(c_double) :: cosine = 0
     type(c_ptr) :: rejected_because = c_null_ptr ! text
+    type(c_ptr) :: with = c_null_ptr ! rotid_cause
   end type rotid_candidate
 
   type, bind(C) :: rotid_pair
@@ -755,6 +758,13 @@ module rotid
     type(c_ptr) :: holdout = c_null_ptr       ! integer [nmode]
   end type rotid_measured
 
+  type, bind(C) :: rotid_state
+    integer(c_size_t) :: size = 32
+    type(c_ptr) :: model = c_null_ptr     ! rotid_model
+    type(c_ptr) :: measured = c_null_ptr  ! rotid_measured
+    type(c_ptr) :: parameter = c_null_ptr ! integer [nparam of the model], from 0
+  end type rotid_state
+
   type, bind(C) :: rotid_fit_options
     integer(c_size_t) :: size = 56
     integer(c_int) :: functional = 0, reduction = 0, derivative = 0
@@ -810,6 +820,8 @@ module rotid
     integer(c_int) :: nbaseline = 0
     type(c_ptr) :: baseline = c_null_ptr                                                          ! rotid_baseline [nbaseline]
     type(c_ptr) :: memory = c_null_ptr
+    integer(c_int) :: nstate = 0
+    type(c_ptr) :: state_m = c_null_ptr, state_nresidual = c_null_ptr                             ! integer [nstate]
   end type rotid_fit_result
 
   ! ------------------------------------------------------------------------------------------------ types: least squares
@@ -1046,6 +1058,19 @@ module rotid
       type(c_ptr), intent(out) :: result
       integer(c_int) :: status
     end function rotid_fit
+
+    function rotid_fit_states(nstate, state, nparam, parameter, options, environment, failure, result) result(status) &
+        bind(C, name="rotid_fit_states")
+      import :: c_ptr, c_int, rotid_state, rotid_parameter, rotid_fit_options
+      integer(c_int), value :: nstate
+      type(rotid_state), intent(in) :: state(*)
+      integer(c_int), value :: nparam
+      type(rotid_parameter), intent(in) :: parameter(*)
+      type(rotid_fit_options), intent(in) :: options
+      type(c_ptr), value :: environment, failure
+      type(c_ptr), intent(out) :: result
+      integer(c_int) :: status
+    end function rotid_fit_states
 
     subroutine rotid_fit_free(result) bind(C, name="rotid_fit_free")
       import :: c_ptr

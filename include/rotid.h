@@ -641,6 +641,8 @@ typedef struct rotid_verdict {
     const char **alternatives; /* ids of the candidates that cannot be told apart, best first */
     int nalternative_causes;
     rotid_cause *alternative_causes; /* the same with targets and values */
+    int nalternative_sets;
+    int *alternative_sets; /* a number from 1 for each of them: two causes of one number are meant together */
     const char *next_measurement;    /* what would settle it; NULL where nothing is open */
     const char *sentence;            /* the verdict for a person; NULL where there is none */
     int undetermined_parameters;     /* parameters of the base model that the data leave open */
@@ -708,6 +710,7 @@ typedef struct rotid_candidate {
     const char *collinear_target; /* its target */
     double cosine;                /* between the two after what is identified has been projected out [1] */
     const char *rejected_because; /* NULL: named, or one of those that cannot be told apart, or not needed */
+    rotid_cause *with;            /* the second cause of two that are tried at once, NULL where this one is alone */
 } rotid_candidate;
 
 /* Of the base and of the extended model. */
@@ -781,7 +784,7 @@ typedef struct rotid_diagnosis {
     int nnumerical_findings;
     rotid_numerical_finding *numerical_findings; /* errors of the model's own numbers, removed */
     int nrounds;
-    rotid_round *rounds; /* one cause a round; the last names nothing more */
+    rotid_round *rounds; /* one cause a round, or two at once; the last names nothing more */
     int ncandidates;
     rotid_candidate *candidates; /* of all rounds, best first within a round */
     rotid_gain gain;
@@ -897,6 +900,15 @@ typedef struct rotid_measured {
     const int *holdout;          /* [nmode] nonzero: predicted and compared, not fitted; or NULL */
 } rotid_measured;
 
+/* A structure as it was measured once: free, on its bearings, with a known mass. Several of them share unknowns. */
+typedef struct rotid_state {
+    size_t size;
+    const rotid_model *model;
+    const rotid_measured *measured;
+    const int *parameter; /* [model->nparam] which of the unknowns of rotid_fit_states each parameter of the model is, from 0; two
+                             may be one; NULL: the first ones in their order */
+} rotid_state;
+
 enum { ROTID_HYBRID, ROTID_HYBRID_F, ROTID_LIKELIHOOD }; /* functional */
 enum { ROTID_REDUCTION_NONE, ROTID_GUYAN, ROTID_IRS };   /* reduction */
 enum { ROTID_NELSON, ROTID_MODAL };                      /* eigenvector derivative; ROTID_MODAL needs a reduction */
@@ -935,7 +947,8 @@ typedef struct rotid_baseline {
     double *x;       /* [nparam] */
 } rotid_baseline;
 
-/* Everything is owned by the result and released with it. n = nparam, m = nmode of the measured data. */
+/* Everything is owned by the result and released with it. n = nparam, m = nmode of the measured data, of all states one after
+ * the other. */
 struct rotid_fit_result {
     int status;    /* why the iteration ended: ROTID_STOP_... */
     int converged; /* a minimum was reached: inside the bounds or pressed against one */
@@ -962,7 +975,9 @@ struct rotid_fit_result {
     double *history_x;            /* [n * nhistory] */
     int nbaseline;
     rotid_baseline *baseline;
-    void *memory; /* internal */
+    void *memory;                   /* internal */
+    int nstate;                     /* 1 of rotid_fit */
+    int *state_m, *state_nresidual; /* [nstate] how many of the m modes, and of the residuals, are those of each state */
 };
 
 /* Minimises f(x) = 1/2 sum r^2 over lower < x < upper by Levenberg-Marquardt on y with the bijection of the paper's (30).
@@ -979,6 +994,15 @@ struct rotid_fit_result {
 ROTID_API int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
                         const rotid_fit_options *options, const rotid_environment *environment, char *failure,
                         rotid_fit_result **result);
+/* The same over several states, one objective f(x) = 1/2 sum of r^2 over all, for nparam unknowns of which each model uses those
+ * that state->parameter names. A parameter that one state leaves open another may determine. Entry: state [nstate], nstate >= 1,
+ * each state[0].size behind the other; sensors, noise and modes are those of each state. A state with all modes in holdout is
+ * predicted and compared alone; some state has a mode that is fitted, and every unknown acts in such a state. Exit: as above,
+ * modes and residuals state by state. Time and memory are the sum over the states. Texts in failure begin with "state[s]: " where
+ * one state is meant. rotid_check_model looks at the derivatives of one model after the other. */
+ROTID_API int rotid_fit_states(int nstate, const rotid_state *state, int nparam, const rotid_parameter *parameter,
+                               const rotid_fit_options *options, const rotid_environment *environment, char *failure,
+                               rotid_fit_result **result);
 /* NULL is allowed. The allocator of the environment that the fit was given has to exist until then. */
 ROTID_API void rotid_fit_free(rotid_fit_result *result);
 

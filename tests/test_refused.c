@@ -338,13 +338,17 @@ static int call_all(const rotid_deck *good, const rotid_environment *environment
     assert_refused(rotid_diagnose(good, NULL, environment, failure, &diagnosis), text);
     assert_true(!deck && !spectrum && !identification && !diagnosis);
     assert_refused(fit(&f, environment), text);
+    const rotid_state state = {sizeof state, &f.model, &f.measured, NULL};
+    rotid_fit_result *result = (void *)&c;
+    assert_refused(rotid_fit_states(1, &state, 1, f.parameter, &f.options, environment, failure, &result), text);
+    assert_null(result);
     assert_refused(rotid_check_model(&f.model, f.parameter, NULL, environment, failure, error, doubt), text);
     assert_refused(rotid_condense(&c.k, &c.m, 2, master, ROTID_GUYAN, environment, failure, kc, mc, NULL), text);
     assert_refused(rotid_condense_derivative(&c.k, &c.m, &c.k, &c.m, 2, master, ROTID_IRS, environment, failure, kc, mc), text);
     assert_refused(rotid_eigenpairs(&c.k, &c.m, 3, environment, failure, lambda, phi), text);
     assert_refused(rotid_eigenpair_derivative(&c.k, &c.m, &c.k, &c.m, 3, lambda, phi, 0, environment, failure, &dlambda, lambda),
                    text);
-    return 13;
+    return 14;
 }
 
 static void an_environment_that_is_none_is_refused_by_all(void **state)

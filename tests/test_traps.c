@@ -210,6 +210,10 @@ static void fits(void)
             memcpy(&with.hz[1], &extreme[i], sizeof extreme[i]);
         survived += rotid_fit(&with.model, &with.parameter, &with.measured, &with.options, NULL, NULL, &result) <= 0;
         rotid_fit_free(result);
+        const rotid_state state[2] = {{sizeof state[0], &with.model, &with.measured, NULL},
+                                      {sizeof state[0], &with.model, &with.measured, NULL}};
+        survived += rotid_fit_states(2, state, 1, &with.parameter, &with.options, NULL, NULL, &result) <= 0;
+        rotid_fit_free(result);
         survived += rotid_check_model(&with.model, &with.parameter, NULL, NULL, NULL, with.error, with.doubt) <= 0;
     }
 }
@@ -253,7 +257,7 @@ static const struct {
     {pairs, "rotid_eigenpairs rotid_eigenpair_derivative "},
     {condensations, "rotid_condense rotid_condense_derivative "},
     {least_squares, "rotid_lm_workspace rotid_check_jacobian_workspace rotid_lm rotid_check_jacobian "},
-    {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_free "},
+    {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_states rotid_fit_free "},
     {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_deck_check rotid_check_free rotid_spectrum_compute "
             "rotid_spectrum_beside rotid_spectrum_free rotid_identify "
             "rotid_identification_free rotid_diagnose rotid_diagnosis_free "},

@@ -36,6 +36,9 @@ static void fill_verdict(struct pool *pool, const struct diagnosis *d, rotid_ver
     out->nalternatives = POOL_LIST(pool, out->alternatives, d->nalternative);
     for (int i = 0; i < out->nalternatives; i++)
         out->alternatives[i] = d->alternative[i].cause->id;
+    out->nalternative_sets = POOL_LIST(pool, out->alternative_sets, d->nalternative);
+    for (int i = 0; i < out->nalternative_sets; i++)
+        out->alternative_sets[i] = d->alternative[i].set;
 }
 
 static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diagnosis *out)
@@ -50,8 +53,12 @@ static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diag
         const struct diagnosis_round *round = &d->round[i];
         out->rounds[i] = round->result;
         for (int k = 0; k < round->ncandidate; k++) {
-            out->candidates[out->ncandidates] = round->candidate[k].result;
-            out->candidates[out->ncandidates++].cause = cause_of(pool, &round->candidate[k]);
+            const struct candidate *with = round->candidate[k].with;
+            rotid_candidate *candidate = &out->candidates[out->ncandidates++];
+            *candidate = round->candidate[k].result;
+            candidate->cause = cause_of(pool, &round->candidate[k]);
+            if (with && (candidate->with = POOL_NEW(pool, rotid_cause)))
+                *candidate->with = cause_of(pool, with);
         }
     }
 }

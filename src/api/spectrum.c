@@ -8,6 +8,7 @@
 #include "model/meridian.h"
 #include "run/beside.h"
 #include "run/compare.h"
+#include "run/doubt.h"
 
 #define MODES_SHOWN 6 /* at least, where the caller does not say how many */
 #define MODES_DRAWN 6 /* of a solid on its meridian: two thousand numbers each */
@@ -80,6 +81,7 @@ static int run(struct call *call, const struct job *job, const double *x, int nm
     int status = compute(job, x, nmode, &call->entry, &at, &found), paired;
     if (status)
         return status;
+    (void)doubt_units(job, &found, SEVERITY_WARNING, &call->notes);
     paired = comparison_make(&call->entry.scratch, job, &found, &call->notes, &compared);
     if (paired && paired != ROTID_ERROR_UNPAIRED)
         return paired;

@@ -19,19 +19,36 @@ size_t failure_append(char *failure, size_t length, const char *text)
     return cut ? full : length + count;
 }
 
-int failure_say(char *failure, int status, const char *format, ...)
+static void say(char *failure, const char *format, va_list arguments, const char *behind)
 {
     char text[2 * ROTID_FAILURE_LENGTH] = ""; /* names of the host may be long */
     struct host_locale locale;
-    if (!failure)
-        return status;
     int entered = host_enter_locale(&locale) == ROTID_OK;
-    va_list arguments;
-    va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
     if (entered)
         host_leave_locale(&locale);
-    (void)failure_append(failure, 0, text);
+    (void)failure_append(failure, failure_append(failure, 0, text), behind);
+}
+
+int failure_say(char *failure, int status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (failure)
+        say(failure, format, arguments, "");
+    va_end(arguments);
+    return status;
+}
+
+int failure_say_of(char *failure, int status, const char *format, ...)
+{
+    char own[ROTID_FAILURE_LENGTH] = "";
+    va_list arguments;
+    va_start(arguments, format);
+    if (failure && *failure) {
+        (void)failure_append(own, 0, failure);
+        say(failure, format, arguments, own);
+    }
+    va_end(arguments);
     return status;
 }

@@ -21,6 +21,7 @@ static const struct sized_struct table[] = {
     [SIZED_DIAGNOSE_OPTIONS] = STRUCT(rotid_diagnose_options, "options", seed),
     [SIZED_MODEL] = STRUCT(rotid_model, "model", user),
     [SIZED_MEASURED] = STRUCT(rotid_measured, "measured", holdout),
+    [SIZED_STATE] = STRUCT(rotid_state, "state", parameter),
     [SIZED_FIT_OPTIONS] = STRUCT(rotid_fit_options, "options", bijection_chi),
     [SIZED_LM_OPTIONS] = STRUCT(rotid_lm_options, "options", trace_user),
 };
@@ -29,6 +30,7 @@ ENDS_WITH(rotid_environment, context);
 ENDS_WITH(rotid_diagnose_options, seed);
 ENDS_WITH(rotid_model, user);
 ENDS_WITH(rotid_measured, holdout);
+ENDS_WITH(rotid_state, parameter);
 ENDS_WITH(rotid_fit_options, bijection_chi);
 ENDS_WITH(rotid_lm_options, trace_user);
 

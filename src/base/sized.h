@@ -7,7 +7,15 @@
 #include "rotid.h"
 
 /* In the order of the table in sized.c. */
-enum sized { SIZED_ENVIRONMENT, SIZED_DIAGNOSE_OPTIONS, SIZED_MODEL, SIZED_MEASURED, SIZED_FIT_OPTIONS, SIZED_LM_OPTIONS };
+enum sized {
+    SIZED_ENVIRONMENT,
+    SIZED_DIAGNOSE_OPTIONS,
+    SIZED_MODEL,
+    SIZED_MEASURED,
+    SIZED_STATE,
+    SIZED_FIT_OPTIONS,
+    SIZED_LM_OPTIONS
+};
 
 /* *copy := the struct of this library with what the host has of it, zeros in what it was compiled without. `given` is not NULL.
  * ROTID_ERROR_ARGUMENT, with the reason in failure, where size is below that of the first version (0 above all: it was not set),

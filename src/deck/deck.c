@@ -10,7 +10,7 @@
 #include "deck/deck_frequencies.h"
 #include "rotid.h"
 
-#define LAST_PHASE 7
+#define LAST_PHASE 8
 
 static void check_names(struct deck_reader *reader, const struct card *card)
 {
@@ -159,10 +159,16 @@ static void check_model(struct deck_reader *reader)
     } else if (status) {
         reader->out_of_memory = 1;
     }
+    int first = 0, same = 0;
     for (int s = 1; s < job->rotor.nsensor && !status; s++)
-        if (size.sensor_dof[s] == size.sensor_dof[s - 1])
-            deck_error(reader, reader->sensor_place[s], "sensors %d and %d lie at the same node, expected one sensor a position",
-                       job->rotor.sensor[s - 1].id, job->rotor.sensor[s].id);
+        if (size.sensor_dof[s] == size.sensor_dof[s - 1] && !same++)
+            first = s;
+    if (same)
+        deck_error(reader, reader->sensor_place[first],
+                   "sensors %d and %d lie at the same node%s, expected one sensor a position, in the unit of the deck's lengths, "
+                   "and elements that are shorter than their distance",
+                   job->rotor.sensor[first - 1].id, job->rotor.sensor[first].id,
+                   same > 1 ? pool_format(reader->pool, ", and %d more pairs do", same - 1) : "");
     int modes = status ? 0 : size.ndof - 2; /* elastic ones, where two motions are free */
     for (int k = 0; k < job->measurement.nmode && !status; k++)
         if (job->measurement.number[k] > modes)
@@ -230,9 +236,9 @@ static void read_cards(struct deck_reader *reader)
     for (int c = 0; c < reader->text.ncard; c++)
         check_names(reader, &reader->text.card[c]);
     for (int phase = 0; phase <= LAST_PHASE; phase++) {
-        if (phase == 2)
+        if (phase == 3)
             reader->length = rotor_length(&job->rotor);
-        if (phase == 2 && !job->rotor.ngroup) {
+        if (phase == 3 && !job->rotor.ngroup) {
             check_materials(reader);
             deck_error(reader, reader->text.end, "the deck has no *SHAFT and no *BEAM, expected at least one");
             return; /* every position would be outside */
@@ -257,6 +263,7 @@ static void read_cards(struct deck_reader *reader)
     choose_functional(reader);
     check_masters(reader);
     check_model(reader);
+    deck_doubt_rotor(reader);
     note_assumptions(reader);
 }
 

@@ -6,6 +6,7 @@
 #include "run/job.h"
 
 #define DECK_MOST_KINDS 64 /* of cards */
+#define DECK_QUANTITIES 8  /* whose units *UNITS can state */
 
 struct deck_reader {
     struct pool *pool;
@@ -28,6 +29,8 @@ struct deck_reader {
     const char *tie; /* FIT, TIE=E:G */
     int *mean_kept;  /* [nmode] FREQUENCIES, MEAN=NO */
     int no_section;  /* the one error is that of a section that cannot be */
+    int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
+    unsigned doubted;          /* kinds of numbers that a warning was given for */
     int out_of_memory;
 };
 
@@ -47,7 +50,17 @@ enum range { ANY, NOT_NEGATIVE, POSITIVE };
 /* Zero, or within these. */
 int deck_is_usual(double value);
 
-/* Number i of a data line within the range; `what` names it in the error ("outer diameter [m]"). 0, or 1 after an error. */
+/* The factor that makes a number of the deck SI; what: "length [m]", or a unit alone. 1 for what has no unit. */
+double deck_in_si(const struct deck_reader *reader, const char *what);
+/* The deck's own unit of it, for messages. */
+const char *deck_unit_name(const struct deck_reader *reader, const char *what);
+/* Warns of a number, which the deck states by `text` and which is `value` in SI units, that rotors do not have. */
+void deck_doubt(struct deck_reader *reader, struct place place, const char *what, const char *text, double value);
+/* Warns of an absurd mass or length of the whole. */
+void deck_doubt_rotor(struct deck_reader *reader);
+
+/* Number i of a data line within the range; `what` names it in the error, and its unit ("outer diameter [m]"): the value
+ * is SI whatever *UNITS says. 0, or 1 after an error. */
 int deck_number(struct deck_reader *reader, const struct data_line *line, int i, const char *what, enum range range,
                 double *value);
 int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most,
@@ -61,7 +74,9 @@ int deck_position(struct deck_reader *reader, const char *text, struct place pla
 
 /* The value of an option that must be there, or NULL after an error. */
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected);
-int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value);
+/* unit: "" or as for deck_in_si. */
+int deck_option_number(struct deck_reader *reader, const struct card_option *option, const char *unit, enum range range,
+                       double *value);
 int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value);
 extern const char *const deck_answers[]; /* NO, YES */
 
@@ -85,6 +100,7 @@ int deck_add_group(struct deck_reader *reader, const struct card *card);
 #define DECK_MOST_LINES    10000 /* of a card, and sensors of the rotor: they are compared with each other */
 
 /* The readers of the cards, by file. */
+void deck_units(struct deck_reader *reader, const struct card *card);
 void deck_material(struct deck_reader *reader, const struct card *card);
 void deck_elastic(struct deck_reader *reader, const struct card *card);
 void deck_density(struct deck_reader *reader, const struct card *card);

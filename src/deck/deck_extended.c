@@ -22,8 +22,9 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *d, const char
     extra[1] = d->result.verdict.sentence;
     for (int i = 0; i < d->nalternative; i++) {
         const struct candidate *other = &d->alternative[i];
-        extra[2 + i] = pool_format(pool, "cannot be told apart: %s%s%s", other->cause->id,
-                                   other->target && *other->target ? " " : "", other->target ? other->target : "");
+        const char *word = i && other->set && other->set == other[-1].set ? "together with" : "cannot be told apart:";
+        extra[2 + i] = pool_format(pool, "%s %s%s%s", word, other->cause->id, other->target && *other->target ? " " : "",
+                                   other->target ? other->target : "");
     }
     for (int i = 0; i < lines; i++)
         if (!extra[i])

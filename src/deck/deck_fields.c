@@ -70,7 +70,8 @@ static int parse_number(struct deck_reader *reader, const char *text, struct pla
                    range == POSITIVE ? "" : ", or zero");
         return 1;
     }
-    *value = number; /* only now: what follows from a bad length would be reported as well */
+    *value = number * deck_in_si(reader, what); /* only now: what follows from a bad length would be reported as well */
+    deck_doubt(reader, place, what, text, *value);
     return 0;
 }
 
@@ -129,7 +130,7 @@ int deck_position(struct deck_reader *reader, const char *text, struct place pla
     const char *dot = strrchr(text, '.');
     double from = 0, to = reader->length;
     char *end;
-    *z = strtod(text, &end);
+    *z = strtod(text, &end) * deck_in_si(reader, "m");
     if (end == text || *end) {
         const char *which = text;
         int group = dot ? find_group(reader, text, (size_t)(dot - text)) : -1;
@@ -148,7 +149,8 @@ int deck_position(struct deck_reader *reader, const char *text, struct place pla
     }
     /* a coordinate with six digits may end a little beyond the end of the rotor */
     if (!isfinite(*z) || *z < -1e-5 * reader->length || *z > reader->length * (1 + 1e-5)) {
-        deck_error(reader, place, "%s %s m lies outside the rotor, expected 0 to %.6g m", what, text, reader->length);
+        deck_error(reader, place, "%s %s %s lies outside the rotor, expected 0 to %.6g %s", what, text,
+                   deck_unit_name(reader, "m"), reader->length / deck_in_si(reader, "m"), deck_unit_name(reader, "m"));
         return 1;
     }
     *z = fmin(fmax(*z, 0), reader->length);
@@ -172,15 +174,19 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
     return path;
 }
 
-int deck_option_number(struct deck_reader *reader, const struct card_option *option, enum range range, double *value)
+int deck_option_number(struct deck_reader *reader, const struct card_option *option, const char *unit, enum range range,
+                       double *value)
 {
-    return parse_number(reader, option->value, option->value_place, option->name, range, value);
+    int bad = parse_number(reader, option->value, option->value_place, option->name, range, value);
+    if (!bad)
+        *value *= deck_in_si(reader, unit);
+    return bad;
 }
 
 int deck_option_integer(struct deck_reader *reader, const struct card_option *option, int least, int most, int *value)
 {
     double number;
-    if (deck_option_number(reader, option, ANY, &number))
+    if (deck_option_number(reader, option, "", ANY, &number))
         return 1;
     if (number != floor(number) || number < least || number > most) {
         deck_error(reader, option->value_place, "%s is %s, expected a whole number from %d to %d", option->name, option->value,

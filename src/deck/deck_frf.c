@@ -62,7 +62,7 @@ static void read_nodes_of_file(struct deck_reader *reader, const struct card *ca
     frf->flip = flip ? deck_option_word(reader, flip, deck_answers) : 0;
     frf->origin = frf->flip > 0 ? reader->length : 0;
     if (origin)
-        (void)deck_option_number(reader, origin, ANY, &frf->origin);
+        (void)deck_option_number(reader, origin, "m", ANY, &frf->origin);
     if (any && !card_option(card, "FILE"))
         deck_error(reader, any->place, "%s places the nodes of a file, expected FILE beside it", any->name);
 }
@@ -120,7 +120,7 @@ void deck_frf(struct deck_reader *reader, const struct card *card)
         frf->quantity = (enum frf_quantity)word;
         frf->has_quantity = 1;
     }
-    if ((option = card_option(card, "DAMPING")) && !deck_option_number(reader, option, POSITIVE, &frf->damping) &&
+    if ((option = card_option(card, "DAMPING")) && !deck_option_number(reader, option, "", POSITIVE, &frf->damping) &&
         frf->damping >= 1)
         deck_error(reader, option->value_place, "DAMPING is %s, expected a ratio below 1: a fraction of critical damping",
                    option->value);

@@ -39,15 +39,15 @@ static void lay_ring(struct deck_reader *reader, const struct data_line *line, c
         ring->outer = inner;
     else if (within)
         deck_error(reader, line->field[0].place,
-                   "a gap: layer %s has an outer diameter of %s m and section %d a bore of %.12g m, expected the same diameter",
-                   name, line->field[0].text, section, inner);
+                   "a gap: layer %s has an outer diameter of %.12g m and section %d a bore of %.12g m, expected the same diameter",
+                   name, ring->outer, section, inner);
     else if (outside && ring->inner <= outer * (1 + TOUCH))
         ring->inner = outer;
     else
         deck_error(reader, line->field[1].place,
-                   "%s: layer %s has an inner diameter of %s m and section %d an outer diameter of %.12g m, expected the same "
+                   "%s: layer %s has an inner diameter of %.12g m and section %d an outer diameter of %.12g m, expected the same "
                    "diameter",
-                   outside ? "a gap" : "an overlap", name, line->field[1].text, section, outer);
+                   outside ? "a gap" : "an overlap", name, ring->inner, section, outer);
 }
 
 /* Of the rings of a segment the innermost first, whatever the order of the cards. */
@@ -93,8 +93,8 @@ void deck_layer(struct deck_reader *reader, const struct card *card)
             }
             if (ring.inner >= ring.outer)
                 deck_error(reader, line->field[1].place,
-                           "inner diameter %s m is not below the outer diameter %s m, expected a smaller one",
-                           line->field[1].text, line->field[0].text);
+                           "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one",
+                           ring.inner, ring.outer);
             else
                 lay_ring(reader, line, rotor->group[group].name, section, &ring);
             add_ring(reader, &ring);

@@ -24,9 +24,9 @@ static int check_holes(struct deck_reader *reader, const struct data_line *line,
     int bad = 2 * group->hole_pitch + group->hole_diameter > outer || 2 * group->hole_pitch - group->hole_diameter < inner;
     if (bad)
         deck_error(reader, line->field[2].place,
-                   "holes of %s m on a radius of %s m do not lie within the section, expected them between %.6g and %.6g m "
+                   "holes of %.9g m on a radius of %.9g m do not lie within the section, expected them between %.6g and %.6g m "
                    "of diameter",
-                   line->field[1].text, line->field[2].text, inner, outer);
+                   group->hole_diameter, group->hole_pitch, inner, outer);
     return bad;
 }
 
@@ -123,8 +123,7 @@ void deck_bars(struct deck_reader *reader, const struct card *card)
     if (!bad &&
         (bars.center - bars.length / 2 < -1e-5 * reader->length || bars.center + bars.length / 2 > reader->length * (1 + 1e-5))) {
         deck_error(reader, card_option(card, "LENGTH")->value_place,
-                   "bars of %s m reach beyond the rotor, expected them inside 0 to %.6g m", card_option(card, "LENGTH")->value,
-                   reader->length);
+                   "bars of %.9g m reach beyond the rotor, expected them inside 0 to %.6g m", bars.length, reader->length);
         bad = 1;
     }
     struct bars *added = bad ? NULL : DECK_APPEND(reader, rotor->bars, rotor->nbars, reader->bars_room);

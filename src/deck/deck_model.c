@@ -54,13 +54,13 @@ static void check_stack(struct deck_reader *reader, const struct data_line *line
                    line->field[4].text);
     else if (1 - m->nu - 2 * m->nu * m->nu * m->stacking * m->e / m->sheet_e <= 0)
         deck_error(reader, line->field[0].place,
-                   "Young's modulus E along the axis is %s Pa with sheets of %s Pa: such a stack would move by itself (negative "
+                   "Young's modulus E along the axis is %.9g Pa with sheets of %.9g Pa: such a stack would move by itself (negative "
                    "strain energy), expected less",
-                   line->field[0].text, line->field[2].text);
+                   m->e, m->sheet_e);
     else if (m->g > 1.5 * m->sheet_e)
         deck_error(reader, line->field[1].place,
-                   "shear modulus G along the axis is %s Pa with sheets of %s Pa, expected less than the %.4g Pa of the sheets",
-                   line->field[1].text, line->field[2].text, steel);
+                   "shear modulus G along the axis is %.9g Pa with sheets of %.9g Pa, expected less than the %.4g Pa of the sheets",
+                   m->g, m->sheet_e, steel);
     else if (m->e > m->sheet_e * (1 + 1e-9) || m->g > steel * (1 + 1e-9))
         deck_note(reader, line->field[m->e > m->sheet_e * (1 + 1e-9) ? 0 : 1].place,
                   "the stack is stiffer along the axis than its sheets (E %.4g Pa, G %.4g Pa)", m->sheet_e, steel);
@@ -147,12 +147,12 @@ void deck_shaft(struct deck_reader *reader, const struct card *card)
         int bad = deck_read_values(reader, line, deck_shaft_rows, layout, s);
         if (!bad && s->inner >= s->outer)
             deck_error(reader, line->field[2].place,
-                       "inner diameter %s m is not below the outer diameter %s m, expected a smaller one", line->field[2].text,
-                       line->field[1].text);
+                       "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one", s->inner,
+                       s->outer);
         else if (!bad && (s->stiff_outer > s->outer || s->stiff_outer <= s->inner))
             deck_error(reader, line->field[4].place,
-                       "the diameter that carries stiffness is %s m, expected above the inner and at most the outer diameter",
-                       line->field[4].text);
+                       "the diameter that carries stiffness is %.12g m, expected above the inner and at most the outer diameter",
+                       s->stiff_outer);
     }
 }
 

@@ -40,7 +40,7 @@ static int read_option(struct deck_reader *reader, const struct card *card, cons
             *(int *)member = index;
         return index < 0;
     case ROW_NUMBER:
-        return deck_option_number(reader, option, row->range, member);
+        return deck_option_number(reader, option, row->what, row->range, member);
     case ROW_WHOLE:
         return deck_option_integer(reader, option, row->least, row->most, member);
     case ROW_POSITION:

@@ -40,10 +40,10 @@ static int read_options(struct import *import)
         bad |= (import->flip = deck_option_word(reader, option, deck_answers)) < 0;
     import->scale = 1;
     if ((option = card_option(import->card, "SCALE")))
-        bad |= deck_option_number(reader, option, POSITIVE, &import->scale);
+        bad |= deck_option_number(reader, option, "", POSITIVE, &import->scale);
     import->origin = import->flip > 0 ? reader->length : 0;
     if ((option = card_option(import->card, "ORIGIN")))
-        bad |= deck_option_number(reader, option, ANY, &import->origin);
+        bad |= deck_option_number(reader, option, "m", ANY, &import->origin);
     return bad;
 }
 

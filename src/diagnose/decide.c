@@ -12,9 +12,6 @@
 #define NOISIER  3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
 #define COLOURED 2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
 #define CLEAR    2.0 /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
-#define LEAST_LEFT                                                                                                               \
-    3               /* residuals more than parameters, that could still contradict a name: six frequencies carry one parameter   \
-                     */
 #define SURE   3.0  /* standard deviations that exclude a mass */
 #define WORSE  1.1  /* held-out modes predicted worse than this factor speak against a cause */
 #define BETTER 0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
@@ -24,7 +21,8 @@ static int free_parameters(const struct candidate *c)
     int count = 0;
     for (int p = 0; p < c->nparameter; p++)
         count += !c->fixed[p];
-    return count ? count : !c->cause->solid; /* one that is there or not was searched for too; what a rotor is, was not */
+    count = count ? count : !c->cause->solid; /* one that is there or not was searched for too; what a rotor is, was not */
+    return c->with ? count + free_parameters(c->with) : count;
 }
 
 double candidate_score(const struct candidate *c)
@@ -46,7 +44,7 @@ static int compare(const void *left, const void *right)
  * does not. Margins grow with it, as in quasi-likelihood. */
 static double dispersion(const struct before *before, const struct candidate *best, double left_frequency)
 {
-    int dof = before->dof - best->nparameter;
+    int dof = before->dof - best->nparameter - (best->with ? best->with->nparameter : 0);
     double whole = dof > 0 ? best->result.chi2 / dof : 1, block = left_frequency / before->nfrequency;
     double factor = dof > 0 && chi_square_tail(best->result.chi2, dof) < 0.01 ? whole : 1;
     if (chi_square_tail(left_frequency, before->nfrequency) < 0.01)
@@ -78,8 +76,10 @@ static const char *chance(struct pool *pool, const struct candidate *c)
 }
 
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
- * noise, and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. */
-static const char *reason(const struct engine *engine, const struct before *before, const struct candidate *c)
+ * noise, and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. A pair has to do what
+ * it was tried for, and what no cause alone comes near: alone is their least chi2. */
+static const char *reason(const struct engine *engine, const struct before *before, double threshold, double alone,
+                          const struct candidate *c)
 {
     struct pool *pool = engine->pool;
     if (!c->result.refitted)
@@ -90,6 +90,10 @@ static const char *reason(const struct engine *engine, const struct before *befo
         return "the model is worse with this cause";
     if (c->result.at_bound)
         return pool_format(pool, "its size ends at the physical bound");
+    if (c->with && !c->explains)
+        return "two causes that still leave more than noise";
+    if (c->with && alone - c->result.chi2 <= CLEAR * threshold)
+        return "gains no more than chance beyond one cause alone";
     double most = fmax(0, engine->moving.mass) + SURE * engine->moving.std;
     if (engine->moving.usable && is_moving_accelerometer(&c->effect) && c->effect.value[0] > most)
         return pool_format(pool, "the frequencies at single sensors allow no more than %.2g kg", most);
@@ -127,10 +131,13 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     struct pool *pool = engine->pool;
     add_noise(before, round);
     struct candidate *best = NULL;
-    double left_frequency = 0, predicts = INFINITY, noise = frequency_noise(&engine->job);
+    double left_frequency = 0, predicts = INFINITY, alone = INFINITY, noise = frequency_noise(&engine->job);
+    for (int i = 0; i < round->ncandidate; i++)
+        if (round->candidate[i].result.refitted && !round->candidate[i].with)
+            alone = fmin(alone, round->candidate[i].result.chi2);
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
-        c->result.rejected_because = reason(engine, before, c);
+        c->result.rejected_because = reason(engine, before, round->result.threshold, alone, c);
         if (!c->result.rejected_because && c->result.chi2_drop > round->result.threshold && isfinite(c->result.holdout_rms))
             predicts = fmin(predicts, c->result.holdout_rms);
     }
@@ -189,7 +196,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         (before->chi2 - before->beyond_drop + PARAMETER_PENALTY <= limit || /* a bound of the deck may be all that is wrong */
          !(first->result.chi2_drop > CLEAR * round->result.threshold) ||    /* or its place is open, or little is left over */
          first->other_chi2 - first->result.chi2 < round->result.required_margin ||
-         before->dof - free_parameters(first) < LEAST_LEFT);
+         before->dof - free_parameters(first) < LEAST_RESIDUALS);
     round->result.kind = round->result.set == 0                                                               ? ROTID_UNEXPLAINED
                          : round->result.set > 1 || !engine->out->result.verdict.confident || refused || weak ? ROTID_AMBIGUOUS
                          : round->candidate[0].cause->class != CAUSE_PHYSICAL                                 ? ROTID_UNEXPLAINED

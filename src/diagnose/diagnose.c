@@ -17,7 +17,7 @@ static int run_rounds(struct engine *engine, struct round_result *last)
 {
     struct diagnosis *out = engine->out;
     out->round = POOL_ARRAY(engine->pool, struct diagnosis_round, DIAGNOSE_MOST_CAUSES + 1);
-    out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES);
+    out->cause = POOL_ARRAY(engine->pool, struct candidate, DIAGNOSE_MOST_CAUSES + 1);
     if (!out->round || !out->cause)
         return ROTID_ERROR_MEMORY;
     for (;;) {
@@ -31,7 +31,7 @@ static int run_rounds(struct engine *engine, struct round_result *last)
             round->candidate[i].result.round = out->nround;
         if (out->nround == 1)
             status = localise(engine, &last->scan);
-        if (status || round->result.kind != ROTID_NAMED || out->ncause == DIAGNOSE_MOST_CAUSES)
+        if (status || round->result.kind != ROTID_NAMED || out->ncause >= DIAGNOSE_MOST_CAUSES)
             return status;
         status = accept_cause(engine, round, last);
         if (status)

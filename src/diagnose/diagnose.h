@@ -15,7 +15,7 @@ struct diagnose_options {
     int replicates; /* of the bootstrap; 0: 1000 */
 };
 
-/* A cause at one target (for those with a place: at its best place), with what became of it. */
+/* A cause at one target (for those with a place: at its best place), with what became of it. Of two at once it is the first. */
 struct candidate {
     rotid_candidate result; /* `cause` is put there at the end, from the following members up to the intervals */
     const struct cause_kind *cause;
@@ -27,6 +27,9 @@ struct candidate {
     int refit;                      /* index of the fit in the round, -1 where there is none */
     double other_place, other_chi2; /* the best fit of it at quite another place, NaN where all starts led to one */
     int refused;                    /* for a reason of its own (no fit, physical bound, held-out modes), whatever the others do */
+    int explains;                   /* its fit leaves no more than noise */
+    struct candidate *with;         /* the second cause, NULL where this one is alone; the numbers of the fit are here */
+    int set;                        /* of an alternative, from 1: two of one number are the causes of a pair */
 };
 
 struct diagnosis_round {
@@ -44,7 +47,7 @@ struct diagnosis {
     struct diagnosis_round *round; /* the last one names nothing more */
     int ncause;
     struct candidate *cause; /* [ncause] as they stand in the final model */
-    int nalternative;        /* ambiguous: candidates that cannot be told apart, best first */
+    int nalternative;        /* ambiguous: the causes of candidates that cannot be told apart, best first */
     struct candidate *alternative;
     struct job extended_job;
     struct identification extended; /* the base again where nothing was named: fit NULL then */

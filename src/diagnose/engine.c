@@ -7,9 +7,10 @@
 
 const char *candidate_label(struct pool *pool, const struct candidate *c)
 {
-    if (c->result.suspect)
-        return pool_format(pool, "%s, a %s", c->effect.name, c->cause->id);
-    return pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
+    const char *text = c->result.suspect ? pool_format(pool, "%s, a %s", c->effect.name, c->cause->id)
+                                         : pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
+    const char *with = text && c->with ? candidate_label(pool, c->with) : NULL;
+    return !c->with ? text : with ? pool_format(pool, "%s with %s", text, with) : NULL;
 }
 
 struct candidate candidate_blank(const struct cause_kind *cause, const char *target)

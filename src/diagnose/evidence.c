@@ -7,6 +7,7 @@
 #include "diagnose/bootstrap.h"
 #include "diagnose/decide.h"
 #include "diagnose/evidence.h"
+#include "diagnose/explains.h"
 #include "diagnose/leave_out.h"
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
@@ -25,13 +26,17 @@ static int ends_at_bound(const rotid_parameter *bounds, double neutral, double x
            (x > bounds->upper - near && fabs(bounds->upper - neutral) > near);
 }
 
-static void take_parameters(const struct refit *refit, int own, struct candidate *c)
+/* The effect and its parameters, those of the fit that belong to it: the last effects of the job are those of the set. */
+static void take_parameters(const struct refit *refit, int e, struct candidate *c)
 {
     const rotid_fit_result *fit = refit->fit;
-    if (!c->cause->solid)
-        c->effect = refit->job.rotor.effect[refit->job.rotor.neffect - 1];
-    for (int p = own; p < fit->n; p++) {
+    if (c->cause->solid)
+        return;
+    c->effect = refit->job.rotor.effect[e];
+    for (int p = 0; p < fit->n; p++) {
         int component = refit->job.unknowns.parameter[p].component;
+        if (refit->job.unknowns.parameter[p].kind != PARAMETER_EFFECT || refit->job.unknowns.parameter[p].index != e)
+            continue;
         c->std[component] = fit->std[p];
         c->ci_lower[component] = fmax(fit->ci_lower[p], refit->job.unknowns.bounds[p].lower);
         c->ci_upper[component] = fmin(fit->ci_upper[p], refit->job.unknowns.bounds[p].upper);
@@ -44,14 +49,15 @@ static void take_parameters(const struct refit *refit, int own, struct candidate
 
 /* Depth and width of a zone trade off: where the width ends at a bound the fit knows the depth for that width alone. And a place
  * that the fit gives no interval for, being at an end or where the modes are symmetric, has that of the scan: wherever the
- * promised drop is within 3.84 of the best. */
+ * promised drop is within 3.84 of the best. s: its
+ * candidate of the scan, NULL in a pair, where the scan of one cause says nothing. */
 static void mend_intervals(const struct scan *scan, const struct scan_candidate *s, struct candidate *c)
 {
     const struct cause_kind *cause = c->cause;
     int place = cause->place, width = cause->width;
     if (width >= 0 && !c->fixed[width] && !isfinite(c->std[width]))
         c->std[cause->size] = c->ci_lower[cause->size] = c->ci_upper[cause->size] = NAN;
-    if (place < 0 || c->fixed[place] || isfinite(c->std[place]) || s->best < 0)
+    if (!s || place < 0 || c->fixed[place] || isfinite(c->std[place]) || s->best < 0)
         return;
     double lower = INFINITY, upper = -INFINITY;
     for (int i = s->first; i < s->first + s->count; i++)
@@ -71,27 +77,48 @@ static double frequency_chi2(const rotid_fit_result *fit, int nfrequency)
     return sum;
 }
 
-/* Candidate `index` of the scan; number: of its fit in the round, -1 where there is none. */
-static int fill_candidate(struct engine *engine, const struct round_result *result, int index, int number, struct candidate *c)
+/* Candidate `index` of the scan as it was listed. */
+static struct candidate listed(const struct scan *scan, int index)
+{
+    const struct scan_candidate *s = &scan->candidate[index];
+    struct candidate c = candidate_blank(s->cause, s->target);
+    c.effect = s->effect;
+    c.result.suspect = s->suspect;
+    c.nparameter = cause_parameters(&s->effect);
+    memcpy(c.fixed, s->fixed, sizeof c.fixed);
+    return c;
+}
+
+/* The candidate, and where the scan sees it. */
+static struct candidate scanned(const struct round_result *result, int index)
 {
     const struct scan *scan = &result->scan;
-    const struct bootstrap *bootstrap = &result->bootstrap;
     const struct scan_candidate *s = &scan->candidate[index];
-    const struct refit *refit = number < 0 ? NULL : &result->refit[number];
-    *c = candidate_blank(s->cause, s->target);
-    c->effect = s->effect;
-    c->result.suspect = s->suspect;
-    c->nparameter = cause_parameters(&s->effect);
-    c->result.predicted_drop = scan_best_drop(scan, index);
-    memcpy(c->fixed, s->fixed, sizeof c->fixed);
-    c->result.p_value = bootstrap_p(bootstrap, c->result.predicted_drop);
-    if (s->best >= 0) { /* where the scan sees it */
-        c->effect = scan->item[s->best].effect;
+    struct candidate c = listed(scan, index);
+    c.result.predicted_drop = scan_best_drop(scan, index);
+    c.result.p_value = bootstrap_p(&result->bootstrap, c.result.predicted_drop);
+    if (s->best >= 0) {
+        c.effect = scan->item[s->best].effect;
         if (!s->fixed[s->cause->size])
-            c->effect.value[s->cause->size] += scan->item[s->best].amplitude * scan->item[s->best].unit;
+            c.effect.value[s->cause->size] += scan->item[s->best].amplitude * scan->item[s->best].unit;
     }
-    if (!refit)
-        return ROTID_OK;
+    return c;
+}
+
+/* Fit `number` of the round. No chance is stated for a pair: the bootstrap asks for the best of single columns. */
+static int fill_candidate(struct engine *engine, const struct round_result *result, int number, struct candidate *c)
+{
+    const struct scan *scan = &result->scan;
+    const struct refit *refit = &result->refit[number];
+    const struct scan_set *set = &result->set[number];
+    int pair = set->count > 1, last = refit->fit ? refit->job.rotor.neffect : 0;
+    *c = pair ? listed(scan, set->candidate[0]) : scanned(result, set->candidate[0]);
+    if (pair && !(c->with = POOL_NEW(engine->pool, struct candidate)))
+        return ROTID_ERROR_MEMORY;
+    if (pair) {
+        *c->with = listed(scan, set->candidate[1]);
+        c->result.predicted_drop = set->drop;
+    }
     c->result.refitted = 1;
     if (!refit->fit)
         return ROTID_OK;
@@ -102,10 +129,16 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->result.chi2 = refit->chi2;
     c->result.chi2_drop = engine->fit->chi2 - refit->chi2;
     c->result.bic = refit->chi2 + log(scan->nrow) * refit->job.unknowns.nparameter;
-    c->result.p_value = bootstrap_p(bootstrap, c->result.chi2_drop);
+    c->result.p_value = pair ? NAN : bootstrap_p(&result->bootstrap, c->result.chi2_drop);
     c->result.chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
-    take_parameters(refit, engine->job.unknowns.nparameter, c);
-    mend_intervals(scan, s, c);
+    c->explains = fit_explains(refit, scan, set, engine->holdout);
+    take_parameters(refit, last - set->count, c);
+    mend_intervals(scan, pair ? NULL : &scan->candidate[set->candidate[0]], c);
+    if (pair) {
+        take_parameters(refit, last - 1, c->with);
+        mend_intervals(scan, NULL, c->with);
+        c->result.at_bound |= c->with->result.at_bound;
+    }
     fitted_errors(&refit->job, engine->holdout, refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
     return sensor_out(engine->pool, &refit->job, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
 }
@@ -196,8 +229,8 @@ static void find_twins(const struct round_result *result, struct candidate *cand
     const struct scan *scan = &result->scan;
     for (int i = 0; i < result->nrefit; i++)
         for (int j = 0; j < result->nrefit; j++) {
-            int a = scan->candidate[result->candidate[i]].best, b = scan->candidate[result->candidate[j]].best;
-            if (i == j || a < 0 || b < 0)
+            int a = scan->candidate[result->set[i].candidate[0]].best, b = scan->candidate[result->set[j].candidate[0]].best;
+            if (i == j || a < 0 || b < 0 || result->set[i].count > 1 || result->set[j].count > 1)
                 continue;
             double cosine = 0;
             for (int k = 0; k < scan->nrow; k++)
@@ -214,13 +247,13 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
 {
     struct pool *pool = engine->pool;
     const struct scan *scan = &result->scan;
-    int room = scan->ncandidate + 1, status = ROTID_OK;
+    int room = scan->ncandidate + result->nrefit + 1, status = ROTID_OK;
     double unused, shape;
     round->candidate = POOL_ARRAY(pool, struct candidate, room);
     if (!round->candidate)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < result->nrefit && !status; i++)
-        status = fill_candidate(engine, result, result->candidate[i], i, &round->candidate[i]);
+        status = fill_candidate(engine, result, i, &round->candidate[i]);
     if (!status && result->nrefit)
         status = leave_modes_out(engine, result, round->candidate);
     if (status)
@@ -230,11 +263,9 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
     for (int i = 0; i < scan->ncandidate && !status; i++) {
         int taken = 0;
         for (int j = 0; j < result->nrefit; j++)
-            taken |= result->candidate[j] == i;
-        if (!taken && scan_best_drop(scan, i) > SHOWN * scan->largest && scan->largest > 0) {
-            status = fill_candidate(engine, result, i, -1, &round->candidate[round->ncandidate]);
-            round->ncandidate++;
-        }
+            taken |= result->set[j].count == 1 && result->set[j].candidate[0] == i;
+        if (!taken && scan_best_drop(scan, i) > SHOWN * scan->largest && scan->largest > 0)
+            round->candidate[round->ncandidate++] = scanned(result, i);
     }
     struct before before = {.dof = scan->dof,
                             .nfrequency = scan->nfrequency,

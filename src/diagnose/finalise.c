@@ -83,7 +83,7 @@ static void settle_causes(struct diagnosis *out)
 /* "joint of core|right (flexibility 4e-10 rad/(N.m))" */
 static const char *describe(struct pool *pool, const struct candidate *c)
 {
-    const struct cause_kind *cause = c->cause;
+    const struct cause_kind *cause = c->cause; /* `with` is NULL in what a verdict lists */
     const char *text = candidate_label(pool, c);
     if (text && isfinite(c->other_chi2) && c->other_chi2 - c->result.chi2 < LEAST_MARGIN)
         text = pool_format(pool, "%s, as well at z = %.3g m", text, c->other_place);
@@ -104,7 +104,8 @@ static const char *list(struct pool *pool, int count, const struct candidate *c)
     int shown = count < LISTED ? count : LISTED;
     for (int i = 0; i < shown && text; i++) {
         const char *one = describe(pool, &c[i]);
-        text = one ? pool_format(pool, "%s%s%s", text, !i ? "" : i + 1 == count ? " and " : ", ", one) : NULL;
+        int paired = i && c[i].set && c[i].set == c[i - 1].set, ends = i + 1 == count || (c[i].set && c[i].set == c[count - 1].set);
+        text = one ? pool_format(pool, "%s%s%s", text, !i ? "" : paired ? " with " : ends ? " and " : ", ", one) : NULL;
     }
     return text && count > shown ? pool_format(pool, "%s and %d more", text, count - shown) : text;
 }
@@ -186,7 +187,7 @@ static const char *verdict_sentence(struct engine *engine)
             verdict->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
             chance, solid, faults, open);
     case ROTID_AMBIGUOUS:
-        if (out->nalternative == 1)
+        if (out->alternative && out->nalternative && out->alternative[out->nalternative - 1].set == 1)
             return pool_format(
                 pool, "The model does not explain the data (%s); %s would, but these data do not suffice to name a cause.%s%s",
                 chance, others, faults, open);

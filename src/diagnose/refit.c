@@ -134,18 +134,30 @@ static int choose_starts(const struct scan *scan, const struct scan_candidate *c
     return count;
 }
 
-/* The effects to start from; a solid has but one. */
-static int starting_effects(const struct scan *scan, const struct scan_candidate *c, double length, struct effect *effect)
+static struct effect effect_of_item(const struct scan *scan, int item, double amplitude)
 {
-    int item[STARTS], count = choose_starts(scan, c, length, item);
-    for (int s = 0; s < count; s++) {
-        const struct scan_item *start = &scan->item[item[s]];
-        effect[s] = start->effect;
-        if (!c->fixed[c->cause->size])
-            effect[s].value[c->cause->size] += start->amplitude * start->unit;
-    }
+    const struct scan_item *i = &scan->item[item];
+    const struct scan_candidate *c = &scan->candidate[i->candidate];
+    struct effect effect = i->effect;
+    if (!c->fixed[c->cause->size])
+        effect.value[c->cause->size] += amplitude * i->unit;
+    return effect;
+}
+
+/* The effects to start from; a solid and a pair have but one. */
+static int starting_effects(const struct scan *scan, const struct scan_set *set, double length, struct effect effect[][2])
+{
+    const struct scan_candidate *c = &scan->candidate[set->candidate[0]];
+    int item[STARTS], count = set->count > 1 ? 0 : choose_starts(scan, c, length, item);
+    for (int s = 0; s < count; s++)
+        effect[s][0] = effect_of_item(scan, item[s], scan->item[item[s]].amplitude);
     if (c->cause->solid)
-        effect[count++] = c->effect;
+        effect[count++][0] = c->effect;
+    if (set->count > 1) {
+        for (int m = 0; m < 2; m++)
+            effect[0][m] = effect_of_item(scan, set->item[m], set->amplitude[m]);
+        count = 1;
+    }
     return count;
 }
 
@@ -231,24 +243,38 @@ int refit_beyond(struct pool *pool, const struct job *job, int nown, const rotid
     return ROTID_OK;
 }
 
+/* The job with the causes of a set from `effect`. */
+static int job_with_set(struct pool *pool, const struct job *job, const double *x, const struct scan *scan,
+                        const struct scan_set *set, const struct effect *effect, struct job *to)
+{
+    int status = ROTID_OK;
+    for (int m = 0; m < set->count && !status; m++) {
+        const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
+        struct effect named = effect[m];
+        if (m && !(named.name = c->suspect ? named.name : scan_free_name(pool, &to->rotor, c->cause->id)))
+            return ROTID_ERROR_MEMORY;
+        status = job_with_effect(pool, m ? to : job, m ? NULL : x, &named, c->cause, c->fixed, to);
+    }
+    return status;
+}
+
 /* Fits from the scan's places with the job's own parameters at x; the best is kept. Statuses of memory and cancellation only. */
 static int fit_from(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
-                    const struct scan *scan, const struct scan_candidate *c, const rotid_environment *environment,
+                    const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
                     struct refit *refit)
 {
-    const struct cause_kind *cause = c->cause;
-    struct effect start[STARTS];
-    int count = starting_effects(scan, c, rotor_length(&job->rotor), start);
+    struct effect start[STARTS][2];
+    int count = starting_effects(scan, set, rotor_length(&job->rotor), start);
     for (int s = 0; s < count; s++) {
         struct job extended, started;
         rotid_fit_result *fit = NULL;
-        int status = job_with_effect(pool, job, x, &start[s], cause, c->fixed, &extended);
+        int status = job_with_set(pool, job, x, scan, set, start[s], &extended);
         if (!status)
             status = refit_job(pool, &extended, number, holdout, environment, &fit);
         if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
             return status;
-        if (!status)
-            note_place(&extended, cause, fit, refit);
+        if (!status && set->count == 1)
+            note_place(&extended, scan->candidate[set->candidate[0]].cause, fit, refit);
         if (status || !(fit->chi2 < refit->chi2)) {
             rotid_fit_free(fit);
             continue;
@@ -268,18 +294,20 @@ static int fit_from(struct pool *pool, const struct job *job, const int *number,
     return ROTID_OK;
 }
 
-int refit_candidate(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
-                    const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
-                    struct refit *refit)
+int refit_set(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+              const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
+              struct refit *refit)
 {
-    const struct scan_candidate *c = &scan->candidate[candidate];
-    /* without its cause it is the model that the scan looked at, unless a user has fixed the size, or there is none */
-    int nested = c->cause->effect->nparameter && !c->fixed[c->cause->size];
+    int nested = 1; /* without its causes it is the model that the scan looked at, unless a user has fixed a size, or there is none */
+    for (int m = 0; m < set->count; m++) {
+        const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
+        nested &= c->cause->effect->nparameter && !c->fixed[c->cause->size];
+    }
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
-    int status = fit_from(pool, job, number, holdout, x, scan, c, environment, refit);
+    int status = fit_from(pool, job, number, holdout, x, scan, set, environment, refit);
     if (!status && deck &&
         (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, job->unknowns.nparameter)))
-        status = fit_from(pool, job, number, holdout, deck, scan, c, environment, refit);
+        status = fit_from(pool, job, number, holdout, deck, scan, set, environment, refit);
     if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)
         return status;
     rotid_fit_free(refit->fit);

@@ -1,4 +1,4 @@
-/* Fits of a job with one more cause in it, from several starts, and the small bookkeeping of jobs that grow. */
+/* Fits of a job with one more cause in it, or two, from several starts, and the small bookkeeping of jobs that grow. */
 #ifndef ROTID_DIAGNOSE_REFIT_H
 #define ROTID_DIAGNOSE_REFIT_H
 
@@ -22,20 +22,20 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
 int job_started_at(struct pool *pool, const struct job *job, const double *x, struct job *to);
 
 struct refit {
-    struct job job;        /* with the effect at the best values, which are also the starts */
+    struct job job;        /* with the effects of the set at the best values, which are also the starts */
     rotid_fit_result *fit; /* NULL where no start led anywhere */
     double chi2;
     double other_chi2,
         other_place; /* best fit that ended at another place, more than a width or 3 % of the length away; NaN: none */
 };
 
-/* Best of the fits from the most promising places of the candidate, the job's own parameters starting at x [nparameter], which is
+/* Best of the fits from the most promising places of the set, the job's own parameters starting at x [nparameter], which is
  * where the scan was made; and at `deck` [nparameter] (NULL: none) as well where none of those fits succeeded or one of these
  * parameters ends at a bound. Statuses of memory and cancellation only: where every fit fails, or ends above the model without
- * the cause, which it contains, fit is NULL. */
-int refit_candidate(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
-                    const double *deck, const struct scan *scan, int candidate, const rotid_environment *environment,
-                    struct refit *refit);
+ * its causes, which it contains, fit is NULL. */
+int refit_set(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+              const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
+              struct refit *refit);
 
 /* Does one of the first nown parameters end at a bound? */
 int fit_at_bound(const rotid_fit_result *fit, int nown);

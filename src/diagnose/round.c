@@ -5,20 +5,26 @@
 #include "diagnose/as_solid.h"
 #include "diagnose/bootstrap.h"
 #include "diagnose/clean.h"
+#include "diagnose/decide.h"
 #include "diagnose/evidence.h"
+#include "diagnose/explains.h"
+#include "diagnose/pairs.h"
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
 #include "diagnose/scan.h"
 
-#define MOST_REFITS 16
-#define WORTH       3.0  /* a promised drop below this is noise */
-#define SHARE       0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
+#define MOST_REFITS         16
+#define MOST_PAIRS          16 /* the true one is seldom the first of the linear list: where effects are large its fit shows it */
+#define MOST_PAIRS_OF_SOLID 6
+#define WORTH               3.0  /* a promised drop below this is noise */
+#define SHARE               0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
 
 struct refits {
     const struct engine *engine;
     struct round_result *result;
     const double *deck; /* [nparameter] the starts of the deck, of causes that were named their values */
-    struct pool *pool;  /* [nrefit] one a task: pools are not shared between threads */
+    int first;
+    struct pool *pool; /* one a task: pools are not shared between threads */
 };
 
 static int refit_task(void *context, int index, int worker)
@@ -26,58 +32,77 @@ static int refit_task(void *context, int index, int worker)
     struct refits *refits = context;
     const struct engine *e = refits->engine;
     (void)worker;
-    return refit_candidate(&refits->pool[index], &e->job, e->number, e->holdout, e->fit->x, refits->deck, &refits->result->scan,
-                           refits->result->candidate[index], e->environment, &refits->result->refit[index]);
+    int i = refits->first + index;
+    return refit_set(&refits->pool[index], &e->job, e->number, e->holdout, e->fit->x, refits->deck, &refits->result->scan,
+                     &refits->result->set[i], e->environment, &refits->result->refit[i]);
 }
 
-/* Candidates worth a nonlinear fit, the most promising first, and every suspect. A fit of a solid takes seconds: there the rivals
- * alone are fitted. */
-static int choose(const struct scan *scan, double threshold, int solid, int *chosen)
+/* Candidates worth a nonlinear fit, the most promising first, and every suspect. */
+static int choose(const struct scan *scan, double threshold, struct scan_set *set)
 {
     int count = 0;
-    double half = threshold / 2, rival = SHARE * scan->largest,
-           least = fmax(WORTH, solid ? fmax(half, rival) : fmin(half, rival));
+    double least = fmax(WORTH, fmin(threshold / 2, SHARE * scan->largest));
     for (int rank = 0; rank < scan->ncandidate; rank++) {
         int best = -1;
         for (int i = 0; i < scan->ncandidate; i++) {
             int taken = 0;
             for (int j = 0; j < count; j++)
-                taken |= chosen[j] == i;
+                taken |= set[j].candidate[0] == i;
             if (!taken && (best < 0 || scan_best_drop(scan, i) > scan_best_drop(scan, best)))
                 best = i;
         }
         if (best < 0 || scan_best_drop(scan, best) < least || count == MOST_REFITS)
             break;
-        chosen[count++] = best;
+        set[count++] = (struct scan_set){.count = 1, .candidate = {best}};
     }
     for (int i = 0; i < scan->ncandidate; i++) {
         int taken = 0;
         for (int j = 0; j < count; j++)
-            taken |= chosen[j] == i;
+            taken |= set[j].candidate[0] == i;
         if (!taken && scan->candidate[i].suspect && scan->candidate[i].best >= 0)
-            chosen[count++] = i;
+            set[count++] = (struct scan_set){.count = 1, .candidate = {i}};
     }
     return count;
 }
 
-static int run_refits(struct engine *engine, struct round_result *result)
+/* Fits the `count` sets behind those that are fitted already. */
+static int run_refits(struct engine *engine, struct round_result *result, int count)
 {
     struct pool *pool = engine->pool;
     double *deck = POOL_ARRAY(pool, double, engine->job.unknowns.nparameter);
-    struct refits refits = {engine, result, deck, POOL_ARRAY(pool, struct pool, result->nrefit)};
-    result->refit = POOL_ARRAY(pool, struct refit, result->nrefit);
-    if (!deck || !refits.pool || !result->refit) {
-        result->nrefit = 0;
+    struct refits refits = {engine, result, deck, result->nrefit, POOL_ARRAY(pool, struct pool, count)};
+    if (!deck || !refits.pool)
         return ROTID_ERROR_MEMORY;
-    }
     for (int p = 0; p < engine->job.unknowns.nparameter; p++)
         deck[p] = p < engine->nown ? engine->deck_start[p] : engine->fit->x[p];
-    for (int i = 0; i < result->nrefit; i++)
+    for (int i = 0; i < count; i++)
         pool_open(&refits.pool[i], pool->allocator);
-    int status = parallel_for(engine->threads, result->nrefit, refit_task, &refits);
-    for (int i = 0; i < result->nrefit; i++)
+    result->nrefit += count;
+    int status = parallel_for(engine->threads, count, refit_task, &refits);
+    for (int i = 0; i < count; i++)
         pool_absorb(pool, &refits.pool[i]);
     return status;
+}
+
+/* Pairs, where the best single cause does not explain the data. Where that is the rotor as a solid the rounds go on with it
+ * first: it is no column that could be one of two. */
+static int run_pairs(struct engine *engine, struct round_result *result)
+{
+    const struct scan *scan = &result->scan;
+    int best = -1, count = 0, most = engine->job.options.solid ? MOST_PAIRS_OF_SOLID : MOST_PAIRS;
+    double least = INFINITY;
+    for (int i = 0; i < result->nrefit; i++) {
+        double score = result->refit[i].fit ? result->refit[i].chi2 + PARAMETER_PENALTY * result->refit[i].fit->n : INFINITY;
+        if (score < least) {
+            least = score;
+            best = i;
+        }
+    }
+    if (best < 0 || scan->candidate[result->set[best].candidate[0]].cause->solid ||
+        fit_explains(&result->refit[best], scan, &result->set[best], engine->holdout))
+        return ROTID_OK;
+    int status = pairs_choose(engine->pool, &engine->job, scan, most, result->set + result->nrefit, &count);
+    return status ? status : run_refits(engine, result, count);
 }
 
 /* Coloured noise, seen in what the best refit leaves; the round is then to be repeated with the noise raised. */
@@ -133,8 +158,9 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     round->result.p_frequency = b->p_frequency;
     round->result.p_total = b->p_total;
     int adequate = scan->largest <= b->threshold && b->p_frequency > BLOCK_LEVEL && b->p_total > BLOCK_LEVEL;
-    result->candidate = POOL_ARRAY(pool, int, scan->ncandidate);
-    if (!result->candidate)
+    result->set = POOL_ARRAY(pool, struct scan_set, scan->ncandidate + MOST_PAIRS);
+    result->refit = POOL_ARRAY(pool, struct refit, scan->ncandidate + MOST_PAIRS);
+    if (!result->set || !result->refit)
         return ROTID_ERROR_MEMORY;
     if (!adequate) {
         status = scan_solid(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan,
@@ -143,11 +169,14 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     }
     if (status)
         return status;
-    result->nrefit = adequate ? 0 : choose(scan, b->threshold, engine->job.options.solid, result->candidate);
+    int single = adequate ? 0 : choose(scan, b->threshold, result->set);
     status = engine_stage(engine, "fits of candidates, round", engine->out->nround + 1);
     if (!status)
-        status = run_refits(engine, result);
+        status = run_refits(engine, result, single);
     engine_step(engine, "refits");
+    if (!status && !adequate)
+        status = run_pairs(engine, result);
+    engine_step(engine, "pairs");
     if (!status && !adequate)
         status = check_colour(engine, result, again);
     if (status || *again)
@@ -173,7 +202,6 @@ int round_run(struct engine *engine, struct diagnosis_round *round, struct round
 void round_free(struct round_result *result)
 {
     for (int i = 0; i < result->nrefit; i++)
-        if (result->refit)
-            rotid_fit_free(result->refit[i].fit);
+        rotid_fit_free(result->refit[i].fit);
     result->nrefit = 0;
 }

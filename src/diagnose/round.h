@@ -11,8 +11,8 @@ struct round_result {
     struct scan scan;
     struct bootstrap bootstrap;
     int nrefit;
-    struct refit *refit; /* [nrefit] */
-    int *candidate;      /* [nrefit] of the scan */
+    struct refit *refit;   /* [nrefit] */
+    struct scan_set *set; /* [nrefit] what was fitted: single causes first, then pairs */
 };
 
 int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result);

@@ -148,13 +148,12 @@ static void predict(const struct rotor *rotor, struct scan *scan, struct scan_it
     if (!item->usable)
         return;
     double along = product_dot(scan->nrow, column, scan->r);
-    item->amplitude = -along / item->norm;
-    if (item->side * item->amplitude < 0)
-        item->amplitude = 0;
     if (cause->effect->nparameter)
         cause->bounds(rotor, &item->effect, cause->size, &lower, &upper);
     double least = (lower - neutral) / item->unit, most = (upper - neutral) / item->unit;
-    item->amplitude = fmin(fmax(item->amplitude, fmin(0, fmin(least, most))), fmax(least, most));
+    item->lower = item->side > 0 ? 0 : fmin(0, fmin(least, most));
+    item->upper = item->side < 0 ? 0 : fmax(least, most);
+    item->amplitude = fmin(fmax(-along / item->norm, item->lower), item->upper);
     double step = item->amplitude * item->norm;
     item->drop = -2 * step * along - step * step;
 }

@@ -13,6 +13,7 @@ struct scan_item { /* one column */
     int side;             /* sign the amplitude must have, 0: any */
     int usable;           /* the column is more than rounding once what is fitted is taken out */
     double norm;          /* of the projected column */
+    double lower, upper;  /* of the amplitude, by physics */
     double amplitude, drop;
 };
 
@@ -39,12 +40,21 @@ struct scan {
     double largest; /* drop */
 };
 
+struct scan_set { /* one cause, or two at once: what a round fits */
+    int count, candidate[2];
+    int item[2]; /* of a pair: the columns that promise most together, with their amplitudes */
+    double amplitude[2], drop;
+};
+
 /* The candidates of a job: every physical cause of the catalogue at every target where it applies and is not in the model yet,
  * and the user's suspects. names: for the effects to come. */
 int scan_list(struct pool *pool, const struct job *job, struct scan *scan);
 
 /* A name for a CAUSE card that nothing in the rotor has: "joint", or "joint_2" where that is taken. NULL where memory is out. */
 const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
+
+/* Whether the candidates a and b may be there together: the same cause at the same target needs two places. */
+int scan_allows(const struct job *job, const struct scan *scan, int a, int b);
 
 /* Columns and drops at the parameters x of the fitted job. Statuses of columns_open. */
 int scan_run(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x, struct scan *scan);

@@ -15,14 +15,19 @@ static int is_identified(const struct job *job, int group)
     return 0;
 }
 
-/* A cause with a place may be there twice, one without only once at a target: with three soft zones or masses anything that is
- * spread along the rotor can be imitated, and nothing is explained. */
-static int is_in_model(const struct rotor *rotor, const struct cause_kind *cause, int target)
+static int effects_alike(const struct rotor *rotor, const struct cause_kind *cause, int target)
 {
     int count = 0;
     for (int i = 0; i < rotor->neffect; i++)
         count += rotor->effect[i].kind == cause->effect && rotor->effect[i].target == target;
-    return count >= (cause->place < 0 ? 1 : 2);
+    return count;
+}
+
+/* A cause with a place may be there twice, one without only once at a target: with three soft zones or masses anything that is
+ * spread along the rotor can be imitated, and nothing is explained. */
+static int is_in_model(const struct rotor *rotor, const struct cause_kind *cause, int target)
+{
+    return effects_alike(rotor, cause, target) >= (cause->place < 0 ? 1 : 2);
 }
 
 /* A solid has none of the errors of beams, and a beam that is corrected for one of them is not to become a solid as well. */
@@ -110,6 +115,16 @@ static int add_suspect(struct pool *pool, const struct job *job, const struct su
         if (c->fixed[p])
             c->effect.value[p] = suspect->effect.value[p];
     return status;
+}
+
+int scan_allows(const struct job *job, const struct scan *scan, int a, int b)
+{
+    const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
+    if (first->cause != second->cause || first->effect.target != second->effect.target)
+        return a != b;
+    int place = first->cause->place;
+    return place >= 0 && !first->fixed[place] && !second->fixed[place] && !first->suspect && !second->suspect &&
+           !effects_alike(&job->rotor, first->cause, first->effect.target);
 }
 
 int scan_list(struct pool *pool, const struct job *job, struct scan *scan)

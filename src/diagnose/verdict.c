@@ -11,47 +11,60 @@
 
 #define MANY 3 /* causes that together still leave something imitate what none of them is */
 
+/* What a cause that is an approximation leaves, added to the noise of the job. */
+static int add_discrepancy(struct engine *engine, const struct cause_kind *cause, struct job *job)
+{
+    ptrdiff_t components = (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode;
+    double *std = POOL_ARRAY(engine->pool, double, job->measurement.nmode);
+    if (!std)
+        return ROTID_ERROR_MEMORY;
+    message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+                "%s is an approximation: %.2g %% of the frequencies and %.2g %% of the largest component of the shapes are added "
+                "to the noise behind it, in later rounds, in the extended model and its intervals",
+                cause->id, 100 * cause->discrepancy_frequency, 100 * cause->discrepancy_shape);
+    for (int k = 0; k < job->measurement.nmode; k++)
+        std[k] = hypot(job->measurement.frequency_std[k], cause->discrepancy_frequency);
+    job->measurement.frequency_std = std;
+    if (!job->measurement.shape || !(cause->discrepancy_shape > 0))
+        return ROTID_OK;
+    double *shapes = POOL_ARRAY(engine->pool, double, components);
+    if (!shapes)
+        return ROTID_ERROR_MEMORY;
+    for (ptrdiff_t i = 0; i < components; i++)
+        shapes[i] = hypot(job->measurement.shape_std[i], cause->discrepancy_shape);
+    job->measurement.shape_std = shapes;
+    return ROTID_OK;
+}
+
 /* The winner of a round becomes part of the model, with what it leaves as an approximation added to the noise. */
 int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result)
 {
     struct diagnosis *out = engine->out;
     struct refit *refit = &result->refit[round->candidate[0].refit];
-    const struct cause_kind *cause = round->candidate[0].cause;
-    out->cause[out->ncause++] = round->candidate[0];
-    if (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0)
-        message_add(
-            engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-            "%s is an approximation: %.2g %% of the frequencies and %.2g %% of the largest component of the shapes are added "
-            "to the noise behind it, in later rounds, in the extended model and its intervals",
-            cause->id, 100 * cause->discrepancy_frequency, 100 * cause->discrepancy_shape);
     struct job job = refit->job;
+    int approximate = 0, status = ROTID_OK;
     if (engine->fit != out->base.fit)
         rotid_fit_free(engine->fit);
     engine->fit = refit->fit;
     refit->fit = NULL;
-    if (cause->discrepancy_frequency > 0 || cause->discrepancy_shape > 0) {
-        ptrdiff_t components = (ptrdiff_t)job.rotor.nsensor * job.measurement.nmode;
-        double *std = POOL_ARRAY(engine->pool, double, job.measurement.nmode);
-        if (!std)
-            return ROTID_ERROR_MEMORY;
-        for (int k = 0; k < job.measurement.nmode; k++)
-            std[k] = hypot(job.measurement.frequency_std[k], cause->discrepancy_frequency);
-        job.measurement.frequency_std = std;
-        if (job.measurement.shape && cause->discrepancy_shape > 0) {
-            double *shapes = POOL_ARRAY(engine->pool, double, components);
-            if (!shapes)
-                return ROTID_ERROR_MEMORY;
-            for (ptrdiff_t i = 0; i < components; i++)
-                shapes[i] = hypot(job.measurement.shape_std[i], cause->discrepancy_shape);
-            job.measurement.shape_std = shapes;
-        }
-        rotid_fit_result *fit = NULL;
-        int status = refit_job(engine->pool, &job, engine->number, engine->holdout, engine->environment, &fit);
-        if (status)
-            return status;
-        rotid_fit_free(engine->fit);
-        engine->fit = fit;
+    for (const struct candidate *c = &round->candidate[0]; c && !status; c = c->with) {
+        out->cause[out->ncause] = *c;
+        out->cause[out->ncause++].with = NULL;
+        if (!(c->cause->discrepancy_frequency > 0 || c->cause->discrepancy_shape > 0))
+            continue;
+        approximate = 1;
+        status = add_discrepancy(engine, c->cause, &job);
     }
+    if (!status && approximate) {
+        rotid_fit_result *fit = NULL;
+        status = refit_job(engine->pool, &job, engine->number, engine->holdout, engine->environment, &fit);
+        if (!status) {
+            rotid_fit_free(engine->fit);
+            engine->fit = fit;
+        }
+    }
+    if (status)
+        return status;
     engine->job = job;
     return job_started_at(engine->pool, &job, engine->fit->x, &engine->job);
 }
@@ -100,7 +113,8 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
 {
     struct diagnosis *out = engine->out;
     int *taken = POOL_ARRAY(engine->pool, int, round->ncandidate + 1);
-    out->alternative = POOL_ARRAY(engine->pool, struct candidate, round->ncandidate + 1);
+    out->alternative = POOL_ARRAY(engine->pool, struct candidate, 2 * (size_t)round->ncandidate + 1);
+    int sets = 0;
     if (!out->alternative || !taken)
         return ROTID_ERROR_MEMORY;
     out->nalternative = 0;
@@ -112,9 +126,14 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
             int near = candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
             taken[i] = pass == 0 ? i < round->result.set || (near && !c->refused && c->result.chi2_drop > round->result.threshold)
                        : pass == 1 ? near && c->result.at_bound
-                                   : !c->refused && out->nalternative < 2;
-            if (taken[i])
-                out->alternative[out->nalternative++] = *c;
+                                   : !c->refused && sets < 2;
+            sets += taken[i];
+            for (const struct candidate *member = c; taken[i] && member; member = member->with) {
+                struct candidate *listed = &out->alternative[out->nalternative++];
+                *listed = *member;
+                listed->with = NULL;
+                listed->set = sets;
+            }
         }
     return ROTID_OK;
 }
@@ -139,14 +158,17 @@ static int job_without(struct engine *engine, int left_out, struct job *job)
     return status;
 }
 
-/* With two causes or more each is doubted again in the presence of the others: a first cause may have been the best single
- * stand-in for two. *round, *result: the one in which a cause was not named again; *doubtful: its index, or -1. */
+/* With two causes or more each is doubted again in the presence of the others, but one that was named last and alone: a first
+ * cause may have been the best single stand-in for two. *round, *result: the one in which a cause was not named again; *doubtful: its index, or -1. */
 static int confirm(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int *doubtful)
 {
     struct diagnosis *out = engine->out;
-    int status = ROTID_OK;
+    const struct diagnosis_round *last = out->round; /* that named something */
+    for (int r = 0; r < out->nround; r++)
+        last = out->round[r].result.kind == ROTID_NAMED ? &out->round[r] : last;
+    int status = ROTID_OK, doubted = last->candidate[0].with ? out->ncause : out->ncause - 1;
     *doubtful = -1;
-    for (int c = 0; c < out->ncause - 1 && !status && *doubtful < 0; c++) {
+    for (int c = 0; c < doubted && !status && *doubtful < 0; c++) {
         struct engine other = *engine;
         rotid_fit_result *fit = NULL;
         status = job_without(engine, c, &other.job);
@@ -191,14 +213,16 @@ int reach_verdict(struct engine *engine, struct round_result *last)
     int status = again ? ROTID_OK : ROTID_ERROR_MEMORY, doubtful = -1;
     verdict->p_value = fmin(first->result.p_scan, fmin(first->result.p_frequency, first->result.p_total));
     verdict->adequate_after = end->result.kind == ROTID_ADEQUATE;
-    for (int r = 0; r < out->ncause && !status; r++) {
+    for (int r = 0; r < out->nround && !status; r++) {
         const struct diagnosis_round *round = &out->round[r];
+        if (round->result.kind != ROTID_NAMED)
+            continue;
         int stacked = out->ncause >= MANY && !verdict->adequate_after;
         if (!stacked && (excess == 0 || margin_of(round) >= round->result.required_margin + excess))
             continue;
         withdraw(out);
         status = take_set(engine, round, round->result.required_margin + excess);
-        if (!status && out->nalternative < 2) /* none near it, yet the rest says that it is not all */
+        if (!status && (!out->nalternative || out->alternative[out->nalternative - 1].set < 2)) /* none near it, yet the rest says that it is not all */
             verdict->kind = ROTID_UNEXPLAINED;
         verdict->next_measurement = advise(engine, round, NULL); /* the fits of that round are gone */
         return status || !verdict->next_measurement ? ROTID_ERROR_MEMORY : ROTID_OK;

@@ -23,10 +23,10 @@ int baseline_count(int nparam)
     return 0;
 }
 
-int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter,
-                 const rotid_environment *environment, double *work, rotid_baseline *out)
+int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *parameter, const rotid_environment *environment,
+                 double *work, rotid_baseline *out)
 {
-    (void)keep, (void)functional, (void)parameter, (void)environment, (void)work, (void)out;
+    (void)keep, (void)joint, (void)parameter, (void)environment, (void)work, (void)out;
     return ROTID_OK;
 }
 
@@ -53,7 +53,7 @@ int baseline_count(int nparam)
 }
 
 struct problem {
-    struct functional *functional;
+    struct joint *joint;
     const rotid_parameter *parameter;
     const rotid_environment *environment;
     nlopt_opt optimiser;
@@ -66,7 +66,7 @@ struct problem {
 static double objective(unsigned n, const double *scaled, double *gradient, void *user)
 {
     struct problem *problem = user;
-    struct functional *f = problem->functional;
+    struct joint *joint = problem->joint;
     const rotid_environment *environment = problem->environment;
     if (environment && environment->cancelled && environment->cancelled(environment->context)) {
         problem->cancelled = 1;
@@ -80,19 +80,19 @@ static double objective(unsigned n, const double *scaled, double *gradient, void
         problem->x[p] = scaled[p] * fabs(problem->parameter[p].start);
     for (unsigned p = 0; gradient && p < n; p++)
         gradient[p] = 0;
-    int status = functional_residual(f, problem->x, problem->r);
+    int status = joint_residual(joint, problem->x, problem->r);
     if (!status && gradient)
-        status = functional_jacobian(f, problem->x, problem->jacobian);
+        status = joint_jacobian(joint, problem->x, problem->jacobian);
     if (status)
         return HUGE_VAL;
     double sum = 0;
-    for (int i = 0; i < f->nresidual; i++)
+    for (int i = 0; i < joint->nresidual; i++)
         sum += problem->r[i] * problem->r[i];
     if (!(problem->unit > 0))
         problem->unit = sum > 0 ? sum / 2 : 1;
     for (unsigned p = 0; gradient && p < n; p++) {
-        for (int i = 0; i < f->nresidual; i++)
-            gradient[p] += problem->jacobian[i + (ptrdiff_t)p * f->nresidual] * problem->r[i];
+        for (int i = 0; i < joint->nresidual; i++)
+            gradient[p] += problem->jacobian[i + (ptrdiff_t)p * joint->nresidual] * problem->r[i];
         gradient[p] *= fabs(problem->parameter[p].start) / problem->unit;
     }
     return sum / 2 / problem->unit;
@@ -140,20 +140,20 @@ static int run_one(int a, int n, struct problem *problem, double *bounds, rotid_
 /* Value and gradient at the returned point, by us: a solver's own word is not enough. */
 static void judge(int n, struct problem *problem, rotid_baseline *out)
 {
-    struct functional *f = problem->functional;
+    struct joint *joint = problem->joint;
     out->gradient = NAN;
-    if (functional_residual(f, out->x, problem->r) || functional_jacobian(f, out->x, problem->jacobian)) {
+    if (joint_residual(joint, out->x, problem->r) || joint_jacobian(joint, out->x, problem->jacobian)) {
         out->usable = 0;
         return;
     }
     double sum = 0;
     out->gradient = 0;
-    for (int i = 0; i < f->nresidual; i++)
+    for (int i = 0; i < joint->nresidual; i++)
         sum += problem->r[i] * problem->r[i];
     for (int p = 0; p < n; p++) {
         double g = 0, square = 0;
-        for (int i = 0; i < f->nresidual; i++) {
-            double j = problem->jacobian[i + (ptrdiff_t)p * f->nresidual];
+        for (int i = 0; i < joint->nresidual; i++) {
+            double j = problem->jacobian[i + (ptrdiff_t)p * joint->nresidual];
             g += j * problem->r[i];
             square += j * j;
         }
@@ -164,19 +164,19 @@ static void judge(int n, struct problem *problem, rotid_baseline *out)
     out->objective = sum / 2;
 }
 
-int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter,
-                 const rotid_environment *environment, double *work, rotid_baseline *out)
+int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *parameter, const rotid_environment *environment,
+                 double *work, rotid_baseline *out)
 {
-    int n = functional->prediction.model->nparam, status = ROTID_OK, count = 0;
+    int n = joint->nparam, status = ROTID_OK, count = 0;
     double *space = POOL_ARRAY(keep, double, 3 * n);
     if (!space)
         return ROTID_ERROR_MEMORY;
-    struct problem problem = {.functional = functional,
+    struct problem problem = {.joint = joint,
                               .parameter = parameter,
                               .environment = environment,
                               .x = space,
                               .r = work,
-                              .jacobian = work + functional->nresidual};
+                              .jacobian = work + joint->nresidual};
     for (int a = 0; a < ALGORITHMS && !status; a++) {
         if (n < table[a].least)
             continue;

@@ -3,7 +3,7 @@
 #define ROTID_FIT_BASELINE_H
 
 #include "base/pool.h"
-#include "modal/functional.h"
+#include "modal/joint.h"
 #include "rotid.h"
 
 /* 0 where this is built without NLopt. */
@@ -12,9 +12,9 @@ int baseline_exists(void);
 /* Algorithms run: BOBYQA (from two parameters on), Sbplx, and SLSQP with the gradient. 0 where built without NLopt. */
 int baseline_count(int nparam);
 
-/* Minimises the functional with each algorithm in x/|start| within the bounds. out [baseline_count(n)], x of each on `keep`.
+/* Minimises the objective with each algorithm in x/|start| within the bounds. out [baseline_count(n)], x of each on `keep`.
  * work [nresidual * (n + 1)]. ROTID_OK, MEMORY, or CANCELLED as soon as the environment says so. */
-int baseline_run(struct pool *keep, struct functional *functional, const rotid_parameter *parameter,
-                 const rotid_environment *environment, double *work, rotid_baseline *out);
+int baseline_run(struct pool *keep, struct joint *joint, const rotid_parameter *parameter, const rotid_environment *environment,
+                 double *work, rotid_baseline *out);
 
 #endif

@@ -87,7 +87,7 @@ static int check_arguments(const rotid_model *model, const rotid_parameter *para
     if (!status && model->nparam < 1)
         status = refuse(failure, "model->nparam is %d, expected 1 or more", model->nparam);
     if (!status)
-        status = fit_check_parameters(model->nparam, parameter, failure);
+        status = fit_check_parameters("model->nparam", model->nparam, parameter, failure);
     for (int p = 0; !status && x && p < model->nparam; p++)
         if (!(parameter[p].lower < x[p] && x[p] < parameter[p].upper))
             status = refuse(failure, "x[%d] is %g, expected a number between its bounds %g and %g", p, x[p], parameter[p].lower,

@@ -11,7 +11,7 @@
 #include "fit/bounds.h"
 #include "fit/covariance.h"
 #include "fit/fit_check.h"
-#include "modal/functional.h"
+#include "modal/joint.h"
 #include "rotid.h"
 
 #define HISTORY 101 /* iterations that there is room for from the start: those of the default, and iteration 0 */
@@ -20,11 +20,11 @@
 struct fit {
     const rotid_parameter *parameter;
     const rotid_environment *environment;
-    struct functional functional;
+    struct joint joint;
     rotid_fit_options options;
     rotid_fit_result *result;
     struct pool *keep;
-    int n, callback_status, history_rows, history_failed;
+    int n, named, callback_status, history_rows, history_failed;
     char *failure; /* of the host: why the last evaluation failed */
     double *x, *y, *r, *jacobian, *work;
     double *bounded;        /* dr/dx that was asked for last */
@@ -59,29 +59,28 @@ static int residual(void *user, int m, int n, const double *y, double *r, double
     for (int p = 0; p < n; p++)
         fit->x[p] = bounds_to_x(&fit->parameter[p], chi, y[p]);
     if (r) {
-        fit->callback_status = functional_residual(&fit->functional, fit->x, r);
-        return fit->callback_status;
+        fit->callback_status = joint_residual(&fit->joint, fit->x, r);
+    } else {
+        fit->callback_status = joint_jacobian(&fit->joint, fit->x, fit->bounded);
+        bounds_jacobian(m, n, fit->parameter, chi, y, fit->bounded, jacobian);
     }
-    fit->callback_status = functional_jacobian(&fit->functional, fit->x, fit->bounded);
-    bounds_jacobian(m, n, fit->parameter, chi, y, fit->bounded, jacobian);
-    return fit->callback_status;
+    return fit->callback_status && fit->named ? failure_say_of(fit->failure, fit->callback_status, "state[%d]: ", fit->joint.last)
+                                              : fit->callback_status;
 }
 
-/* Predicted frequencies, correlation and residual of every mode at the last evaluation. */
-static void compare_modes(struct fit *fit)
+/* Predicted frequencies, correlation and residual of every mode at the last evaluation, those of a state from `first` on. */
+static void compare_modes(struct functional *f, int first, rotid_fit_result *result)
 {
-    struct functional *f = &fit->functional;
-    const rotid_measured *measured = f->measured;
     int nmaster = f->prediction.model->nmaster;
-    for (int k = 0; k < measured->nmode; k++) {
-        fit->result->predicted_hz[k] = prediction_hz(&f->prediction, f->pair[k]);
-        fit->result->residual[k] = functional_frequency_residual(f, k);
-        fit->result->mac[k] = NAN;
+    for (int k = 0; k < f->measured->nmode; k++) {
+        result->predicted_hz[first + k] = prediction_hz(&f->prediction, f->pair[k]);
+        result->residual[first + k] = functional_frequency_residual(f, k);
+        result->mac[first + k] = NAN;
         if (!f->shape)
             continue;
         for (int s = 0; s < nmaster; s++)
             f->work[s] = prediction_at_sensor(&f->prediction, f->pair[k], s);
-        fit->result->mac[k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
+        result->mac[first + k] = rotid_mac(nmaster, f->work, f->shape + (ptrdiff_t)k * nmaster);
     }
 }
 
@@ -93,7 +92,8 @@ static void keep_point(struct fit *fit)
     memcpy(result->x, fit->x, (size_t)fit->n * sizeof *result->x);
     memcpy(result->r, fit->r, (size_t)result->nresidual * sizeof *result->r);
     memcpy(result->jacobian, fit->bounded, (size_t)result->nresidual * (size_t)fit->n * sizeof *result->jacobian);
-    compare_modes(fit);
+    for (int s = 0, first = 0; s < result->nstate; first += result->state_m[s++])
+        compare_modes(&fit->joint.part[s].functional, first, result);
 }
 
 /* Room for twice as many iterations. Returns 0, or 1 where memory runs out. */
@@ -148,9 +148,19 @@ static int trace(void *user, const rotid_lm_iteration *now)
     return environment && environment->cancelled && environment->cancelled(environment->context);
 }
 
-static int new_result(struct pool *keep, int n, int m, int nresidual, int history_rows, rotid_fit_result *result)
+static int new_result(struct pool *keep, const struct joint *joint, int history_rows, rotid_fit_result *result)
 {
+    int n = joint->nparam, nresidual = joint->nresidual, m = 0;
     size_t square = (size_t)n * (size_t)n, rows = (size_t)history_rows;
+    result->nstate = joint->nstate;
+    result->state_m = POOL_ARRAY(keep, int, joint->nstate);
+    result->state_nresidual = POOL_ARRAY(keep, int, joint->nstate);
+    if (!result->state_m || !result->state_nresidual)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < joint->nstate; s++) {
+        m += result->state_m[s] = joint->part[s].functional.measured->nmode;
+        result->state_nresidual[s] = joint->part[s].functional.nresidual;
+    }
     result->n = n;
     result->m = m;
     result->nresidual = nresidual;
@@ -184,25 +194,29 @@ static int new_result(struct pool *keep, int n, int m, int nresidual, int histor
  */
 static const double *residual_noise(const struct fit *fit, double *std)
 {
-    const rotid_measured *measured = fit->functional.measured;
+    const struct joint *joint = &fit->joint;
     int row = 0;
-    if (!measured->frequency_std)
-        return NULL;
-    for (int i = 0; i < fit->functional.nresidual; i++)
+    for (int i = 0; i < joint->nresidual; i++)
         std[i] = 1;
-    for (int k = 0; k < measured->nmode && fit->options.functional != ROTID_LIKELIHOOD; k++)
-        if (!measured->holdout ||
-            !measured->holdout[k]) /* r = 1 - lambda/w^2 moves by twice, 1 - w~/w^ by once the relative error of w^ */
-            std[row++] = (fit->options.functional == ROTID_HYBRID ? 2 : 1) * measured->frequency_std[k];
+    for (int s = 0; s < joint->nstate; s++) {
+        const rotid_measured *measured = joint->part[s].functional.measured;
+        if (!measured->frequency_std && joint->part[s].functional.nresidual)
+            return NULL;
+        for (int k = 0; k < measured->nmode && fit->options.functional != ROTID_LIKELIHOOD; k++)
+            if (functional_fits(measured, k)) /* r = 1 - lambda/w^2 moves by twice, 1 - w~/w^ by once the relative error of w^ */
+                std[row++] = (fit->options.functional == ROTID_HYBRID ? 2 : 1) * measured->frequency_std[k];
+    }
     return std;
 }
 
 static int count_scales(const struct fit *fit)
 {
-    const struct functional *f = &fit->functional;
     int count = 0;
-    for (int k = 0; k < f->measured->nmode && fit->options.functional == ROTID_LIKELIHOOD; k++)
-        count += functional_count_components(f, k) > 0 && (!f->measured->holdout || !f->measured->holdout[k]);
+    for (int s = 0; s < fit->joint.nstate && fit->options.functional == ROTID_LIKELIHOOD; s++) {
+        const struct functional *f = &fit->joint.part[s].functional;
+        for (int k = 0; k < f->measured->nmode; k++)
+            count += functional_count_components(f, k) > 0 && functional_fits(f->measured, k);
+    }
     return count;
 }
 
@@ -230,8 +244,7 @@ static double step_left(const struct fit *fit, const double *relative_gradient)
 static int conclude(struct fit *fit, const rotid_lm_result *lm)
 {
     rotid_fit_result *result = fit->result;
-    struct functional *f = &fit->functional;
-    int n = fit->n, m = f->nresidual, pulled_inside = 0;
+    int n = fit->n, m = fit->joint.nresidual, pulled_inside = 0;
     double *noise = fit->work, *gradient = noise + m, *rest = gradient + n;
     result->status = lm->status;
     result->iterations = lm->iterations;
@@ -274,7 +287,7 @@ static int conclude(struct fit *fit, const rotid_lm_result *lm)
 /* Without parameters there is nothing to minimise: the model is at its minimum. */
 static int compare_only(struct fit *fit, rotid_lm_result *lm)
 {
-    int m = fit->functional.nresidual;
+    int m = fit->joint.nresidual;
     *lm = (rotid_lm_result){.evaluations = 1};
     if (residual(fit, m, 0, fit->y, fit->r, NULL))
         return ROTID_ERROR_CALLBACK;
@@ -287,18 +300,18 @@ static int compare_only(struct fit *fit, rotid_lm_result *lm)
     return lm->status;
 }
 
-static int run(struct pool *keep, struct pool *pool, struct fit *fit, const rotid_model *model, const rotid_measured *measured)
+static int run(struct pool *keep, struct pool *pool, struct fit *fit, const struct fit_problem *problem)
 {
     const rotid_fit_options *options = &fit->options;
-    int n = model->nparam;
-    int status =
-        functional_new(pool, options->functional, options->reduction, options->derivative, model, measured, &fit->functional);
-    int m = fit->functional.nresidual;
-    fit->functional.prediction.failure = fit->failure;
+    int n = fit->n, status = joint_new(pool, options->functional, options->reduction, options->derivative, n, problem->nstate,
+                                       problem->state, &fit->joint);
+    int m = fit->joint.nresidual;
+    for (int s = 0; s < problem->nstate && !status; s++)
+        fit->joint.part[s].functional.prediction.failure = fit->failure;
     fit->keep = keep;
     fit->history_rows = options->max_iterations < HISTORY ? options->max_iterations + 1 : HISTORY;
     if (!status)
-        status = new_result(keep, n, measured->nmode, m, fit->history_rows, fit->result);
+        status = new_result(keep, &fit->joint, fit->history_rows, fit->result);
     if (status)
         return status;
     size_t lm_work = rotid_lm_workspace(m, n), end_work = covariance_workspace(m, n) + (size_t)m + (size_t)n;
@@ -335,7 +348,7 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
         return status == ROTID_ERROR_CALLBACK && fit->callback_status ? fit->callback_status : status;
     status = conclude(fit, &lm);
     if (!status && n && options->baseline && lm.status != ROTID_STOP_CANCELLED) {
-        status = baseline_run(keep, &fit->functional, fit->parameter, fit->environment, fit->work, fit->result->baseline);
+        status = baseline_run(keep, &fit->joint, fit->parameter, fit->environment, fit->work, fit->result->baseline);
         if (status == ROTID_STOP_CANCELLED)
             status = ROTID_OK;
         else if (!status)
@@ -344,10 +357,10 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const roti
     return status;
 }
 
-static int make_result(struct entry *entry, const rotid_model *model, const rotid_parameter *parameter,
-                       const rotid_measured *measured, const rotid_fit_options *options, rotid_fit_result **result)
+static int make_result(struct entry *entry, const struct fit_problem *problem, const rotid_fit_options *options,
+                       rotid_fit_result **result)
 {
-    int status = fit_check(model, parameter, measured, options, entry->failure);
+    int status = fit_check(problem, options, entry->failure);
     if (status)
         return status;
     struct pool first, *keep;
@@ -356,11 +369,12 @@ static int make_result(struct entry *entry, const rotid_model *model, const roti
     keep = made ? POOL_NEW(&first, struct pool) : NULL;
     status = ROTID_ERROR_MEMORY;
     if (keep) {
-        struct fit fit = {.parameter = parameter,
+        struct fit fit = {.parameter = problem->parameter,
                           .environment = &entry->environment,
                           .options = *options,
                           .result = made,
-                          .n = model->nparam,
+                          .n = problem->nparam,
+                          .named = problem->named,
                           .failure = entry->failure};
         rotid_fit_options standard;
         rotid_fit_defaults(sizeof standard, &standard);
@@ -368,7 +382,7 @@ static int make_result(struct entry *entry, const rotid_model *model, const roti
             fit.options.max_iterations = standard.max_iterations;
         if (!(fit.options.bijection_chi > 0))
             fit.options.bijection_chi = standard.bijection_chi;
-        status = run(&first, &entry->scratch, &fit, model, measured);
+        status = run(&first, &entry->scratch, &fit, problem);
         *keep = first; /* the result carries the pool that it lives on */
         made->memory = keep;
     }
@@ -401,8 +415,70 @@ int rotid_fit(const rotid_model *model, const rotid_parameter *parameter, const 
         status = sized_take(SIZED_MEASURED, measured, failure, &own_measured);
     if (!status)
         status = sized_take(SIZED_FIT_OPTIONS, options, failure, &own_options);
+    const struct joint_state state = {.model = &own_model, .measured = &own_measured};
+    const struct fit_problem problem = {.nstate = 1, .nparam = own_model.nparam, .state = &state, .parameter = parameter};
     if (!status)
-        status = make_result(&entry, &own_model, parameter, &own_measured, &own_options, result);
+        status = make_result(&entry, &problem, &own_options, result);
+    return entry_close(&entry, status);
+}
+
+/* One state into structs of this library's size. */
+static int take_state(const char *given, int s, char *failure, rotid_state *own, rotid_model *model, rotid_measured *measured)
+{
+    size_t size, of_first;
+    memcpy(&of_first, given, sizeof of_first);
+    given += (size_t)s * of_first;
+    memcpy(&size, given, sizeof size);
+    if (size != of_first)
+        return refuse(failure, "state[%d].size is %zu, expected that of the first, %zu", s, size, of_first);
+    int status = sized_take(SIZED_STATE, given, failure, own);
+    if (!status && (!own->model || !own->measured))
+        status = refuse(failure, "%s is NULL, expected a struct", own->model ? "measured" : "model");
+    if (!status)
+        status = sized_take(SIZED_MODEL, own->model, failure, model);
+    if (!status)
+        status = sized_take(SIZED_MEASURED, own->measured, failure, measured);
+    return status ? failure_say_of(failure, status, "state[%d]: ", s) : status;
+}
+
+static int take_states(struct pool *pool, int nstate, const rotid_state *given, char *failure, struct joint_state **out)
+{
+    rotid_model *model = POOL_ARRAY(pool, rotid_model, nstate);
+    rotid_measured *measured = POOL_ARRAY(pool, rotid_measured, nstate);
+    struct joint_state *state = *out = POOL_ARRAY(pool, struct joint_state, nstate);
+    int status = model && measured && state ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (int s = 0; s < nstate && !status; s++) {
+        rotid_state own;
+        status = take_state((const char *)given, s, failure, &own, &model[s], &measured[s]);
+        if (!status)
+            state[s] = (struct joint_state){&model[s], &measured[s], own.parameter};
+    }
+    return status;
+}
+
+int rotid_fit_states(int nstate, const rotid_state *state, int nparam, const rotid_parameter *parameter,
+                     const rotid_fit_options *options, const rotid_environment *environment, char *failure,
+                     rotid_fit_result **result)
+{
+    struct entry entry;
+    struct joint_state *own;
+    rotid_fit_options own_options;
+    int status = entry_open(&entry, environment, failure);
+    if (result)
+        *result = NULL;
+    if (!status && (!state || !options || !result))
+        status = refuse(failure, "%s is NULL, expected a struct", !state ? "state" : !options ? "options" : "result");
+    if (!status && (nstate < 1 || nparam < 0))
+        status = nstate < 1 ? refuse(failure, "nstate is %d, expected 1 or more", nstate)
+                            : refuse(failure, "nparam is %d, expected 0 or more", nparam);
+    if (!status)
+        status = sized_take(SIZED_FIT_OPTIONS, options, failure, &own_options);
+    if (!status)
+        status = take_states(&entry.scratch, nstate, state, failure, &own);
+    if (!status) {
+        const struct fit_problem problem = {.nstate = nstate, .nparam = nparam, .named = 1, .state = own, .parameter = parameter};
+        status = make_result(&entry, &problem, &own_options, result);
+    }
     return entry_close(&entry, status);
 }
 

@@ -26,11 +26,11 @@ int fit_check_model(const rotid_model *model, char *failure)
     return status ? status : indices_check("far", model->nfar, model->far, model->n, failure);
 }
 
-int fit_check_parameters(int count, const rotid_parameter *parameter, char *failure)
+int fit_check_parameters(const char *count, int nparam, const rotid_parameter *parameter, char *failure)
 {
-    if (count && !parameter)
-        return refuse(failure, "parameter is NULL, expected model->nparam = %d of them", count);
-    for (int p = 0; p < count; p++) {
+    if (nparam && !parameter)
+        return refuse(failure, "parameter is NULL, expected %s = %d of them", count, nparam);
+    for (int p = 0; p < nparam; p++) {
         const rotid_parameter *q = &parameter[p];
         if (!(isfinite(q->upper - q->lower) && q->lower < q->start && q->start < q->upper && q->start != 0))
             return refuse(failure,
@@ -59,13 +59,71 @@ static int check_options(const rotid_fit_options *options, char *failure)
     return ROTID_OK;
 }
 
-int fit_check(const rotid_model *model, const rotid_parameter *parameter, const rotid_measured *measured,
-              const rotid_fit_options *options, char *failure)
+static int of_state(const struct fit_problem *problem, int s, int status, char *failure)
 {
-    int status = fit_check_model(model, failure);
+    return status && problem->named ? failure_say_of(failure, status, "state[%d]: ", s) : status;
+}
+
+static int check_map(const struct joint_state *state, int nparam, char *failure)
+{
+    int n = state->model->nparam;
+    if (!state->parameter && n > nparam)
+        return refuse(failure, "parameter is NULL and model->nparam is %d, expected at most nparam = %d", n, nparam);
+    for (int q = 0; q < n; q++)
+        if (joint_unknown(state->parameter, q) < 0 || joint_unknown(state->parameter, q) >= nparam)
+            return refuse(failure, "parameter[%d] is %d, expected an unknown, 0 ... %d (nparam - 1)", q, state->parameter[q],
+                          nparam - 1);
+    return ROTID_OK;
+}
+
+static int is_fitted(const rotid_measured *measured)
+{
+    for (int k = 0; k < measured->nmode; k++)
+        if (functional_fits(measured, k))
+            return 1;
+    return 0;
+}
+
+/* Somewhere a mode is fitted, and every unknown acts there. */
+static int check_use(const struct fit_problem *problem, char *failure)
+{
+    int any = 0;
+    for (int s = 0; s < problem->nstate; s++)
+        any |= is_fitted(problem->state[s].measured);
+    if (!any)
+        return refuse(failure, "measured->holdout leaves no mode to be fitted%s, expected a 0 in it",
+                      problem->named ? " in any state" : "");
+    for (int p = 0; p < problem->nparam; p++) {
+        int used = 0, known = 0;
+        for (int s = 0; s < problem->nstate; s++)
+            for (int q = 0; q < problem->state[s].model->nparam; q++)
+                if (joint_unknown(problem->state[s].parameter, q) == p) {
+                    known = 1;
+                    used |= is_fitted(problem->state[s].measured);
+                }
+        const char *name = problem->parameter[p].name;
+        if (!used)
+            return refuse(failure, "parameter[%d]%s%.40s is used by no state%s, expected one that is fitted", p, name ? " " : "",
+                          name ? name : "", known ? " but such as are held out" : "");
+    }
+    return ROTID_OK;
+}
+
+int fit_check(const struct fit_problem *problem, const rotid_fit_options *options, char *failure)
+{
+    int status = ROTID_OK;
+    for (int s = 0; s < problem->nstate && !status; s++)
+        status = of_state(problem, s, fit_check_model(problem->state[s].model, failure), failure);
     if (!status)
-        status = fit_check_parameters(model->nparam, parameter, failure);
+        status = fit_check_parameters(problem->named ? "nparam" : "model->nparam", problem->nparam, problem->parameter, failure);
     if (!status)
         status = check_options(options, failure);
-    return status ? status : measured_check(model, measured, options->functional, options->reduction, failure);
+    for (int s = 0; s < problem->nstate && !status; s++) {
+        const struct joint_state *state = &problem->state[s];
+        status = check_map(state, problem->nparam, failure);
+        if (!status)
+            status = measured_check(state->model, state->measured, options->functional, options->reduction, failure);
+        status = of_state(problem, s, status, failure);
+    }
+    return status ? status : check_use(problem, failure);
 }

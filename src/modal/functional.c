@@ -7,7 +7,7 @@
 
 static const double two_pi = 6.28318530717958647692;
 
-static int is_fitted(const rotid_measured *measured, int mode)
+int functional_fits(const rotid_measured *measured, int mode)
 {
     return !measured->holdout || !measured->holdout[mode];
 }
@@ -64,7 +64,7 @@ int functional_new(struct pool *pool, int kind, int reduction, int derivative, c
     for (int k = 0; k < nmode; k++) {
         f->pair[k] = model->nrigid + measured->number[k] - 1;
         f->omega[k] = two_pi * measured->frequency_hz[k];
-        if (!is_fitted(measured, k))
+        if (!functional_fits(measured, k))
             continue;
         f->wanted[f->pair[k]] = 1;
         f->nresidual += 1 + (kind == ROTID_LIKELIHOOD ? functional_count_components(f, k) : 0);
@@ -189,14 +189,14 @@ static int residuals(struct functional *f, double *r)
     int status = ROTID_OK, row = 0;
     for (int k = 0; k < measured->nmode && !status; k++) {
         status = hybrid_quotient(f, k);
-        if (is_fitted(measured, k))
+        if (functional_fits(measured, k))
             r[row++] = functional_frequency_residual(f, k);
         else
             status = ROTID_OK; /* a mode that is only compared may be compared badly */
     }
     shape_part = r + row;
     for (int k = 0; k < measured->nmode && !status && f->kind == ROTID_LIKELIHOOD; k++)
-        if (is_fitted(measured, k) && f->shape) {
+        if (functional_fits(measured, k) && f->shape) {
             shape_residuals(f, k, -1, shape_part);
             shape_part += functional_count_components(f, k);
         }
@@ -221,10 +221,10 @@ int functional_jacobian(struct functional *f, const double *x, double *jacobian)
     for (int q = 0; q < p->model->nparam && !status; q++) {
         double *column = jacobian + (ptrdiff_t)q * f->nresidual;
         for (int k = 0; k < measured->nmode; k++)
-            if (is_fitted(measured, k))
+            if (functional_fits(measured, k))
                 *column++ = frequency_residual_derivative(f, k, q);
         for (int k = 0; k < measured->nmode && f->kind == ROTID_LIKELIHOOD && f->shape; k++)
-            if (is_fitted(measured, k)) {
+            if (functional_fits(measured, k)) {
                 shape_residuals(f, k, q, column);
                 column += functional_count_components(f, k);
             }

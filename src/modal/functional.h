@@ -19,8 +19,8 @@ struct functional {
     double *work;     /* [2 nmaster] */
 };
 
-/* Checks the measured data and makes room. ROTID_OK, MEMORY, ARGUMENT (data out of range), UNPAIRED (a mode number beyond the
- * model). */
+/* Checks the measured data and makes room; with all modes held out there is no residual. ROTID_OK, MEMORY, ARGUMENT (data out of
+ * range), UNPAIRED (a mode number beyond the model). */
 int functional_new(struct pool *pool, int kind, int reduction, int derivative, const rotid_model *model,
                    const rotid_measured *measured, struct functional *f);
 
@@ -30,6 +30,9 @@ int functional_residual(struct functional *f, const double *x, double *r);
 
 /* dr/dx [nresidual * nparam] at the x of the last functional_residual. */
 int functional_jacobian(struct functional *f, const double *x, double *jacobian);
+
+/* Whether a mode is fitted: it is not held out. */
+int functional_fits(const rotid_measured *measured, int mode);
 
 /* Components of the shape that was measured of a mode, 0 where it is NaN or 0 everywhere. */
 int functional_count_components(const struct functional *f, int mode);

@@ -39,7 +39,7 @@ static int check_shapes(const rotid_model *model, const rotid_measured *measured
 
 int measured_check(const rotid_model *model, const rotid_measured *measured, int kind, int reduction, char *failure)
 {
-    int fitted = 0, size = reduction == ROTID_REDUCTION_NONE ? model->n : model->nmaster;
+    int size = reduction == ROTID_REDUCTION_NONE ? model->n : model->nmaster;
     if (measured->nmode < 1)
         return refuse(failure, "measured->nmode is %d, expected 1 or more", measured->nmode);
     if (!measured->number || !measured->frequency_hz)
@@ -49,10 +49,7 @@ int measured_check(const rotid_model *model, const rotid_measured *measured, int
         int status = check_mode(measured, k, failure);
         if (status)
             return status;
-        fitted += !measured->holdout || !measured->holdout[k];
     }
-    if (!fitted)
-        return refuse(failure, "measured->holdout leaves no mode to be fitted, expected a 0 in it");
     if (kind == ROTID_LIKELIHOOD && !measured->frequency_std)
         return refuse(failure,
                       "measured->frequency_std is NULL, which ROTID_LIKELIHOOD weighs by, expected nmode = %d values or "

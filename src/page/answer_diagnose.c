@@ -30,11 +30,13 @@ static const char *or_nothing(const char *text)
 static const char *causes(struct pool *pool, const rotid_diagnosis *d, int count, const rotid_cause *cause, const char *between)
 {
     const char *text = "";
+    int others = cause == d->verdict.alternative_causes;
     for (int i = 0; i < count && i < LISTED && text; i++)
         text = pool_format(pool, "%s%s%s", text,
-                           !i               ? ""
-                           : i + 1 == count ? between
-                                            : "; ",
+                           !i                                          ? ""
+                           : others && verdict_is_pair(&d->verdict, i) ? " together with "
+                           : i + 1 == count                            ? between
+                                                                       : "; ",
                            cause_in_words(pool, d, &cause[i], count == 1 || cause == d->verdict.causes));
     if (count > LISTED && text)
         text = pool_format(pool, "%s%s%s more", text, between, human_count(pool, count - LISTED));
@@ -93,14 +95,14 @@ static const char *verdict(struct pool *pool, const rotid_diagnosis *d)
         break;
     case ROTID_AMBIGUOUS:
         text =
-            d->verdict.nalternative_causes == 1
+            verdict_sets(&d->verdict) == 1
                 ? pool_format(pool,
                               "Something is wrong with the model. One cause would explain the misfit, but these data do not "
                               "suffice to name a cause: %s.",
-                              causes(pool, d, 1, d->verdict.alternative_causes, ""))
+                              causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, ""))
                 : pool_format(
                       pool, "Something is wrong with the model, and these data cannot tell which of %s causes is present%s: %s.",
-                      human_count(pool, d->verdict.nalternative_causes),
+                      human_count(pool, verdict_sets(&d->verdict)),
                       !d->verdict.confident ? ", nor surely that any of them is" : "",
                       causes(pool, d, d->verdict.nalternative_causes, d->verdict.alternative_causes, "; or "));
         break;
@@ -133,9 +135,9 @@ static const char *headline(struct pool *pool, const rotid_diagnosis *d)
     case ROTID_NAMED:
         return pool_format(pool, "Named: %s", names(pool, d));
     case ROTID_AMBIGUOUS:
-        return d->verdict.nalternative_causes == 1
+        return verdict_sets(&d->verdict) == 1
                    ? "Ambiguous: no name can be given"
-                   : pool_format(pool, "Ambiguous: one of %s causes", human_count(pool, d->verdict.nalternative_causes));
+                   : pool_format(pool, "Ambiguous: one of %s causes", human_count(pool, verdict_sets(&d->verdict)));
     case ROTID_UNEXPLAINED:
         return "Unexplained";
     default:
@@ -202,8 +204,8 @@ static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
         say(reasons,
             pool_format(pool,
                         "Of %s causes that were fitted %s leads the next one, %s, by %s in the misfit; the required lead is %s.",
-                        human_count(pool, tried), cause_label(pool, d, &candidate[first].cause),
-                        cause_label(pool, d, &candidate[second].cause),
+                        human_count(pool, tried), candidate_words(pool, d, &candidate[first]),
+                        candidate_words(pool, d, &candidate[second]),
                         human_digits(pool, candidate_lead(&candidate[first], &candidate[second]), 3),
                         human_trimmed(pool, round->required_margin, 3)));
     else if (d->verdict.kind == ROTID_NAMED && first >= 0 && tried > 1)
@@ -211,7 +213,7 @@ static void on_lead(struct reasons *reasons, const rotid_diagnosis *d)
                                  "Of %s causes that were fitted all others were refused, for their size or because they predict "
                                  "held-out modes worse.",
                                  human_count(pool, tried)));
-    if (d->verdict.kind == ROTID_AMBIGUOUS && d->verdict.nalternative_causes > 1 && isfinite(round->required_margin))
+    if (d->verdict.kind == ROTID_AMBIGUOUS && verdict_sets(&d->verdict) > 1 && isfinite(round->required_margin))
         say(reasons, pool_format(pool,
                                  "None of them leads the others by %s in the misfit, the lead that a name requires. Their order "
                                  "is that of the fit, and the next test may reverse it.",

@@ -41,6 +41,12 @@ const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid
     return diagnosis_is_suspected(d, cause) ? cause->name : cause_name(pool, cause->id, cause->target);
 }
 
+const char *candidate_words(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
+{
+    const char *label = cause_label(pool, d, &c->cause);
+    return c->with ? or_nothing(pool_format(pool, "%s with %s", label, cause_label(pool, d, c->with))) : label;
+}
+
 #define TINY  1e-12 /* zero but for rounding, in SI units */
 #define SMALL 1e-3  /* shown with a power of ten */
 #define LARGE 1e5

@@ -54,7 +54,7 @@ static struct bar_list *collect(struct pool *pool, const rotid_diagnosis *d, int
                          : candidate_is_rival(c) ? FATE_LOSES
                                                  : FATE_REFUSED;
         if (isfinite(drop))
-            all[count++] = (struct bar){c, fate, fmax(drop, 0), cause_label(pool, d, &c->cause)};
+            all[count++] = (struct bar){c, fate, fmax(drop, 0), candidate_words(pool, d, c)};
     }
     qsort(all, (size_t)count, sizeof *all, longer);
     for (int i = 0; i < count; i++) {
@@ -204,8 +204,8 @@ static const char *lead(struct pool *pool, const rotid_diagnosis *d, int number,
     const rotid_candidate *candidate = diagnosis_candidates(d, number, &count);
     diagnosis_leaders(d, number, &first, &second);
     const rotid_candidate *best = first >= 0 ? &candidate[first] : NULL, *longest = bars->bar[0].evidence;
-    const char *name = best ? cause_label(pool, d, &best->cause) : "",
-               *next = second >= 0 ? cause_label(pool, d, &candidate[second].cause) : "";
+    const char *name = best ? candidate_words(pool, d, best) : "",
+               *next = second >= 0 ? candidate_words(pool, d, &candidate[second]) : "";
     const char *asked = human_trimmed(pool, round->required_margin, 3), *text = "";
     if (round->kind == ROTID_NAMED && best)
         text = pool_format(pool, "%s lowers the misfit of %s by %s", name, human_digits(pool, round->chi2, 4),

@@ -32,8 +32,7 @@ static const char *fate(struct pool *pool, const rotid_round *round, const rotid
 
 static const char *label_of(struct pool *pool, const rotid_diagnosis *d, const rotid_candidate *c)
 {
-    const char *label = cause_label(pool, d, &c->cause),
-               *text = c->suspect ? pool_format(pool, "%s (your suspicion)", label) : label;
+    const char *label = candidate_words(pool, d, c), *text = c->suspect ? pool_format(pool, "%s (your suspicion)", label) : label;
     return text ? text : label;
 }
 
@@ -111,7 +110,10 @@ struct number_table *tables_candidate_sizes(struct pool *pool, const rotid_diagn
     table_head(table, 1, "size and place, 95 % interval");
     for (int i = 0, row = 0; i < count; i++) {
         const rotid_candidate *c = &candidate[i];
-        const char *values = cause_values(pool, &c->cause);
+        const char *values = cause_values(pool, &c->cause), *both = c->with ? cause_values(pool, c->with) : "";
+        if (*both)
+            both = pool_format(pool, "%s%s%s", values, *values ? "; with " : "", both);
+        values = both && *both ? both : values;
         if (!c->refitted)
             continue;
         table_cell(table, row, 0, label_of(pool, d, c));

@@ -31,6 +31,7 @@ static const struct field verdict_fields[] = {
     STRUCTS(rotid_verdict, causes, 0, cause_record),
     TEXTS(rotid_verdict, alternatives, 0),
     STRUCTS(rotid_verdict, alternative_causes, 0, cause_record),
+    INTEGERS(rotid_verdict, alternative_sets, SINCE_LATER),
     TEXT(rotid_verdict, next_measurement, MAY_BE_NULL),
     TEXT(rotid_verdict, sentence, MAY_BE_NULL),
     INTEGER(rotid_verdict, undetermined_parameters, FROM_0),
@@ -99,6 +100,7 @@ static const struct field candidate_fields[] = {
     TEXT(rotid_candidate, collinear_target, MAY_BE_NULL),
     NUMBER(rotid_candidate, cosine, MAY_BE_NULL),
     TEXT(rotid_candidate, rejected_because, MAY_BE_NULL),
+    STRUCT(rotid_candidate, with, MAY_BE_NULL | SINCE_LATER | BEHIND_POINTER, cause_record),
     {0},
 };
 static const struct record candidate_record = RECORD(rotid_candidate, candidate_fields);

@@ -37,6 +37,11 @@ static void print_candidate(const struct diagnosis_view *view, const rotid_round
     if (in_set)
         wrap_item(&wrap, "%s%s", round->kind == ROTID_NAMED ? "NAMED" : "POSSIBLE", c->cause.nparameters ? ":" : "");
     print_values(&wrap, &c->cause);
+    if (c->with) {
+        wrap_item(&wrap, "%swith %s%s%s%s", c->cause.nparameters ? "; " : "", c->with->id, *c->with->target ? " of " : "",
+                  c->with->target, c->with->nparameters ? ":" : "");
+        print_values(&wrap, c->with);
+    }
     if (c->at_bound)
         wrap_item(&wrap, "AT A BOUND");
     if (c->suspect)

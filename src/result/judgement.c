@@ -86,9 +86,28 @@ static int searched(const rotid_cause *cause)
     return count;
 }
 
+static int searched_by(const rotid_candidate *c)
+{
+    return searched(&c->cause) + (c->with ? searched(c->with) : 0);
+}
+
+int verdict_is_pair(const rotid_verdict *v, int i)
+{
+    return i > 0 && i < v->nalternative_sets && v->alternative_sets[i] > 0 &&
+           v->alternative_sets[i] == v->alternative_sets[i - 1];
+}
+
+int verdict_sets(const rotid_verdict *v)
+{
+    int count = v->nalternative_causes;
+    for (int i = 0; i < v->nalternative_causes; i++)
+        count -= verdict_is_pair(v, i);
+    return count;
+}
+
 double candidate_lead(const rotid_candidate *a, const rotid_candidate *b)
 {
-    return a->chi2_drop - b->chi2_drop - PARAMETER_PENALTY * (searched(&a->cause) - searched(&b->cause));
+    return a->chi2_drop - b->chi2_drop - PARAMETER_PENALTY * (searched_by(a) - searched_by(b));
 }
 
 /* The result has the reasons as sentences alone. */

@@ -12,7 +12,7 @@ static int whole_option(struct plan_reader *reader, const struct card *card, con
 {
     const struct card_option *option = card_option(card, name);
     double number;
-    if (!option || deck_option_number(&reader->fields, option, ANY, &number))
+    if (!option || deck_option_number(&reader->fields, option, "", ANY, &number))
         return 0;
     if (number != floor(number) || number < least || number > most) {
         deck_error(&reader->fields, option->value_place, "%s is %s, expected a whole number from %.0f to %.0f", name,
@@ -246,7 +246,7 @@ void plan_starts(struct plan_reader *reader, const struct card *card)
     no_data(reader, card);
     if (!deck_option(&reader->fields, card, "SPREAD", "part of the start, such as 0.7"))
         return;
-    if (!deck_option_number(&reader->fields, spread, POSITIVE, &plan->spread) && plan->spread > 1e3)
+    if (!deck_option_number(&reader->fields, spread, "", POSITIVE, &plan->spread) && plan->spread > 1e3)
         deck_error(&reader->fields, spread->value_place, "SPREAD is %s, expected a part of the start such as 0.7", spread->value);
     if (whole_option(reader, card, "COUNT", 1, MOST_REPLICATES, &number))
         plan->count = (int)number;

@@ -127,6 +127,7 @@ program fortran_host
   call matrices()
   call blocks()
   call models()
+  call states()
   call decks(trim(good), trim(bad))
   print '(i0,a,i0,a)', checks, ' checks, ', misses, ' misses'
   if (misses > 0) error stop 1
@@ -326,6 +327,45 @@ contains
     call check(rotid_fit_model(model, parameter, [1, 2], hz, fit) == ROTID_ERROR_CALLBACK, 'a callback that fails')
     call check(.not. associated(fit), 'no result of it')
   end subroutine models
+
+  ! Mode 1 is of the first spring alone, mode 2 of both: a state each, and the unknowns the other way round.
+  subroutine states()
+    real(dp), parameter :: two_pi = 2 * acos(-1.0_dp)
+    integer(c_int), target :: far(2), swapped(2), number(2)
+    real(dp), target :: hz(2), std(1)
+    type(rotid_model), target :: model
+    type(rotid_measured), target :: measured(2)
+    type(rotid_state) :: state(2)
+    type(rotid_parameter) :: parameter(2)
+    type(rotid_fit_options) :: options
+    type(rotid_fit_result), pointer :: fit
+    type(ledger), target :: account
+    type(c_ptr) :: result
+    real(dp), pointer :: x(:)
+    integer(c_int), pointer :: modes(:)
+    integer :: s
+    far = [0, 2]
+    swapped = [1, 0]
+    number = [1, 2]
+    hz = sqrt([1.0_dp, 5.0_dp]) / two_pi
+    std = 0.01_dp
+    model = rotid_model(n=3, kd=1, nfar=2, far=c_loc(far), nparam=2, matrices=c_funloc(bridge), user=c_loc(account))
+    parameter = rotid_parameter(lower=0.01_dp, upper=100.0_dp, start=3.0_dp)
+    options%functional = ROTID_LIKELIHOOD
+    do s = 1, 2
+      measured(s) = rotid_measured(nmode=1, number=c_loc(number(s)), frequency_hz=c_loc(hz(s)), frequency_std=c_loc(std))
+      state(s) = rotid_state(model=c_loc(model), measured=c_loc(measured(s)), parameter=c_loc(swapped))
+    end do
+    call check(rotid_fit_states(2_c_int, state, 2_c_int, parameter, options, c_null_ptr, c_null_ptr, result) == ROTID_OK, &
+               'a fit over states')
+    if (.not. c_associated(result)) return
+    call c_f_pointer(result, fit)
+    x => rotid_reals(fit%x, fit%n)
+    modes => rotid_integers(fit%state_m, fit%nstate)
+    call check(close_to(x(2), 1.0_dp, 1e-7_dp) .and. close_to(x(1), 2.0_dp, 1e-7_dp), 'what both states say together')
+    call check(all(modes == 1) .and. fit%m == 2 .and. fit%any_undetermined == 0, 'a mode of each state')
+    call rotid_free(fit)
+  end subroutine states
 
   subroutine decks(good, bad)
     character(len=*), intent(in) :: good, bad

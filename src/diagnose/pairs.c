@@ -1,0 +1,125 @@
+#include "diagnose/pairs.h"
+
+#include <math.h>
+
+#include "diagnose/decide.h"
+#include "linalg/product.h"
+
+#define SAME  0.98 /* of two unit columns, their cosine squared: one of them does what both do */
+#define APART 0.06 /* of the rotor's length: two places of one cause */
+
+/* Largest drop of the unit columns i and j with product g, their steps within bounds; *u, *v: the steps. */
+static double best_along_edge(double b_free, double b_fixed, double g, double fixed, double lower, double upper, double *step)
+{
+    *step = fmin(fmax(-(b_free + g * fixed), lower), upper);
+    return -2 * (b_free * *step + b_fixed * fixed) - *step * *step - fixed * fixed - 2 * g * *step * fixed;
+}
+
+static double pair_drop(const struct scan_item *i, const struct scan_item *j, double b_i, double b_j, double g, double *u,
+                        double *v)
+{
+    double lower[2] = {i->lower * i->norm, j->lower * j->norm}, upper[2] = {i->upper * i->norm, j->upper * j->norm};
+    double rest = 1 - g * g, best = 0;
+    *u = -(b_i - g * b_j) / rest;
+    *v = -(b_j - g * b_i) / rest;
+    if (*u >= lower[0] && *u <= upper[0] && *v >= lower[1] && *v <= upper[1])
+        return -b_i * *u - b_j * *v;
+    *u = *v = 0;
+    for (int edge = 0; edge < 4; edge++) { /* a convex function of two steps: its least value lies on an edge of their box */
+        int of_second = edge & 1;
+        double fixed = edge & 2 ? upper[of_second] : lower[of_second], free;
+        double drop = of_second ? best_along_edge(b_i, b_j, g, fixed, lower[0], upper[0], &free)
+                                : best_along_edge(b_j, b_i, g, fixed, lower[1], upper[1], &free);
+        if (drop > best) {
+            best = drop;
+            *u = of_second ? free : fixed;
+            *v = of_second ? fixed : free;
+        }
+    }
+    return best;
+}
+
+static int searched(const struct scan_candidate *c)
+{
+    int count = 0;
+    for (int p = 0; p < cause_parameters(&c->effect); p++)
+        count += !c->fixed[p];
+    return count ? count : 1;
+}
+
+static double place_of(const struct scan *scan, int item)
+{
+    const struct scan_item *i = &scan->item[item];
+    int place = scan->candidate[i->candidate].cause->place;
+    return place < 0 ? NAN : i->effect.value[place];
+}
+
+/* The best items of the candidates a and b together. */
+static double best_items(const struct scan *scan, const double *gram, const double *along, int a, int b, double apart,
+                         struct scan_set *set)
+{
+    const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
+    double best = 0;
+    for (int i = first->first; i < first->first + first->count; i++)
+        for (int j = a == b ? i + 1 : second->first; j < second->first + second->count; j++) {
+            double g = gram[i + (ptrdiff_t)j * scan->nitem], u, v;
+            if (!scan->item[i].usable || !scan->item[j].usable || g * g > SAME)
+                continue;
+            if (a == b && fabs(place_of(scan, i) - place_of(scan, j)) < apart)
+                continue;
+            double drop = pair_drop(&scan->item[i], &scan->item[j], along[i], along[j], g, &u, &v);
+            if (drop <= best)
+                continue;
+            best = drop;
+            *set = (struct scan_set){.count = 2,
+                                     .candidate = {a, b},
+                                     .item = {i, j},
+                                     .amplitude = {u / scan->item[i].norm, v / scan->item[j].norm},
+                                     .drop = drop};
+        }
+    return best;
+}
+
+/* A pair into the list of the best ones, which is kept in order. */
+static void enter(const struct scan *scan, const struct scan_set *pair, int most, struct scan_set *set, int *count)
+{
+    double score =
+        PARAMETER_PENALTY * (searched(&scan->candidate[pair->candidate[0]]) + searched(&scan->candidate[pair->candidate[1]])) -
+        pair->drop;
+    int at = *count < most ? (*count)++ : most;
+    for (; at > 0; at--) {
+        const struct scan_set *other = &set[at - 1];
+        if (PARAMETER_PENALTY *
+                    (searched(&scan->candidate[other->candidate[0]]) + searched(&scan->candidate[other->candidate[1]])) -
+                other->drop <=
+            score)
+            break;
+        if (at < most)
+            set[at] = *other;
+    }
+    if (at < most)
+        set[at] = *pair;
+}
+
+int pairs_choose(struct pool *pool, const struct job *job, const struct scan *scan, int most, struct scan_set *set, int *count)
+{
+    double *gram = POOL_ARRAY(pool, double, (size_t)scan->nitem *(size_t)scan->nitem),
+           *along = POOL_ARRAY(pool, double, scan->nitem);
+    *count = 0;
+    if (!gram || !along)
+        return ROTID_ERROR_MEMORY;
+    if (!scan->nitem)
+        return ROTID_OK;
+    product_gram(scan->nitem, scan->nrow, scan->column, gram);
+    for (int i = 0; i < scan->nitem; i++)
+        along[i] = product_dot(scan->nrow, scan->column + (ptrdiff_t)i * scan->nrow, scan->r);
+    for (int a = 0; a < scan->ncandidate; a++)
+        for (int b = a; b < scan->ncandidate; b++) {
+            struct scan_set pair;
+            int left = scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]);
+            if (left >= LEAST_RESIDUALS && scan_allows(job, scan, a, b) &&
+                best_items(scan, gram, along, a, b, APART * rotor_length(&job->rotor), &pair) > 0)
+                enter(scan, &pair, most, set, count);
+        }
+    return ROTID_OK;
+}

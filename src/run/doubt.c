@@ -1,0 +1,47 @@
+#include "run/doubt.h"
+
+#include <math.h>
+
+#define LEAST 2    /* modes: of one alone any ratio may be chance */
+#define ALIKE 1.45 /* so much may wrong moduli move one mode against another */
+
+static const struct {
+    double ratio;
+    const char *name, *cure;
+} mistake[] = {
+    {6.283185307179586, "2 pi", "frequencies in rad/s? *MODES expects hertz, or *UNITS, FREQUENCY=RAD/S"},
+    {0.15915494309189535, "1/(2 pi)", "hertz taken for rad/s and divided once too often?"},
+    {1e3, "1000", "lengths of the model in mm, or E in MPa? The deck is in SI units, or says *UNITS, LENGTH=MM"},
+    {1e-3, "1/1000", "frequencies in kHz? *MODES expects hertz, or *UNITS, FREQUENCY=KHZ"},
+    {31.622776601683793, "the root of 1000", "a density 1000 times too large, or moduli 1000 times too small?"},
+    {0.03162277660168379, "1 over the root of 1000",
+     "a density in kg/dm3? The deck is in SI units, or says *UNITS, DENSITY=KG/DM3"},
+};
+
+int doubt_units(const struct job *job, const struct spectrum *spectrum, enum severity severity, struct message_list *notes)
+{
+    double least = INFINITY, most = 0, sum = 0;
+    int count = 0;
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        int j = job->measurement.number[k] - 1;
+        if (j >= spectrum->count || !(spectrum->full_hz[j] > 0))
+            continue;
+        double ratio = job->measurement.frequency_hz[k] / spectrum->full_hz[j];
+        least = fmin(least, ratio);
+        most = fmax(most, ratio);
+        sum += log(ratio);
+        count++;
+    }
+    if (count < LEAST || most > ALIKE * ALIKE * least)
+        return 0;
+    double middle = exp(sum / count);
+    for (size_t i = 0; i < sizeof mistake / sizeof *mistake; i++)
+        if (fabs(log(middle / mistake[i].ratio)) < log(ALIKE)) {
+            message_add(notes, severity, NULL, 0, 0,
+                        "the measured frequencies are %.3g times those of the model in every mode (%.3g to %.3g), which is near "
+                        "%s: %s",
+                        middle, least, most, mistake[i].name, mistake[i].cure);
+            return 1;
+        }
+    return 0;
+}
