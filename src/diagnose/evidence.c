@@ -18,12 +18,19 @@
 #define AT_BOUND   0.005 /* of the physical range: so near a bound a size is not the one the data want */
 #define SHOWN      0.05  /* of the best promise: candidates not fitted but worth a line */
 
-/* A bound at which the effect vanishes is none: a small size lies near it. */
+/* A bound at which the effect vanishes is none: a small size lies near it. Between bounds above zero sizes are factors, and a
+ * distance is a ratio: of a support of 0.01 to 100 times the stated one, 0.3 is far from both. */
 static int ends_at_bound(const rotid_parameter *bounds, double neutral, double x)
 {
-    double range = bounds->upper - bounds->lower, near = AT_BOUND * range;
-    return (x < bounds->lower + near && fabs(bounds->lower - neutral) > near) ||
-           (x > bounds->upper - near && fabs(bounds->upper - neutral) > near);
+    double lower = bounds->lower, upper = bounds->upper;
+    if (lower > 0 && neutral > 0 && x > 0) {
+        lower = log(lower);
+        upper = log(upper);
+        neutral = log(neutral);
+        x = log(x);
+    }
+    double near = AT_BOUND * (upper - lower);
+    return (x < lower + near && fabs(lower - neutral) > near) || (x > upper - near && fabs(upper - neutral) > near);
 }
 
 /* The effect and its parameters, those of the fit that belong to it: the last effects of the job are those of the set. */
