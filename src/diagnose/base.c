@@ -5,14 +5,11 @@
 #include "diagnose/accelerometer.h"
 #include "diagnose/base.h"
 #include "diagnose/causes/catalogue.h"
-#include "diagnose/clean.h"
 #include "diagnose/data.h"
 #include "diagnose/refit.h"
-#include "diagnose/scan.h"
 
 #define MOST_DROPPED 2 /* modes that nobody's shape fits */
 #define LEAST_LEFT   3
-#define MOST_CLEANED 3 /* passes of finding faults of channels */
 #define MOST_REFINED 3 /* times the mesh is halved */
 #define MOST_WEIGHED 5
 #define SAME_MASS    0.1 /* standard deviations */
@@ -216,28 +213,15 @@ static int weigh_accelerometer(struct engine *engine)
     return status;
 }
 
-/* Base fit, faults of the data taken out, mesh fine enough: what the rounds start from. */
+/* Base fit and a mesh fine enough: what the rounds start from. */
 int base_prepare(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    int status = fit_base(engine, 1), changed, at;
+    int status = fit_base(engine, 1), at;
     if (!status)
         status = note_pairing(engine);
     if (!status) /* before the channels are judged: its mass is seen in the shapes too */
         status = weigh_accelerometer(engine);
-    changed = 1;
-    for (int pass = 0; pass < MOST_CLEANED && !status && changed; pass++) {
-        struct scan *scan = POOL_NEW(engine->pool, struct scan);
-        status = scan ? scan_run(engine->pool, &engine->job, engine->number, engine->holdout, engine->fit->x, scan)
-                      : ROTID_ERROR_MEMORY;
-        if (!status)
-            status = data_clean(engine, scan, &changed);
-        engine->base_scan = changed ? NULL : scan;
-        if (!status && changed)
-            status = fit_base(engine, 0);
-        if (!status)
-            status = engine_stage(engine, "measurement chain, pass", pass + 1);
-    }
     if (!status && engine->job.options.solid) /* whose mesh follows from its outline, not from elements of the deck */
         comparison_warn_of_mesh(&engine->job, &out->base.spectrum, &out->base.compared, engine->notes);
     for (int pass = 0; pass < MOST_REFINED && !status && !engine->job.options.solid; pass++) {
@@ -250,7 +234,6 @@ int base_prepare(struct engine *engine)
                                    pool_format(engine->pool,
                                                "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer one is judged",
                                                at + 1, s->mesh_error_percent[at], ratio));
-        engine->base_scan = NULL;
         if (!status)
             status = refine_mesh(engine->pool, &engine->job.rotor);
         if (!status)
@@ -297,6 +280,12 @@ int base_residuals(struct engine *engine)
     for (ptrdiff_t i = 0; i < (ptrdiff_t)nsensor * job->measurement.nmode && shapes && !isfinite(out->noise.shape); i++)
         out->noise.shape = job->measurement.shape_std[i];
     return ROTID_OK;
+}
+
+int base_again(struct engine *engine)
+{
+    int status = fit_base(engine, 0);
+    return status ? status : base_residuals(engine);
 }
 
 int base_refine(struct engine *engine, struct job *job, const struct spectrum *spectrum)

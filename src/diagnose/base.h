@@ -4,8 +4,10 @@
 
 #include "diagnose/engine.h"
 
-/* Fit, faults of the data taken out, mesh fine enough. ROTID_ERROR_ARGUMENT where nothing is left to judge by. */
+/* Fit, mesh fine enough. ROTID_ERROR_ARGUMENT where nothing is left to judge by. */
 int base_prepare(struct engine *engine);
+/* Once more with the residuals, the data having changed. */
+int base_again(struct engine *engine);
 /* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to
  * be a cause still moves a modulus by part of its interval. */
 int base_refine(struct engine *engine, struct job *job, const struct spectrum *spectrum);

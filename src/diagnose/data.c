@@ -38,6 +38,8 @@ int data_copy(struct pool *pool, struct job *job)
 {
     size_t components = (size_t)job->rotor.nsensor * (size_t)job->measurement.nmode;
     job->rotor.sensor = copy(pool, job->rotor.sensor, (size_t)job->rotor.nsensor, sizeof *job->rotor.sensor);
+    job->rotor.effect = copy(pool, job->rotor.effect, (size_t)job->rotor.neffect, sizeof *job->rotor.effect);
+    job->unknowns.suspect = copy(pool, job->unknowns.suspect, (size_t)job->unknowns.nsuspect, sizeof *job->unknowns.suspect);
     job->measurement.number =
         copy(pool, job->measurement.number, (size_t)job->measurement.nmode, sizeof *job->measurement.number);
     job->measurement.frequency_hz =
@@ -48,7 +50,7 @@ int data_copy(struct pool *pool, struct job *job)
         copy(pool, job->measurement.frequency_std, (size_t)job->measurement.nmode, sizeof *job->measurement.frequency_std);
     job->measurement.holdout =
         copy(pool, job->measurement.holdout, (size_t)job->measurement.nmode, sizeof *job->measurement.holdout);
-    if (!job->rotor.sensor || !job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
+    if (!job->rotor.sensor || !job->rotor.effect || !job->unknowns.suspect || !job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
         !job->measurement.frequency_std || !job->measurement.holdout)
         return ROTID_ERROR_MEMORY;
     if (job->measurement.shape) {

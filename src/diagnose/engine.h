@@ -22,7 +22,6 @@ struct engine {
     int user_reduction;                  /* of the deck's own FIT */
     int coloured;                        /* the noise of the shapes was raised for its smooth part */
     struct roving_accelerometer moving;  /* the accelerometer by the frequencies at single sensors; usable 0 where it has none */
-    const struct scan *base_scan;        /* of the base as it stands, for the first round; NULL: to be made */
     double clock;
 };
 

@@ -254,7 +254,7 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
 {
     struct pool *pool = engine->pool;
     const struct scan *scan = &result->scan;
-    int room = scan->ncandidate + result->nrefit + 1, status = ROTID_OK;
+    int room = scan->ncandidate + result->nrefit + 2, status = ROTID_OK;
     double unused, shape;
     round->candidate = POOL_ARRAY(pool, struct candidate, room);
     if (!round->candidate)
@@ -274,6 +274,8 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
         if (!taken && scan_best_drop(scan, i) > SHOWN * scan->largest && scan->largest > 0)
             round->candidate[round->ncandidate++] = scanned(result, i);
     }
+    if (result->fault)
+        round->candidate[round->ncandidate++] = *result->fault;
     struct before before = {.dof = scan->dof,
                             .nfrequency = scan->nfrequency,
                             .chi2 = scan->chi2,

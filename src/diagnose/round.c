@@ -4,10 +4,12 @@
 #include "base/parallel.h"
 #include "diagnose/as_solid.h"
 #include "diagnose/bootstrap.h"
-#include "diagnose/clean.h"
+#include "diagnose/base.h"
 #include "diagnose/decide.h"
 #include "diagnose/evidence.h"
 #include "diagnose/explains.h"
+#include "diagnose/faults.h"
+#include "diagnose/noise_level.h"
 #include "diagnose/pairs.h"
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
@@ -16,6 +18,7 @@
 #define MOST_REFITS         16
 #define MOST_PAIRS          16 /* the true one is seldom the first of the linear list: where effects are large its fit shows it */
 #define MOST_PAIRS_OF_SOLID 6
+#define MOST_PASSES         4    /* of a round, each with better data */
 #define WORTH               3.0  /* a promised drop below this is noise */
 #define SHARE               0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
 
@@ -105,19 +108,13 @@ static int run_pairs(struct engine *engine, struct round_result *result)
     return status ? status : run_refits(engine, result, count);
 }
 
-/* Coloured noise, seen in what the best refit leaves; the round is then to be repeated with the noise raised. */
-static int check_colour(struct engine *engine, const struct round_result *result, int *changed)
+/* The model before the round once more, its data having changed. */
+static int fit_again(struct engine *engine)
 {
-    int best = -1;
-    *changed = 0;
-    for (int i = 0; i < result->nrefit; i++)
-        if (result->refit[i].fit && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))
-            best = i;
-    int status = data_colour(engine, &result->scan, best < 0 ? result->scan.r : result->refit[best].fit->r, changed);
-    if (status || !*changed)
-        return status;
     rotid_fit_result *fit = NULL;
-    status = refit_job(engine->pool, &engine->job, engine->number, engine->holdout, engine->environment, &fit);
+    if (!engine->out->ncause)
+        return base_again(engine);
+    int status = refit_job(engine->pool, &engine->job, engine->number, engine->holdout, engine->environment, &fit);
     if (status)
         return status;
     if (engine->fit != engine->out->base.fit)
@@ -126,19 +123,32 @@ static int check_colour(struct engine *engine, const struct round_result *result
     return ROTID_OK;
 }
 
-static int run_once(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int *again)
+/* Faults of the data, judged by what the best refits leave: the round is to be repeated without them. Of channels until a cause is
+ * named: beside the model that has it they were looked at. */
+static int settle_data(struct engine *engine, struct round_result *result, int *changed)
+{
+    int best = -1, status = ROTID_OK;
+    *changed = 0;
+    if (!engine->out->ncause)
+        status = faults_settle(engine, result, changed);
+    for (int i = 0; i < result->nrefit; i++)
+        if (result->refit[i].fit && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))
+            best = i;
+    if (!status && !*changed)
+        status = noise_settle(engine, &result->scan, best < 0 ? result->scan.r : result->refit[best].fit->r, changed);
+    return status || !*changed ? status : fit_again(engine);
+}
+
+/* doubt: of the data, once the refits are there; *again: they were at fault and are better now */
+static int run_once(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int doubt, int *again)
 {
     struct pool *pool = engine->pool;
     *round = (struct diagnosis_round){0};
     *result = (struct round_result){0};
     *again = 0;
     int status = engine_stage(engine, "scan, round", engine->out->nround + 1);
-    if (!status && engine->base_scan) { /* nothing has changed since the data were checked */
-        result->scan = *engine->base_scan;
-        engine->base_scan = NULL;
-    } else if (!status) {
+    if (!status)
         status = scan_run(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan);
-    }
     engine_step(engine, "scan");
     const struct scan *scan = &result->scan;
     if (!status)
@@ -177,8 +187,9 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     if (!status && !adequate)
         status = run_pairs(engine, result);
     engine_step(engine, "pairs");
-    if (!status && !adequate)
-        status = check_colour(engine, result, again);
+    if (!status && doubt)
+        status = settle_data(engine, result, again);
+    engine_step(engine, "data");
     if (status || *again)
         return status;
     status = evidence_collect(engine, result, round);
@@ -192,11 +203,12 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
 
 int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
 {
-    int again, status = run_once(engine, round, result, &again);
-    if (status || !again)
-        return status;
-    round_free(result);
-    return run_once(engine, round, result, &again);
+    int again = 1, status = ROTID_OK;
+    for (int pass = 1; again && !status; pass++) {
+        round_free(result);
+        status = run_once(engine, round, result, pass < MOST_PASSES, &again);
+    }
+    return status;
 }
 
 void round_free(struct round_result *result)

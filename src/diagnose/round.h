@@ -11,8 +11,9 @@ struct round_result {
     struct scan scan;
     struct bootstrap bootstrap;
     int nrefit;
-    struct refit *refit;   /* [nrefit] */
-    struct scan_set *set; /* [nrefit] what was fitted: single causes first, then pairs */
+    struct refit *refit;     /* [nrefit] */
+    struct scan_set *set;    /* [nrefit] what was fitted: single causes first, then pairs */
+    struct candidate *fault; /* of a channel, which stays open beside physical causes; NULL: none */
 };
 
 int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result);

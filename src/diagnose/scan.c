@@ -8,7 +8,7 @@
 #define MOST_PLACES 250  /* along the axis; meshes are rarely finer */
 #define INSEPARABLE 1e-6 /* of a column is left when what is fitted is taken out: rounding */
 
-static const double width_fraction[] = {0.12, 0.33, 0.57}; /* of the physical range, on a logarithmic scale */
+static const double width_fraction[] = {0.17, 0.46, 0.79}; /* of the physical range, on a logarithmic scale */
 #define WIDTHS ((int)(sizeof width_fraction / sizeof *width_fraction))
 
 static const struct effect_kind nothing = {.id = "none"};

@@ -8,9 +8,13 @@
 
 /* With fewer sensors the neighbours cannot say what a sensor should read. */
 #define LEAST_SENSORS 8
+#define LEAST_COPY    4 /* of which two that are equal stand out */
 /* A likelihood ratio above 2 log(number of hypotheses/probability) is a false alarm with that probability at most, if the field
  * is what it is taken to be. From few sensors that is hard to know: with eight of them 1.7 times as much is asked for. */
 #define FEW_SENSORS 7.0
+/* Modes in which a copy has to agree, and the share of the sensors, one in so many, that are no copies but mirror images. */
+#define COPY_MODES 2
+#define MIRRORED   5
 /* Sensors for which a bad neighbour is tried. */
 #define PAIR_TRIES 6
 /* What a higher noise must gain in log likelihood. */
@@ -22,6 +26,7 @@ struct search {
     struct sensor_field field;
     struct suspect suspect;
     double threshold; /* of the score */
+    double false_alarm;
     double noise_factor;
     double *limit, *left; /* [n] how suspicious a sensor is at most; -INFINITY once looked at */
     double *work;         /* of local_physics */
@@ -44,7 +49,7 @@ static int sensors_left(const struct sensor_field *field)
 static double judge(struct search *search, int s, double least, struct sensor_fault *fault)
 {
     struct explanation explanation[FAULT_KINDS];
-    int best = 0, rival = -1;
+    int best = 0;
     double limit = suspect_open(&search->suspect, s), physics;
     if (limit < search->threshold / 2) /* of a swap, each of the two sensors must show half */
         return -INFINITY;
@@ -52,17 +57,12 @@ static double judge(struct search *search, int s, double least, struct sensor_fa
     for (int kind = 1; kind < FAULT_KINDS; kind++)
         if (explanation[kind].score > explanation[best].score)
             best = kind;
-    for (int kind = 0; kind < FAULT_KINDS; kind++)
-        if (kind != best && (rival < 0 || explanation[kind].drop > explanation[rival].drop))
-            rival = kind;
     *fault = (struct sensor_fault){.kind = (enum sensor_fault_kind)best,
                                    .sensor = s,
                                    .other = explanation[best].other,
                                    .value = explanation[best].value,
                                    .std = explanation[best].std,
-                                   .chi2_drop = explanation[best].drop,
-                                   .alternative = explanation[rival].drop,
-                                   .alternative_kind = (enum sensor_fault_kind)rival};
+                                   .chi2_drop = explanation[best].drop};
     if (explanation[best].score <= least)
         return -INFINITY;
     physics = local_physics(&search->field, s, search->work);
@@ -91,14 +91,9 @@ static int start_without(struct search *search, int nfault, const struct sensor_
     return 0;
 }
 
-/* judge, with all alternatives in *fault. Returns 1 where there is a fault. */
 static int certain(struct search *search, int s, struct sensor_fault *fault)
 {
-    if (!(judge(search, s, search->threshold, fault) > search->threshold))
-        return 0;
-    if (fault->kind == FAULT_SWAP || fault->kind == FAULT_DUPLICATE) /* other kinds may not have been looked at */
-        judge(search, s, -INFINITY, fault);
-    return 1;
+    return judge(search, s, search->threshold, fault) > search->threshold;
 }
 
 static int largest(int n, const double *x)
@@ -115,7 +110,7 @@ static int find_one(struct search *search, struct sensor_fault *fault)
 {
     struct sensor_field *field = &search->field;
     double worst = search->threshold;
-    int found = -1;
+    int found = 0;
     for (int s = 0; s < field->n; s++)
         search->limit[s] = search->left[s] = field->masked[s] ? -INFINITY : suspect_open(&search->suspect, s);
     for (;;) { /* the most suspicious first, so that the others need less work */
@@ -127,13 +122,11 @@ static int find_one(struct search *search, struct sensor_fault *fault)
         double score = judge(search, s, worst, &candidate);
         if (score > worst) {
             worst = score;
-            found = s;
+            found = 1;
             *fault = candidate;
         }
     }
-    if (found >= 0 && (fault->kind == FAULT_SWAP || fault->kind == FAULT_DUPLICATE)) /* other kinds may not have been looked at */
-        judge(search, found, -INFINITY, fault);
-    return found >= 0;
+    return found;
 }
 
 /* Sensors t and s by themselves, each with the other taken out, into fault[nfault] and the next. Returns 1 where both are bad. */
@@ -180,10 +173,64 @@ static int find_pair(struct search *search, int nfault, struct sensor_fault *fau
     return 0;
 }
 
+/* Whether two channels agree to the last digit wherever both were measured, so often that noise does not make it. What makes two
+ * channels equal in one mode is the step of the digits over the spread of noise; and their neighbours differ, else it is a mirror
+ * image without noise. */
+static int is_copy(const struct search *search, int s, int t)
+{
+    const struct sensor_field *field = &search->field;
+    int n = field->n, shared = 0;
+    double chance = log(0.5 * n * n);
+    for (int k = 0; k < field->nmode; k++) {
+        const double *m = field->reading + (ptrdiff_t)k * n;
+        const int *present = field->present + (ptrdiff_t)k * n;
+        double step = INFINITY;
+        if (!present[s] || !present[t] || (m[s] == 0 && m[t] == 0)) /* two that are dead are no copies */
+            continue;
+        if (m[s] != m[t])
+            return 0;
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < i; j++)
+                if (present[i] && present[j] && m[i] != m[j])
+                    step = fmin(step, fabs(m[i] - m[j]));
+        shared++;
+        chance += log(fmin(1, step / sqrt(field->variance[s + k * n])));
+    }
+    return shared >= COPY_MODES && chance < log(search->false_alarm);
+}
+
+/* Copies into the first faults: which of the two is at the wrong place, the others say. */
+static void find_copies(struct search *search, int most, struct sensor_fault *fault, int *nfault)
+{
+    struct sensor_field *field = &search->field;
+    int n = field->n, first = *nfault, equal = 0;
+    for (int s = 0; s < n; s++)
+        for (int t = 0; t < s; t++) {
+            if (field->masked[s] || field->masked[t] || !is_copy(search, s, t))
+                continue;
+            equal++;
+            if (*nfault == most)
+                continue;
+            double of_s = suspect_open(&search->suspect, s), of_t = suspect_open(&search->suspect, t);
+            fault[(*nfault)++] = (struct sensor_fault){.kind = FAULT_DUPLICATE,
+                                                       .sensor = of_s > of_t ? s : t,
+                                                       .other = of_s > of_t ? t : s,
+                                                       .value = NAN,
+                                                       .std = NAN,
+                                                       .chi2_drop = fmax(of_s, of_t)};
+        }
+    if (MIRRORED * equal > n)
+        *nfault = first;
+    for (int j = first; j < *nfault; j++)
+        take_out(field, &fault[j]);
+}
+
 static void find_all(struct search *search, int most, struct sensor_fault *fault, int *nfault)
 {
     struct sensor_field *field = &search->field;
-    for (*nfault = 0; *nfault < most && sensors_left(field) >= LEAST_SENSORS;) {
+    *nfault = 0;
+    find_copies(search, most, fault, nfault);
+    while (*nfault < most && sensors_left(field) >= LEAST_SENSORS) {
         if (find_one(search, &fault[*nfault]))
             take_out(field, &fault[(*nfault)++]);
         else if (*nfault + 1 < most && find_pair(search, *nfault, fault))
@@ -223,6 +270,10 @@ static void judge_again(struct search *search, struct sensor_fault *fault, int *
         struct sensor_fault again;
         if (start_without(search, *nfault, fault, j))
             return;
+        if (fault[j].kind == FAULT_DUPLICATE) {
+            j++;
+            continue;
+        }
         if (certain(search, fault[j].sensor, &again)) {
             fault[j++] = again;
             continue;
@@ -238,7 +289,7 @@ int sensor_check(struct pool *pool, const struct shape_data *data, double false_
 {
     struct search search;
     *nfault = 0;
-    if (data->nsensor < LEAST_SENSORS || data->nmode < 1 || data->nmode > FIELD_MOST_MODES || data->naxis < 2)
+    if (data->nsensor < LEAST_COPY || data->nmode < 1 || data->nmode > FIELD_MOST_MODES || data->naxis < 2)
         return ROTID_OK;
     int status = field_new(pool, data, &search.field);
     if (!status)
@@ -252,6 +303,7 @@ int sensor_check(struct pool *pool, const struct shape_data *data, double false_
         return ROTID_ERROR_MEMORY;
     search.threshold = 2 * log(data->nsensor * FAULT_KINDS / false_alarm) * (1 + pow(FEW_SENSORS / data->nsensor, 3));
     search.noise_factor = 1;
+    search.false_alarm = false_alarm;
     if (start_without(&search, 0, fault, -1))
         return ROTID_OK;
     find_all(&search, most, fault, nfault);

@@ -19,18 +19,16 @@ struct shape_data {
 enum sensor_fault_kind { FAULT_GAIN, FAULT_SIGN, FAULT_SWAP, FAULT_POSITION, FAULT_DUPLICATE, FAULT_DEAD };
 
 struct sensor_fault {
-    enum sensor_fault_kind kind, alternative_kind;
+    enum sensor_fault_kind kind;
     int sensor, other;  /* indices; other: the partner of a swap, the source of a copy; else -1 */
     double value, std;  /* gain, or shift [m] (true place = stated place + shift); NaN elsewhere */
     double chi2_drop;   /* twice the gain in log likelihood of all sensors over this one being sound */
-    double alternative; /* chi2 drop of the best explanation of another kind: alternative_kind */
 };
 
 /* Finds up to `most` faults, the worst first, each judged with all others taken out. `false_alarm`: family-wise probability of
  * any fault in sound data, about 0.005. A fault also has to beat a joint or a soft zone at that place, so small ones go unnamed
- * where the model is badly wrong. Noise up to five times the stated one is allowed for. Nothing is found below 8 sensors. A
- * sensor that reads what is at the place of another with noise of its own is FAULT_DUPLICATE where sensors are far enough apart
- * for that not to be chance, else FAULT_POSITION. fault [most], *nfault. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * where the model is badly wrong. Noise up to five times the stated one is allowed for. Below 8 sensors only
+ * copies are found: FAULT_DUPLICATE is a channel that agrees with another one to the last digit, whatever the model is. fault [most], *nfault. ROTID_OK or ROTID_ERROR_MEMORY. */
 int sensor_check(struct pool *pool, const struct shape_data *data, double false_alarm, int most, struct sensor_fault *fault,
                  int *nfault);
 

@@ -5,14 +5,6 @@
 
 /* A gain or a shift has to earn its parameter: within three standard deviations of a kind without one, that kind is named. */
 #define PARAMETER_COST 9.0
-/* A channel copied from another differs from it by rounding only, taken as a tenth of the noise. */
-#define COPY_NOISE 0.1
-/* What a copy must take away even if its difference counts with the full noise: the two places have to differ. */
-#define COPY_CONTRAST 10.0
-/* Readings further apart than this chi2 and two a mode are no copies. */
-#define COPY_APART 30.0
-/* Share of the gaps between sensors that two standard deviations of the place on either side may cover. */
-#define COINCIDENCE 0.25
 /* Reach of a position fault, over the length of the axis, and its grid. */
 #define REACH      0.1
 #define REACH_GRID 40
@@ -77,8 +69,8 @@ static double likelihood(const struct suspect *suspect, const double *mean, cons
     return total;
 }
 
-/* The likelihood where the sensor's reading follows N(centre, variance_k) whatever the field does. */
-static double detached(const struct suspect *suspect, const double *centre, double of_variance)
+/* The likelihood where the sensor reads what it does whatever the field does. */
+static double detached(const struct suspect *suspect)
 {
     const struct sensor_field *field = suspect->field;
     double total = 0;
@@ -86,7 +78,7 @@ static double detached(const struct suspect *suspect, const double *centre, doub
         int at = suspect->s + k * field->n;
         total += log_mean_exp(field->ngrid, suspect->others + (ptrdiff_t)k * field->ngrid);
         if (field->present[at])
-            total += log_normal(centre ? field->reading[at] - centre[k] : 0, of_variance * field->variance[at]);
+            total += log_normal(0, field->variance[at]);
     }
     return total;
 }
@@ -114,7 +106,7 @@ double suspect_open(struct suspect *suspect, int s)
             suspect->wanted[g + k * field->ngrid] = suspect->others[g + k * field->ngrid] > best - NEGLIGIBLE;
     }
     suspect->sound = likelihood(suspect, suspect->mean, suspect->variance, 1, 1);
-    return 2 * (detached(suspect, NULL, 1) - suspect->sound);
+    return 2 * (detached(suspect) - suspect->sound);
 }
 
 static double of_gain(struct suspect *suspect, double gain)
@@ -210,38 +202,6 @@ static void explain_position(struct suspect *suspect, struct explanation *explan
           &explanation[FAULT_POSITION]);
 }
 
-static void explain_copy(struct suspect *suspect, struct explanation *explanation)
-{
-    const struct sensor_field *field = suspect->field;
-    double cost = 2 * log(field->n);
-    for (int t = 0; t < field->n; t++) {
-        int shared = 0, identical = 1;
-        double apart = 0;
-        double centre[FIELD_MOST_MODES] = {0};
-        struct explanation copy = {.other = t, .value = NAN, .std = NAN},
-                           exact = {.other = t, .value = NAN, .exact = 1, .std = NAN};
-        if (t == suspect->s || field->masked[t])
-            continue;
-        for (int k = 0; k < field->nmode; k++) {
-            int at = suspect->s + k * field->n, from = t + k * field->n;
-            if (field->present[at] != field->present[from])
-                identical = 0;
-            if (!field->present[at] || !field->present[from])
-                continue;
-            shared++;
-            centre[k] = field->reading[from];
-            apart += pow(field->reading[at] - centre[k], 2) / (field->variance[at] + field->variance[from]);
-            if (fabs(field->reading[at] - centre[k]) > 3 * COPY_NOISE * sqrt(field->variance[at]))
-                identical = 0;
-        }
-        if (!shared || apart > COPY_APART + 2 * shared)
-            continue;
-        offer(suspect, of_place(suspect, field->data->z[t]), cost, copy, &explanation[FAULT_DUPLICATE]);
-        if (identical && 2 * (detached(suspect, centre, 1) - suspect->sound) > COPY_CONTRAST)
-            offer(suspect, detached(suspect, centre, COPY_NOISE * COPY_NOISE), cost, exact, &explanation[FAULT_DUPLICATE]);
-    }
-}
-
 /* Both sensors are predicted by the rest, and each reads what is at the other's place. */
 static double swapped(const struct suspect *suspect, int t)
 {
@@ -278,29 +238,13 @@ static void explain_swap(struct suspect *suspect, struct explanation *explanatio
                   (struct explanation){.other = t, .value = NAN, .std = NAN}, &explanation[FAULT_SWAP]);
 }
 
-/* A sensor that reads what is at another's place, with noise of its own, was either put there or anywhere near. Where sensors are
- * so close that any place is near one of them, the coincidence says nothing. */
-static void prefer_position(const struct suspect *suspect, const struct explanation *position, struct explanation *copy)
-{
-    const struct sensor_field *field = suspect->field;
-    int t = copy->other;
-    if (t < 0 || copy->score < position->score || copy->exact || !isfinite(position->std))
-        return;
-    const double *z = field->data->z;
-    double gap = fmin(t > 0 ? z[t] - z[t - 1] : INFINITY, t + 1 < field->n ? z[t + 1] - z[t] : INFINITY);
-    if (4 * position->std > COINCIDENCE * gap && fabs(z[suspect->s] + position->value - z[t]) < 3 * position->std)
-        copy->score = position->score - 1;
-}
-
 void suspect_explain(struct suspect *suspect, int quick, struct explanation *explanation)
 {
     for (int kind = 0; kind < FAULT_KINDS; kind++)
         explanation[kind] = (struct explanation){.drop = -INFINITY, .score = -INFINITY, .other = -1, .value = NAN, .std = NAN};
     explain_swap(suspect, explanation);
-    explain_copy(suspect, explanation);
     if (quick)
         return;
     explain_gain(suspect, explanation);
     explain_position(suspect, explanation);
-    prefer_position(suspect, &explanation[FAULT_POSITION], &explanation[FAULT_DUPLICATE]);
 }

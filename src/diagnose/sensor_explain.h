@@ -12,7 +12,6 @@ struct explanation {
     double drop;  /* twice the gain in log likelihood over a sound sensor; -INFINITY where the kind does not apply */
     double score; /* drop less what the search and the parameter cost */
     int other;
-    int exact; /* a copy to the last digits */
     double value, std;
 };
 
@@ -30,10 +29,10 @@ struct suspect { /* one sensor at a time */
 /* ROTID_OK or ROTID_ERROR_MEMORY */
 int suspect_new(struct pool *pool, const struct sensor_field *field, struct suspect *suspect);
 
-/* Takes up sensor s, which is not masked. Returns an upper limit of `drop` of all kinds but swaps and copies. */
+/* Takes up sensor s, which is not masked. Returns an upper limit of `drop` of all kinds but swaps. */
 double suspect_open(struct suspect *suspect, int s);
 
-/* explanation [FAULT_KINDS] of the suspect; only swaps and copies where `quick`. */
+/* explanation [FAULT_KINDS] of the suspect; only swaps where `quick`; copies are no matter of likelihood. */
 void suspect_explain(struct suspect *suspect, int quick, struct explanation *explanation);
 
 #endif

@@ -80,6 +80,8 @@ static int count(const struct effect *effect)
     return has_shear(effect) ? PARAMETERS : DEPTH_SHEAR;
 }
 
+/* A zone is local: a wider one imitates a gradient, a profile or the stiffness of a whole group, which are causes of their own. The
+ * box has the standard deviation of the Gaussian. */
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
 {
     double length = rotor_length(rotor);
@@ -89,7 +91,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
         *upper = length;
     } else if (p == WIDTH) {
         *lower = length / (is_box(effect) ? 100 : 200);
-        *upper = length / (is_box(effect) ? 2 : 5);
+        *upper = length / (is_box(effect) ? 4 : 14);
     }
 }
 

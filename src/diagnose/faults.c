@@ -1,0 +1,263 @@
+/* Which channels are faulty, whatever the physics is. */
+#include "diagnose/faults.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/correct.h"
+#include "diagnose/data.h"
+#include "diagnose/decide.h"
+#include "diagnose/fault_text.h"
+#include "diagnose/sensor_check.h"
+#include "fit/quantile.h"
+#include "model/deflection.h"
+
+#define MOST_FAULTS   8
+#define MOST_RIVALS   4 /* refits beside which the channels are looked at */
+#define FALSE_ALARM   0.005
+#define LEAST_SHIFT   5e-4 /* m: nobody glues a sensor more closely than that */
+#define FAULT_PENALTY (2 * PARAMETER_PENALTY) /* which sensor, and its value or its partner */
+
+struct rival { /* an explanation of the data */
+    const struct job *stated;
+    const rotid_fit_result *fit; /* of that job */
+    rotid_fit_result *right;     /* with the faults put right, NULL where there is none */
+    double score;                /* with the faults put right */
+    double chi2, chi2_frequency;
+    int dof, nfault;
+    struct sensor_fault fault[MOST_FAULTS];
+};
+
+/* shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one */
+static int shape_data(struct pool *pool, const struct job *job, struct columns *columns, struct shape_data *data)
+{
+    const struct rotor_model *model = &columns->model;
+    const struct prediction *p = &columns->functional.prediction;
+    int nsensor = job->rotor.nsensor, nmode = columns->nmode;
+    double *z = POOL_ARRAY(pool, double, nsensor), *shape = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
+           *std = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
+           *axis = POOL_ARRAY(pool, double, (size_t)model->naxis *(size_t)nmode);
+    if (!z || !shape || !std || !axis)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < nsensor; s++)
+        z[s] = job->rotor.sensor[s].position;
+    for (int m = 0; m < nmode; m++) {
+        const struct columns_mode *mode = &columns->mode[m];
+        ptrdiff_t from = (ptrdiff_t)mode->k * nsensor, to = (ptrdiff_t)m * nsensor;
+        memcpy(shape + to, columns->functional.shape + from, (size_t)nsensor * sizeof *shape);
+        memcpy(std + to, job->measurement.shape_std + from, (size_t)nsensor * sizeof *std);
+        for (int i = 0; i < model->naxis; i++)
+            axis[i + (ptrdiff_t)m * model->naxis] =
+                mode->scale * model_deflection(model, i, p->phi + (ptrdiff_t)mode->pair * p->size);
+    }
+    *data = (struct shape_data){nsensor, nmode, z, shape, std, model->naxis, model->z, axis};
+    return ROTID_OK;
+}
+
+/* The faults that show beside the model of a rival at x. */
+static int look(struct engine *engine, const double *x, struct rival *rival)
+{
+    struct columns columns;
+    struct shape_data data;
+    int found = 0, status = columns_open(engine->pool, rival->stated, engine->number, engine->holdout, NULL, x, &columns);
+    if (!status)
+        status = shape_data(engine->pool, rival->stated, &columns, &data);
+    if (!status)
+        status = sensor_check(engine->pool, &data, FALSE_ALARM, MOST_FAULTS, rival->fault, &found);
+    rival->nfault = 0;
+    for (int i = 0; i < found && !status; i++) {
+        const struct sensor_fault fault = rival->fault[i];
+        if (fault.kind != FAULT_POSITION || fabs(fault.value) >= LEAST_SHIFT)
+            rival->fault[rival->nfault++] = fault;
+    }
+    return status;
+}
+
+/* Puts a fault right in the data of a job. id [nsensor]: of the sensors when the fault was found, since a moved sensor changes
+ * their order. */
+static int put_right(struct pool *pool, const struct sensor_fault *fault, const int *id, struct job *job)
+{
+    struct correction correction;
+    if (fault->kind != FAULT_DEAD) {
+        correction = fault_correction(fault, id);
+        return correction_apply(pool, job, &correction);
+    }
+    for (int s = 0; s < job->rotor.nsensor; s++) /* as if it had not been there */
+        for (int k = 0; k < job->measurement.nmode && job->rotor.sensor[s].id == id[fault->sensor]; k++)
+            job->measurement.shape[s + (ptrdiff_t)k * job->rotor.nsensor] = NAN;
+    return ROTID_OK;
+}
+
+/* The fit of a rival with its faults put right; NULL where there is none. */
+static int fit_right(struct engine *engine, const int *id, const struct rival *rival, rotid_fit_result **fit)
+{
+    struct job job = *rival->stated;
+    int status = data_copy(engine->pool, &job);
+    for (int i = 0; i < rival->nfault && !status; i++)
+        status = put_right(engine->pool, &rival->fault[i], id, &job);
+    if (!status)
+        status = refit_job(engine->pool, &job, engine->number, engine->holdout, engine->environment, fit);
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
+/* The score of a rival with its faults put right. Components that a fault takes away count as what they would leave. */
+static int weigh(struct engine *engine, const int *id, struct rival *rival)
+{
+    const rotid_fit_result *best = rival->fit;
+    int nfrequency = 0, status = ROTID_OK;
+    rotid_fit_free(rival->right);
+    rival->right = NULL;
+    rival->score = INFINITY;
+    if (rival->nfault) {
+        status = fit_right(engine, id, rival, &rival->right);
+        best = rival->right;
+    }
+    if (status || !best)
+        return status;
+    for (int k = 0; k < engine->job.measurement.nmode; k++)
+        nfrequency += !engine->holdout[k];
+    rival->dof = best->dof;
+    rival->chi2 = best->chi2 + (rival->fit->nresidual - best->nresidual);
+    rival->chi2_frequency = 0;
+    for (int i = 0; i < nfrequency; i++)
+        rival->chi2_frequency += best->r[i] * best->r[i];
+    rival->score =
+        rival->chi2 + PARAMETER_PENALTY * (best->n - engine->job.unknowns.nparameter) + FAULT_PENALTY * rival->nfault;
+    return ROTID_OK;
+}
+
+/* The faults have spoilt the fit beside which they were found: once more beside the one without them. */
+static int look_again(struct engine *engine, const int *id, struct rival *rival)
+{
+    int status = rival->right ? look(engine, rival->right->x, rival) : ROTID_OK;
+    return status || !rival->right ? status : weigh(engine, id, rival);
+}
+
+/* The highest score within the margin of a name; where nothing explains the data, every rival has a say: what the model lacks then
+ * looks like faults beside one model, and otherwise beside the next. */
+static double find_limit(int count, const struct rival *rival, int *best)
+{
+    *best = 0;
+    for (int i = 1; i < count; i++)
+        *best = rival[i].score < rival[*best].score ? i : *best;
+    const struct rival *r = &rival[*best];
+    return chi_square_tail(r->chi2, r->dof) < 0.01 ? (double)INFINITY : r->score + LEAST_MARGIN;
+}
+
+static int same(const struct sensor_fault *a, const struct sensor_fault *b)
+{
+    return a->kind == b->kind && ((a->sensor == b->sensor && a->other == b->other) ||
+                                  (a->sensor == b->other && a->other == b->sensor));
+}
+
+static int has(const struct rival *rival, const struct sensor_fault *fault)
+{
+    int found = 0;
+    for (int i = 0; i < rival->nfault; i++)
+        found |= same(&rival->fault[i], fault);
+    return found;
+}
+
+/* The refits to ask, best first, behind the model without a cause. */
+static int choose(const struct engine *engine, const struct round_result *result, struct rival *rival)
+{
+    int count = 1, taken[MOST_RIVALS];
+    rival[0] = (struct rival){.stated = &engine->job, .fit = engine->fit};
+    while (count <= MOST_RIVALS) {
+        int best = -1;
+        for (int i = 0; i < result->nrefit; i++) {
+            int used = !result->refit[i].fit;
+            for (int j = 0; j + 1 < count; j++)
+                used |= taken[j] == i;
+            if (!used && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))
+                best = i;
+        }
+        if (best < 0)
+            break;
+        taken[count - 1] = best;
+        rival[count++] = (struct rival){.stated = &result->refit[best].job, .fit = result->refit[best].fit};
+    }
+    return count;
+}
+
+/* Takes a fault out of the judged data. */
+static int correct(struct engine *engine, const struct sensor_fault *fault, const int *id)
+{
+    rotid_data_finding finding;
+    int status = fault_finding(engine->pool, fault, id, &finding);
+    if (status)
+        return status;
+    if (fault->kind == FAULT_DEAD) {
+        status = put_right(engine->pool, fault, id, &engine->job);
+        return status ? status : data_add_finding(engine, &finding);
+    }
+    const struct correction correction = fault_correction(fault, id);
+    return data_correct(engine, &finding, &correction);
+}
+
+/* A fault that no more than the margin separates from a physical cause stays open with it, among the candidates of the round. */
+static int keep_open(struct engine *engine, const struct rival *base, const int *id, struct round_result *result)
+{
+    rotid_data_finding finding;
+    int status = fault_finding(engine->pool, &base->fault[0], id, &finding);
+    result->fault = POOL_NEW(engine->pool, struct candidate);
+    if (status || !result->fault)
+        return ROTID_ERROR_MEMORY;
+    *result->fault = candidate_blank(catalogue_find(finding.id), fault_target(engine->pool, &finding));
+    result->fault->nparameter = 2 * base->nfault;
+    result->fault->effect.value[0] = finding.value;
+    result->fault->result.refitted = 1;
+    result->fault->result.chi2 = base->chi2;
+    result->fault->result.chi2_drop = result->fault->result.predicted_drop = engine->fit->chi2 - base->chi2;
+    result->fault->result.chi2_frequency = base->chi2_frequency;
+    result->fault->result.bic = base->chi2 + log(result->scan.nrow) * (engine->fit->n + base->nfault);
+    return result->fault->target ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+static int settle(struct engine *engine, int count, struct rival *rival, struct round_result *result, int *changed)
+{
+    int best, any = 0, status = ROTID_OK, nsensor = engine->job.rotor.nsensor;
+    int *id = POOL_ARRAY(engine->pool, int, nsensor);
+    if (!id)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < nsensor; s++)
+        id[s] = engine->job.rotor.sensor[s].id;
+    for (int i = 0; i < count && !status; i++) {
+        status = look(engine, rival[i].fit->x, &rival[i]);
+        any |= rival[i].nfault;
+    }
+    for (int i = 0; i < count && any && !status; i++)
+        status = weigh(engine, id, &rival[i]);
+    if (status || !any)
+        return status;
+    double limit = find_limit(count, rival, &best);
+    for (int i = 0; i < count && !status; i++)
+        if (rival[i].score <= limit)
+            status = look_again(engine, id, &rival[i]);
+    limit = find_limit(count, rival, &best);
+    for (int f = 0; f < rival[best].nfault && !status; f++) {
+        int all = 1;
+        for (int i = 0; i < count; i++)
+            all &= rival[i].score > limit || has(&rival[i], &rival[best].fault[f]);
+        if (all) {
+            status = correct(engine, &rival[best].fault[f], id);
+            *changed = 1;
+        }
+    }
+    if (!status && !*changed && rival[0].nfault && rival[0].score <= limit)
+        status = keep_open(engine, &rival[0], id, result);
+    return status;
+}
+
+int faults_settle(struct engine *engine, struct round_result *result, int *changed)
+{
+    struct rival rival[MOST_RIVALS + 1];
+    *changed = 0;
+    if (!job_fits_shapes(&engine->job))
+        return ROTID_OK;
+    int count = choose(engine, result, rival), status = settle(engine, count, rival, result, changed);
+    for (int i = 0; i < count; i++)
+        rotid_fit_free(rival[i].right);
+    return status;
+}
