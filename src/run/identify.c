@@ -24,31 +24,82 @@ static int compute_spectrum(struct pool *pool, const struct job *job, const doub
                                   count, parts, spectrum);
 }
 
+/* One state for those that have a job. */
+static struct states only(const struct job *job, struct state *state)
+{
+    *state = (struct state){.job = *job};
+    return (struct states){
+        .nstate = 1, .state = state, .nparameter = job->unknowns.nparameter, .bounds = job->unknowns.bounds};
+}
+
+/* The unknowns of a state among those of all. */
+static double *unknowns_of(struct pool *pool, const struct state *state, const double *x)
+{
+    int n = state->job.unknowns.nparameter;
+    double *own = POOL_ARRAY(pool, double, n);
+    for (int p = 0; p < n && own; p++)
+        own[p] = x[state->unknown ? state->unknown[p] : p];
+    return own;
+}
+
+/* What a state is fitted with: its pairing and what is left out. */
+struct paired {
+    const int *number, *holdout;
+    struct mass_properties *mass; /* to be filled, or NULL */
+};
+
+static int open_state(struct pool *pool, const struct state *state, const struct paired *paired, struct rotor_model *model,
+                      rotid_measured *measured, rotid_state *out)
+{
+    const struct job *job = &state->job;
+    int failed, shapes = uses_shapes(job);
+    *measured = (rotid_measured){.size = sizeof *measured,
+                                 .nmode = job->measurement.nmode,
+                                 .number = paired->number,
+                                 .frequency_hz = job->measurement.frequency_hz,
+                                 .frequency_std = job_knows_frequency_noise(job) ? job->measurement.frequency_std : NULL,
+                                 .shape = shapes ? job->measurement.shape : NULL,
+                                 .shape_std = shapes && job_knows_shape_noise(job) ? job->measurement.shape_std : NULL,
+                                 .holdout = paired->holdout};
+    *out = (rotid_state){sizeof *out, &model->equations, measured, state->unknown};
+    return model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1, model, &failed);
+}
+
+static int fit_states(struct pool *pool, const struct states *states, const struct paired *paired,
+                      const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit)
+{
+    int count = states->nstate;
+    struct rotor_model *model = POOL_ARRAY(pool, struct rotor_model, count);
+    rotid_measured *measured = POOL_ARRAY(pool, rotid_measured, count);
+    rotid_state *state = POOL_ARRAY(pool, rotid_state, count);
+    int status = model && measured && state ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (int s = 0; s < count && !status; s++)
+        status = open_state(pool, &states->state[s], &paired[s], &model[s], &measured[s], &state[s]);
+    if (!status)
+        status = rotid_fit_states(count, state, states->nparameter, states->bounds, options, environment, NULL, fit);
+    for (int s = 0; s < count && !status; s++) {
+        if (!paired[s].mass)
+            continue;
+        double *x = unknowns_of(pool, &states->state[s], (*fit)->x);
+        if (!x) {
+            rotid_fit_free(*fit);
+            *fit = NULL;
+            return ROTID_ERROR_MEMORY;
+        }
+        model_set(&model[s], x); /* the model stands at the last point that was evaluated; the mass wants the best one */
+        model_mass_properties(&model[s], paired[s].mass);
+    }
+    return status;
+}
+
 int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit)
 {
-    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
-    int failed, status = model ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1,
-                                            model, &failed)
-                               : ROTID_ERROR_MEMORY;
-    if (status)
-        return status;
-    int shapes = uses_shapes(job);
-    rotid_measured measured = {.size = sizeof measured,
-                               .nmode = job->measurement.nmode,
-                               .number = number,
-                               .frequency_hz = job->measurement.frequency_hz,
-                               .frequency_std = job_knows_frequency_noise(job) ? job->measurement.frequency_std : NULL,
-                               .shape = shapes ? job->measurement.shape : NULL,
-                               .shape_std = shapes && job_knows_shape_noise(job) ? job->measurement.shape_std : NULL,
-                               .holdout = holdout};
-    status = rotid_fit(&model->equations, job->unknowns.bounds, &measured, options, environment, NULL, fit);
-    if (!status && mass) { /* the model stands at the last point that was evaluated; the mass wants the best one */
-        model_set(model, (*fit)->x);
-        model_mass_properties(model, mass);
-    }
-    return status;
+    struct state state;
+    const struct states states = only(job, &state);
+    const struct paired paired = {number, holdout, mass};
+    return fit_states(pool, &states, &paired, options, environment, fit);
 }
 
 /* Also while NLopt ran: the fit itself is complete then. */
@@ -59,8 +110,9 @@ static int is_cancelled(const rotid_fit_result *fit, const rotid_environment *en
 }
 
 /* What the model that was fitted predicts at the points of the baseline. */
-static int predict_baseline(struct pool *pool, const struct job *job, struct identification *out)
+static int predict_baseline(struct pool *pool, const struct state *state, struct identification *out)
 {
+    const struct job *job = &state->job;
     const rotid_fit_result *fit = out->fit;
     int failed, highest = 1, nmode = job->measurement.nmode;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
@@ -75,7 +127,10 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
         status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON,
                                 model->equations.nrigid + highest, 0, &p);
     for (int i = 0; i < fit->nbaseline && status != ROTID_ERROR_MEMORY; i++) {
-        int lost = status ? status : prediction_compute(&p, fit->baseline[i].x);
+        double *x = unknowns_of(pool, state, fit->baseline[i].x);
+        if (!x)
+            return ROTID_ERROR_MEMORY;
+        int lost = status ? status : prediction_compute(&p, x);
         for (int k = 0; k < nmode; k++)
             out->baseline_hz[k + (ptrdiff_t)i * nmode] =
                 lost ? NAN : prediction_hz(&p, model->equations.nrigid + out->compared.number[k] - 1);
@@ -83,86 +138,205 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
 }
 
-static int with_models(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
-                       struct message_list *notes, struct identification *out)
+static void pass_on(const struct message_list *from, const char *name, struct message_list *notes)
 {
-    int status, candidates = comparison_candidates(job);
-    double *start = POOL_ARRAY(pool, double, job->unknowns.nparameter);
-    if (!job->measurement.nmode)
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes, expected *MODES or *MEASURED");
-    if (!job->measurement.nmode || !start)
-        return start ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        start[p] = job->unknowns.bounds[p].start;
+    for (size_t i = 0; i < from->count; i++)
+        if (name)
+            message_add(notes, from->item[i].severity, NULL, 0, 0, "%s (state %s)", from->item[i].text, name);
+        else
+            message_add(notes, from->item[i].severity, NULL, 0, 0, "%s", from->item[i].text);
+}
+
+/* A state while it is fitted. */
+struct running {
+    const struct state *state;
     struct comparison before;
-    struct message_list quiet; /* what the pairing at the start says is not worth repeating unless it ends the run */
-    message_open(&quiet, pool);
-    status = compute_spectrum(pool, job, start, candidates, 1, &out->spectrum);
-    if (!status)
-        status = comparison_make(pool, job, &out->spectrum, &quiet, &before);
-    if (status) {
-        for (size_t i = 0; i < quiet.count; i++)
-            message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
-        out->compared = before;
-        return status;
+    struct message_list quiet;
+    struct identification *out;
+    int candidates;
+};
+
+/* The spectrum at the unknowns x of all, and the pairs there. */
+static int pair_state(struct pool *pool, struct running *run, const double *x, int bare, struct comparison *pairs)
+{
+    double *own = unknowns_of(pool, run->state, x);
+    message_open(&run->quiet, pool);
+    if (!own)
+        return ROTID_ERROR_MEMORY;
+    int status = compute_spectrum(pool, &run->state->job, own, run->candidates, bare, &run->out->spectrum);
+    return status ? status : comparison_make(pool, &run->state->job, &run->out->spectrum, &run->quiet, pairs);
+}
+
+static int pairs_moved(const struct running *run)
+{
+    return memcmp(run->before.number, run->out->compared.number,
+                  (size_t)run->state->job.measurement.nmode * sizeof *run->before.number) != 0;
+}
+
+/* At the start. What the pairing there says is not worth repeating unless it ends the run. */
+static int pair_at_start(struct pool *pool, const struct states *states, struct running *run, struct message_list *notes)
+{
+    int status = ROTID_OK;
+    double *start = POOL_ARRAY(pool, double, states->nparameter);
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job *job = &run[s].state->job;
+        run[s].candidates = comparison_candidates(job);
+        if (job->measurement.nmode)
+            continue;
+        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes%s%s, expected *MODES or *MEASURED",
+                    run[s].state->name ? " in state " : "", run[s].state->name ? run[s].state->name : "");
+        status = ROTID_ERROR_ARGUMENT;
     }
-    rotid_fit_options options = job->options.fit;
-    options.baseline = baseline;
-    for (int round = 1;; round++) {
-        rotid_fit_free(out->fit);
-        out->fit = NULL;
-        status = identify_fit(pool, job, before.number, job->measurement.holdout, &options, environment, &out->mass, &out->fit);
-        if (!status)
-            status = compute_spectrum(pool, job, out->fit->x, candidates, bare, &out->spectrum);
-        message_open(&quiet, pool);
-        if (!status)
-            status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
-        if (status || round == ROUNDS ||
-            !memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number) ||
-            is_cancelled(out->fit, environment))
-            break;
-        before = out->compared;
+    if (!start)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < states->nparameter; p++)
+        start[p] = states->bounds[p].start;
+    for (int s = 0; s < states->nstate && !status; s++) {
+        status = pair_state(pool, &run[s], start, 1, &run[s].before);
+        if (status) {
+            pass_on(&run[s].quiet, run[s].state->name, notes);
+            run[s].out->compared = run[s].before;
+        }
     }
-    for (size_t i = 0; i < quiet.count; i++)
-        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
-    if (!status && out->fit->nbaseline)
-        status = predict_baseline(pool, job, out);
-    if (status) {
-        rotid_fit_free(out->fit);
-        out->fit = NULL;
-        return status;
+    return status;
+}
+
+/* The fit of all as a state sees it: its modes and residuals. */
+static int share_fit(struct pool *pool, const rotid_fit_result *fit, int functional, int nstate, struct running *run)
+{
+    for (int s = 0, mode = 0, row = 0; s < nstate; mode += fit->state_m[s], row += fit->state_nresidual[s], s++) {
+        rotid_fit_result *own = POOL_NEW(pool, rotid_fit_result);
+        if (!own)
+            return ROTID_ERROR_MEMORY;
+        *own = *fit;
+        own->m = fit->state_m[s];
+        own->nresidual = fit->state_nresidual[s];
+        own->predicted_hz += mode;
+        own->mac += mode;
+        own->residual += mode;
+        own->r += row;
+        own->jacobian = NULL;
+        own->memory = NULL;
+        own->nstate = 1;
+        own->state_m += s;
+        own->state_nresidual += s;
+        own->objective = 0;
+        for (int i = 0; i < own->nresidual; i++)
+            own->objective += own->r[i] * own->r[i] / 2;
+        own->chi2 = functional == ROTID_LIKELIHOOD ? 2 * own->objective : (double)NAN;
+        run[s].out->fit = own;
     }
-    if (memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number))
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the pairing of the modes still changes with the fitted model: do not trust this result");
-    out->shapes_fitted = uses_shapes(job) &&
-                         !(job->options.fit.functional != ROTID_LIKELIHOOD && job->options.fit.reduction == ROTID_REDUCTION_NONE);
     return ROTID_OK;
 }
 
-static int identify(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
-                    struct message_list *notes, struct identification *out)
+static int with_models(struct pool *pool, const struct states *states, int baseline, int bare,
+                       const rotid_environment *environment, struct message_list *notes, struct running *run,
+                       rotid_fit_result **fit)
 {
-    struct job run = *job;
-    *out = (struct identification){0};
-    run.models = models_for_run(pool, job->models);
-    if (!run.models)
+    int count = states->nstate, status = pair_at_start(pool, states, run, notes), moved = 0;
+    struct paired *paired = POOL_ARRAY(pool, struct paired, count);
+    if (status || !paired)
+        return status ? status : ROTID_ERROR_MEMORY;
+    rotid_fit_options options = states->state[0].job.options.fit;
+    options.baseline = baseline;
+    for (int round = 1;; round++) {
+        rotid_fit_free(*fit);
+        *fit = NULL;
+        for (int s = 0; s < count; s++)
+            paired[s] =
+                (struct paired){run[s].before.number, run[s].state->job.measurement.holdout, &run[s].out->mass};
+        status = fit_states(pool, states, paired, &options, environment, fit);
+        for (int s = 0; s < count && !status; s++)
+            status = pair_state(pool, &run[s], (*fit)->x, bare, &run[s].out->compared);
+        moved = 0;
+        for (int s = 0; s < count && !status; s++)
+            moved |= pairs_moved(&run[s]);
+        if (status || round == ROUNDS || !moved || is_cancelled(*fit, environment))
+            break;
+        for (int s = 0; s < count; s++)
+            run[s].before = run[s].out->compared;
+    }
+    for (int s = 0; s < count; s++)
+        pass_on(&run[s].quiet, run[s].state->name, notes);
+    if (!status && run[0].state->name)
+        status = share_fit(pool, *fit, options.functional, count, run);
+    else if (!status)
+        run[0].out->fit = *fit;
+    for (int s = 0; s < count && !status && (*fit)->nbaseline; s++)
+        status = predict_baseline(pool, run[s].state, run[s].out);
+    if (status)
+        return status;
+    if (moved)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "the pairing of the modes still changes with the fitted model: do not trust this result");
+    for (int s = 0; s < count; s++) {
+        const struct job *job = &run[s].state->job;
+        run[s].out->shapes_fitted = uses_shapes(job) && !(job->options.fit.functional != ROTID_LIKELIHOOD &&
+                                                          job->options.fit.reduction == ROTID_REDUCTION_NONE);
+    }
+    return ROTID_OK;
+}
+
+static int identify(struct pool *pool, const struct states *given, int baseline, int bare, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out, rotid_fit_result **fit)
+{
+    int count = given->nstate, status = ROTID_OK, begun = 0;
+    struct states states = *given;
+    struct running *run = POOL_ARRAY(pool, struct running, count);
+    states.state = POOL_ARRAY(pool, struct state, count);
+    *fit = NULL;
+    for (int s = 0; s < count; s++)
+        out[s] = (struct identification){0};
+    if (!run || !states.state)
         return ROTID_ERROR_MEMORY;
-    int status = with_models(pool, &run, baseline, bare, environment, notes, out);
-    models_end_run(pool, run.models, job->models);
+    for (; begun < count && !status; begun++) {
+        struct state *state = &states.state[begun];
+        *state = given->state[begun];
+        state->job.models = models_for_run(pool, state->job.models);
+        status = state->job.models ? ROTID_OK : ROTID_ERROR_MEMORY;
+        message_open(&run[begun].quiet, pool);
+        run[begun].state = state;
+        run[begun].out = &out[begun];
+    }
+    if (!status)
+        status = with_models(pool, &states, baseline, bare, environment, notes, run, fit);
+    for (int s = 0; s < begun; s++)
+        if (states.state[s].job.models)
+            models_end_run(pool, states.state[s].job.models, given->state[s].job.models);
+    if (status) {
+        rotid_fit_free(*fit);
+        *fit = NULL;
+        for (int s = 0; s < count; s++)
+            out[s].fit = NULL;
+    }
     return status;
+}
+
+static int identify_one(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
+                        struct message_list *notes, struct identification *out)
+{
+    struct state state;
+    const struct states states = only(job, &state);
+    rotid_fit_result *fit;
+    return identify(pool, &states, baseline, bare, environment, notes, out, &fit);
+}
+
+int identify_states(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out, rotid_fit_result **fit)
+{
+    return identify(pool, states, baseline, 0, environment, notes, out, fit);
 }
 
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out)
 {
-    return identify(pool, job, baseline, 0, environment, notes, out);
+    return identify_one(pool, job, baseline, 0, environment, notes, out);
 }
 
 int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                       struct message_list *notes, struct identification *out)
 {
-    return identify(pool, job, baseline, 1, environment, notes, out);
+    return identify_one(pool, job, baseline, 1, environment, notes, out);
 }
 
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,

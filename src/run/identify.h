@@ -3,7 +3,7 @@
 #define ROTID_RUN_IDENTIFY_H
 
 #include "run/compare.h"
-#include "run/job.h"
+#include "run/states.h"
 
 struct identification {
     rotid_fit_result *fit;      /* to be freed with rotid_fit_free */
@@ -30,6 +30,10 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
 int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                       struct message_list *notes, struct identification *out);
 
+/* The same over the states of a deck: out [nstate], each with the fit as its state sees it, all unknowns but its modes and
+ * residuals alone, chi2 of these. *fit: of all, to be freed with rotid_fit_free, in place of those. */
+int identify_states(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out, rotid_fit_result **fit);
 
 /* Warns where the condensed model that was fitted has other frequencies than the full one, of which `what` is said: "written". */
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
