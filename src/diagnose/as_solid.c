@@ -4,6 +4,7 @@
 
 #include "diagnose/causes/catalogue.h"
 #include "linalg/product.h"
+#include "run/identify.h"
 
 int job_as_solid(struct pool *pool, const struct job *from, struct job *to)
 {
@@ -21,57 +22,71 @@ int job_as_solid(struct pool *pool, const struct job *from, struct job *to)
     return ROTID_OK;
 }
 
-/* Unknowns above which a diagnosis would go on with the solid for minutes: those of a rotor with one or two steps are fewer. */
-#define MOST_UNKNOWNS 4000
+#define MOST_UNKNOWNS 40000 /* a gigabyte of matrices: no rotor with steps that a test can see has so many */
 
-/* *unknowns: how many the rotor of the job has as a solid; 0 where it can be none. ROTID_OK or ROTID_ERROR_MEMORY. */
-static int solid_unknowns(const struct pool *pool, const struct job *job, int *unknowns)
+/* *unknowns: how many the rotor of the job has, which stays built. Statuses of discrete_build. */
+static int solid_unknowns(struct pool *pool, const struct job *solid, int *unknowns)
 {
-    struct pool scratch;
     struct discrete discrete;
     rotid_matrix structure = {.n = 0};
-    int failed;
-    pool_open(&scratch, pool->allocator);
-    int status = discrete_build(&scratch, AS_SOLID, &job->rotor, 0, NULL, 1, &discrete, &failed);
+    int failed, nrigid,
+        status = models_discretise(pool, solid->models, &solid->rotor, 0, NULL, 1, &discrete, &nrigid, &failed);
     if (!status)
         discrete_structure(&discrete, &structure);
-    pool_close(&scratch);
     *unknowns = structure.n;
-    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+    return status;
+}
+
+#define HOPELESS 4 /* times the chi2 of the beam, by the coarse mesh: whose error is a twentieth of what a beam lacks at a step */
+
+/* chi2 that the residual of the solid at x leaves where the beam's columns take what is fitted anyway. */
+static int chi2_left(struct pool *pool, const struct job *solid, const int *number, const int *holdout, const double *x,
+                     const struct scan *scan, double *left)
+{
+    struct columns columns;
+    int status = columns_open(pool, solid, number, holdout, NULL, x, &columns);
+    if (status)
+        return status;
+    *left = product_dot(scan->nrow, columns.r, columns.r);
+    for (int b = 0; b < scan->nbasis; b++) {
+        double along = product_dot(scan->nrow, scan->basis + (ptrdiff_t)b * scan->nrow, columns.r);
+        *left -= along * along;
+    }
+    return ROTID_OK;
 }
 
 int scan_solid(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
                struct scan *scan, struct message_list *notes)
 {
-    int unknowns = 0, status = ROTID_OK;
+    double left, before = product_dot(scan->nrow, scan->r, scan->r);
     for (int i = 0; i < scan->ncandidate; i++) {
         struct scan_candidate *c = &scan->candidate[i];
-        struct columns columns;
         struct job solid;
+        int unknowns, status;
         if (!c->cause->solid)
             continue;
+        status = job_as_solid(pool, job, &solid);
         if (!status)
-            status = solid_unknowns(pool, job, &unknowns);
+            status = solid_unknowns(pool, &solid, &unknowns);
         if (!status && unknowns > MOST_UNKNOWNS) {
             if (notes)
                 message_add(notes, SEVERITY_NOTE, NULL, 0, 0,
                             "the rotor as a solid has %d unknowns, too many to be a rival here (at most %d): see rotid modes "
-                            "--compare, and "
-                            "diagnose the deck with MODEL=SOLID on *FIT",
+                            "--compare, and diagnose the deck with MODEL=SOLID on *FIT",
                             unknowns, MOST_UNKNOWNS);
             return ROTID_OK;
         }
         if (!status)
-            status = job_as_solid(pool, job, &solid);
+            status = identify_hold(pool, &solid, NULL);
         if (!status)
-            status = columns_open(pool, &solid, number, holdout, NULL, x, &columns);
+            status = chi2_left(pool, &solid, number, holdout, x, scan, &left);
+        if (!status && left < HOPELESS * before) {
+            status = identify_hold(pool, &solid, x);
+            if (!status)
+                status = chi2_left(pool, &solid, number, holdout, x, scan, &left);
+        }
         if (status) /* the rotor can be no solid: nothing to propose */
             return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
-        double left = product_dot(scan->nrow, columns.r, columns.r), before = product_dot(scan->nrow, scan->r, scan->r);
-        for (int b = 0; b < scan->nbasis; b++) {
-            double along = product_dot(scan->nrow, scan->basis + (ptrdiff_t)b * scan->nrow, columns.r);
-            left -= along * along;
-        }
         c->promise = fmax(0, before - left);
     }
     return ROTID_OK;

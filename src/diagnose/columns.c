@@ -5,6 +5,7 @@
 
 #include "linalg/matrix.h"
 #include "linalg/product.h"
+#include "run/identify.h"
 
 /* (K - lambda M)^+ on the unit vectors of the sensors, in what the cluster of the mode leaves of the space */
 static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *m_phi, double *unit,
@@ -55,7 +56,7 @@ static int open_mode(struct pool *pool, struct columns *c, int k, struct columns
     return ROTID_OK;
 }
 
-static int open_model(struct pool *pool, const struct job *job, const struct effect *extra, struct columns *c)
+static int open_model(struct pool *pool, const struct job *job, const struct effect *extra, int refine, struct columns *c)
 {
     struct rotor rotor = job->rotor;
     int effects = rotor.neffect, nparameter = job->unknowns.nparameter, failed;
@@ -73,20 +74,23 @@ static int open_model(struct pool *pool, const struct job *job, const struct eff
     for (int i = 0; i < added; i++)
         parameter[nparameter + i] = (struct parameter){.kind = PARAMETER_EFFECT, .index = effects, .component = i};
     rotor.effect = effect;
-    return model_open(pool, job->models, &rotor, nparameter + added, parameter, 1, &c->model, &failed);
+    return model_open(pool, job->models, &rotor, nparameter + added, parameter, refine, &c->model, &failed);
 }
 
 int columns_open(struct pool *pool, const struct job *job, const int *number, const int *holdout, const struct effect *extra,
                  const double *x, struct columns *c)
 {
     *c = (struct columns){.pool = pool, .job = job};
-    int status = open_model(pool, job, extra, c);
+    double *frequency_hz;
+    int refine, status = identify_mesh(pool, job, number, &refine, &frequency_hz);
+    if (!status)
+        status = open_model(pool, job, extra, refine, c);
     if (status)
         return status;
     int nparam = c->model.equations.nparam, shapes = job_fits_shapes(job);
     c->measured = (rotid_measured){.nmode = job->measurement.nmode,
                                    .number = number,
-                                   .frequency_hz = job->measurement.frequency_hz,
+                                   .frequency_hz = frequency_hz,
                                    .frequency_std = job->measurement.frequency_std,
                                    .shape = shapes ? job->measurement.shape : NULL,
                                    .shape_std = shapes ? job->measurement.shape_std : NULL,

@@ -30,13 +30,11 @@ static int refit_task(void *context, int index, int worker)
                            refits->result->candidate[index], e->environment, &refits->result->refit[index]);
 }
 
-/* Candidates worth a nonlinear fit, the most promising first, and every suspect. A fit of a solid takes seconds: there the rivals
- * alone are fitted. */
-static int choose(const struct scan *scan, double threshold, int solid, int *chosen)
+/* Candidates worth a nonlinear fit, the most promising first, and every suspect. */
+static int choose(const struct scan *scan, double threshold, int *chosen)
 {
     int count = 0;
-    double half = threshold / 2, rival = SHARE * scan->largest,
-           least = fmax(WORTH, solid ? fmax(half, rival) : fmin(half, rival));
+    double least = fmax(WORTH, fmin(threshold / 2, SHARE * scan->largest));
     for (int rank = 0; rank < scan->ncandidate; rank++) {
         int best = -1;
         for (int i = 0; i < scan->ncandidate; i++) {
@@ -143,7 +141,7 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     }
     if (status)
         return status;
-    result->nrefit = adequate ? 0 : choose(scan, b->threshold, engine->job.options.solid, result->candidate);
+    result->nrefit = adequate ? 0 : choose(scan, b->threshold, result->candidate);
     status = engine_stage(engine, "fits of candidates, round", engine->out->nround + 1);
     if (!status)
         status = run_refits(engine, result);

@@ -13,7 +13,9 @@ struct discrete {
     struct solid solid;
 };
 
-/* refine >= 1: a mesh that much finer. Statuses of beam_build and solid_build; *failed likewise. */
+#define COARSE_MESH 0 /* of a solid: with a sixth of its unknowns */
+
+/* refine >= 1: a mesh that much finer; COARSE_MESH. Statuses of beam_build and solid_build; *failed likewise. */
 int discrete_build(struct pool *pool, enum discretisation as, const struct rotor *rotor, int nparameter,
                    const struct parameter *parameter, int refine, struct discrete *discrete, int *failed);
 
@@ -56,7 +58,7 @@ int discrete_place_joints(struct pool *pool, struct discrete *discrete);
 int discrete_member_elements(const struct discrete *discrete, int i);
 void discrete_member_deflection(const struct discrete *discrete, int i, const double *u, int npoint, double *z, double *v);
 
-/* What a mesh twice as fine leaves: the error of this one is that difference times this. */
-double discrete_extrapolation(const struct discrete *discrete);
+/* The error of its mesh: that many times the frequencies of a mesh refined by *refine less those of this one. */
+double discrete_mesh_error(const struct discrete *discrete, int *refine);
 
 #endif

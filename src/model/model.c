@@ -36,6 +36,21 @@ static int choose_masters(struct pool *pool, struct rotor_model *model)
     return ROTID_OK;
 }
 
+/* Of a solid on the coarse mesh: a suspension needs no fine one. */
+static int count_rigid(struct pool *pool, struct models *models, const struct rotor *rotor, struct rotor_model *model)
+{
+    int nparameter = model->equations.nparam, known, failed, status = ROTID_OK;
+    struct discrete coarse = model->discrete;
+    double *x = POOL_ARRAY(pool, double, nparameter);
+    if (!x)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < nparameter; p++)
+        x[p] = *parameter_value(model->rotor, model->parameter[p]);
+    if (coarse.as == AS_SOLID)
+        status = models_discretise(pool, models, rotor, nparameter, model->parameter, COARSE_MESH, &coarse, &known, &failed);
+    return status ? status : discrete_count_rigid(pool, &coarse, x, &model->equations.nrigid);
+}
+
 int model_open(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                const struct parameter *parameter, int refine, struct rotor_model *model, int *failed)
 {
@@ -61,12 +76,7 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
     status = choose_masters(pool, model);
     if (status || nrigid >= 0)
         return status;
-    double *x = POOL_ARRAY(pool, double, nparameter);
-    if (!x)
-        return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < nparameter; p++)
-        x[p] = *parameter_value(model->rotor, parameter[p]);
-    status = discrete_count_rigid(pool, &model->discrete, x, &model->equations.nrigid);
+    status = count_rigid(pool, models, rotor, model);
     if (!status)
         models_keep_rigid(models, rotor, refine, model->equations.nrigid);
     return status;
@@ -86,9 +96,9 @@ int model_lateral_dof(const struct rotor_model *model, double z)
     return discrete_place_dof(&model->discrete, nearest);
 }
 
-double model_extrapolation(const struct rotor_model *model)
+double model_mesh_error(const struct rotor_model *model, int *refine)
 {
-    return discrete_extrapolation(&model->discrete);
+    return discrete_mesh_error(&model->discrete, refine);
 }
 
 void model_set(struct rotor_model *model, const double *x)

@@ -10,6 +10,13 @@ struct entry {
     struct discrete discrete; /* only what does not depend on values is used */
 };
 
+struct held {
+    struct held *next;
+    struct rotor rotor; /* without causes */
+    int count;
+    double *ratio; /* [count] */
+};
+
 struct models {
     struct pool pool;
     pthread_mutex_t lock; /* of the pool and the list */
@@ -18,6 +25,7 @@ struct models {
     const struct models *older;
     struct models *solids; /* of the same run */
     struct entry *first;
+    struct held *held; /* the newest first */
 };
 
 /* The entry with this shape, if possible with these values. */
@@ -176,4 +184,44 @@ void models_keep_rigid(struct models *models, const struct rotor *rotor, int ref
     if (e && same_values)
         e->nrigid = nrigid;
     (void)pthread_mutex_unlock(&models->lock);
+}
+
+int models_hold(struct models *models, const struct rotor *rotor, int count, const double *ratio)
+{
+    if (!models || !models->takes_up)
+        return ROTID_OK;
+    struct rotor bare = *rotor;
+    bare.neffect = 0;
+    (void)pthread_mutex_lock(&models->lock);
+    struct held *held = POOL_NEW(&models->pool, struct held);
+    double *copy = POOL_ARRAY(&models->pool, double, count);
+    int status = held && copy ? rotor_copy(&models->pool, &bare, &held->rotor) : ROTID_ERROR_MEMORY;
+    if (!status) {
+        held->rotor.nspring = rotor->nspring; /* without those of the sling */
+        for (int j = 0; j < count; j++)
+            copy[j] = ratio[j];
+        held->count = count;
+        held->ratio = copy;
+        held->next = models->held;
+        models->held = held;
+    }
+    (void)pthread_mutex_unlock(&models->lock);
+    return status;
+}
+
+const double *models_held(struct models *models, const struct rotor *rotor, int *count)
+{
+    struct rotor bare;
+    const struct held *held;
+    *count = 0;
+    if (!models || !models->takes_up)
+        return NULL;
+    bare = *rotor;
+    bare.neffect = 0;
+    (void)pthread_mutex_lock(&models->lock);
+    for (held = models->held; held && !rotor_same_shape(&held->rotor, &bare); held = held->next)
+        ;
+    (void)pthread_mutex_unlock(&models->lock);
+    *count = held ? held->count : 0;
+    return held ? held->ratio : NULL;
 }

@@ -6,7 +6,8 @@
 #include "modal/prediction.h"
 #include "model/model.h"
 
-#define ROUNDS 3 /* of fitting and pairing, should the pairs change with the model */
+#define ROUNDS 3    /* of fitting and pairing, should the pairs change with the model */
+#define HELD   1e-5 /* of a frequency: a hundredth of the noise of a good measurement */
 
 /* Which measured shapes the functional gets: with LIKELIHOOD those whose noise is known. */
 static int uses_shapes(const struct job *job)
@@ -14,36 +15,105 @@ static int uses_shapes(const struct job *job)
     return job->measurement.shape && (job->options.fit.functional != ROTID_LIKELIHOOD || job_knows_shape_noise(job));
 }
 
-/* bare: what pairing needs */
-static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int bare,
+static int compute_spectrum(struct pool *pool, const struct job *job, const double *x, int count, int parts,
                             struct spectrum *spectrum)
 {
     int reduction = job->options.fit.reduction == ROTID_IRS ? ROTID_IRS : ROTID_GUYAN;
-    int parts = !bare ? SPECTRUM_MESH | SPECTRUM_REDUCED : job->measurement.shape ? SPECTRUM_REDUCED : 0;
     return spectrum_compute_parts(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x, reduction,
                                   count, parts, spectrum);
 }
+
+/* ---- A fit of a solid runs on the coarse mesh, whose frequencies are held in ratio to those of the mesh that counts: that ratio
+ * hardly depends on E and G. Condensed matrices have no such ratio. */
+
+static int fits_coarse(const struct job *job)
+{
+    return job->options.solid && job->options.fit.reduction == ROTID_REDUCTION_NONE;
+}
+
+/* Where nothing is held: the coarse mesh as it stands, until somebody has compared both. */
+static int hold_nothing(struct pool *pool, const struct job *job, int count)
+{
+    int known;
+    double *ratio = POOL_ARRAY(pool, double, count);
+    if (!ratio)
+        return ROTID_ERROR_MEMORY;
+    for (int j = 0; j < count; j++)
+        ratio[j] = 1;
+    return models_held(job->models, &job->rotor, &known) ? ROTID_OK : models_hold(job->models, &job->rotor, count, ratio);
+}
+
+/* Holds the ratio at the parameters of the spectrum; *moved: by how much it differs from what was held. */
+static int hold_mesh(struct pool *pool, const struct job *job, const struct spectrum *spectrum, double *moved)
+{
+    int count;
+    const double *before = models_held(job->models, &job->rotor, &count);
+    double *ratio = POOL_ARRAY(pool, double, spectrum->count);
+    if (!ratio)
+        return ROTID_ERROR_MEMORY;
+    *moved = count < spectrum->count ? INFINITY : 0;
+    for (int j = 0; j < spectrum->count; j++) {
+        ratio[j] = spectrum->full_hz[j] / spectrum->other_hz[j];
+        if (j < count)
+            *moved = fmax(*moved, fabs(ratio[j] / before[j] - 1));
+    }
+    return models_hold(job->models, &job->rotor, spectrum->count, ratio);
+}
+
+int identify_hold(struct pool *pool, const struct job *job, const double *x)
+{
+    struct spectrum spectrum;
+    double moved;
+    if (!x)
+        return hold_nothing(pool, job, comparison_candidates(job));
+    int status = compute_spectrum(pool, job, x, comparison_candidates(job), SPECTRUM_MESH, &spectrum);
+    return status ? status : hold_mesh(pool, job, &spectrum, &moved);
+}
+
+int identify_mesh(struct pool *pool, const struct job *job, const int *number, int *refine, double **frequency_hz)
+{
+    int count;
+    const double *ratio = fits_coarse(job) ? models_held(job->models, &job->rotor, &count) : NULL;
+    *frequency_hz = POOL_ARRAY(pool, double, job->measurement.nmode);
+    *refine = 1;
+    if (!*frequency_hz)
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < job->measurement.nmode && ratio; k++)
+        if (number[k] > count)
+            ratio = NULL;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        (*frequency_hz)[k] = job->measurement.frequency_hz[k] / (ratio ? ratio[number[k] - 1] : 1);
+    if (ratio)
+        *refine = COARSE_MESH;
+    return ROTID_OK;
+}
+
+/* ---- */
 
 int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit)
 {
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
-    int failed, status = model ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1,
-                                            model, &failed)
-                               : ROTID_ERROR_MEMORY;
+    double *frequency_hz;
+    int failed, refine, status = model ? identify_mesh(pool, job, number, &refine, &frequency_hz) : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model,
+                            &failed);
     if (status)
         return status;
     int shapes = uses_shapes(job);
     rotid_measured measured = {.size = sizeof measured,
                                .nmode = job->measurement.nmode,
                                .number = number,
-                               .frequency_hz = job->measurement.frequency_hz,
+                               .frequency_hz = frequency_hz,
                                .frequency_std = job_knows_frequency_noise(job) ? job->measurement.frequency_std : NULL,
                                .shape = shapes ? job->measurement.shape : NULL,
                                .shape_std = shapes && job_knows_shape_noise(job) ? job->measurement.shape_std : NULL,
                                .holdout = holdout};
     status = rotid_fit(&model->equations, job->unknowns.bounds, &measured, options, environment, NULL, fit);
+    for (int k = 0; k < job->measurement.nmode && !status; k++)
+        (*fit)->predicted_hz[k] *= job->measurement.frequency_hz[k] / frequency_hz[k];
     if (!status && mass) { /* the model stands at the last point that was evaluated; the mass wants the best one */
         model_set(model, (*fit)->x);
         model_mass_properties(model, mass);
@@ -65,12 +135,16 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
     int failed, highest = 1, nmode = job->measurement.nmode;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
+    double *frequency_hz;
+    int refine;
     for (int k = 0; k < nmode; k++)
         highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
     out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
-    int status = model && out->baseline_hz ? model_open(pool, job->models, &job->rotor, job->unknowns.nparameter,
-                                                        job->unknowns.parameter, 1, model, &failed)
+    int status = model && out->baseline_hz ? identify_mesh(pool, job, out->compared.number, &refine, &frequency_hz)
                                            : ROTID_ERROR_MEMORY;
+    if (!status)
+        status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model,
+                            &failed);
     if (!status)
         status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON,
                                 model->equations.nrigid + highest, 0, &p);
@@ -78,7 +152,9 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
         int lost = status ? status : prediction_compute(&p, fit->baseline[i].x);
         for (int k = 0; k < nmode; k++)
             out->baseline_hz[k + (ptrdiff_t)i * nmode] =
-                lost ? NAN : prediction_hz(&p, model->equations.nrigid + out->compared.number[k] - 1);
+                lost ? NAN
+                     : prediction_hz(&p, model->equations.nrigid + out->compared.number[k] - 1) *
+                           job->measurement.frequency_hz[k] / frequency_hz[k];
     }
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
 }
@@ -97,7 +173,11 @@ static int with_models(struct pool *pool, const struct job *job, int baseline, i
     struct comparison before;
     struct message_list quiet; /* what the pairing at the start says is not worth repeating unless it ends the run */
     message_open(&quiet, pool);
-    status = compute_spectrum(pool, job, start, candidates, 1, &out->spectrum);
+    int coarse = fits_coarse(job), paired = job->measurement.shape ? SPECTRUM_REDUCED : 0,
+        parts = (bare ? paired : SPECTRUM_MESH | SPECTRUM_REDUCED) | (coarse ? SPECTRUM_MESH : 0);
+    status = compute_spectrum(pool, job, start, candidates, paired | (coarse ? SPECTRUM_COARSE : 0), &out->spectrum);
+    if (!status && coarse)
+        status = hold_nothing(pool, job, out->spectrum.count);
     if (!status)
         status = comparison_make(pool, job, &out->spectrum, &quiet, &before);
     if (status) {
@@ -107,19 +187,22 @@ static int with_models(struct pool *pool, const struct job *job, int baseline, i
         return status;
     }
     rotid_fit_options options = job->options.fit;
-    options.baseline = baseline;
     for (int round = 1;; round++) {
+        double moved = 0;
+        options.baseline = baseline && (!coarse || round > 1);
         rotid_fit_free(out->fit);
         out->fit = NULL;
         status = identify_fit(pool, job, before.number, job->measurement.holdout, &options, environment, &out->mass, &out->fit);
         if (!status)
-            status = compute_spectrum(pool, job, out->fit->x, candidates, bare, &out->spectrum);
+            status = compute_spectrum(pool, job, out->fit->x, candidates, parts, &out->spectrum);
+        if (!status && coarse)
+            status = hold_mesh(pool, job, &out->spectrum, &moved);
         message_open(&quiet, pool);
         if (!status)
             status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
-        if (status || round == ROUNDS ||
-            !memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number) ||
-            is_cancelled(out->fit, environment))
+int settled = moved <= HELD && options.baseline == baseline &&
+                      !memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number);
+        if (status || round == ROUNDS || settled || is_cancelled(out->fit, environment))
             break;
         before = out->compared;
     }

@@ -38,8 +38,9 @@ static void keep_shapes(const struct rotor_model *model, const struct prediction
     }
 }
 
-/* Frequencies of the condensed model as far as it has any, and Guyan's mass for the NCO. */
-static int condensed_model(struct pool *pool, struct rotor_model *model, const double *x, int reduction, struct spectrum *s)
+/* Frequencies of the condensed model as far as it has any, and Guyan's mass for the NCO; full_hz: of the same mesh in full. */
+static int condensed_model(struct pool *pool, struct rotor_model *model, const double *x, int reduction, const double *full_hz,
+                           struct spectrum *s)
 {
     int wanted = s->nrigid + s->count, count = wanted < s->nmaster ? wanted : s->nmaster;
     struct prediction p;
@@ -57,7 +58,7 @@ static int condensed_model(struct pool *pool, struct rotor_model *model, const d
         if (kind == ROTID_GUYAN)
             s->mass = p.condensed.mc;
         for (int j = 0; j < s->count && kind == reduction; j++)
-            s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) : NAN;
+            s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) * s->full_hz[j] / full_hz[j] : NAN;
     }
     return ROTID_OK;
 }
@@ -73,13 +74,15 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
                            const struct parameter *parameter, const double *x, int reduction, int count, int parts,
                            struct spectrum *s)
 {
-    struct rotor_model *model = POOL_NEW(pool, struct rotor_model), *fine = POOL_NEW(pool, struct rotor_model);
+    struct rotor_model *model = POOL_NEW(pool, struct rotor_model), *other = POOL_NEW(pool, struct rotor_model);
     struct prediction p, q;
-    if (!model || !fine)
+    if (!model || !other)
         return ROTID_ERROR_MEMORY;
-    int status = full_model(pool, models, rotor, nparameter, parameter, x, 1, &count, model, &p);
+    int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
+    int status = full_model(pool, models, rotor, nparameter, parameter, x, refine, &count, model, &p);
+    double share = status ? 0 : model_mesh_error(model, &refine);
     if (!status && parts & SPECTRUM_MESH)
-        status = full_model(pool, models, rotor, nparameter, parameter, x, 2, &count, fine, &q);
+        status = full_model(pool, models, rotor, nparameter, parameter, x, refine, &count, other, &q);
     if (status)
         return status;
     *s = (struct spectrum){.nrigid = model->equations.nrigid,
@@ -88,7 +91,7 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
                            .nnode = model->naxis,
                            .model = model,
                            .phi = p.phi + (ptrdiff_t)model->equations.nrigid * p.size};
-    double **arrays[] = {&s->full_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
+    double **arrays[] = {&s->full_hz, &s->other_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
             return ROTID_ERROR_MEMORY;
@@ -100,16 +103,19 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
     for (int j = 0; j < s->nrigid; j++)
         s->rigid_hz[j] = prediction_hz(&p, j);
     keep_shapes(model, &p, s);
-    for (int j = 0; j < count; j++)
+    for (int j = 0; j < count; j++) {
         s->reduced_hz[j] = NAN;
-    status = parts & SPECTRUM_REDUCED ? condensed_model(pool, model, x, reduction, s) : ROTID_OK;
+        s->full_hz[j] = prediction_hz(&p, s->nrigid + j);
+        s->other_hz[j] = parts & SPECTRUM_MESH ? prediction_hz(&q, other->equations.nrigid + j) : NAN;
+    }
+    /* what a condensation costs is seen on a coarse mesh as well */
+    int on_other = parts & SPECTRUM_MESH && other->equations.n < model->equations.n && other->equations.nmaster == s->nmaster;
+    if (parts & SPECTRUM_REDUCED)
+        status = condensed_model(pool, on_other ? other : model, x, reduction, on_other ? s->other_hz : s->full_hz, s);
     for (int j = 0; j < count && !status; j++) {
-        double coarse = prediction_hz(&p, s->nrigid + j),
-               finer = parts & SPECTRUM_MESH ? prediction_hz(&q, fine->equations.nrigid + j) : NAN,
-               limit = finer + (finer - coarse) * model_extrapolation(model);
-        s->full_hz[j] = coarse;
-        s->mesh_error_percent[j] = 100 * (coarse / limit - 1);
-        s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / coarse - 1);
+        double hz = s->full_hz[j];
+        s->mesh_error_percent[j] = 100 * (hz / (hz - share * (s->other_hz[j] - hz)) - 1);
+        s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / hz - 1);
     }
     return status;
 }

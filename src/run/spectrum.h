@@ -13,7 +13,8 @@ struct spectrum {
     double *full_hz;                 /* [count] */
     double *reduced_hz;              /* [count] NaN where the masters are too few, or more than 1000 */
     double *reduction_error_percent; /* [count] reduced against full */
-    double *mesh_error_percent;      /* [count] against the Richardson value of this mesh and one twice as fine */
+    double *other_hz;                /* [count] by a mesh that is refined, of a solid by the coarse one; NaN without */
+    double *mesh_error_percent;      /* [count] against the limit that both meshes lead to */
     double *shape;                   /* [nmaster * count] full model at the masters, largest component 1 */
     double *mass;     /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */
     double *master_z; /* [nmaster] m */
@@ -28,8 +29,9 @@ int spectrum_compute(struct pool *pool, struct models *models, const struct roto
 
 /* The same with the parts that are wanted alone; the others are NaN or NULL. */
 enum spectrum_part {
-    SPECTRUM_MESH = 1,   /* mesh_error_percent: a second mesh, half of the time */
-    SPECTRUM_REDUCED = 2 /* reduced_hz, reduction_error_percent, mass */
+    SPECTRUM_MESH = 1,    /* other_hz, mesh_error_percent: a second mesh, for a beam half of the time */
+    SPECTRUM_REDUCED = 2, /* reduced_hz, reduction_error_percent, mass */
+    SPECTRUM_COARSE = 4   /* of a solid: on the coarse mesh */
 };
 int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                            const struct parameter *parameter, const double *x, int reduction, int count, int parts,

@@ -55,7 +55,8 @@ struct solid_mesh {
 
 /* ROTID_OK, ROTID_ERROR_MEMORY, or ROTID_ERROR_SECTION with the group in *failed where holes leave nothing, a group is
  * rectangular or its first section does not touch the one before; groups, tie rods and bars together where the mesh has too many
- * unknowns. refine >= 1 divides the size of the elements at corners, and by its root the largest. */
+ * unknowns. refine >= 1 divides the size of the elements at corners, and by its root the largest; 0: the coarse
+ * mesh, with corners six times as large and across the largest twice. */
 int solid_mesh_build(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine,
                      struct solid_mesh *mesh, int *failed);
 

@@ -7,6 +7,7 @@
 #define SAME      1e-9 /* of the largest radius: radii that are one */
 #define CORNER    0.05 /* of the thinner radius: elements at a corner; leaves 0.03 % in the frequencies of stepped rotors */
 #define LARGEST   4    /* a quarter of the largest radius */
+#define COARSE    6    /* times CORNER in the coarse mesh: leaves 0.1 to 0.2 %, of which a tenth follows E and G */
 #define SLICES    50   /* or the length over this, the larger */
 #define AT_LINE   0.01 /* of a slice: a sensor is taken to be at the line */
 #define MOVES     0.35 /* of the slices beside it: how far a line moves to a sensor */
@@ -88,7 +89,8 @@ int outline_corner(const struct rotor *rotor, int s, double r)
 static double corner_size(const struct rotor *rotor, const struct solid_rule *rule, int s, int refine)
 {
     double thin = fmin(outline_outer(rotor, s), outline_outer(rotor, s + 1));
-    return (rule->corner > 0 ? rule->corner : CORNER * thin) / refine;
+    double size = rule->corner > 0 ? rule->corner : CORNER * thin;
+    return refine ? size / refine : COARSE * size;
 }
 
 static double largest_size(const struct rotor *rotor, const struct solid_rule *rule, int refine, int along)
@@ -97,7 +99,8 @@ static double largest_size(const struct rotor *rotor, const struct solid_rule *r
     for (int s = 0; s < rotor->nsegment; s++)
         radius = fmax(radius, outline_outer(rotor, s));
     double size = along ? fmax(radius / LARGEST, rotor_length(rotor) / SLICES) : radius / LARGEST;
-    return (rule->largest > 0 ? rule->largest : size) / sqrt(refine);
+    size = rule->largest > 0 ? rule->largest : size;
+    return refine ? size / sqrt(refine) : along ? size : 2 * size;
 }
 
 static int radial(struct pool *pool, const struct rotor *rotor, const struct solid_rule *rule, int refine, int *nr, double **r)
