@@ -294,6 +294,9 @@ static const struct subject {
     {&cause_step_stiffness, -1, {33.7}},
     {&cause_joint, 0, {3e-9}},
     {&cause_added_mass, -1, {9, 1.03}},
+    {&cause_layer_slip, 3, {0.07}},
+    {&cause_layer_slip, 4, {0.011}},
+    {&cause_hub_stiffness, -1, {0.6}},
 };
 
 static void derivatives_by_what_is_of_a_layer_agree_with_differences(void **state)
