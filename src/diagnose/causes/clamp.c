@@ -1,10 +1,13 @@
 /* A clamp that gives way: a compliance in series with each stiffness of a spring that is stated to hold both deflection and
- * rotation. At most it gives way as much as the whole rotor does that is held there, by 1/EI in rotation and by (z - clamp)^2/EI
- * in deflection. */
+ * rotation. At most it gives way an eighth as much as the whole rotor does that is held there, by 1/EI in rotation and by
+ * (z - clamp)^2/EI in deflection: from twice that on most of the energy of the
+ * first mode is in the clamp, which is a hinge then and the mode one of a rigid body. */
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
 
 enum { ROTATIONAL, LATERAL };
+
+static const double most = 0.125;
 
 static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
 {
@@ -20,7 +23,7 @@ static int on_spring(const struct effect *effect, const struct rotor *rotor, int
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
 {
     *lower = 0;
-    *upper = bending_flexibility(rotor, rotor->spring[effect->target].position, p == LATERAL ? 2 : 0);
+    *upper = most * bending_flexibility(rotor, rotor->spring[effect->target].position, p == LATERAL ? 2 : 0);
 }
 
 static int applies(const struct rotor *rotor, int target, const int *identified)

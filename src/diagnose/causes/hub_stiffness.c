@@ -1,19 +1,28 @@
-/* Hubs that stiffen the shaft under them. `share` is that part of the length of every hub on which shaft and hub bend as one, of
- * the shaft's material out to the hub's diameter; on the rest the hub is a mass only. Spread over the hub as a mean compliance,
- *   1/EI := (1 - share)/EI + share/(EI + E I_hub),  the same with G A,
- * which makes the frequencies nearly linear in the share, while a share of EI would be used up by its first hundredth where a hub
- * is three times as thick as the shaft. */
+/* Hubs that stiffen the shaft under them. Over the middle part `share` of the length of every hub shaft and hub bend as one, of
+ * the shaft's material out to the hub's diameter; towards its ends the stress has not spread into the hub yet, or the fit is
+ * loose, and there the hub is a mass only. Frequencies are nearly linear in such a share, while a share of EI would be used up by
+ * its first hundredth where a hub is three times as thick as the shaft. */
 #include <math.h>
 
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
 
-/* mean over the stretch of what the compliances of bending and shear lose for a share of 1 */
+/* Mean over the stretch of what the compliances of bending and shear lose. */
 struct loss {
     double bending, shear;
 };
 
-static struct loss loss_of(const struct rotor *rotor, const struct effect_span *span)
+/* The share of the stretch that the middle part of a hub covers, or its derivative with respect to the share of the hub. */
+static double covered(const struct disk *disk, const struct effect_span *span, double share, int p)
+{
+    double half = disk->hub_length / 2, left = disk->position - share * half, right = disk->position + share * half;
+    double from = fmax(span->from, left), to = fmin(span->to, right), length = span->to - span->from;
+    if (p < 0)
+        return fmax(to - from, 0) / length;
+    return half * ((left > span->from && left <= span->to) + (right >= span->from && right < span->to)) / length;
+}
+
+static struct loss loss_of(const struct rotor *rotor, const struct effect_span *span, double share, int p)
 {
     struct loss sum = {0, 0};
     double outer, inner;
@@ -21,13 +30,10 @@ static struct loss loss_of(const struct rotor *rotor, const struct effect_span *
     double o2 = outer * outer, i2 = inner * inner;
     for (int d = 0; d < rotor->ndisk && !rotor->segment[span->segment].rectangular; d++) {
         const struct disk *disk = &rotor->disk[d];
-        double hub = fmax(disk->hub_outer, outer), h2 = hub * hub, half = disk->hub_length / 2;
-        double length = fmin(span->to, disk->position + half) - fmax(span->from, disk->position - half);
-        if (!(length > 0))
-            continue;
-        double covered = length / (span->to - span->from);
-        sum.bending += covered * (1 - (o2 * o2 - i2 * i2) / (h2 * h2 - i2 * i2));
-        sum.shear += covered * (1 - (o2 - i2) / (h2 - i2));
+        double hub = fmax(disk->hub_outer, outer), h2 = hub * hub,
+               part = disk->hub_length > 0 ? covered(disk, span, share, p) : 0;
+        sum.bending += part * (1 - (o2 * o2 - i2 * i2) / (h2 * h2 - i2 * i2));
+        sum.shear += part * (1 - (o2 - i2) / (h2 - i2));
     }
     return sum;
 }
@@ -35,12 +41,13 @@ static struct loss loss_of(const struct rotor *rotor, const struct effect_span *
 static int field(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                  struct effect_field *out)
 {
-    struct loss loss = loss_of(rotor, span);
-    double share = effect->value[0];
-    if (loss.bending == 0)
+    struct loss loss = loss_of(rotor, span, effect->value[0], -1), rate = {0, 0};
+    if (p >= 0)
+        rate = loss_of(rotor, span, effect->value[0], p);
+    if ((p < 0 ? loss.bending : rate.bending) == 0)
         return 0;
-    *out = (struct effect_field){factor_of_compliance(1 - share * loss.bending, -loss.bending, p),
-                                 factor_of_compliance(1 - share * loss.shear, -loss.shear, p), p < 0};
+    *out = (struct effect_field){factor_of_compliance(1 - loss.bending, -rate.bending, p),
+                                 factor_of_compliance(1 - loss.shear, -rate.shear, p), p < 0};
     return 1;
 }
 
