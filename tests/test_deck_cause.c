@@ -82,7 +82,7 @@ static void every_physical_cause_becomes_an_effect_of_its_kind(void **state)
         {"away", "support_position", 0, 0, {0.02}},
         {"cord", "support_extra", -1, 0, {2000, 0.4}},
         {"bush", "support_rotation", -1, 0, {50, 0.8}},
-        {"vice", "clamp", 1, 0, {1e-6, 0}},
+        {"vice", "clamp", 1, 0, {1e-7, 0}},
         {"lump", "added_mass", -1, 0, {0.25, 0.7}},
         {"tape", "added_mass", -1, 1, {0.1, 0.6, 0.05}},
         {"blades", "added_inertia", 0, 0, {-5e-5}},
