@@ -859,7 +859,7 @@ ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int
                                     char *failure, rotid_spectrum **spectrum);
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
-/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again. With nothing to identify the model is
+/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again; over all states of a deck at once. With nothing to identify the model is
  * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
  * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
  * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL.

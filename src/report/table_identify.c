@@ -7,12 +7,16 @@
 
 static void print_rms(FILE *out, const rotid_identification *fit)
 {
-    (void)fputs("rms error of the fitted modes ", out);
-    number_cell(out, 0, 2, fit_rms_percent(fit, 0));
-    (void)fputs(" %", out);
-    if (isfinite(fit_rms_percent(fit, 1))) {
-        (void)fputs(", of the modes held out ", out);
-        number_cell(out, 0, 2, fit_rms_percent(fit, 1));
+    double fitted = fit_rms_percent(fit, 0), held_out = fit_rms_percent(fit, 1);
+    int predicted_alone = isfinite(held_out) && !isfinite(fitted); /* a state that is held out */
+    if (!predicted_alone) {
+        (void)fputs("rms error of the fitted modes ", out);
+        number_cell(out, 0, 2, fitted);
+        (void)fputs(" %", out);
+    }
+    if (isfinite(held_out)) {
+        (void)fputs(predicted_alone ? "rms error of the modes held out " : ", of the modes held out ", out);
+        number_cell(out, 0, 2, held_out);
         (void)fputs(" %", out);
     }
     (void)fprintf(out, "\n");
