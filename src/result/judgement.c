@@ -38,6 +38,14 @@ double fit_p_value(const rotid_identification *fit)
     return isfinite(fit->chi2) && fit->dof > 0 ? chi_square_tail(fit->chi2, fit->dof) : (double)NAN;
 }
 
+const char *fit_state_of_mode(const rotid_identification *fit, int k)
+{
+    int s = 0;
+    while (s < fit->nstates && k >= fit->states[s].nmodes)
+        k -= fit->states[s++].nmodes;
+    return s < fit->nstates ? fit->states[s].name : NULL;
+}
+
 rotid_identification fit_of_state(const rotid_identification *fit, int s)
 {
     const rotid_identified_state *state = &fit->states[s];
