@@ -429,7 +429,31 @@ typedef struct rotid_component {
     double value;
 } rotid_component;
 
-/* A model fitted to measured modes. */
+/* What one of several states has for itself. */
+typedef struct rotid_identified_state {
+    const char *name;     /* of the *STATE */
+    int fitted_residuals; /* its share of the residuals, 0 where it was held out */
+    int shapes_fitted;    /* measured shapes took part in the residuals, or in the quotient of HYBRID */
+    double objective;     /* half the sum of its squared residuals [1] */
+    double chi2;          /* sum of its squared residuals over the squared stated noise [1]; NaN but with LIKELIHOOD */
+    int nmodes;
+    rotid_compared_mode *modes;      /* as those of the identification */
+    double *reduction_error_percent; /* per entry of modes: condensed over full frequency, less one [%]; NaN as in the identification */
+    double *mesh_error_percent;      /* per entry of modes: frequency over its Richardson limit, less one [%] */
+    double mass_kg;                  /* of the fitted model [kg] */
+    double center_of_mass_m;         /* of the fitted model, from the left end [m] */
+    rotid_shapes *shapes;            /* measured beside predicted */
+    int nmatrix_rows, nmatrix_columns;
+    double *nco_matrix;       /* as that of the identification [1]; NULL likewise */
+    double *mac_matrix;       /* as that of the identification [1]; NULL likewise */
+    int *matrix_rows;         /* measured_mode of the rows; empty without measured shapes */
+    int *matrix_columns;      /* mode of the columns; empty without measured shapes */
+    rotid_noise *noise;       /* of the data */
+    rotid_geometry *geometry; /* the model at the values of the fit */
+} rotid_identified_state;
+
+/* A model fitted to measured modes. Of several states modes and what goes with them run over all, mass, noise and geometry are
+ * those of the first, and shapes and matrices stand in states alone. */
 typedef struct rotid_identification {
     const char *status; /* converged, not_converged, or at_bound: converged with at least one parameter pressed against a bound.
                            Undetermined parameters are flagged below */
@@ -485,6 +509,8 @@ typedef struct rotid_identification {
     const rotid_message *message; /* of the pairing and the fit */
     const rotid_fit_result *fit;  /* where the above comes from, with the Jacobian; NULL in a result that was read from a file */
     void *memory;                 /* internal */
+    int nstates;
+    rotid_identified_state *states; /* of a deck with several *STATE, in its order; none of a deck that is one state */
 } rotid_identification;
 
 /* A mode of a solid of revolution in the plane of bending. Four significant digits. */
@@ -836,7 +862,7 @@ ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int
                                     char *failure, rotid_spectrum **spectrum);
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
-/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again. With nothing to identify the model is
+/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again; over all states of a deck at once. With nothing to identify the model is
  * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
  * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
  * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL.

@@ -184,6 +184,16 @@ static void what_is_wrong_has_its_place(void **state)
                    "loaded:d.mass acts in no state that is fitted, expected it in one that is not held out");
 }
 
+/* Each is read with all that is common: a file of nothing but states must not take for ever. */
+static void states_have_a_limit(void **state)
+{
+    (void)state;
+    char *text = pool_copy_text(&test_pool, BAR UNKNOWN);
+    for (int s = 0; s < 101; s++)
+        text = pool_format(&test_pool, "%s*STATE, NAME=s%d\n*MODES\n1, 225\n", text, s);
+    assert_refused(text, 317, "the deck has more than 100 states, expected fewer");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -194,6 +204,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(states_and_modes_are_held_out, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_functional_is_that_of_all, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(what_is_wrong_has_its_place, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(states_have_a_limit, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests_name("deck_states", tests, folder_make, folder_remove);
 }

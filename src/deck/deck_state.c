@@ -65,6 +65,9 @@ static void find_states(struct deck_reader *reader, int nread, struct division *
         d->state[d->nstate++] = card;
         d->list = d->nstate == 1 ? name : pool_format(reader->pool, "%s, %s", d->list ? d->list : "", name ? name : "");
     }
+    if (d->nstate > DECK_MOST_STATES)
+        deck_error(reader, d->state[DECK_MOST_STATES]->place, "the deck has more than %d states, expected fewer",
+                   DECK_MOST_STATES);
     for (int c = 0; c < text->ncard; c++) {
         const struct card_option *option = card_option(&text->card[c], "STATE"),
                                  *holdout = card_option(&text->card[c], "HOLDOUT");
@@ -169,7 +172,7 @@ static void merge_messages(struct deck_reader *reader, const struct states *stat
         for (size_t i = 0; i < of[s].count; i++) {
             const rotid_message *m = &of[s].item[i];
             int all = 1;
-            for (int t = 0; t < states->nstate; t++)
+            for (int t = 0; t < states->nstate && all; t++)
                 all &= says(&of[t], m);
             if (!all)
                 message_add(reader->messages, m->severity, m->file, m->line, m->column, "%s (state %s)", m->text,

@@ -29,8 +29,7 @@ static int compute_spectrum(struct pool *pool, const struct job *job, const doub
 static struct states only(const struct job *job, struct state *state)
 {
     *state = (struct state){.job = *job};
-    return (struct states){
-        .nstate = 1, .state = state, .nparameter = job->unknowns.nparameter, .bounds = job->unknowns.bounds};
+    return (struct states){.nstate = 1, .state = state, .nparameter = job->unknowns.nparameter, .bounds = job->unknowns.bounds};
 }
 
 /* The unknowns of a state among those of all. */
@@ -276,8 +275,7 @@ static int with_models(struct pool *pool, const struct states *states, int basel
         rotid_fit_free(*fit);
         *fit = NULL;
         for (int s = 0; s < count; s++)
-            paired[s] =
-                (struct paired){run[s].before.number, run[s].state->job.measurement.holdout, &run[s].out->mass};
+            paired[s] = (struct paired){run[s].before.number, run[s].state->job.measurement.holdout, &run[s].out->mass};
         status = fit_states(pool, states, paired, &options, environment, fit);
         moved = options.baseline != baseline;
         for (int s = 0; s < count && !status; s++)
