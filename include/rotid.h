@@ -293,7 +293,7 @@ typedef struct rotid_cause_parameter {
 typedef struct rotid_model_cause {
     const char *name;   /* of the card, or NULL */
     const char *id;     /* of the catalogue, such as joint */
-    const char *target; /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
+    const char *target; /* name of a group, "left|right" for an interface, name of a spring, disk or tie rod; empty: none */
     int sensor;         /* id of the sensor that it acts at; ROTID_NONE where it acts at none */
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
@@ -655,7 +655,7 @@ typedef struct rotid_cause_value {
 /* A physical cause at one target, by the ids of docs/diagnosis.md. */
 typedef struct rotid_cause {
     const char *id;     /* of the catalogue, such as joint */
-    const char *target; /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
+    const char *target; /* name of a group, "left|right" for an interface, name of a spring, disk or tie rod; empty: none */
     const char *name;   /* of the CAUSE card that it would get, or NULL */
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;

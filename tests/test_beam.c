@@ -203,7 +203,7 @@ static void rigid_bar_on_soft_springs_translates_and_turns(void **state)
     shaft.material.e *= 100;
     struct element e = properties(&rotor);
     rotor.nspring = rotor.ndisk = 2;
-    struct disk ends[2] = {{"a", 0, 30, 4, 0}, {"b", 1, 30, 4, 0}};
+    struct disk ends[2] = {{"a", 0, 30, 4, 0, 0, 0}, {"b", 1, 30, 4, 0, 0, 0}};
     rotor.disk = ends;
     springs[0].lateral = springs[1].lateral = 5e4;
     springs[0].rotational = springs[1].rotational = 2e3;

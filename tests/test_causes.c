@@ -241,6 +241,36 @@ static void bounds_of_mass_rest_on_the_mass_of_the_model(void **state)
     assert_close(upper, 0.25 * rotor_mass(rotor), 1e-12, 0);
 }
 
+/* Of a uniform shaft: L/EI and L^3/3EI at its end, less where it is held in the middle; 4.730^4 EI/L^3. */
+static void bounds_of_supports_follow_the_rotor(void **state)
+{
+    (void)state;
+    struct rotor rotor = stepped(0.2, 0);
+    struct spring spring[2] = {{"end", 0, 1e9, 1e6}, {"middle", 0.5, 1e9, 0}};
+    struct effect effect = {.target = 0};
+    double lower, upper, ei = 2.1e11 * pi / 64 * pow(0.12, 4);
+    const int identified[2] = {0, 0};
+    for (int s = 0; s < 5; s++)
+        steps[s].outer = steps[s].stiff_outer = 0.12;
+    rotor.spring = spring;
+    rotor.nspring = 2;
+    cause_clamp.bounds(&rotor, &effect, 0, &lower, &upper);
+    assert_close(upper, 1 / ei / 8, 1e-12, 0);
+    cause_clamp.bounds(&rotor, &effect, 1, &lower, &upper);
+    assert_close(upper, 1 / (3 * ei) / 8, 1e-12, 0);
+    assert_int_equal(cause_clamp.applies(&rotor, 0, identified), 1);
+    assert_int_equal(cause_clamp.applies(&rotor, 1, identified), 0);
+    cause_support_extra.bounds(&rotor, &effect, 0, &lower, &upper);
+    assert_close(upper, pow(4.7300407, 4) * ei, 1e-4, 0);
+    cause_support_position.bounds(&rotor, &effect, 0, &lower, &upper);
+    assert_true(lower == 0 && upper == 0.125); /* it cannot leave the rotor */
+    effect.target = 1;
+    cause_clamp.bounds(&rotor, &effect, 1, &lower, &upper);
+    assert_close(upper, 2 * pow(0.5, 3) / (3 * ei) / 8, 1e-12, 0);
+    cause_support_position.bounds(&rotor, &effect, 0, &lower, &upper);
+    assert_true(lower == -0.125 && upper == 0.125);
+}
+
 /* As soft as ten diameters of the softer neighbour: the last piece of the left shaft. */
 static void bounds_of_a_joint_are_ten_diameters_of_shaft(void **state)
 {
@@ -269,6 +299,7 @@ int main(void)
         TEST(entries_are_complete),
         TEST(causes_apply_where_they_make_sense),
         TEST(bounds_of_mass_rest_on_the_mass_of_the_model),
+        TEST(bounds_of_supports_follow_the_rotor),
         TEST(bounds_of_a_joint_are_ten_diameters_of_shaft),
     };
     return cmocka_run_group_tests_name("causes", tests, NULL, NULL);

@@ -173,7 +173,7 @@ static int draw_support(struct draw *d, const char *id, char spec[HIDE_SPEC])
     if (!strcmp(id, "support_extra"))
         snprintf(spec, HIDE_SPEC, "%s:z=%.6g,stiffness=%.6g", id, z, first * sized(d, 1e-3, 0.5));
     else if (!strcmp(id, "support_rotation"))
-        snprintf(spec, HIDE_SPEC, "%s:z=%.6g,stiffness=%.6g", id, z, first * length * length * sized(d, 1e-4, 0.05));
+        snprintf(spec, HIDE_SPEC, "%s:z=%.6g,stiffness=%.6g", id, z, first * length * length * sized(d, 1e-4, 0.035));
     else {
         int clamp = !strcmp(id, "clamp"), i = pick_fitting(d, d->rotor->springs, clamp ? holds : any);
         double shift = length * either_sign(d, 0.002, 0.1), size = sized(d, 1e-3, 0.11), lateral = sized(d, 1e-4, 0.1);

@@ -64,12 +64,6 @@ double bending_flexibility(const struct rotor *rotor, double from, int n)
     return sum;
 }
 
-double first_mode_stiffness(const struct rotor *rotor)
-{
-    double length = rotor_length(rotor);
-    return 500.56 * mean_bending_stiffness(rotor) / (length * length * length);
-}
-
 double heaviest_overlooked(const struct rotor *rotor)
 {
     double mass = rotor_mass(rotor);

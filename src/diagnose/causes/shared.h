@@ -30,9 +30,6 @@ double bending_stiffness(const struct rotor *rotor, int segment);
 double mean_bending_stiffness(const struct rotor *rotor);
 double bending_flexibility(const struct rotor *rotor, double from, int n);
 
-/* N/m: the modal stiffness of the first bending of a free uniform shaft of that mean, (4.730)^4 EI/L^3. */
-double first_mode_stiffness(const struct rotor *rotor);
-
 /* kg: the heaviest thing that one may have forgotten. Of a large rotor 3 % of what it weighs by its dimensions; on a small one
  * what is fixed to it counts for more, since fixtures do not shrink with it: 10 kg, or a quarter of it. */
 double heaviest_overlooked(const struct rotor *rotor);

@@ -4,6 +4,8 @@
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
 
+static const double first_mode = 500.56; /* (4.730)^4 */
+
 static int point(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point)
 {
     (void)rotor;
@@ -16,8 +18,9 @@ static int point(const struct effect *effect, const struct rotor *rotor, int i, 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
 {
     (void)effect;
+    double length = rotor_length(rotor);
     *lower = 0;
-    *upper = p == 0 ? first_mode_stiffness(rotor) : rotor_length(rotor);
+    *upper = p == 0 ? first_mode * mean_bending_stiffness(rotor) / (length * length * length) : length;
 }
 
 static const struct effect_kind kind = {

@@ -1,5 +1,5 @@
 /* A rotational spring to the ground that the model does not have: a bearing or a bush so long that it holds the rotation, a
- * coupling. Up to that of a support_extra at a lever of the rotor's length. */
+ * coupling. Up to twenty times EI/L, what turns the end of a shaft as long as the rotor: nearly a clamp. */
 #include "diagnose/causes/cause.h"
 #include "diagnose/causes/shared.h"
 
@@ -17,7 +17,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
     (void)effect;
     double length = rotor_length(rotor);
     *lower = 0;
-    *upper = p == 0 ? first_mode_stiffness(rotor) * length * length : length;
+    *upper = p == 0 ? 20 * mean_bending_stiffness(rotor) / length : length;
 }
 
 static const struct effect_kind kind = {
