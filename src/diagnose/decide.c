@@ -9,12 +9,13 @@
 #include "diagnose/refit.h"
 #include "fit/quantile.h"
 
-#define NOISIER  3.0 /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
-#define COLOURED 2.0 /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
-#define CLEAR    2.0 /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
-#define SURE   3.0  /* standard deviations that exclude a mass */
-#define WORSE  1.1  /* held-out modes predicted worse than this factor speak against a cause */
-#define BETTER 0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
+#define NOISIER   3.0  /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
+#define COLOURED  2.0  /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
+#define CLEAR     2.0  /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
+#define ONE_PLACE 0.03 /* of the length: as near as a second minimum of a fit counts as the first */
+#define SURE      3.0  /* standard deviations that exclude a mass */
+#define WORSE     1.1  /* held-out modes predicted worse than this factor speak against a cause */
+#define BETTER    0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
 static int free_parameters(const struct candidate *c)
 {
@@ -75,9 +76,25 @@ static const char *chance(struct pool *pool, const struct candidate *c)
                                        : "gains no more than chance";
 }
 
+/* The bounds were tried as wide as is possible (widen.h), but for those of the deck. */
+static const char *bound_met(struct pool *pool, const struct candidate *c)
+{
+    const struct effect_parameter_name *size = &c->cause->effect->parameter[c->cause->size];
+    int has_unit = strcmp(size->unit, "1") != 0;
+    return pool_format(pool, "its size ends at the physical bound, %.3g%s%s", c->effect.value[c->cause->size],
+                       has_unit ? " " : "", has_unit ? size->unit : "");
+}
+
+static int is_one_place(const struct engine *engine, const struct candidate *c)
+{
+    int place = c->cause->place;
+    return c->cause == c->with->cause && place >= 0 &&
+           fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->job.rotor);
+}
+
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
- * noise, and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. A pair has to do what
- * it was tried for, and what no cause alone comes near: alone is their least chi2. */
+ * noise, and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. A pair has to do
+ * what it was tried for, and what no cause alone comes near: alone is their least chi2. */
 static const char *reason(const struct engine *engine, const struct before *before, double threshold, double alone,
                           const struct candidate *c)
 {
@@ -89,7 +106,9 @@ static const char *reason(const struct engine *engine, const struct before *befo
     if (c->result.chi2_drop < -REFIT_WORSE) /* it replaces something, or its size is fixed: no part of the model before */
         return "the model is worse with this cause";
     if (c->result.at_bound)
-        return pool_format(pool, "its size ends at the physical bound");
+        return bound_met(pool, c->with && c->with->result.at_bound ? c->with : c);
+    if (c->with && is_one_place(engine, c))
+        return "two of one cause at one place are one";
     if (c->with && !c->explains)
         return "two causes that still leave more than noise";
     if (c->with && alone - c->result.chi2 <= CLEAR * threshold)
@@ -100,12 +119,16 @@ static const char *reason(const struct engine *engine, const struct before *befo
     if (isfinite(c->result.holdout_rms) && c->result.holdout_rms > WORSE * before->holdout_rms)
         return pool_format(pool, "the prediction of held-out modes gets worse: %.2g %% after %.2g %%", c->result.holdout_rms,
                            before->holdout_rms);
+    return NULL;
+}
+
+/* Modes left out in turn are predicted worse with the cause. That doubts the cause, and speaks for no other one: with few modes a
+ * true cause does it too. */
+static int is_doubted(const struct engine *engine, const struct before *before, const struct candidate *c)
+{
     int worse = isfinite(c->result.mode_out_rms) && c->result.mode_out_rms > WORSE * before->mode_out_rms,
         no_better = !(isfinite(c->result.sensor_out_rms) && c->result.sensor_out_rms < before->sensor_out_rms);
-    if (worse && c->result.mode_out_rms > 2 * frequency_noise(&engine->job) && no_better)
-        return pool_format(pool, "the prediction of modes left out in turn gets worse: %.2g %% after %.2g %%",
-                           c->result.mode_out_rms, before->mode_out_rms);
-    return NULL;
+    return worse && c->result.mode_out_rms > 2 * frequency_noise(&engine->job) && no_better;
 }
 
 /* frequencies whose noise is larger than stated, as a candidate among the others */
@@ -131,6 +154,9 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     struct pool *pool = engine->pool;
     add_noise(before, round);
     struct candidate *best = NULL;
+    int *doubted = POOL_ARRAY(pool, int, round->ncandidate + 1);
+    if (!doubted)
+        return ROTID_ERROR_MEMORY;
     double left_frequency = 0, predicts = INFINITY, alone = INFINITY, noise = frequency_noise(&engine->job);
     for (int i = 0; i < round->ncandidate; i++)
         if (round->candidate[i].result.refitted && !round->candidate[i].with)
@@ -138,6 +164,11 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
         c->result.rejected_because = reason(engine, before, round->result.threshold, alone, c);
+        doubted[i] = !c->result.rejected_because && is_doubted(engine, before, c);
+        if (doubted[i])
+            c->result.rejected_because =
+                pool_format(pool, "the prediction of modes left out in turn gets worse: %.2g %% after %.2g %%",
+                            c->result.mode_out_rms, before->mode_out_rms);
         if (!c->result.rejected_because && c->result.chi2_drop > round->result.threshold && isfinite(c->result.holdout_rms))
             predicts = fmin(predicts, c->result.holdout_rms);
     }
@@ -170,6 +201,10 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         struct candidate *c = &round->candidate[i];
         if (c->result.refitted && c->result.at_bound && candidate_score(c) < candidate_score(best))
             refused = 1;
+        if (doubted[i] && candidate_score(c) <= limit) { /* it cannot be named, and keeps the best one from that */
+            c->result.rejected_because = NULL;
+            c->refused = 0;
+        }
         if (c->result.rejected_because)
             continue;
         if (candidate_score(c) <= limit)

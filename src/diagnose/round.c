@@ -7,7 +7,6 @@
 #include "diagnose/base.h"
 #include "diagnose/decide.h"
 #include "diagnose/evidence.h"
-#include "diagnose/explains.h"
 #include "diagnose/faults.h"
 #include "diagnose/noise_level.h"
 #include "diagnose/pairing.h"
@@ -102,8 +101,7 @@ static int run_pairs(struct engine *engine, struct round_result *result)
             best = i;
         }
     }
-    if (best < 0 || scan->candidate[result->set[best].candidate[0]].cause->solid ||
-        fit_explains(&result->refit[best], scan, &result->set[best], engine->holdout))
+    if (best < 0 || scan->candidate[result->set[best].candidate[0]].cause->solid || fit_explains(scan, result->refit[best].fit))
         return ROTID_OK;
     int status = pairs_choose(engine->pool, &engine->job, scan, most, result->set + result->nrefit, &count);
     return status ? status : run_refits(engine, result, count);

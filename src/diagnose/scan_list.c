@@ -50,6 +50,8 @@ static int target_count(const struct rotor *rotor, enum cause_target target)
         return rotor_axis_groups(rotor) - 1;
     case TARGET_SPRING:
         return rotor->nspring;
+    case TARGET_DISK:
+        return rotor->ndisk;
     case TARGET_TIEROD:
         return rotor->ntierod;
     default:
@@ -109,6 +111,7 @@ static int add_suspect(struct pool *pool, const struct job *job, const struct su
     c->effect.name = suspect->effect.name;
     c->effect.variant = suspect->effect.variant;
     c->effect.target = target;
+    memcpy(c->effect.bound, suspect->effect.bound, sizeof c->effect.bound);
     c->suspect = 1;
     memcpy(c->fixed, suspect->fixed, sizeof c->fixed);
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)

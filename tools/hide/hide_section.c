@@ -63,10 +63,10 @@ static double bump(double z, double center, double width, int box)
     return box ? fabs(x) <= 0.5 : exp(-0.5 * x * x);
 }
 
-static double zone(const struct hide_effect *e, const char *depth, const char *center, const char *width, double z)
+static double zone(const struct hide_effect *e, double z)
 {
-    return 1 - hide_get(e, depth)->number *
-                   bump(z, hide_get(e, center)->number, hide_get(e, width)->number, hide_get(e, "shape")->index == 1);
+    return 1 - hide_get(e, "depth")->number *
+                   bump(z, hide_get(e, "z")->number, hide_get(e, "width")->number, hide_get(e, "shape")->index == 1);
 }
 
 /* Factors of one effect at z in the group. */
@@ -80,7 +80,7 @@ static struct hide_section factors(const struct hide_rotor *rotor, const struct 
     else if (hide_is(e, "stiffness_profile") && here)
         stiffness = 1 + hide_get(e, "profile")->number * (xi * xi - 1.0 / 3);
     else if (hide_is(e, "stiffness_local"))
-        stiffness = zone(e, "depth", "z", "width", z);
+        stiffness = zone(e, z);
     else if (hide_is(e, "stiffness") && here)
         stiffness = hide_get(e, "factor")->number;
     else if (hide_is(e, "shear_coefficient") && here)
@@ -88,9 +88,7 @@ static struct hide_section factors(const struct hide_rotor *rotor, const struct 
     else if (hide_is(e, "density") && here)
         mass = hide_get(e, "factor")->number;
     else if (hide_is(e, "bend_only"))
-        bending = zone(e, "depth", "z", "width", z);
-    else if (hide_is(e, "two_zones"))
-        stiffness = zone(e, "depth", "z", "width", z) * zone(e, "depth2", "z2", "width2", z);
+        bending = zone(e, z);
     else if (hide_is(e, "density_zone"))
         mass = 1 + (hide_get(e, "factor")->number - 1) * bump(z, hide_get(e, "z")->number, hide_get(e, "width")->number, 1);
     else if (hide_is(e, "sine") && here)
@@ -117,6 +115,27 @@ static void add_part(const struct hide_physics *physics, int group, const struct
     section->inertia += part.inertia;
 }
 
+/* Of the length of every hub the middle part `share` is one piece with the shaft, which is that much thicker there. */
+static void thicken(const struct hide_rotor *rotor, const struct hide_segment *s, double share, double z,
+                    struct hide_section *section)
+{
+    for (int i = 0; i < rotor->disks; i++) {
+        const struct hide_disk *disk = &rotor->disk[i];
+        if (s->rectangular || !(disk->hub > s->outer) || fabs(z - disk->z) > share * disk->hub_length / 2)
+            continue;
+        struct moments own = ring(s->stiff, s->inner), with = ring(disk->hub, s->inner);
+        section->bending *= with.second / own.second;
+        section->shear *= with.area / own.area;
+    }
+}
+
+/* A mass spread over a width; its turning is that of its parts moving, as of a sleeve without thickness. */
+static double spread(const struct hide_effect *e, double z)
+{
+    double width = hide_get(e, "width")->number;
+    return width > 0 && fabs(z - hide_get(e, "z")->number) <= width / 2 ? hide_get(e, "mass")->number / width : 0;
+}
+
 void hide_section_at(const struct hide_physics *physics, int segment, double z, struct hide_section *section)
 {
     const struct hide_rotor *rotor = physics->rotor;
@@ -132,5 +151,12 @@ void hide_section_at(const struct hide_physics *physics, int segment, double z, 
     for (int i = 0; i < s->rings; i++) {
         struct hide_segment ring = {.outer = s->ring[i].outer, .inner = s->ring[i].inner};
         add_part(physics, s->ring[i].group, &ring, ring.outer, z, section);
+    }
+    for (int i = 0; i < physics->effects; i++) {
+        const struct hide_effect *e = &physics->effect[i];
+        if (hide_is(e, "hub_stiffness"))
+            thicken(rotor, s, hide_get(e, "share")->number, z, section);
+        else if (hide_is(e, "added_mass"))
+            section->mass += spread(e, z);
     }
 }

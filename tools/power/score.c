@@ -95,7 +95,7 @@ static int same_target(const struct candidate *c, const char *target)
         *p = *p == ',' ? '|' : *p;
     if (c->cause->target == TARGET_NONE || same_text(c->target, name))
         return 1;
-    return c->cause->target == TARGET_SPRING && !c->target[0] && c->effect.target + 1 == atoi(name);
+    return (c->cause->target == TARGET_SPRING || c->cause->target == TARGET_DISK) && c->effect.target + 1 == atoi(name);
 }
 
 /* Whether a candidate is this effect: id, target, and place within one width or 3 % of the length. */
@@ -116,26 +116,10 @@ static int is_true(const struct job *job, const struct candidate *c, const cJSON
     return fabs(c->effect.value[c->cause->place] - z) <= fmax(isfinite(width) ? width : 0, PLACE_TOLERANCE * length);
 }
 
-/* The two zones of a kind outside are each a soft zone of the catalogue. */
-static int is_two_zones(const cJSON *effect)
-{
-    return !strcmp(text_of(effect, "kind"), "two_zones");
-}
-
-static int is_zone(const struct candidate *c, const cJSON *truth, double z, double width)
-{
-    return !strcmp(c->cause->id, "stiffness_local") &&
-           fabs(c->effect.value[c->cause->place] - z) <= fmax(width, PLACE_TOLERANCE * number_of(truth, "length"));
-}
-
 /* The number of the true effect that a candidate is, or -1. */
 static int which(const struct job *job, const struct candidate *c, const cJSON *truth)
 {
-    const cJSON *effects = cJSON_GetObjectItem(truth, "effects"), *first = cJSON_GetArrayItem(effects, 0);
-    if (is_two_zones(first))
-        return is_zone(c, truth, parameter_of(first, "z"), parameter_of(first, "width"))     ? 0
-               : is_zone(c, truth, parameter_of(first, "z2"), parameter_of(first, "width2")) ? 1
-                                                                                             : -1;
+    const cJSON *effects = cJSON_GetObjectItem(truth, "effects");
     for (int i = 0; i < cJSON_GetArraySize(effects); i++)
         if (!strcmp(text_of(cJSON_GetArrayItem(effects, i), "class"), "physical") &&
             is_true(job, c, truth, cJSON_GetArrayItem(effects, i)))
@@ -152,10 +136,17 @@ static int is_beyond(const struct rotor *rotor, const cJSON *effect)
     double lower, upper, value = parameter_of(effect, cause->effect->parameter[cause->size].name);
     struct effect at = {.kind = cause->effect, .target = -1};
     const char *target = text_of(effect, "target");
-    for (int g = 0; g < rotor->ngroup; g++) /* an interface has the name of the group before it, and a comma */
+    int of_group = cause->target == TARGET_GROUP || cause->target == TARGET_INTERFACE;
+    for (int g = 0; g < rotor->ngroup && of_group; g++) /* an interface has the name of the group before it, and a comma */
         if (!strncmp(rotor->group[g].name, target, strlen(rotor->group[g].name)))
             at.target = g;
-    if (at.target < 0 && cause->target == TARGET_INTERFACE)
+    for (int i = 0; i < rotor->nspring && cause->target == TARGET_SPRING; i++)
+        if (rotor->spring[i].name ? same_text(rotor->spring[i].name, target) : atoi(target) == i + 1)
+            at.target = i;
+    for (int i = 0; i < rotor->ndisk && cause->target == TARGET_DISK; i++)
+        if (rotor->disk[i].name ? same_text(rotor->disk[i].name, target) : atoi(target) == i + 1)
+            at.target = i;
+    if (at.target < 0 && cause->target != TARGET_NONE && cause->target != TARGET_SENSOR)
         return 0;
     cause->bounds(rotor, &at, cause->size, &lower, &upper);
     return value < lower || (value > upper && value != cause->parameter[cause->size].neutral);
@@ -166,8 +157,6 @@ static enum hidden_class class_of(const struct rotor *rotor, const cJSON *effect
     const cJSON *first = cJSON_GetArrayItem(effects, 0);
     if (!first)
         return HIDDEN_NOTHING;
-    if (is_two_zones(first))
-        return HIDDEN_PAIR;
     if (!strcmp(text_of(first, "class"), "outside") || is_beyond(rotor, first))
         return HIDDEN_OUTSIDE;
     if (!strcmp(text_of(first, "class"), "data"))
@@ -393,7 +382,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
 {
     const cJSON *effects = cJSON_GetObjectItem(truth, "effects"), *effect = cJSON_GetArrayItem(effects, 0);
     s->class = class_of(&read->rotor, effects);
-    s->truths = cJSON_GetArraySize(effects) + is_two_zones(effect);
+    s->truths = cJSON_GetArraySize(effects);
     snprintf(s->id, sizeof s->id, "%s", !effect ? "none" : text_of(effect, is(effect, "outside") ? "kind" : "id"));
     s->coloured = number_of(cJSON_GetObjectItem(truth, "noise"), "correlation") != 0;
     s->reported = d->result.verdict.kind != ROTID_ADEQUATE;
