@@ -99,8 +99,8 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
     double *frequency_hz;
     int failed, refine, status = model ? identify_mesh(pool, job, number, &refine, &frequency_hz) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model,
-                            &failed);
+        status =
+            model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model, &failed);
     if (status)
         return status;
     int shapes = uses_shapes(job);
@@ -141,11 +141,11 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
     for (int k = 0; k < nmode; k++)
         highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
     out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
-    int status = model && out->baseline_hz ? identify_mesh(pool, job, out->compared.number, &refine, &frequency_hz)
-                                           : ROTID_ERROR_MEMORY;
+    int status =
+        model && out->baseline_hz ? identify_mesh(pool, job, out->compared.number, &refine, &frequency_hz) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model,
-                            &failed);
+        status =
+            model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model, &failed);
     if (!status)
         status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON,
                                 model->equations.nrigid + highest, 0, &p);
@@ -203,7 +203,7 @@ static int with_models(struct pool *pool, const struct job *job, int baseline, i
         message_open(&quiet, pool);
         if (!status)
             status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
-int settled = moved <= HELD && options.baseline == baseline &&
+        int settled = !status && moved <= HELD && options.baseline == baseline &&
                       !memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number);
         if (status || round == ROUNDS || settled || is_cancelled(out->fit, environment))
             break;
