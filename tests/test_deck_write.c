@@ -396,7 +396,7 @@ static void what_lies_on_a_bound_is_still_a_deck(void **state)
                           "*IDENTIFY\ncore.E, 1e10, 4e11, 2e11\nj.flexibility, 0, 1e-8, 1e-9\nt.slope, -0.5, 0.5, 0.1\n");
     /* bounds of the joint at the E of before, which are wider than those at the E that was found */
     const struct effect *joint = first.job.rotor.effect;
-    catalogue_of(joint)->bounds(&first.job.rotor, joint, 0, &lower, &upper);
+    cause_reach(catalogue_of(joint), &first.job.rotor, joint, 0, &lower, &upper);
     first.job.unknowns.bounds[1].upper = upper;
     first.job.rotor.effect[0].value[0] = x[1] = upper;
     first.job.rotor.group[0].material.e = 4e11;

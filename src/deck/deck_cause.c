@@ -73,7 +73,7 @@ static int check_value(const struct cause_card *c, int p, const char *name, cons
     double lower, upper;
     if (!c->kind->bounds)
         return 0;
-    c->kind->bounds(&c->reader->job->rotor, &c->effect, p, &lower, &upper);
+    cause_reach(c->kind, &c->reader->job->rotor, &c->effect, p, &lower, &upper);
     double neutral = c->kind->parameter[p].neutral;
     int has_neutral = c->kind->class == CAUSE_DATA ||
                       (p != c->kind->place && p != c->kind->width); /* of a place or width none is without effect */
@@ -101,6 +101,30 @@ static int find_value(const struct cause_card *c, const struct field *field, int
     return -1;
 }
 
+/* "mass, 0, 5": where a suspect's size is looked for. */
+static int read_bounds(struct cause_card *c, const struct data_line *line, int p, const struct effect_parameter_name *known)
+{
+    double lower, upper, *bound = c->effect.bound;
+    const struct field *field = line->field;
+    int bad = deck_number(c->reader, line, 1, known[p].name, ANY, &bound[0]) |
+              deck_number(c->reader, line, 2, known[p].name, ANY, &bound[1]);
+    if (bad)
+        return bad;
+    bound[0] *= deck_in_si(c->reader, known[p].unit);
+    bound[1] *= deck_in_si(c->reader, known[p].unit);
+    if (c->kind->class != CAUSE_PHYSICAL || p != c->kind->size) {
+        deck_error(c->reader, field[1].place, "%s has bounds, expected them for the size of TYPE=%s alone", known[p].name,
+                   c->kind->id);
+        return 1;
+    }
+    cause_reach(c->kind, &c->reader->job->rotor, &c->effect, p, &lower, &upper);
+    if (bound[0] < bound[1] && bound[0] >= lower && bound[1] <= upper)
+        return 0;
+    deck_error(c->reader, field[1].place, "the bounds of %s are %s and %s, expected the lower one first and both from %.6g to %.6g",
+               known[p].name, field[1].text, field[2].text, lower, upper);
+    return 1;
+}
+
 /* The data lines: values [count] of the parameters `known` [count], given [count] says which were there. */
 static int read_values(struct cause_card *c, int count, const struct effect_parameter_name *known, double *value, int *given)
 {
@@ -108,13 +132,19 @@ static int read_values(struct cause_card *c, int count, const struct effect_para
     int bad = 0;
     for (int i = 0; i < c->card->nline; i++) {
         const struct data_line *line = &c->card->line[i];
-        int p = deck_count(c->reader, line, 2, layout) ? -1 : find_value(c, &line->field[0], count, known);
+        int bounds = c->suspect && deck_has(line, 2),
+            p = deck_count(c->reader, line, bounds ? 3 : 2, layout) ? -1 : find_value(c, &line->field[0], count, known);
         if (p >= 0 && given[p])
             deck_error(c->reader, line->field[0].place, "%s is given twice, expected once", known[p].name);
-        if (p < 0 || given[p]++) {
+        if (p < 0 || given[p]) {
             bad = 1;
             continue;
         }
+        if (bounds) {
+            bad |= read_bounds(c, line, p, known);
+            continue;
+        }
+        given[p] = 1;
         int is_place = c->kind->class == CAUSE_PHYSICAL && p == c->kind->place && deck_has(line, 1);
         bad |= is_place ? deck_position(c->reader, line->field[1].text, line->field[1].place, known[p].name, &value[p])
                         : deck_number(c->reader, line, 1, known[p].name, ANY, &value[p]);
@@ -124,6 +154,8 @@ static int read_values(struct cause_card *c, int count, const struct effect_para
     for (int i = 0; i < c->card->nline && !bad; i++) { /* now: bounds of one parameter may follow another one */
         const struct data_line *line = &c->card->line[i];
         int p = find_value(c, &line->field[0], count, known);
+        if (!given[p])
+            continue; /* its bounds */
         bad |= check_value(c, p, known[p].name, &line->field[1], value[p]);
     }
     for (int p = 0; p < count && !c->suspect && !bad; p++)

@@ -16,7 +16,7 @@ static void check_effect_bounds(struct deck_reader *reader, const struct data_li
     double lower, upper;
     if (!cause || !cause->bounds)
         return;
-    cause->bounds(rotor, effect, parameter->component, &lower, &upper);
+    cause_reach(cause, rotor, effect, parameter->component, &lower, &upper);
     if (bounds->lower < lower || bounds->upper > upper)
         deck_error(reader, line->field[bounds->lower < lower ? 1 : 2].place,
                    "the bounds of %s are %s and %s, expected them inside %.6g to %.6g", bounds->name, line->field[1].text,

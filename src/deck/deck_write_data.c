@@ -217,7 +217,7 @@ static double inside_physical(const struct deck_writer *w, const struct effect *
     double lower, upper;
     if (!kind || !kind->bounds)
         return value;
-    kind->bounds(&w->rotor, effect, p, &lower, &upper);
+    cause_reach(kind, &w->rotor, effect, p, &lower, &upper);
     return fmin(fmax(value, lower), upper);
 }
 
@@ -240,9 +240,16 @@ static void write_effect(struct deck_writer *w, const struct effect *effect, con
         deck_put_option(w, "SUSPECT", "YES");
     deck_put(w, "\n");
     for (int p = 0; p < effect_parameters(effect); p++) {
-        if (fixed && !fixed[p])
+        int bounds = fixed && !fixed[p] && p == kind->size && effect->bound[0] < effect->bound[1];
+        if (fixed && !fixed[p] && !bounds)
             continue;
         deck_put(w, "%s", effect->kind->parameter[p].name);
+        if (bounds) {
+            deck_put_number(w, ", ", effect->bound[0]);
+            deck_put_number(w, ", ", effect->bound[1]);
+            deck_put(w, "\n");
+            continue;
+        }
         double value = effect->value[p];
         deck_put_number(w, ", ", value == kind->parameter[p].neutral ? value : inside_physical(w, effect, p, value));
         deck_put(w, "\n");

@@ -9,12 +9,13 @@
 #include "diagnose/refit.h"
 #include "fit/quantile.h"
 
-#define NOISIER  3.0  /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
-#define COLOURED 2.0  /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
-#define CLEAR    2.0  /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
-#define SURE     3.0  /* standard deviations that exclude a mass */
-#define WORSE    1.1  /* held-out modes predicted worse than this factor speak against a cause */
-#define BETTER   0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
+#define NOISIER   3.0  /* times the stated noise is beyond any misjudgement: then it is the model that is wrong */
+#define COLOURED  2.0  /* margins, where neighbours share their noise: there are fewer independent residuals than rows */
+#define CLEAR     2.0  /* times the threshold: the drop that a name needs; up to there something is wrong, but what stays open */
+#define ONE_PLACE 0.03 /* of the length: as near as a second minimum of a fit counts as the first */
+#define SURE      3.0  /* standard deviations that exclude a mass */
+#define WORSE     1.1  /* held-out modes predicted worse than this factor speak against a cause */
+#define BETTER    0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
 static int free_parameters(const struct candidate *c)
 {
@@ -75,6 +76,22 @@ static const char *chance(struct pool *pool, const struct candidate *c)
                                        : "gains no more than chance";
 }
 
+/* The bounds were tried as wide as is possible (widen.h), but for those of the deck. */
+static const char *bound_met(struct pool *pool, const struct candidate *c)
+{
+    const struct effect_parameter_name *size = &c->cause->effect->parameter[c->cause->size];
+    int has_unit = strcmp(size->unit, "1") != 0;
+    return pool_format(pool, "its size ends at the physical bound, %.3g%s%s", c->effect.value[c->cause->size],
+                       has_unit ? " " : "", has_unit ? size->unit : "");
+}
+
+static int is_one_place(const struct engine *engine, const struct candidate *c)
+{
+    int place = c->cause->place;
+    return c->cause == c->with->cause && place >= 0 &&
+           fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->job.rotor);
+}
+
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
  * noise, and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. A pair has to do
  * what it was tried for, and what no cause alone comes near: alone is their least chi2. */
@@ -89,7 +106,9 @@ static const char *reason(const struct engine *engine, const struct before *befo
     if (c->result.chi2_drop < -REFIT_WORSE) /* it replaces something, or its size is fixed: no part of the model before */
         return "the model is worse with this cause";
     if (c->result.at_bound)
-        return pool_format(pool, "its size ends at the physical bound");
+        return bound_met(pool, c->with && c->with->result.at_bound ? c->with : c);
+    if (c->with && is_one_place(engine, c))
+        return "two of one cause at one place are one";
     if (c->with && !c->explains)
         return "two causes that still leave more than noise";
     if (c->with && alone - c->result.chi2 <= CLEAR * threshold)

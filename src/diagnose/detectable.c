@@ -62,7 +62,7 @@ int detectable_sizes(struct engine *engine, const struct round_result *last)
             continue;
         }
         double lower, upper, neutral = cause->parameter[cause->size].neutral;
-        cause->bounds(&engine->job.rotor, &c->effect, cause->size, &lower, &upper);
+        cause_bounds(cause, &engine->job.rotor, &c->effect, cause->size, &lower, &upper);
         d->parameter = cause->effect->parameter[cause->size].name;
         d->unit = cause->effect->parameter[cause->size].unit;
         int side = cause->parameter[cause->size].one_sided;

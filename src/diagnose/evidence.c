@@ -7,31 +7,16 @@
 #include "diagnose/bootstrap.h"
 #include "diagnose/decide.h"
 #include "diagnose/evidence.h"
-#include "diagnose/explains.h"
 #include "diagnose/leave_out.h"
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
 #include "diagnose/scan.h"
+#include "diagnose/widen.h"
+#include "fit/quantile.h"
 
-#define MOST_OUT   5     /* candidates for which modes are left out in turn */
-#define OUT_MARGIN 25.0  /* of chi2 from the best one: further ones do not win whatever they predict */
-#define AT_BOUND   0.005 /* of the physical range: so near a bound a size is not the one the data want */
-#define SHOWN      0.05  /* of the best promise: candidates not fitted but worth a line */
-
-/* A bound at which the effect vanishes is none: a small size lies near it. Between bounds above zero sizes are factors, and a
- * distance is a ratio: of a support of 0.01 to 100 times the stated one, 0.3 is far from both. */
-static int ends_at_bound(const rotid_parameter *bounds, double neutral, double x)
-{
-    double lower = bounds->lower, upper = bounds->upper;
-    if (lower > 0 && neutral > 0 && x > 0) {
-        lower = log(lower);
-        upper = log(upper);
-        neutral = log(neutral);
-        x = log(x);
-    }
-    double near = AT_BOUND * (upper - lower);
-    return (x < lower + near && fabs(lower - neutral) > near) || (x > upper - near && fabs(upper - neutral) > near);
-}
+#define MOST_OUT   5    /* candidates for which modes are left out in turn */
+#define OUT_MARGIN 25.0 /* of chi2 from the best one: further ones do not win whatever they predict */
+#define SHOWN      0.05 /* of the best promise: candidates not fitted but worth a line */
 
 /* The effect and its parameters, those of the fit that belong to it: the last effects of the job are those of the set. */
 static void take_parameters(const struct refit *refit, int e, struct candidate *c)
@@ -50,7 +35,7 @@ static void take_parameters(const struct refit *refit, int e, struct candidate *
         if (!isfinite(fit->std[p])) /* fmax and fmin prefer the number */
             c->ci_lower[component] = c->ci_upper[component] = NAN;
         if (component == c->cause->size)
-            c->result.at_bound = ends_at_bound(&refit->job.unknowns.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
+            c->result.at_bound = size_at_bound(&refit->job.unknowns.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
     }
 }
 
@@ -82,6 +67,13 @@ static double frequency_chi2(const rotid_fit_result *fit, int nfrequency)
     for (int i = 0; i < nfrequency; i++)
         sum += fit->r[i] * fit->r[i];
     return sum;
+}
+
+int fit_explains(const struct scan *scan, const rotid_fit_result *fit)
+{
+    int dof = scan->dof - (fit->n - scan->nfree);
+    return dof > 0 && chi_square_tail(frequency_chi2(fit, scan->nfrequency), scan->nfrequency) > BLOCK_LEVEL &&
+           chi_square_tail(fit->chi2, dof) > BLOCK_LEVEL;
 }
 
 /* Candidate `index` of the scan as it was listed. */
@@ -138,7 +130,7 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->result.bic = refit->chi2 + log(scan->nrow) * refit->job.unknowns.nparameter;
     c->result.p_value = pair ? NAN : bootstrap_p(&result->bootstrap, c->result.chi2_drop);
     c->result.chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
-    c->explains = fit_explains(refit, scan, set, engine->holdout);
+    c->explains = fit_explains(scan, refit->fit);
     take_parameters(refit, last - set->count, c);
     mend_intervals(scan, pair ? NULL : &scan->candidate[set->candidate[0]], c);
     if (pair) {

@@ -5,6 +5,9 @@
 #include "diagnose/engine.h"
 #include "diagnose/round.h"
 
+/* 1 where noise reaches chi2 of the frequencies and the whole chi2 of the fit, each (BLOCK_LEVEL). What the scan still would find
+ * does not count. */
+int fit_explains(const struct scan *scan, const rotid_fit_result *fit);
 /* Fills the round's candidates from the refits and lets decide() judge them. */
 int evidence_collect(struct engine *engine, struct round_result *result, struct diagnosis_round *round);
 /* Prediction of modes left out in turn, for several jobs at once: error [models] in percent, shape [models]. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "diagnose/as_solid.h"
+#include "diagnose/widen.h"
 #include "fit/bounds.h"
 
 #define STARTS     3    /* places a candidate is fitted from */
@@ -73,7 +74,7 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
         bounds->name = pool_format(pool, "%s.%s", effect->name, effect->kind->parameter[p].name);
         if (!bounds->name)
             return ROTID_ERROR_MEMORY;
-        cause->bounds(rotor, effect, p, &bounds->lower, &bounds->upper);
+        cause_bounds(cause, rotor, effect, p, &bounds->lower, &bounds->upper);
         set_start(bounds, inside(bounds, effect->value[p]));
         to->unknowns.parameter[to->unknowns.nparameter++] =
             (struct parameter){.kind = PARAMETER_EFFECT, .index = index, .component = p};
@@ -243,6 +244,23 @@ int refit_beyond(struct pool *pool, const struct job *job, int nown, const rotid
     return ROTID_OK;
 }
 
+int refit_keep(struct pool *pool, const struct job *job, rotid_fit_result *fit, struct refit *refit)
+{
+    struct job started;
+    int status = job_started_at(pool, job, fit->x, &started);
+    if (status) {
+        rotid_fit_free(fit);
+        return status;
+    }
+    for (int e = 0; e < started.rotor.neffect; e++)
+        effect_at(job, e, fit->x, &started.rotor.effect[e]);
+    rotid_fit_free(refit->fit);
+    refit->job = started;
+    refit->fit = fit;
+    refit->chi2 = fit->chi2;
+    return ROTID_OK;
+}
+
 /* The job with the causes of a set from `effect`. */
 static int job_with_set(struct pool *pool, const struct job *job, const double *x, const struct scan *scan,
                         const struct scan_set *set, const struct effect *effect, struct job *to)
@@ -266,7 +284,7 @@ static int fit_from(struct pool *pool, const struct job *job, const int *number,
     struct effect start[STARTS][2];
     int count = starting_effects(scan, set, rotor_length(&job->rotor), start);
     for (int s = 0; s < count; s++) {
-        struct job extended, started;
+        struct job extended;
         rotid_fit_result *fit = NULL;
         int status = job_with_set(pool, job, x, scan, set, start[s], &extended);
         if (!status)
@@ -279,17 +297,9 @@ static int fit_from(struct pool *pool, const struct job *job, const int *number,
             rotid_fit_free(fit);
             continue;
         }
-        status = job_started_at(pool, &extended, fit->x, &started);
-        if (status) {
-            rotid_fit_free(fit);
+        status = refit_keep(pool, &extended, fit, refit);
+        if (status)
             return status;
-        }
-        for (int e = 0; e < started.rotor.neffect; e++)
-            effect_at(&extended, e, fit->x, &started.rotor.effect[e]);
-        rotid_fit_free(refit->fit);
-        refit->job = started;
-        refit->fit = fit;
-        refit->chi2 = fit->chi2;
     }
     return ROTID_OK;
 }
@@ -298,7 +308,8 @@ int refit_set(struct pool *pool, const struct job *job, const int *number, const
               const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
               struct refit *refit)
 {
-    int nested = 1; /* without its causes it is the model that the scan looked at, unless a user has fixed a size, or there is none */
+    int nested =
+        1; /* without its causes it is the model that the scan looked at, unless a user has fixed a size, or there is none */
     for (int m = 0; m < set->count; m++) {
         const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
         nested &= c->cause->effect->nparameter && !c->fixed[c->cause->size];
@@ -308,6 +319,8 @@ int refit_set(struct pool *pool, const struct job *job, const int *number, const
     if (!status && deck &&
         (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, job->unknowns.nparameter)))
         status = fit_from(pool, job, number, holdout, deck, scan, set, environment, refit);
+    if (!status)
+        status = refit_widen(pool, scan, set, number, holdout, environment, refit);
     if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)
         return status;
     rotid_fit_free(refit->fit);

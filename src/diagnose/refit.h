@@ -37,6 +37,9 @@ int refit_set(struct pool *pool, const struct job *job, const int *number, const
               const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
               struct refit *refit);
 
+/* The fit of the job, which is taken over, in the place of what *refit has. ROTID_OK or ROTID_ERROR_MEMORY. */
+int refit_keep(struct pool *pool, const struct job *job, rotid_fit_result *fit, struct refit *refit);
+
 /* Does one of the first nown parameters end at a bound? */
 int fit_at_bound(const rotid_fit_result *fit, int nown);
 

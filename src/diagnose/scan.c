@@ -149,7 +149,7 @@ static void predict(const struct rotor *rotor, struct scan *scan, struct scan_it
         return;
     double along = product_dot(scan->nrow, column, scan->r);
     if (cause->effect->nparameter)
-        cause->bounds(rotor, &item->effect, cause->size, &lower, &upper);
+        cause_bounds(cause, rotor, &item->effect, cause->size, &lower, &upper);
     double least = (lower - neutral) / item->unit, most = (upper - neutral) / item->unit;
     item->lower = item->side > 0 ? 0 : fmin(0, fmin(least, most));
     item->upper = item->side < 0 ? 0 : fmax(least, most);

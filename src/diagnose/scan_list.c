@@ -109,6 +109,7 @@ static int add_suspect(struct pool *pool, const struct job *job, const struct su
     c->effect.name = suspect->effect.name;
     c->effect.variant = suspect->effect.variant;
     c->effect.target = target;
+    memcpy(c->effect.bound, suspect->effect.bound, sizeof c->effect.bound);
     c->suspect = 1;
     memcpy(c->fixed, suspect->fixed, sizeof c->fixed);
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)

@@ -36,6 +36,19 @@ static int add_discrepancy(struct engine *engine, const struct cause_kind *cause
     return ROTID_OK;
 }
 
+/* A size that was found only where the bounds had been widened. */
+static void note_size(const struct engine *engine, const struct candidate *c)
+{
+    double lower, upper, size = c->effect.value[c->cause->size];
+    if (!(c->effect.bound[0] < c->effect.bound[1]))
+        return;
+    c->cause->bounds(&engine->job.rotor, &c->effect, c->cause->size, &lower, &upper);
+    if (size < lower || size > upper)
+        message_add(engine->notes, SEVERITY_NOTE, NULL, 0, 0,
+                    "%s: %s %.3g lies outside the usual bounds, %.3g to %.3g; it was looked for from %.3g to %.3g", c->cause->id,
+                    c->effect.kind->parameter[c->cause->size].name, size, lower, upper, c->effect.bound[0], c->effect.bound[1]);
+}
+
 /* The winner of a round becomes part of the model, with what it leaves as an approximation added to the noise. */
 int accept_cause(struct engine *engine, const struct diagnosis_round *round, struct round_result *result)
 {
@@ -50,6 +63,7 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
     for (const struct candidate *c = &round->candidate[0]; c && !status; c = c->with) {
         out->cause[out->ncause] = *c;
         out->cause[out->ncause++].with = NULL;
+        note_size(engine, c);
         if (!(c->cause->discrepancy_frequency > 0 || c->cause->discrepancy_shape > 0))
             continue;
         approximate = 1;
@@ -159,7 +173,8 @@ static int job_without(struct engine *engine, int left_out, struct job *job)
 }
 
 /* With two causes or more each is doubted again in the presence of the others, but one that was named last and alone: a first
- * cause may have been the best single stand-in for two. *round, *result: the one in which a cause was not named again; *doubtful: its index, or -1. */
+ * cause may have been the best single stand-in for two. *round, *result: the one in which a cause was not named again; *doubtful:
+ * its index, or -1. */
 static int confirm(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int *doubtful)
 {
     struct diagnosis *out = engine->out;
@@ -222,7 +237,8 @@ int reach_verdict(struct engine *engine, struct round_result *last)
             continue;
         withdraw(out);
         status = take_set(engine, round, round->result.required_margin + excess);
-        if (!status && (!out->nalternative || out->alternative[out->nalternative - 1].set < 2)) /* none near it, yet the rest says that it is not all */
+        if (!status && (!out->nalternative ||
+                        out->alternative[out->nalternative - 1].set < 2)) /* none near it, yet the rest says that it is not all */
             verdict->kind = ROTID_UNEXPLAINED;
         verdict->next_measurement = advise(engine, round, NULL); /* the fits of that round are gone */
         return status || !verdict->next_measurement ? ROTID_ERROR_MEMORY : ROTID_OK;

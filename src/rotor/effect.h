@@ -65,6 +65,7 @@ struct effect {
     int target;  /* index of the group, tie rod, spring or sensor; of the group left of an interface; -1: none */
     int variant; /* of the kind, such as the shape of a soft zone */
     double value[EFFECT_MOST_PARAMETERS];
+    double bound[2]; /* of its size, where a deck states them or they were widened; both 0: those of its cause */
 };
 
 /* The number of parameters in use, the first ones of the kind. */

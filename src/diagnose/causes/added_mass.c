@@ -30,6 +30,7 @@ const struct cause_kind cause_added_mass = {
     .place = 1,
     .width = -1,
     .bounds = bounds,
+    .widest = 4, /* a tenth of a rotor and more */
     .sentence = "a mass that is on the rotor and not in the model",
     .check = "weigh the rotor, and look for what was fixed to it there",
 };

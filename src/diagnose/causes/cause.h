@@ -43,8 +43,9 @@ struct cause_kind {
     double discrepancy_frequency, discrepancy_shape;
     /* whether the cause makes sense for this target; identified [ngroup]: E or G of the group is free. NULL: always */
     int (*applies)(const struct rotor *rotor, int target, const int *identified);
-    /* physical bounds of parameter p, lower < upper */
+    /* bounds of parameter p, lower < upper: of the size the usual ones */
     void (*bounds)(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper);
+    double widest; /* how many times so far from no effect its size is still possible; 0: those bounds are the limit */
     /* causes of the measurement chain: the value a CAUSE card gives ("gain", "1"), NULL where it gives none; and what takes the
      * fault out of the data of a job, whose arrays may be changed in place. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_ARGUMENT */
     struct effect_parameter_name value;
@@ -59,6 +60,17 @@ int cause_of_beam(const struct cause_kind *cause);
 
 /* The number of parameters of an effect in use, the first ones of its kind: a soft zone of one depth has no depth_shear. */
 int cause_parameters(const struct effect *effect);
+
+/* Bounds of parameter p: those of the effect where it is the size and has some, else those of its cause. */
+void cause_bounds(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
+                  double *upper);
+
+/* The same as far as is physically possible. */
+void cause_reach(const struct cause_kind *cause, const struct rotor *rotor, const struct effect *effect, int p, double *lower,
+                 double *upper);
+
+/* The bounds of the effect's size `times` as far as usual, within what is possible. 1 where that is farther than before. */
+int cause_widen(const struct cause_kind *cause, const struct rotor *rotor, double times, struct effect *effect);
 
 /* What a cause acts on, by name: a group, "left|right" for an interface, a spring or its place, a tie rod; "" where it has no
  * such target. NULL where memory is out. */

@@ -24,6 +24,7 @@ const struct cause_kind cause_density = {
     .place = -1,
     .width = -1,
     .bounds = bounds_of_factor,
+    .widest = 2,
     .sentence = "a density other than stated",
     .check = "weigh the part",
 };

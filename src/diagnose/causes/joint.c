@@ -69,6 +69,7 @@ const struct cause_kind cause_joint = {
     .width = -1,
     .applies = applies,
     .bounds = bounds,
+    .widest = 100,
     .sentence = "an interface between two parts that gives way in bending",
     .check = "measure both sides of the interface close to it and look for a kink, and repeat after tightening it",
 };

@@ -25,6 +25,7 @@ const struct cause_kind cause_shear_coefficient = {
     .width = -1,
     .applies = applies_to_known_group,
     .bounds = bounds_of_factor,
+    .widest = 4,
     .sentence = "a part that shears more or less than its cross section says",
     .check = "compare with a solid model of the part under a lateral load",
 };

@@ -23,6 +23,7 @@ const struct cause_kind cause_stiffness = {
     .width = -1,
     .applies = applies_to_known_group,
     .bounds = bounds_of_factor,
+    .widest = 4,
     .sentence = "a part whose stiffness was taken as known and is another one",
     .check = "measure the modulus of a sample, or identify E of this part with the others",
 };

@@ -35,6 +35,7 @@ const struct cause_kind cause_support = {
     .width = -1,
     .applies = applies,
     .bounds = bounds,
+    .widest = 100,
     .sentence = "a support stiffer or softer than stated",
     .check = "measure the frequency of the rotor swinging on its supports, or hang it on softer ones",
 };

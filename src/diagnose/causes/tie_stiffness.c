@@ -29,6 +29,7 @@ const struct cause_kind cause_tie_stiffness = {
     .place = -1,
     .width = -1,
     .bounds = bounds,
+    .widest = 3,
     .sentence = "tie rods that hold the ends together less or more stiffly than stated",
     .check = "check diameter, thread and washers of the rods, and measure their stretch while tightening",
 };
