@@ -89,6 +89,7 @@ static const struct {
 } field[] = {{"id", TEXT, offsetof(struct hidden_score, id), HIDDEN_NAME},
              {"wrong", TEXT, offsetof(struct hidden_score, wrong), HIDDEN_NAME},
              {"failure", TEXT, offsetof(struct hidden_score, failure), sizeof((struct hidden_score *)0)->failure},
+             {"shapes", INTEGER, offsetof(struct hidden_score, shapes), 0},
              {"coloured", INTEGER, offsetof(struct hidden_score, coloured), 0},
              {"reported", INTEGER, offsetof(struct hidden_score, reported), 0},
              {"names", INTEGER, offsetof(struct hidden_score, names), 0},
@@ -135,11 +136,9 @@ static void add_score(cJSON *line, const struct hidden_score *s)
 char *power_line(const struct power_case *c, const struct diagnosis *d, const cJSON *truth, const struct hidden_score *score)
 {
     static const char *const of_truth[] = {"noise", "modes", "rigid_modes", "length", "effects", "parameters"};
-    const struct hide_request *r = &c->hidden.request;
     cJSON *line = cJSON_CreateObject();
     cJSON_AddNumberToObject(line, "case", c->hidden.number);
     cJSON_AddStringToObject(line, "again", c->again);
-    cJSON_AddBoolToObject(line, "shapes", !r->no_shapes);
     for (size_t i = 0; truth && i < sizeof of_truth / sizeof *of_truth; i++)
         cJSON_AddItemToObject(line, of_truth[i], cJSON_Duplicate(cJSON_GetObjectItem(truth, of_truth[i]), 1));
     add_score(line, score);

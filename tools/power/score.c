@@ -377,6 +377,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     s->class = class_of(&read->rotor, effects);
     s->truths = cJSON_GetArraySize(effects);
     snprintf(s->id, sizeof s->id, "%s", !effect ? "none" : text_of(effect, is(effect, "outside") ? "kind" : "id"));
+    s->shapes = read->measurement.shape != NULL;
     s->coloured = number_of(cJSON_GetObjectItem(truth, "noise"), "correlation") != 0;
     s->reported = d->result.verdict.kind != ROTID_ADEQUATE;
     s->names = d->ncause;
