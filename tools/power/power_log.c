@@ -26,6 +26,8 @@ static cJSON *candidate_line(const struct candidate *c)
         add_number(o, c->effect.kind->parameter[p].name, c->effect.value[p]);
     if (c->cause->variant[0] && c->effect.kind)
         cJSON_AddStringToObject(o, "variant", c->cause->variant[c->effect.variant]);
+    if (c->with)
+        cJSON_AddItemToObject(o, "with", candidate_line(c->with));
     add_number(o, "predicted", c->result.predicted_drop);
     if (c->result.refitted) {
         add_number(o, "drop", c->result.chi2_drop);
