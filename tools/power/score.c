@@ -283,14 +283,22 @@ static int measure_chi2(struct pool *pool, const struct diagnosis *d, const stru
     return status;
 }
 
+/* How many of the causes of a candidate, one or two, are there. */
+static int true_causes(const struct diagnosis *d, const struct candidate *c, const cJSON *truth)
+{
+    return (which(&d->job, c, truth) >= 0) + (c->with && which(&d->job, c->with, truth) >= 0);
+}
+
+/* A pair of which one is true neither leads nor is led. */
 static double margin(const struct diagnosis *d, const cJSON *truth)
 {
     for (int r = 0; r < d->nround; r++) {
         double right = INFINITY, other = INFINITY;
         for (int i = 0; i < d->round[r].ncandidate; i++) {
             const struct candidate *c = &d->round[r].candidate[i];
-            double *best = which(&d->job, c, truth) >= 0 ? &right : &other;
-            if (c->result.refitted && isfinite(c->result.chi2))
+            int found = true_causes(d, c, truth);
+            double *best = found ? &right : &other;
+            if (c->result.refitted && isfinite(c->result.chi2) && (!found || found == 1 + (c->with != NULL)))
                 *best = fmin(*best, c->result.chi2);
         }
         if (isfinite(right))
@@ -366,7 +374,7 @@ static enum hidden_outcome judge_verdict(const struct diagnosis *d, const cJSON 
             found[n & 1] = 1;
         noise |= s->class == HIDDEN_NOISE && is(effect, d->alternative[i].cause->id);
     }
-    s->nset = d->nalternative;
+    s->nset = d->nalternative ? d->alternative[d->nalternative - 1].set : 0;
     s->found = found[0] + found[1];
     if (d->ncause)
         return HIDDEN_RIGHT;
@@ -384,6 +392,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     s->class = class_of(&read->rotor, effects);
     s->truths = cJSON_GetArraySize(effects);
     snprintf(s->id, sizeof s->id, "%s", !effect ? "none" : text_of(effect, is(effect, "outside") ? "kind" : "id"));
+    s->shapes = read->measurement.shape != NULL;
     s->coloured = number_of(cJSON_GetObjectItem(truth, "noise"), "correlation") != 0;
     s->reported = d->result.verdict.kind != ROTID_ADEQUATE;
     s->names = d->ncause;
