@@ -143,6 +143,9 @@ module rotid
     type(c_ptr) :: heading = c_null_ptr       ! type(c_ptr) [nheading]
     type(c_ptr) :: references = c_null_ptr    ! rotid_reference [nreferences]
     type(c_ptr) :: memory = c_null_ptr
+    integer(c_int) :: nstate = 0
+    type(c_ptr) :: state_name = c_null_ptr    ! type(c_ptr) [nstate]
+    type(c_ptr) :: state = c_null_ptr         ! type(c_ptr) [nstate], each of a rotid_deck
   end type rotid_deck
 
   ! ------------------------------------------------------------------------------------------------ types: results

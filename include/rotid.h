@@ -130,7 +130,8 @@ typedef struct rotid_reference {
 
 /* What a deck says. All arrays belong to it and are not to be changed. A deck is only read by the routines below: several threads
  * may work on one, and it may be freed before their results. */
-typedef struct rotid_deck {
+typedef struct rotid_deck rotid_deck;
+struct rotid_deck {
     const char *path;
     int nmessage, nerror; /* of errors beyond the first 200 only the number is kept */
     const rotid_message *message;
@@ -152,7 +153,12 @@ typedef struct rotid_deck {
     const char **heading;        /* [nheading] lines of *HEADING without the references */
     rotid_reference *references; /* [nreferences] */
     void *memory;                /* internal */
-} rotid_deck;
+    /* Several *STATE. Of these rotid_identify alone takes the whole deck; the others work on the deck of one state. Above stand the
+     * parameters of all, and the rest of the first one. 0 and NULL of a deck that is one state. */
+    int nstate;
+    const char *const *state_name; /* [nstate] */
+    rotid_deck *const *state;      /* [nstate] the deck of each, freed with this one */
+};
 
 /* Reads the deck `path`, what it includes and the measured data it names. override [noverride]: texts "CARD.OPTION=VALUE" that
  * replace options of the deck; NULL with 0. Exit: *deck, to be freed with rotid_deck_free also when the status is an error: its

@@ -71,7 +71,7 @@ static const struct {
     {TWO, 44, {"tie_shear:at=ties", "joint:at=core.end,flexibility=1e-9"}, 0},
     {OUTSIDE, 45, {"outside:kind=ground_rotation,z=1.45,stiffness=8e7"}, 0},
     {OUTSIDE, 46, {"outside:kind=sine,group=core,amplitude=0.4,waves=2"}, 0},
-    {TWO, 47, {"outside:kind=two_zones,depth=0.8,z=0.4,width=0.03,depth2=0.8,z2=1.5,width2=0.03"}, 0},
+    {TWO, 47, {"stiffness_local:depth=0.8,z=0.4,width=0.03", "stiffness_local:depth=0.8,z=1.5,width=0.03"}, 0},
 };
 
 #define COUNT ((int)(sizeof table / sizeof *table))

@@ -158,7 +158,6 @@ static void frequencies_move_as_they_must(void **state)
                  {"accelerometer_mass:mass=0.5,mount=fixed,sensor=23", -1},
                  {"accelerometer_mass:mass=0.5,mount=moving", -1},
                  {"outside:kind=bend_only,depth=0.5,z=0.6,width=0.03", -1},
-                 {"outside:kind=two_zones,depth=0.5,z=0.6,width=0.03,depth2=0.3,z2=1.5,width2=0.02", -1},
                  {"outside:kind=ground_spring,z=1,stiffness=1e7", 1},
                  {"outside:kind=ground_rotation,z=1,stiffness=1e7", 1},
                  {"outside:kind=inertia,z=1,inertia=0.5", -1},

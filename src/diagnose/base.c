@@ -6,6 +6,7 @@
 #include "diagnose/base.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/data.h"
+#include "diagnose/pairing.h"
 #include "diagnose/refit.h"
 
 #define MOST_DROPPED 2 /* modes that nobody's shape fits */
@@ -79,22 +80,6 @@ int base_note_reduction(struct engine *engine)
                                      s->nmaster, at + 1, s->reduction_error_percent[at], ratio));
 }
 
-/* A measured mode whose number belongs to another one by its shape is nobody's: it is left out, and the rest goes on. */
-static int drop_clash(struct engine *engine)
-{
-    struct job *job = &engine->job;
-    int k = engine->out->base.compared.clash;
-    int status =
-        data_add_pairing(engine, job->measurement.number[k], 0,
-                         pool_format(engine->pool,
-                                     "measured mode %d (%.6g Hz) looks like no mode of the model, and another one has the "
-                                     "shape that belongs to its number; it is left out",
-                                     job->measurement.number[k], job->measurement.frequency_hz[k]));
-    if (!status)
-        data_remove_mode(job, k);
-    return status;
-}
-
 /* A parameter at a bound may have been caught there: once more from inside, and the better fit counts. */
 static int leave_bound(struct engine *engine)
 {
@@ -146,7 +131,7 @@ static int fit_base(struct engine *engine, int say)
     for (int pass = 0; status == ROTID_ERROR_UNPAIRED && pass < MOST_DROPPED && engine->job.measurement.nmode > LEAST_LEFT &&
                        !engine->job.measurement.raw;
          pass++) {
-        status = drop_clash(engine);
+        status = pairing_drop(engine, engine->out->base.compared.clash);
         message_open(&quiet, engine->pool);
         if (!status)
             status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
@@ -166,22 +151,6 @@ static int fit_base(struct engine *engine, int say)
     engine->holdout = engine->job.measurement.holdout;
     out->job = engine->job;
     return job_started_at(engine->pool, &engine->job, engine->fit->x, &engine->job);
-}
-
-static int note_pairing(struct engine *engine)
-{
-    const struct job *job = &engine->job;
-    for (int k = 0; k < job->measurement.nmode; k++) {
-        if (engine->number[k] == job->measurement.number[k])
-            continue;
-        int status = data_add_pairing(
-            engine, job->measurement.number[k], engine->number[k],
-            pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model; it is taken as that",
-                        job->measurement.number[k], job->measurement.frequency_hz[k], engine->number[k]));
-        if (status)
-            return status;
-    }
-    return ROTID_OK;
 }
 
 /* The accelerometer is weighed by the shapes of the fitted model, and the fit is spoilt by its weight: in turn, each time from
@@ -219,7 +188,7 @@ int base_prepare(struct engine *engine)
     struct diagnosis *out = engine->out;
     int status = fit_base(engine, 1), at;
     if (!status)
-        status = note_pairing(engine);
+        status = pairing_note(engine, engine->job.measurement.number);
     if (!status) /* before the channels are judged: its mass is seen in the shapes too */
         status = weigh_accelerometer(engine);
     if (!status && engine->job.options.solid) /* whose mesh follows from its outline, not from elements of the deck */

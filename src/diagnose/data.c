@@ -263,5 +263,6 @@ int data_prepare(struct engine *engine, const struct job *job)
         return ROTID_ERROR_ARGUMENT;
     }
     judge_amount(engine);
+    engine->nprepared = engine->out->result.ndata_findings;
     return ROTID_OK;
 }

@@ -119,12 +119,16 @@ static const char *reason(const struct engine *engine, const struct before *befo
     if (isfinite(c->result.holdout_rms) && c->result.holdout_rms > WORSE * before->holdout_rms)
         return pool_format(pool, "the prediction of held-out modes gets worse: %.2g %% after %.2g %%", c->result.holdout_rms,
                            before->holdout_rms);
+    return NULL;
+}
+
+/* Modes left out in turn are predicted worse with the cause. That doubts the cause, and speaks for no other one: with few modes a
+ * true cause does it too. */
+static int is_doubted(const struct engine *engine, const struct before *before, const struct candidate *c)
+{
     int worse = isfinite(c->result.mode_out_rms) && c->result.mode_out_rms > WORSE * before->mode_out_rms,
         no_better = !(isfinite(c->result.sensor_out_rms) && c->result.sensor_out_rms < before->sensor_out_rms);
-    if (worse && c->result.mode_out_rms > 2 * frequency_noise(&engine->job) && no_better)
-        return pool_format(pool, "the prediction of modes left out in turn gets worse: %.2g %% after %.2g %%",
-                           c->result.mode_out_rms, before->mode_out_rms);
-    return NULL;
+    return worse && c->result.mode_out_rms > 2 * frequency_noise(&engine->job) && no_better;
 }
 
 /* frequencies whose noise is larger than stated, as a candidate among the others */
@@ -150,6 +154,9 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     struct pool *pool = engine->pool;
     add_noise(before, round);
     struct candidate *best = NULL;
+    int *doubted = POOL_ARRAY(pool, int, round->ncandidate + 1);
+    if (!doubted)
+        return ROTID_ERROR_MEMORY;
     double left_frequency = 0, predicts = INFINITY, alone = INFINITY, noise = frequency_noise(&engine->job);
     for (int i = 0; i < round->ncandidate; i++)
         if (round->candidate[i].result.refitted && !round->candidate[i].with)
@@ -157,6 +164,11 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     for (int i = 0; i < round->ncandidate; i++) {
         struct candidate *c = &round->candidate[i];
         c->result.rejected_because = reason(engine, before, round->result.threshold, alone, c);
+        doubted[i] = !c->result.rejected_because && is_doubted(engine, before, c);
+        if (doubted[i])
+            c->result.rejected_because =
+                pool_format(pool, "the prediction of modes left out in turn gets worse: %.2g %% after %.2g %%",
+                            c->result.mode_out_rms, before->mode_out_rms);
         if (!c->result.rejected_because && c->result.chi2_drop > round->result.threshold && isfinite(c->result.holdout_rms))
             predicts = fmin(predicts, c->result.holdout_rms);
     }
@@ -189,6 +201,10 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         struct candidate *c = &round->candidate[i];
         if (c->result.refitted && c->result.at_bound && candidate_score(c) < candidate_score(best))
             refused = 1;
+        if (doubted[i] && candidate_score(c) <= limit) { /* it cannot be named, and keeps the best one from that */
+            c->result.rejected_because = NULL;
+            c->refused = 0;
+        }
         if (c->result.rejected_because)
             continue;
         if (candidate_score(c) <= limit)

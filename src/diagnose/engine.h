@@ -17,6 +17,9 @@ struct engine {
     int nown;                            /* parameters of the deck: the first ones of the job */
     double *deck_start;                  /* [nown] */
     int *number, *holdout;               /* [nmode] */
+    int nprepared;                       /* findings of the data before a model was looked at */
+    int dropped;                         /* modes that nobody's shape fits and that were left out */
+    struct job_measurement measured;     /* with them, where there are any */
     rotid_fit_result *fit;               /* of that job */
     double mode_out_rms, mode_out_shape; /* of that job, NaN where unknown: modes left out in turn, percent and shape */
     int user_reduction;                  /* of the deck's own FIT */

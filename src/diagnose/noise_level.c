@@ -10,6 +10,7 @@
 #include "diagnose/noise_check.h"
 
 #define MUCH_LESS 0.7  /* of the stated noise */
+#define WHOLE     1.5  /* chi2 a degree of freedom: with more, noise is not all that is left */
 #define NOISIER   3.0  /* beyond any misjudgement: then it is the model that is wrong, in ways no cause has */
 #define SHARED    0.45 /* correlation of neighbours; 0.08 is the error of its estimate, 0.2 what a smooth misfit adds */
 #define LITTLE    2.0  /* chi2 a residual: with more, it is not noise that is left */
@@ -28,16 +29,15 @@ static int allows_for_more(const struct rotor *rotor)
     return 0;
 }
 
-/* The stated noise is kept where it is a little too large, since a user may have allowed for what a model leaves, and where no
- * model leaves as little as the estimate says. chi2: of the shapes, a degree of freedom. */
+/* Not where the best model leaves more than that noise: then it is the model that is wrong. The stated noise is kept where it is a
+ * little too large: a user may have allowed for what a model leaves. chi2: of the shapes, a degree of freedom. */
 static int is_misstated(const struct engine *engine, const struct noise_estimate *noise, double chi2)
 {
-    if (!noise->usable || !noise->misstated)
+    if (!noise->usable || !noise->misstated || chi2 > WHOLE * noise->factor * noise->factor)
         return 0;
     if (noise->factor < 1)
-        return fmax(noise->factor, sqrt(chi2)) < MUCH_LESS && !engine->job.measurement.has_noise_floor &&
-               !allows_for_more(&engine->job.rotor);
-    return noise->factor > 1 && noise->factor < NOISIER;
+        return noise->factor < MUCH_LESS && !engine->job.measurement.has_noise_floor && !allows_for_more(&engine->job.rotor);
+    return noise->factor < NOISIER;
 }
 
 /* The level of the noise by what no cause can produce. */

@@ -9,6 +9,7 @@
 #include "diagnose/evidence.h"
 #include "diagnose/faults.h"
 #include "diagnose/noise_level.h"
+#include "diagnose/pairing.h"
 #include "diagnose/pairs.h"
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
@@ -17,7 +18,7 @@
 #define MOST_REFITS         16
 #define MOST_PAIRS          16 /* the true one is seldom the first of the linear list: where effects are large its fit shows it */
 #define MOST_PAIRS_OF_SOLID 6
-#define MOST_PASSES         4    /* of a round, each with better data */
+#define MOST_PASSES         5    /* of a round, each with better data */
 #define WORTH               3.0  /* a promised drop below this is noise */
 #define SHARE               0.25 /* of the best promise: a rival of cosine 0.5 keeps so much */
 
@@ -121,13 +122,15 @@ static int fit_again(struct engine *engine)
     return ROTID_OK;
 }
 
-/* Faults of the data, judged by what the best refits leave: the round is to be repeated without them. Of channels until a cause is
- * named: beside the model that has it they were looked at. */
+/* The data judged by the best refits: pairing, channels, noise; the round is to be repeated where something was at fault. Pairing
+ * and channels until a cause is named: beside the model that has it they were looked at. */
 static int settle_data(struct engine *engine, struct round_result *result, int *changed)
 {
     int best = -1, status = ROTID_OK;
     *changed = 0;
     if (!engine->out->ncause)
+        status = pairing_settle(engine, result, changed);
+    if (!status && !*changed && !engine->out->ncause)
         status = faults_settle(engine, result, changed);
     for (int i = 0; i < result->nrefit; i++)
         if (result->refit[i].fit && (best < 0 || result->refit[i].chi2 < result->refit[best].chi2))

@@ -8,9 +8,15 @@
 
 int size_at_bound(const rotid_parameter *bounds, double neutral, double x)
 {
-    double range = bounds->upper - bounds->lower, near = AT_BOUND * range;
-    return (x < bounds->lower + near && fabs(bounds->lower - neutral) > near) ||
-           (x > bounds->upper - near && fabs(bounds->upper - neutral) > near);
+    double lower = bounds->lower, upper = bounds->upper;
+    if (lower > 0 && neutral > 0 && x > 0) {
+        lower = log(lower);
+        upper = log(upper);
+        neutral = log(neutral);
+        x = log(x);
+    }
+    double near = AT_BOUND * (upper - lower);
+    return (x < lower + near && fabs(lower - neutral) > near) || (x > upper - near && fabs(upper - neutral) > near);
 }
 
 /* Index of the parameter that is the size of effect e, -1 where that is fixed. */

@@ -5,7 +5,7 @@
 #include "diagnose/refit.h"
 
 /* Whether x lies so near a bound that it is not the size the data want. A bound at which the effect vanishes (neutral) is none: a
- * small size lies near it. */
+ * small size lies near it. Between bounds above zero sizes are factors, and a distance is a ratio. */
 int size_at_bound(const rotid_parameter *bounds, double neutral, double x);
 
 /* The fit of a set again with the bounds at which its sizes end farther away, step by step as long as chi2 falls, up to what is

@@ -86,7 +86,7 @@ int comparison_make(struct pool *pool, const struct job *job, const struct spect
     double *work = POOL_ARRAY(pool, double, spectrum->nmaster), *correlation = NULL;
     if (!c->number || !c->basis || !c->mac || !c->nco || !used || !work)
         return ROTID_ERROR_MEMORY;
-    if (job->measurement.shape && !(correlation = correlations(pool, job, spectrum, candidates, work)))
+    if (job->measurement.shape && !job->measurement.paired && !(correlation = correlations(pool, job, spectrum, candidates, work)))
         return ROTID_ERROR_MEMORY;
     if (nmode)
         memcpy(c->number, job->measurement.number, (size_t)nmode * sizeof *c->number);

@@ -56,6 +56,7 @@ struct frf_request {
 struct job_measurement {
     int nmode;
     int *number;           /* [nmode] elastic mode of the model, from 1; the shapes may decide otherwise */
+    int paired;            /* they may not: the numbers are settled */
     double *frequency_hz;  /* [nmode] */
     double *damping;       /* [nmode] ratio, NaN where there is none */
     double *frequency_std; /* [nmode] relative, NaN where there is none; the NOISE card is already applied */

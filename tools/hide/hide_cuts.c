@@ -43,9 +43,9 @@ static void cut_evenly(struct list *list, double from, double to, int cells)
         cut(list, from + (to - from) * i / cells);
 }
 
-static void cut_zone(struct list *list, const struct hide_effect *e, const char *center, const char *width, int refine)
+static void cut_zone(struct list *list, const struct hide_effect *e, int refine)
 {
-    double z = hide_get(e, center)->number, w = hide_get(e, width)->number;
+    double z = hide_get(e, "z")->number, w = hide_get(e, "width")->number;
     if (hide_get(e, "shape")->index == 1 || hide_is(e, "density_zone")) {
         cut(list, z - w / 2);
         cut(list, z + w / 2);
@@ -96,11 +96,8 @@ static void cut_for(struct list *list, const struct hide_rotor *rotor, const str
                    (int)(CELLS_WAVE * (1 + hide_get(e, "waves")->number)) * refine);
     else if (hide_is(e, "step_stiffness") && hide_get(e, "angle")->number < 90)
         cut_steps(list, rotor, hide_get(e, "angle")->number, refine);
-    else if (hide_is(e, "two_zones")) {
-        cut_zone(list, e, "z", "width", refine);
-        cut_zone(list, e, "z2", "width2", refine);
-    } else if (hide_is(e, "stiffness_local") || hide_is(e, "bend_only") || hide_is(e, "density_zone"))
-        cut_zone(list, e, "z", "width", refine);
+    else if (hide_is(e, "stiffness_local") || hide_is(e, "bend_only") || hide_is(e, "density_zone"))
+        cut_zone(list, e, refine);
 }
 
 static int ascending(const void *left, const void *right)

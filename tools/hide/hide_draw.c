@@ -244,9 +244,6 @@ static int draw_outside(struct draw *d, const char *name, char spec[HIDE_SPEC])
     double width = length * sized(d, 0.0075, 0.03);
     if (!strcmp(name, "bend_only"))
         snprintf(spec, HIDE_SPEC, "outside:kind=%s,depth=%.6g,z=%.6g,width=%.6g", name, depth, z, width);
-    else if (!strcmp(name, "two_zones"))
-        snprintf(spec, HIDE_SPEC, "outside:kind=%s,depth=%.6g,z=%.6g,width=%.6g,depth2=%.6g,z2=%.6g,width2=%.6g", name, depth, z,
-                 width, sized(d, 0.1, 0.9), anywhere(d), length * sized(d, 0.0075, 0.03));
     else if (!strcmp(name, "ground_spring"))
         snprintf(spec, HIDE_SPEC, "outside:kind=%s,z=%.6g,stiffness=%.6g", name, z, first * sized(d, 1e-3, 0.5));
     else if (!strcmp(name, "ground_rotation"))
@@ -292,6 +289,14 @@ static const struct hide_kind *draw_class(struct draw *d, enum hide_class class,
     return NULL;
 }
 
+static int has_place(const struct hide_kind *kind)
+{
+    for (int k = 0; k < HIDE_MOST_KEYS && kind->key[k].name; k++)
+        if (kind->key[k].type == HIDE_PLACE)
+            return 1;
+    return 0;
+}
+
 int hide_draw(const struct hide_rotor *rotor, int modes, int no_shapes, const char *random, struct hide_random *stream,
               char spec[2][HIDE_SPEC], int *count, const struct hide_message *message)
 {
@@ -315,7 +320,7 @@ int hide_draw(const struct hide_rotor *rotor, int modes, int no_shapes, const ch
     if (hide_same(random, "pair")) {
         *count = 2;
         kind = draw_class(&d, HIDE_PHYSICAL, NULL, spec[0]);
-        return kind && draw_class(&d, HIDE_PHYSICAL, kind, spec[1])
+        return kind && draw_class(&d, HIDE_PHYSICAL, has_place(kind) ? NULL : kind, spec[1])
                    ? HIDE_OK
                    : hide_fail(message, HIDE_INPUT, "--random pair: expected a rotor to which two effects apply");
     }

@@ -63,10 +63,10 @@ static double bump(double z, double center, double width, int box)
     return box ? fabs(x) <= 0.5 : exp(-0.5 * x * x);
 }
 
-static double zone(const struct hide_effect *e, const char *depth, const char *center, const char *width, double z)
+static double zone(const struct hide_effect *e, double z)
 {
-    return 1 - hide_get(e, depth)->number *
-                   bump(z, hide_get(e, center)->number, hide_get(e, width)->number, hide_get(e, "shape")->index == 1);
+    return 1 - hide_get(e, "depth")->number *
+                   bump(z, hide_get(e, "z")->number, hide_get(e, "width")->number, hide_get(e, "shape")->index == 1);
 }
 
 /* Factors of one effect at z in the group. */
@@ -80,7 +80,7 @@ static struct hide_section factors(const struct hide_rotor *rotor, const struct 
     else if (hide_is(e, "stiffness_profile") && here)
         stiffness = 1 + hide_get(e, "profile")->number * (xi * xi - 1.0 / 3);
     else if (hide_is(e, "stiffness_local"))
-        stiffness = zone(e, "depth", "z", "width", z);
+        stiffness = zone(e, z);
     else if (hide_is(e, "stiffness") && here)
         stiffness = hide_get(e, "factor")->number;
     else if (hide_is(e, "shear_coefficient") && here)
@@ -88,9 +88,7 @@ static struct hide_section factors(const struct hide_rotor *rotor, const struct 
     else if (hide_is(e, "density") && here)
         mass = hide_get(e, "factor")->number;
     else if (hide_is(e, "bend_only"))
-        bending = zone(e, "depth", "z", "width", z);
-    else if (hide_is(e, "two_zones"))
-        stiffness = zone(e, "depth", "z", "width", z) * zone(e, "depth2", "z2", "width2", z);
+        bending = zone(e, z);
     else if (hide_is(e, "density_zone"))
         mass = 1 + (hide_get(e, "factor")->number - 1) * bump(z, hide_get(e, "z")->number, hide_get(e, "width")->number, 1);
     else if (hide_is(e, "sine") && here)

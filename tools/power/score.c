@@ -116,26 +116,10 @@ static int is_true(const struct job *job, const struct candidate *c, const cJSON
     return fabs(c->effect.value[c->cause->place] - z) <= fmax(isfinite(width) ? width : 0, PLACE_TOLERANCE * length);
 }
 
-/* The two zones of a kind outside are each a soft zone of the catalogue. */
-static int is_two_zones(const cJSON *effect)
-{
-    return !strcmp(text_of(effect, "kind"), "two_zones");
-}
-
-static int is_zone(const struct candidate *c, const cJSON *truth, double z, double width)
-{
-    return !strcmp(c->cause->id, "stiffness_local") &&
-           fabs(c->effect.value[c->cause->place] - z) <= fmax(width, PLACE_TOLERANCE * number_of(truth, "length"));
-}
-
 /* The number of the true effect that a candidate is, or -1. */
 static int which(const struct job *job, const struct candidate *c, const cJSON *truth)
 {
-    const cJSON *effects = cJSON_GetObjectItem(truth, "effects"), *first = cJSON_GetArrayItem(effects, 0);
-    if (is_two_zones(first))
-        return is_zone(c, truth, parameter_of(first, "z"), parameter_of(first, "width"))     ? 0
-               : is_zone(c, truth, parameter_of(first, "z2"), parameter_of(first, "width2")) ? 1
-                                                                                             : -1;
+    const cJSON *effects = cJSON_GetObjectItem(truth, "effects");
     for (int i = 0; i < cJSON_GetArraySize(effects); i++)
         if (!strcmp(text_of(cJSON_GetArrayItem(effects, i), "class"), "physical") &&
             is_true(job, c, truth, cJSON_GetArrayItem(effects, i)))
@@ -166,8 +150,6 @@ static enum hidden_class class_of(const struct rotor *rotor, const cJSON *effect
     const cJSON *first = cJSON_GetArrayItem(effects, 0);
     if (!first)
         return HIDDEN_NOTHING;
-    if (is_two_zones(first))
-        return HIDDEN_PAIR;
     if (!strcmp(text_of(first, "class"), "outside") || is_beyond(rotor, first))
         return HIDDEN_OUTSIDE;
     if (!strcmp(text_of(first, "class"), "data"))
@@ -393,7 +375,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
 {
     const cJSON *effects = cJSON_GetObjectItem(truth, "effects"), *effect = cJSON_GetArrayItem(effects, 0);
     s->class = class_of(&read->rotor, effects);
-    s->truths = cJSON_GetArraySize(effects) + is_two_zones(effect);
+    s->truths = cJSON_GetArraySize(effects);
     snprintf(s->id, sizeof s->id, "%s", !effect ? "none" : text_of(effect, is(effect, "outside") ? "kind" : "id"));
     s->coloured = number_of(cJSON_GetObjectItem(truth, "noise"), "correlation") != 0;
     s->reported = d->result.verdict.kind != ROTID_ADEQUATE;

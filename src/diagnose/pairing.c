@@ -1,0 +1,135 @@
+#include "diagnose/pairing.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "diagnose/data.h"
+#include "diagnose/decide.h"
+
+#define AS_WELL 2.0 /* times the misfit of the others: a mode that was left out and fits no worse is back */
+
+int pairing_drop(struct engine *engine, int k)
+{
+    struct job *job = &engine->job;
+    int status = ROTID_OK;
+    if (!engine->dropped) {
+        struct job whole = *job;
+        status = data_copy(engine->pool, &whole);
+        engine->measured = whole.measurement;
+    }
+    engine->dropped++;
+    if (!status)
+        status =
+            data_add_pairing(engine, job->measurement.number[k], 0,
+                             pool_format(engine->pool,
+                                         "measured mode %d (%.6g Hz) looks like no mode of the model, and another one has the "
+                                         "shape that belongs to its number; it is left out",
+                                         job->measurement.number[k], job->measurement.frequency_hz[k]));
+    if (!status)
+        data_remove_mode(job, k);
+    return status;
+}
+
+int pairing_note(struct engine *engine, const int *number)
+{
+    const struct job *job = &engine->job;
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        if (engine->number[k] == number[k])
+            continue;
+        int status = data_add_pairing(
+            engine, number[k], engine->number[k],
+            pool_format(engine->pool, "measured mode %d (%.6g Hz) has the shape of mode %d of the model; it is taken as that",
+                        number[k], job->measurement.frequency_hz[k], engine->number[k]));
+        if (status)
+            return status;
+    }
+    return ROTID_OK;
+}
+
+struct pairing { /* beside a refit */
+    int *number;
+    double rate; /* chi2 a degree of freedom */
+    double chi2;
+};
+
+/* Pairs the data beside the model of a refit, and fits that again where the pairing is another one. rate INFINITY where two modes
+ * claim one partner, or where it is the same. */
+static int pair_beside(struct engine *engine, const struct refit *refit, const struct job_measurement *measured,
+                       struct pairing *pairing)
+{
+    struct job job = refit->job;
+    struct spectrum spectrum;
+    struct comparison compared;
+    struct message_list quiet;
+    rotid_fit_result *fit = NULL;
+    message_open(&quiet, engine->pool);
+    job.measurement = *measured;
+    *pairing = (struct pairing){.rate = INFINITY};
+    int status = spectrum_compute_parts(engine->pool, job.models, &job.rotor, job.unknowns.nparameter, job.unknowns.parameter,
+                                        refit->fit->x, ROTID_GUYAN, comparison_candidates(&job), SPECTRUM_REDUCED, &spectrum);
+    if (!status)
+        status = comparison_make(engine->pool, &job, &spectrum, &quiet, &compared);
+    int same = !status && measured->nmode == engine->job.measurement.nmode &&
+               !memcmp(compared.number, engine->number, (size_t)measured->nmode * sizeof *compared.number);
+    if (!status && !same)
+        status = refit_job(engine->pool, &job, compared.number, measured->holdout, engine->environment, &fit);
+    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+        return status;
+    if (fit && fit->dof > 0)
+        *pairing = (struct pairing){compared.number, fit->chi2 / fit->dof, fit->chi2};
+    rotid_fit_free(fit);
+    return ROTID_OK;
+}
+
+/* The findings about pairing since the data were prepared are taken back. */
+static void take_back(struct engine *engine)
+{
+    rotid_diagnosis *out = &engine->out->result;
+    int kept = 0;
+    for (int i = 0; i < out->ndata_findings; i++)
+        if (i < engine->nprepared || !same_text(out->data_findings[i].id, "mode_pairing"))
+            out->data_findings[kept++] = out->data_findings[i];
+    out->ndata_findings = kept;
+}
+
+static int adopt(struct engine *engine, const struct job_measurement *measured, int *number)
+{
+    struct job job = engine->job;
+    job.measurement = *measured;
+    int status = data_copy(engine->pool, &job);
+    if (status)
+        return status;
+    engine->job.measurement = job.measurement;
+    engine->job.measurement.number = engine->number = number;
+    engine->job.measurement.paired = 1;
+    engine->dropped = 0;
+    take_back(engine);
+    return pairing_note(engine, measured->number);
+}
+
+int pairing_settle(struct engine *engine, const struct round_result *result, int *changed)
+{
+    const struct job_measurement now = engine->job.measurement, *measured = engine->dropped ? &engine->measured : &now;
+    struct pairing best = {.rate = INFINITY};
+    double rate = INFINITY, chi2 = INFINITY;
+    *changed = 0;
+    if (!now.shape || now.paired || now.ncorrection != measured->ncorrection)
+        return ROTID_OK;
+    for (int i = 0; i < result->nrefit; i++) {
+        struct pairing pairing;
+        if (!result->refit[i].fit)
+            continue;
+        int status = pair_beside(engine, &result->refit[i], measured, &pairing);
+        if (status)
+            return status;
+        best = pairing.rate < best.rate ? pairing : best;
+        rate = fmin(rate, result->refit[i].chi2 / result->refit[i].fit->dof);
+        chi2 = fmin(chi2, result->refit[i].chi2);
+    }
+    int better = engine->dropped ? best.rate < AS_WELL * fmax(1, rate) : best.chi2 + LEAST_MARGIN * fmax(1, rate) < chi2;
+    if (!isfinite(best.rate) || !better)
+        return ROTID_OK;
+    *changed = 1;
+    return adopt(engine, measured, best.number);
+}
