@@ -365,6 +365,22 @@ static void a_pair_that_explains_nothing_more_is_refused(void **state)
     assert_reason("added_mass", "at one place are one");
 }
 
+static void pairs_that_share_a_cause_name_that(void **state)
+{
+    (void)state;
+    for (int shared = 0; shared < 2; shared++) {
+        open_round();
+        before.chi2 = 800;
+        add("stiffness", "left", 1, 300);
+        add_pair("stiffness", "density", 400, 1);
+        add_pair("joint", shared ? "stiffness" : "tie_tension", 398, 1);
+        conclude_as(shared ? ROTID_NAMED : ROTID_AMBIGUOUS, shared ? 1 : 2);
+        assert_int_equal(candidates[0].with == NULL, shared);
+        assert_string_equal(candidates[0].cause->id, "stiffness");
+    }
+    assert_reason("joint", "for the next round");
+}
+
 /* Noise of frequencies is one cause alone as well. */
 static void a_pair_has_to_beat_noisier_frequencies(void **state)
 {
@@ -469,6 +485,7 @@ int main(void)
         TEST(a_pair_is_named_where_it_leads_every_cause_and_every_pair),
         TEST(a_pair_that_explains_nothing_more_is_refused),
         TEST(a_pair_has_to_beat_noisier_frequencies),
+        TEST(pairs_that_share_a_cause_name_that),
         TEST(noise_of_the_frequencies_is_a_rival),
         TEST(too_little_data_name_nothing),
         TEST(a_cause_that_fits_as_well_at_another_place_is_not_named),

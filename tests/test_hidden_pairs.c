@@ -24,15 +24,15 @@ static const struct {
     const char *effect[2]; /* at most */
     int on_bearings;       /* the rotor stands on springs that bend it, in place of the sling */
 } table[] = {
-    {BOTH, 1, {"stiffness:group=left,factor=1.1", "stiffness:group=right,factor=0.9"}, 0},
+    {BOTH, 1, {"stiffness:group=left,factor=1.1", "stiffness:group=right,factor=0.85"}, 0},
     {BOTH, 2, {"stiffness:group=left,factor=0.92", "stiffness:group=right,factor=0.93"}, 0},
     {BOTH, 3, {"stiffness_local:depth=0.5,z=0.857,width=0.04,shape=gaussian", "added_mass:mass=10,z=1.6"}, 0},
-    {BOTH, 4, {"stiffness_gradient:group=core,slope=0.3", "support:at=sling,factor=0.5"}, 1},
+    {BOTH, 4, {"stiffness_gradient:group=core,slope=0.5", "support:at=sling,factor=0.7"}, 1},
     {BOTH, 5, {"joint:at=left.end,flexibility=2e-9", "density:group=core,factor=0.92"}, 0},
     {ALONE, 6, {"stiffness_gradient:group=core,slope=0.4"}, 0},
     {ALONE, 7, {"stiffness_local:depth=0.6,z=0.857,width=0.04,shape=gaussian"}, 0},
     {ALONE, 8, {"stiffness:group=left,factor=2.2"}, 0}, /* beyond the usual bounds */
-    {ALONE, 9, {"support:at=sling,factor=0.4"}, 1},
+    {ALONE, 9, {"support:at=sling,factor=0.8"}, 1},
     {NO_PAIR, 10, {"outside:kind=ground_rotation,z=1.45,stiffness=2e9"}, 0},
     {NO_PAIR, 11, {"outside:kind=sine,group=core,amplitude=0.6,waves=2"}, 0},
     {NO_PAIR, 12, {"outside:kind=density_zone,factor=1.5,z=0.6,width=0.2"}, 0},
