@@ -501,6 +501,18 @@ static void a_cause_that_stands_in_the_deck_is_part_of_the_model(void **state)
     pool_close(&r.pool);
 }
 
+static void a_suspect_states_where_its_size_is_looked_for(void **state)
+{
+    (void)state;
+    struct reading r;
+    read_text(&r, MODEL "*CAUSE, NAME=m, TYPE=added_mass, SUSPECT\nmass, 0.01, 0.4\nz, 0.3\n", NULL);
+    const struct suspect *suspect = r.job.unknowns.suspect;
+    assert_int_equal(r.job.unknowns.nsuspect, 1);
+    assert_true(suspect->effect.bound[0] == 0.01 && suspect->effect.bound[1] == 0.4);
+    assert_true(!suspect->fixed[0] && suspect->fixed[1] && suspect->effect.value[1] == 0.3);
+    pool_close(&r.pool);
+}
+
 /* ------------------------------------------------------------------------------------------------ faults of the world */
 
 static void without_memory_nothing_leaks(void **state)
@@ -588,6 +600,7 @@ int main(void)
         cmocka_unit_test(a_correction_without_its_sensor_is_refused),
         cmocka_unit_test(parameters_of_causes_are_identified_beside_moduli),
         cmocka_unit_test(a_cause_that_stands_in_the_deck_is_part_of_the_model),
+        cmocka_unit_test(a_suspect_states_where_its_size_is_looked_for),
         cmocka_unit_test(without_memory_nothing_leaks),
         cmocka_unit_test(a_deck_of_causes_with_one_wrong_byte_gets_an_answer),
     };
