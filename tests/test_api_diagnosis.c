@@ -7,7 +7,7 @@
 
 #include "api_bench.h"
 
-#define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
+#define LAP ROTID_SOURCE_DIR "/input/brake_reuss_lap.inp"
 
 static char directory[] = "/tmp/test_api_diagnosis_XXXXXX", deck_path[64], extended_path[64];
 
@@ -17,9 +17,9 @@ static void the_extended_deck_is_that_of_the_program(void **state)
     (void)state;
     char command[512], *text = calloc(1 << 20, 1);
     rotid_diagnosis *d;
-    rotid_deck *deck = bench_deck(SOLID);
+    rotid_deck *deck = bench_deck(LAP);
     char failure[512] = "not touched";
-    (void)snprintf(command, sizeof command, "'%s' diagnose '%s' --threads 2 --quiet --extended '%s'", ROTID_PROGRAM, SOLID,
+    (void)snprintf(command, sizeof command, "'%s' diagnose '%s' --threads 2 --quiet --extended '%s'", ROTID_PROGRAM, LAP,
                    extended_path);
     assert_int_equal(system(command), 0);
     assert_status(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);

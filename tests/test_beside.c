@@ -104,12 +104,12 @@ static void what_is_no_solid_is_refused_with_its_reason(void **state)
 {
     (void)state;
     static const struct {
-        const char *deck, *reason;
+        const char *deck, *place, *reason;
     } cases[] = {
-        {STEEL "*BEAM, NAME=bar, MATERIAL=steel\n1, 0.05, 0.04, 20\n", "a *BEAM is not"},
+        {STEEL "*BEAM, NAME=bar, MATERIAL=steel\n1, 0.05, 0.04, 20\n", "deck:6:1: ", "a *BEAM is not"},
         {STEEL "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.2, 0.05, 20\n"
                "*TIEROD, NAME=rods, MATERIAL=steel, FROM=0.1, TO=0.9, MODEL=TUBE\n8, 0.01, 0.08, 0\n",
-         "an equivalent tube has no counterpart"},
+         "deck:8:1: ", "an equivalent tube has no counterpart"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char failure[ROTID_FAILURE_LENGTH], text[1024];
@@ -117,6 +117,7 @@ static void what_is_no_solid_is_refused_with_its_reason(void **state)
         rotid_deck *deck = read(cases[i].deck, ROTID_OK);
         assert_status(rotid_spectrum_beside(deck, NULL, 2, NULL, failure, &s), ROTID_ERROR_SECTION);
         assert_null(s);
+        assert_non_null(strstr(failure, cases[i].place));
         assert_non_null(strstr(failure, cases[i].reason));
         rotid_deck_free(deck);
         (void)snprintf(text, sizeof text, "%s%s", cases[i].deck, SOLID);

@@ -262,7 +262,7 @@ static void every_shipped_deck_comes_back_to_the_last_bit(void **state)
         assert_comes_back(text, NULL);
     }
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        (void)snprintf(text, sizeof text, "MEASURED.FILE=" INPUT "data/solid_rotor_%s.uff", files[i]);
+        (void)snprintf(text, sizeof text, "MEASURED.FILE=" INPUT "data/bricks_rotor_%s.uff", files[i]);
         assert_comes_back(INPUT "solid_rotor.inp", text);
     }
 }

@@ -315,13 +315,28 @@ static void solid_rotor_widens_its_intervals_and_pairs_by_shape(void **state)
     (void)state;
     struct run run;
     open_run(&run, INPUT "solid_rotor.inp", NULL);
-    assert_close(run.fit->x[0], 8.48e10, 0.01, 0);
-    assert_close(run.fit->x[1], 3.98e10, 0.01, 0);
+    assert_true(run.fit->x[0] < 0.85 * 1.05e11 && run.fit->x[1] < 0.85 * 0.47e11); /* of the truth: the beam's own error */
     assert_true(run.reading.job.options.fit.functional == ROTID_LIKELIHOOD && run.fit->widened_by > 1 &&
                 run.result.shapes_fitted);
     for (int k = 0; k < 6; k++)
         assert_int_equal(run.result.compared.basis[k], PAIRED_BY_SHAPE);
     close_run(&run);
+}
+
+/* Bricks are 0.4 to 0.7 % high, and a fit takes that for stiffer moduli. */
+static void data_of_bricks_make_moduli_high(void **state)
+{
+    (void)state;
+    struct run bricks, converged;
+    open_run(&bricks, INPUT "bricks_rotor.inp", NULL);
+    open_run(&converged, INPUT "converged_rotor.inp", NULL);
+    assert_close(converged.fit->x[0], 1.05e11, 0.015, 0);
+    assert_close(converged.fit->x[1], 0.47e11, 0.015, 0);
+    assert_close(bricks.fit->x[0], 1.05e11, 0.025, 0);
+    for (int p = 0; p < 2; p++)
+        assert_true(bricks.fit->x[p] > 1.015 * converged.fit->x[p]);
+    close_run(&converged);
+    close_run(&bricks);
 }
 
 /* What `rotid modes` compares: errors [6] of the model as it stands; returns their root mean square. */
@@ -349,7 +364,7 @@ static void a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam(void 
     (void)state;
     double plain[6], cone[6], rms = model_errors(INPUT "solid_steel.inp", plain);
     for (int k = 0; k < 6; k++)
-        assert_true(plain[k] > 3 && plain[k] < 6.5); /* a beam is too stiff where the diameter steps */
+        assert_true(plain[k] > 3 && plain[k] < 7.5); /* a beam is too stiff where the diameter steps */
     assert_true(model_errors(INPUT "solid_steel_stiff.inp", cone) < rms / 2);
 }
 
@@ -381,6 +396,7 @@ int main(void)
         cmocka_unit_test(one_modulus_leaves_the_joint_and_the_foam_in_the_errors),
         cmocka_unit_test(roving_hammer_beam_determines_e_and_hardly_g),
         cmocka_unit_test(solid_rotor_widens_its_intervals_and_pairs_by_shape),
+        cmocka_unit_test(data_of_bricks_make_moduli_high),
         cmocka_unit_test(a_stiffness_diameter_at_the_steps_halves_the_error_of_the_beam),
         cmocka_unit_test(a_solid_explains_the_paper_rotor_better_than_its_beam),
     };

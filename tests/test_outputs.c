@@ -21,10 +21,10 @@ static int setup(void **state)
         return -1;
     pool_open(&pool, NULL);
     (void)shell(&pool,
-                "cd %s && mkdir data && cp " INPUT "/data/solid_steel.uff data/ && cp " INPUT "/solid_steel.inp part.inp && "
+                "cd %s && mkdir data && cp " INPUT "/data/converged_steel.uff data/ && cp " INPUT "/solid_steel.inp part.inp && "
                 "printf '*INCLUDE, FILE=part.inp\\n*IDENTIFY\\ncore.E, 1e9, 1e12, 2e11\\n' > deck.inp && printf "
                 "'*STUDY\\n*DECKS\\ndeck.inp\\n' > runs.plan && "
-                "cp part.inp kept.inp && cp data/solid_steel.uff kept.uff",
+                "cp part.inp kept.inp && cp data/converged_steel.uff kept.uff",
                 folder);
     pool_close(&pool);
     return 0;
@@ -46,18 +46,18 @@ static void refuses(const char *command)
     assert_int_equal(shell_code(&test_pool, &output, ROTID "%s 2>&1", folder, command), 2);
     if (!strstr(output, "is read"))
         fail_msg("rotid %s says:\n%s", command, output);
-    (void)shell(&test_pool, "cd %s && cmp part.inp kept.inp && cmp data/solid_steel.uff kept.uff", folder);
+    (void)shell(&test_pool, "cd %s && cmp part.inp kept.inp && cmp data/converged_steel.uff kept.uff", folder);
 }
 
 static void what_a_deck_names_is_not_written(void **state)
 {
     (void)state;
     refuses("check deck.inp --json part.inp");
-    refuses("check deck.inp --json ./data/../data/solid_steel.uff");
+    refuses("check deck.inp --json ./data/../data/converged_steel.uff");
     refuses("diagnose deck.inp --extended part.inp");
-    refuses("frf deck.inp --set FRF.LINES=9 -o data/solid_steel.uff");
+    refuses("frf deck.inp --set FRF.LINES=9 -o data/converged_steel.uff");
     refuses("frf deck.inp --set FRF.FILE=kept.uff -o kept.uff");
-    refuses("study runs.plan -o runs.jsonl --json data/solid_steel.uff");
+    refuses("study runs.plan -o runs.jsonl --json data/converged_steel.uff");
     refuses("study runs.plan -o runs.jsonl --json part.inp");
     refuses("study deck.inp -o runs.jsonl --json part.inp");
     (void)shell(&test_pool, "cd %s && sed s/part/m.mass.mtx/ deck.inp | sed s/mtx.inp/mtx/ > m.inp && cp part.inp m.mass.mtx",

@@ -134,7 +134,7 @@ static void a_model_that_is_not_adequate_is_called_that(void **state)
     (void)snprintf(text, sizeof text, "\xcf\x87\xc2\xb2 = %.0f with %.0f degrees of freedom", number_of(json, "chi2"),
                    number_of(json, "dof"));
     assert_says(html, text);
-    assert_says(html, "frequencies 0.30\xc2\xa0%");
+    assert_says(html, "frequencies 0.10\xc2\xa0%");
     assert_says(html, "<figure id=\"correlation-of-shapes\">");
     double least = 1;
     const cJSON *mode;

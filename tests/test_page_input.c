@@ -11,6 +11,7 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
+#define LAP   ROTID_SOURCE_DIR "/input/brake_reuss_lap.inp"
 
 static void make_results(void)
 {
@@ -22,7 +23,7 @@ static void make_results(void)
                  "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s study %s %s -o runs.jsonl --quiet --json "
                  "study.json",
                  page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER,
-                 ROTID_PROGRAM, SOLID, ROTID_PROGRAM, SOLID, PAPER),
+                 ROTID_PROGRAM, LAP, ROTID_PROGRAM, SOLID, PAPER),
         0);
 }
 

@@ -19,6 +19,7 @@
 
 #define PAPER      ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define SOLID      ROTID_SOURCE_DIR "/input/solid_rotor.inp"
+#define LAP        ROTID_SOURCE_DIR "/input/brake_reuss_lap.inp"
 #define MOST_TEXT  600
 #define MOST_KEYS  200
 #define MOST_TEXTS 2000
@@ -353,7 +354,7 @@ static void hostile_texts_stay_texts(void **state)
                  "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s check %s --quiet --json check.json && "
                  "%s study %s %s %s/input/brake_reuss_beam.inp -o runs.jsonl --quiet --json study.json",
                  page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER,
-                 ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, SOLID, PAPER, ROTID_SOURCE_DIR),
+                 ROTID_PROGRAM, LAP, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, SOLID, PAPER, ROTID_SOURCE_DIR),
         0);
     for (size_t i = 0; i < KINDS; i++) {
         int free_keys = 0;

@@ -90,7 +90,7 @@ static void held_out_modes_and_widened_intervals_are_said(void **state)
     (void)line_with("rms error of the fitted modes 12.45 %, of the modes held out 14.27 %");
     assert_int_equal(run("identify " INPUT "solid_rotor.inp --no-baseline"), 0);
     (void)line_with("times the stated noise: the intervals are widened by that, and the model is not adequate");
-    (void)line_with("chi2 1025 with 406 degrees of freedom");
+    (void)line_with("chi2 4795 with 406 degrees of freedom");
 }
 
 static void what_is_not_determined_or_at_a_bound_is_said(void **state)
@@ -121,7 +121,7 @@ static void modes_stand_beside_the_measured_ones_with_reduction_and_mesh_error(v
     for (int k = 1; k <= 6; k++) {
         assert_close(cell(k, 2), 100 * (cell(k, 1) / cell(k, 0) - 1), 0, 6e-4);
         assert_close(cell(k, 5), 100 * (cell(k, 0) / cell(k, 4) - 1), 0, 6e-3);
-        assert_true(cell(k, 5) > 3 && cell(k, 5) < 6.5 && cell(k, 6) > 0.98);
+        assert_true(cell(k, 5) > 3 && cell(k, 5) < 7.5 && cell(k, 6) > 0.98);
     }
     assert_null(strstr(text, "z [m]"));
     assert_int_equal(run("modes " INPUT "solid_steel.inp --verbose"), 0);

@@ -141,20 +141,33 @@ static void check_masters(struct deck_reader *reader)
             job->rotor.nsensor, highest);
 }
 
+/* Of the groups, tie rods and bars, in this order. */
+static int keep_places(struct deck_reader *reader)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    const struct place *from[] = {reader->group_place, reader->tierod_place, reader->bars_place};
+    const int count[] = {rotor->ngroup, rotor->ntierod, rotor->nbars};
+    struct job_place *to = POOL_ARRAY(reader->pool, struct job_place, count[0] + count[1] + count[2]);
+    reader->job->part = to;
+    for (int kind = 0; kind < 3 && to; kind++)
+        for (int i = 0; i < count[kind]; i++)
+            *to++ = (struct job_place){from[kind][i].file, from[kind][i].line, from[kind][i].column};
+    return reader->job->part ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
 /* Discretises the rotor, for what only the mesh and the sections can tell; the run goes on with that. */
 static void check_model(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     struct model_size size;
     enum discretisation as = job->options.solid ? AS_SOLID : AS_BEAM;
-    int failed, status = models_begin(reader->pool, as, &job->rotor, &job->models, &size, &failed);
+    int failed, status = keep_places(reader);
+    if (!status)
+        status = models_begin(reader->pool, as, &job->rotor, &job->models, &size, &failed);
     if (status == ROTID_ERROR_SECTION) {
         reader->no_section = 1;
-        int rod = failed - job->rotor.ngroup, bars = rod - job->rotor.ntierod;
-        struct place place = bars >= job->rotor.nbars ? reader->group_place[0]
-                             : rod < 0                ? reader->group_place[failed]
-                             : bars < 0               ? reader->tierod_place[rod]
-                                                      : reader->bars_place[bars];
+        struct job_place part = job_part_place(job, failed);
+        struct place place = {part.file, part.line, part.column};
         deck_error(reader, place, "%s", discrete_refusal(as, &job->rotor, failed));
     } else if (status) {
         reader->out_of_memory = 1;

@@ -25,9 +25,11 @@ static int begin_as(struct pool *pool, enum discretisation as, struct job *job, 
     struct model_size size;
     int failed, status = models_begin(pool, as, &job->rotor, &job->models, &size, &failed);
     job->options.solid = as == AS_SOLID;
-    if (status == ROTID_ERROR_SECTION)
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the rotor cannot be compared as a %s: %s",
+    if (status == ROTID_ERROR_SECTION) {
+        struct job_place place = job_part_place(job, failed);
+        message_add(notes, SEVERITY_ERROR, place.file, place.line, place.column, "the rotor cannot be compared as a %s: %s",
                     as == AS_SOLID ? "solid" : "beam", discrete_refusal(as, &job->rotor, failed));
+    }
     return status;
 }
 

@@ -203,9 +203,10 @@ static int with_models(struct pool *pool, const struct job *job, int baseline, i
         message_open(&quiet, pool);
         if (!status)
             status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
-int settled = moved <= HELD && options.baseline == baseline &&
-                      !memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number);
-        if (status || round == ROUNDS || settled || is_cancelled(out->fit, environment))
+        if (status || round == ROUNDS || is_cancelled(out->fit, environment))
+            break;
+        if (moved <= HELD && options.baseline == baseline &&
+            !memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number))
             break;
         before = out->compared;
     }

@@ -2,6 +2,14 @@
 
 #include <math.h>
 
+struct job_place job_part_place(const struct job *job, int failed)
+{
+    const struct rotor *rotor = &job->rotor;
+    if (!job->part)
+        return (struct job_place){job->deck, 1, 1};
+    return job->part[failed < rotor->ngroup + rotor->ntierod + rotor->nbars ? failed : 0];
+}
+
 int job_knows_frequency_noise(const struct job *job)
 {
     for (int k = 0; k < job->measurement.nmode; k++)

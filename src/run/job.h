@@ -91,6 +91,12 @@ struct job_options {
     struct frf_request frf;
 };
 
+/* Where a deck states something. */
+struct job_place {
+    const char *file;
+    int line, column;
+};
+
 /* Four things that change for different reasons, each a struct of its own: the rotor (a cause is added to it), what was measured
  * (the measurement chain is corrected, a mode is left out), what is searched (a cause brings its parameters, a refit other
  * starts) and the options. A second state of the same rotor is a second measurement; another model is another option. */
@@ -104,11 +110,16 @@ struct job {
     rotid_reference *reference; /* lines "paper error_percent = -3.83, 8.38, ..." of the heading */
 
     struct rotor rotor;
-    struct models *models; /* of it, as far as they are built, or NULL */
+    const struct job_place *part; /* [ngroup + ntierod + nbars] of the rotor, or NULL where nobody stated them */
+    struct models *models;        /* of it, as far as they are built, or NULL */
     struct job_measurement measurement;
     struct job_unknowns unknowns;
     struct job_options options;
 };
+
+/* Where the deck states what discrete_build refused with this *failed: the first group for the rotor as a whole, the first line of
+ * the deck where nobody stated parts. */
+struct job_place job_part_place(const struct job *job, int failed);
 
 /* Whether the noise of every measured frequency, and of every shape component, is known. */
 int job_knows_frequency_noise(const struct job *job);

@@ -113,11 +113,11 @@ def pages(folder):
     deck, plan = folder / "nasty.inp", folder / "truth.plan"
     deck.write_text(NASTY)
     plan.write_text(STUDY)
-    paper, ring = INPUT / "paper_rotor.inp", f"MEASURED.FILE={INPUT / 'data' / 'solid_rotor_mass.uff'}"
+    paper = INPUT / "paper_rotor.inp"
     least = ("--replicates", "200")
     yield make(folder, "identified", ("identify", paper), ("sensitivity", paper), ("frf", paper), ("modes", paper), ("study", plan))
     yield make(folder, "measured", ("identify", INPUT / "solid_rotor.inp"))
-    yield make(folder, "named", ("diagnose", INPUT / "solid_rotor.inp", "--set", ring, *least))
+    yield make(folder, "named", ("diagnose", INPUT / "solid_rotor.inp", *least))
     yield make(folder, "ambiguous", ("diagnose", paper, *least))
     yield make(folder, "unexplained", ("diagnose", INPUT / "brake_reuss_beam.inp", *least))
     yield make(folder, "suspected", ("diagnose", INPUT / "brake_reuss_lap.inp", *least))

@@ -149,7 +149,7 @@ class SolidRotor:
 
 
 def solid_rotor(checks):
-    sets = pyuff.UFF(str(INPUT / "data" / "solid_rotor_uniform.uff")).read_sets()
+    sets = pyuff.UFF(str(INPUT / "data" / "converged_rotor_uniform.uff")).read_sets()
     nodes = next(s for s in sets if s["type"] == 15)
     shapes = [s for s in sets if s["type"] == 55]
     place = {int(label): i for i, label in enumerate(nodes["node_nums"])}
@@ -161,7 +161,7 @@ def solid_rotor(checks):
     def residual(x):
         lam, phi = model.modes(*x, hz.size)
         scale = (phi * measured).sum(axis=0) / (phi**2).sum(axis=0)
-        return np.r_[(np.sqrt(lam) / (2 * np.pi * hz) - 1) / 0.003, ((scale * phi - measured) / 0.02).T.ravel()]
+        return np.r_[(np.sqrt(lam) / (2 * np.pi * hz) - 1) / 0.001, ((scale * phi - measured) / 0.015).T.ravel()]
 
     start = np.array([0.6e11, 0.3e11])
     found = least_squares(lambda y: residual(y * start), [1.0, 1.0], method="lm", jac="3-point", xtol=1e-13, ftol=1e-13, gtol=1e-13)

@@ -1,0 +1,140 @@
+/* A fit of a solid runs on its coarse mesh with frequencies held to those of the mesh that counts, and the same two meshes tell
+ * the error that is left: beside fits and frequencies that use no coarse mesh. */
+#include "folder.h"
+#include "solid_rig.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "deck/deck.h"
+#include "model/model.h"
+#include "run/identify.h"
+
+#define SENSORS 9
+#define MODES   4
+
+/* A step up and a step down; E and G of the core are wanted. */
+static const char rotor_text[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n"
+                                 "*MATERIAL, NAME=stack\n*ELASTIC, TYPE=LAMINATED\n1e11, 0.4e11, 1.9e11, 0.28\n*DENSITY\n7650\n"
+                                 "*SHAFT, NAME=left, MATERIAL=steel\n0.25, 0.10, 0, 20\n"
+                                 "*SHAFT, NAME=core, MATERIAL=stack\n0.35, 0.20, 0, 20\n"
+                                 "*SHAFT, NAME=right, MATERIAL=steel\n0.20, 0.08, 0, 20\n*FIT, MODEL=SOLID\n";
+
+static void read_deck(const char *text, struct job *job)
+{
+    struct message_list messages;
+    message_open(&messages, &test_pool);
+    assert_status(deck_read(&test_pool, folder_write("deck.inp", text), 0, NULL, &messages, job), ROTID_OK);
+}
+
+static void compute(const struct job *job, struct spectrum *spectrum)
+{
+    assert_status(spectrum_compute_parts(&test_pool, job->models, &job->rotor, 0, NULL, NULL, ROTID_GUYAN, MODES, SPECTRUM_MESH,
+                                         spectrum),
+                  ROTID_OK);
+}
+
+/* Modes of the rotor itself, off by 0.1 and 1 % to both sides: a misfit that no E and G take away. */
+static void measured_job(int shapes, struct job *job)
+{
+    static const double off[MODES] = {1, -0.7, 0.4, -1.2};
+    char text[16384];
+    struct spectrum s;
+    strcpy(text, rotor_text);
+    if (shapes)
+        strcat(text, "*SENSORS\n");
+    for (int i = 0; i < SENSORS && shapes; i++)
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1, 0.8 * (i + 0.5) / SENSORS);
+    read_deck(text, job);
+    compute(job, &s);
+    (void)sprintf(text + strlen(text), "*NOISE, FREQUENCY=0.001%s\n*MODES\n", shapes ? ", SHAPE=0.01" : "");
+    for (int k = 0; k < MODES; k++)
+        (void)sprintf(text + strlen(text), "%d, %.17g\n", k + 1, s.full_hz[k] * (1 + 0.001 * off[k]));
+    for (int k = 0; k < MODES && shapes; k++) {
+        (void)sprintf(text + strlen(text), "*SHAPE, MODE=%d\n", k + 1);
+        for (int i = 0; i < SENSORS; i++)
+            (void)sprintf(text + strlen(text), "%d, %.17g\n", i + 1,
+                          s.shape[k * SENSORS + i] + 0.01 * off[(3 * i + k) % MODES]);
+    }
+    strcat(text, "*IDENTIFY\ncore.E, 1e10, 4e11, 0.6e11\ncore.G, 1e10, 1.5e11, 0.7e11\n");
+    read_deck(text, job);
+}
+
+/* Through rotid_fit on the mesh that counts alone. */
+static rotid_fit_result *fit_fine(const struct job *job)
+{
+    const struct job_measurement *m = &job->measurement;
+    struct rotor_model model;
+    rotid_fit_result *fit;
+    int failed;
+    assert_status(model_open(&test_pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, 1, &model,
+                             &failed),
+                  ROTID_OK);
+    const rotid_measured measured = {.size = sizeof measured,
+                                     .nmode = m->nmode,
+                                     .number = m->number,
+                                     .frequency_hz = m->frequency_hz,
+                                     .frequency_std = m->frequency_std,
+                                     .shape = m->shape,
+                                     .shape_std = m->shape_std};
+    assert_status(rotid_fit(&model.equations, job->unknowns.bounds, &measured, &job->options.fit, NULL, NULL, &fit), ROTID_OK);
+    return fit;
+}
+
+static void a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts(void **state)
+{
+    (void)state;
+    for (int shapes = 0; shapes < 2; shapes++) {
+        struct message_list messages;
+        struct identification found;
+        struct job job;
+        measured_job(shapes, &job);
+        message_open(&messages, &test_pool);
+        assert_status(identify_run(&test_pool, &job, 0, NULL, &messages, &found), ROTID_OK);
+        rotid_fit_result *fine = fit_fine(&job);
+        for (int p = 0; p < 2; p++) {
+            print_message("%s: %.8g, on the mesh that counts %.8g, standard deviation %.2g\n", job.unknowns.bounds[p].name,
+                          found.fit->x[p], fine->x[p], fine->std[p]);
+            /* shapes at sensors are those of the coarse mesh, which nothing holds */
+            assert_close(found.fit->x[p], fine->x[p], shapes ? 0 : 1e-4, shapes ? 0.1 * fine->std[p] : 0);
+        }
+        for (int k = 0; k < MODES; k++)
+            assert_close(found.fit->predicted_hz[k], fine->predicted_hz[k], shapes ? 2e-4 : 2e-5, 0);
+        rotid_fit_free(fine);
+        rotid_fit_free(found.fit);
+    }
+}
+
+/* Errors at a corner fall with the power 1.089 of the size of its elements: test_solid_frequencies. */
+static void the_mesh_column_is_the_error_that_refining_finds(void **state)
+{
+    (void)state;
+    for (int which = 0; which < 2; which++) {
+        struct rig b;
+        struct spectrum s;
+        double two[MODES], four[MODES];
+        if (which)
+            rig_rotor_a(&b, 1);
+        else
+            rig_two_steps(&b);
+        const struct job job = {.rotor = b.rotor, .models = models_as(&test_pool, AS_SOLID)};
+        compute(&job, &s);
+        rig_solid(&b.rotor, NULL, 2, 2, MODES, two);
+        rig_solid(&b.rotor, NULL, 4, 2, MODES, four);
+        for (int k = 0; k < MODES; k++) {
+            double limit = four[k] - (two[k] - four[k]) / (pow(2, 1.089) - 1), error = 100 * (s.full_hz[k] / limit - 1);
+            print_message("mode %d: mesh %+.4f %%, by refining %+.4f %%\n", k + 1, s.mesh_error_percent[k], error);
+            assert_true(s.mesh_error_percent[k] > 0.5 * error && s.mesh_error_percent[k] < 2 * error);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_fit_on_the_coarse_mesh_is_that_of_the_mesh_that_counts, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_mesh_column_is_the_error_that_refining_finds, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
