@@ -19,6 +19,8 @@ static const struct deck_row disk[] = {
     {FROM_0(struct disk, mass, "mass [kg]")},
     {FROM_0(struct disk, diametral, "diametral inertia [kg.m2]"), OPTIONAL},
     {FROM_0(struct disk, polar, "polar inertia [kg.m2]"), OPTIONAL},
+    {FROM_0(struct disk, hub_length, "hub length [m]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    {FROM_0(struct disk, hub_outer, "hub outer diameter [m]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
     LAST};
 static const struct deck_row spring[] = {
     {.option = "NAME", .kind = ROW_NAME, IN(struct spring, name), OPTIONAL, .what = "name"},
@@ -73,7 +75,8 @@ const struct deck_card deck_card_table[] = {
      deck_tierod_rows, BY_CODE},
     {"BARS", CARD_MODEL, 4, deck_bars, "number, diameter [m], pitch radius [m], elements", deck_bars_rows, BY_CODE},
     {"PRELOAD", CARD_MODEL, 4, deck_preload, "axial force [N], tension positive", of_group, BY_CODE},
-    {"DISK", CARD_MODEL, 4, NULL, "position, mass [kg], diametral inertia, polar inertia [kg.m2]", disk, LIST(disk, disk)},
+    {"DISK", CARD_MODEL, 4, NULL, "position, mass [kg] [, diametral inertia, polar inertia [kg.m2] [, hub length, hub outer diameter [m]]]", disk, LIST(disk, disk),
+     .check = deck_check_disk},
     {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]", spring,
      LIST(spring, spring)},
     {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, REPLACES},

@@ -117,6 +117,8 @@ void deck_tierod(struct deck_reader *reader, const struct card *card);
 void deck_bars(struct deck_reader *reader, const struct card *card);
 void deck_preload(struct deck_reader *reader, const struct card *card);
 void deck_sling(struct deck_reader *reader, const struct card *card);
+/* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
+int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
 void deck_heading(struct deck_reader *reader, const struct card *card);
 void deck_sensors(struct deck_reader *reader, const struct card *card);
 void deck_modes(struct deck_reader *reader, const struct card *card);

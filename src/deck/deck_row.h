@@ -19,7 +19,7 @@ enum row_kind {
 
 enum row_bit {
     ROW_MAY_LACK = 1,
-    ROW_ABOVE_0 = 2 /* written where the member is above zero: below, it was not stated */
+    ROW_ABOVE_0 = 2 /* written where the member is above zero: else it was not stated; of values the last ones */
 };
 
 struct deck_row {
@@ -85,6 +85,7 @@ struct deck_card {
     const struct deck_row *row; /* ended by one without option and what */
     enum card_states states;
     size_t size, list, count; /* of a list: a struct, and where in struct rotor pointer and number stand */
+    int (*check)(struct deck_reader *reader, const struct data_line *line, const void *one); /* of a list: what no row says */
 };
 
 /* Rows of cards that have code of their own. */

@@ -95,7 +95,7 @@ static int same_target(const struct candidate *c, const char *target)
         *p = *p == ',' ? '|' : *p;
     if (c->cause->target == TARGET_NONE || same_text(c->target, name))
         return 1;
-    return c->cause->target == TARGET_SPRING && !c->target[0] && c->effect.target + 1 == atoi(name);
+    return (c->cause->target == TARGET_SPRING || c->cause->target == TARGET_DISK) && c->effect.target + 1 == atoi(name);
 }
 
 /* Whether a candidate is this effect: id, target, and place within one width or 3 % of the length. */
@@ -136,10 +136,17 @@ static int is_beyond(const struct rotor *rotor, const cJSON *effect)
     double lower, upper, value = parameter_of(effect, cause->effect->parameter[cause->size].name);
     struct effect at = {.kind = cause->effect, .target = -1};
     const char *target = text_of(effect, "target");
-    for (int g = 0; g < rotor->ngroup; g++) /* an interface has the name of the group before it, and a comma */
+    int of_group = cause->target == TARGET_GROUP || cause->target == TARGET_INTERFACE;
+    for (int g = 0; g < rotor->ngroup && of_group; g++) /* an interface has the name of the group before it, and a comma */
         if (!strncmp(rotor->group[g].name, target, strlen(rotor->group[g].name)))
             at.target = g;
-    if (at.target < 0 && cause->target == TARGET_INTERFACE)
+    for (int i = 0; i < rotor->nspring && cause->target == TARGET_SPRING; i++)
+        if (rotor->spring[i].name ? same_text(rotor->spring[i].name, target) : atoi(target) == i + 1)
+            at.target = i;
+    for (int i = 0; i < rotor->ndisk && cause->target == TARGET_DISK; i++)
+        if (rotor->disk[i].name ? same_text(rotor->disk[i].name, target) : atoi(target) == i + 1)
+            at.target = i;
+    if (at.target < 0 && cause->target != TARGET_NONE && cause->target != TARGET_SENSOR)
         return 0;
     cause->bounds(rotor, &at, cause->size, &lower, &upper);
     return value < lower || (value > upper && value != cause->parameter[cause->size].neutral);
