@@ -81,8 +81,9 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
                  const double *x, struct columns *c)
 {
     *c = (struct columns){.pool = pool, .job = job};
+    const double *shape;
     double *frequency_hz;
-    int refine, status = mesh_of_fit(pool, job, number, &refine, &frequency_hz);
+    int refine, status = mesh_of_fit(pool, job, number, &refine, &frequency_hz, &shape);
     if (!status)
         status = open_model(pool, job, extra, refine, c);
     if (status)
@@ -92,7 +93,7 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
                                    .number = number,
                                    .frequency_hz = frequency_hz,
                                    .frequency_std = job->measurement.frequency_std,
-                                   .shape = shapes ? job->measurement.shape : NULL,
+                                   .shape = shapes ? shape : NULL,
                                    .shape_std = shapes ? job->measurement.shape_std : NULL,
                                    .holdout = holdout};
     status = functional_new(pool, ROTID_LIKELIHOOD, ROTID_REDUCTION_NONE, ROTID_NELSON, &c->model.equations, &c->measured,

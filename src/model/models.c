@@ -13,8 +13,7 @@ struct entry {
 struct held {
     struct held *next;
     struct rotor rotor; /* without causes */
-    int count;
-    double *ratio; /* [count] */
+    struct held_modes modes;
 };
 
 struct models {
@@ -186,7 +185,17 @@ void models_keep_rigid(struct models *models, const struct rotor *rotor, int ref
     (void)pthread_mutex_unlock(&models->lock);
 }
 
-int models_hold(struct models *models, const struct rotor *rotor, int count, const double *ratio)
+static const double *copied(struct pool *pool, int n, const double *from, int *status)
+{
+    double *copy = from ? POOL_ARRAY(pool, double, n) : NULL;
+    if (from && !copy)
+        *status = ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n && copy; i++)
+        copy[i] = from[i];
+    return copy;
+}
+
+int models_hold(struct models *models, const struct rotor *rotor, const struct held_modes *modes)
 {
     if (!models || !models->takes_up)
         return ROTID_OK;
@@ -194,14 +203,14 @@ int models_hold(struct models *models, const struct rotor *rotor, int count, con
     bare.neffect = 0;
     (void)pthread_mutex_lock(&models->lock);
     struct held *held = POOL_NEW(&models->pool, struct held);
-    double *copy = POOL_ARRAY(&models->pool, double, count);
-    int status = held && copy ? rotor_copy(&models->pool, &bare, &held->rotor) : ROTID_ERROR_MEMORY;
+    int status = held ? rotor_copy(&models->pool, &bare, &held->rotor) : ROTID_ERROR_MEMORY, n = modes->nmaster * modes->count;
     if (!status) {
         held->rotor.nspring = rotor->nspring; /* without those of the sling */
-        for (int j = 0; j < count; j++)
-            copy[j] = ratio[j];
-        held->count = count;
-        held->ratio = copy;
+        held->modes =
+            (struct held_modes){modes->count, modes->nmaster, copied(&models->pool, modes->count, modes->ratio, &status),
+                                copied(&models->pool, n, modes->shape, &status), copied(&models->pool, n, modes->shift, &status)};
+    }
+    if (!status) {
         held->next = models->held;
         models->held = held;
     }
@@ -209,11 +218,10 @@ int models_hold(struct models *models, const struct rotor *rotor, int count, con
     return status;
 }
 
-const double *models_held(struct models *models, const struct rotor *rotor, int *count)
+const struct held_modes *models_held(struct models *models, const struct rotor *rotor)
 {
     struct rotor bare;
     const struct held *held;
-    *count = 0;
     if (!models || !models->takes_up)
         return NULL;
     bare = *rotor;
@@ -222,6 +230,5 @@ const double *models_held(struct models *models, const struct rotor *rotor, int 
     for (held = models->held; held && !rotor_same_shape(&held->rotor, &bare); held = held->next)
         ;
     (void)pthread_mutex_unlock(&models->lock);
-    *count = held ? held->count : 0;
-    return held ? held->ratio : NULL;
+    return held ? &held->modes : NULL;
 }

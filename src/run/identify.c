@@ -52,8 +52,10 @@ static int open_state(struct pool *pool, const struct state *state, const struct
                       rotid_measured *measured, rotid_state *out)
 {
     const struct job *job = &state->job;
+    const double *shape;
     double *frequency_hz;
-    int failed, refine, shapes = uses_shapes(job), status = mesh_of_fit(pool, job, paired->number, &refine, &frequency_hz);
+    int failed, refine, shapes = uses_shapes(job),
+                        status = mesh_of_fit(pool, job, paired->number, &refine, &frequency_hz, &shape);
     if (status)
         return status;
     *measured = (rotid_measured){.size = sizeof *measured,
@@ -61,7 +63,7 @@ static int open_state(struct pool *pool, const struct state *state, const struct
                                  .number = paired->number,
                                  .frequency_hz = frequency_hz,
                                  .frequency_std = job_knows_frequency_noise(job) ? job->measurement.frequency_std : NULL,
-                                 .shape = shapes ? job->measurement.shape : NULL,
+                                 .shape = shapes ? shape : NULL,
                                  .shape_std = shapes && job_knows_shape_noise(job) ? job->measurement.shape_std : NULL,
                                  .holdout = paired->holdout};
     *out = (rotid_state){sizeof *out, &model->equations, measured, state->unknown};
@@ -123,12 +125,13 @@ static int predict_baseline(struct pool *pool, const struct state *state, struct
     int failed, highest = 1, nmode = job->measurement.nmode;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
     struct prediction p;
+    const double *shape;
     double *frequency_hz;
     int refine;
     for (int k = 0; k < nmode; k++)
         highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
     out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
-    int status = model && out->baseline_hz ? mesh_of_fit(pool, job, out->compared.number, &refine, &frequency_hz)
+    int status = model && out->baseline_hz ? mesh_of_fit(pool, job, out->compared.number, &refine, &frequency_hz, &shape)
                                            : ROTID_ERROR_MEMORY;
     if (!status)
         status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model,

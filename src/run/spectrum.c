@@ -22,18 +22,17 @@ static int full_model(struct pool *pool, struct pool *scratch, struct models *mo
     return status ? status : prediction_compute(prediction, x);
 }
 
-static void keep_shapes(const struct rotor_model *model, const struct prediction *p, struct spectrum *s)
+static void keep_shapes(const struct rotor_model *model, const struct prediction *p, int count, double *shapes)
 {
-    for (int i = 0; i < s->nmaster; i++)
-        s->master_z[i] = model_master_z(model, i);
-    for (int j = 0; j < s->count; j++) {
-        double *shape = s->shape + (ptrdiff_t)j * s->nmaster, largest = 0;
-        for (int i = 0; i < s->nmaster; i++) {
-            shape[i] = prediction_at_sensor(p, s->nrigid + j, i);
+    int nmaster = model->equations.nmaster;
+    for (int j = 0; j < count; j++) {
+        double *shape = shapes + (ptrdiff_t)j * nmaster, largest = 0;
+        for (int i = 0; i < nmaster; i++) {
+            shape[i] = prediction_at_sensor(p, model->equations.nrigid + j, i);
             if (fabs(shape[i]) > fabs(largest))
                 largest = shape[i];
         }
-        for (int i = 0; i < s->nmaster && largest != 0; i++)
+        for (int i = 0; i < nmaster && largest != 0; i++)
             shape[i] /= largest;
     }
 }
@@ -105,20 +104,26 @@ static int compute(struct pool *pool, struct pool *scratch, struct models *model
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
             return ROTID_ERROR_MEMORY;
     s->shape = POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count);
+    int alike = parts & SPECTRUM_MESH && other->equations.nmaster == s->nmaster;
+    s->other_shape = alike ? POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count) : NULL;
     s->master_z = POOL_ARRAY(pool, double, s->nmaster);
     s->rigid_hz = POOL_ARRAY(pool, double, s->nrigid);
-    if (!s->phi || !s->shape || !s->master_z || !s->rigid_hz)
+    if (!s->phi || !s->shape || (alike && !s->other_shape) || !s->master_z || !s->rigid_hz)
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < s->nrigid; j++)
         s->rigid_hz[j] = prediction_hz(&p, j);
-    keep_shapes(model, &p, s);
+    for (int i = 0; i < s->nmaster; i++)
+        s->master_z[i] = model_master_z(model, i);
+    keep_shapes(model, &p, count, s->shape);
+    if (alike)
+        keep_shapes(other, &q, count, s->other_shape);
     for (int j = 0; j < count; j++) {
         s->reduced_hz[j] = NAN;
         s->full_hz[j] = prediction_hz(&p, s->nrigid + j);
         s->other_hz[j] = parts & SPECTRUM_MESH ? prediction_hz(&q, other->equations.nrigid + j) : NAN;
     }
     /* what a condensation costs is seen on a coarse mesh as well */
-    int on_other = parts & SPECTRUM_MESH && other->equations.n < model->equations.n && other->equations.nmaster == s->nmaster;
+    int on_other = alike && other->equations.n < model->equations.n;
     if (parts & SPECTRUM_REDUCED)
         status = condensed_model(pool, scratch, on_other ? other : model, x, reduction, on_other ? s->other_hz : s->full_hz, s);
     for (int j = 0; j < count && !status; j++) {

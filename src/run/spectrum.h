@@ -16,6 +16,7 @@ struct spectrum {
     double *other_hz;                /* [count] by a mesh that is refined, of a solid by the coarse one; NaN without */
     double *mesh_error_percent;      /* [count] against the limit that both meshes lead to */
     double *shape;                   /* [nmaster * count] full model at the masters, largest component 1 */
+    double *other_shape;             /* the same of the mesh of other_hz; NULL without, and where that has other masters */
     double *mass;     /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */
     double *master_z; /* [nmaster] m */
     const struct rotor_model *model; /* the full one: its rotor at x with the end springs of a sling */
@@ -29,7 +30,7 @@ int spectrum_compute(struct pool *pool, struct models *models, const struct roto
 
 /* The same with the parts that are wanted alone; the others are NaN or NULL. */
 enum spectrum_part {
-    SPECTRUM_MESH = 1,    /* other_hz, mesh_error_percent: a second mesh, for a beam half of the time */
+    SPECTRUM_MESH = 1,    /* other_hz, other_shape, mesh_error_percent: a second mesh, for a beam half of the time */
     SPECTRUM_REDUCED = 2, /* reduced_hz, reduction_error_percent, mass */
     SPECTRUM_COARSE = 4   /* of a solid: on the coarse mesh */
 };
