@@ -5,6 +5,7 @@
 #   make figures    the paper's figures and Table 1 for its rotor, beside the paper's numbers, as pages
 #   make test       builds and runs every test; ends with one line "N passed, N failed"
 #   make power      hides effects in a thousand random rotors and counts what the diagnosis makes of them
+#   make power-solid, coverage-solid   the same of solids of revolution by other elements
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-tsan   calls from several threads under the thread sanitizer
@@ -264,6 +265,15 @@ check-peers: all $(BUILD)/hammer $(if $(shell pkg-config --exists cminpack && ec
 .PHONY: check-solid3d
 check-solid3d: all
 	@$(PYTHON) tools/solid3d/check.py $(BUILD)/rotid
+
+# Effects hidden in solids by elements that share nothing with src, and what becomes of them; POWER as above, such as "--cases 60
+# --seed 2". NumPy and SciPy go into the build folder, which needs the network once.
+.PHONY: power-solid coverage-solid
+$(BUILD)/venv-solid/ready:
+	@$(PYTHON) -m venv $(@D) && $(@D)/bin/python -m pip install -q --disable-pip-version-check numpy scipy && touch $@
+power-solid coverage-solid: all $(BUILD)/venv-solid/ready
+	@$(BUILD)/venv-solid/bin/python tools/hide-solid/check.py
+	@$(BUILD)/venv-solid/bin/python tools/hide-solid/power.py $(BUILD)/rotid $(BUILD)/$@ $(if $(findstring coverage,$@),--coverage 100) $(POWER)
 
 # the tests of linear algebra, fits and decks with reference LAPACK and, where installed, BLIS
 .PHONY: check-blas

@@ -143,6 +143,9 @@ module rotid
     type(c_ptr) :: heading = c_null_ptr       ! type(c_ptr) [nheading]
     type(c_ptr) :: references = c_null_ptr    ! rotid_reference [nreferences]
     type(c_ptr) :: memory = c_null_ptr
+    integer(c_int) :: nstate = 0
+    type(c_ptr) :: state_name = c_null_ptr    ! type(c_ptr) [nstate]
+    type(c_ptr) :: state = c_null_ptr         ! type(c_ptr) [nstate], each of a rotid_deck
   end type rotid_deck
 
   ! ------------------------------------------------------------------------------------------------ types: results
@@ -370,6 +373,29 @@ module rotid
     real(c_double) :: value = 0
   end type rotid_component
 
+  type, bind(C) :: rotid_identified_state
+    type(c_ptr) :: name = c_null_ptr ! text
+    integer(c_int) :: fitted_residuals = 0
+    integer(c_int) :: shapes_fitted = 0
+    real(c_double) :: objective = 0
+    real(c_double) :: chi2 = 0
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! rotid_compared_mode
+    type(c_ptr) :: reduction_error_percent = c_null_ptr ! real
+    type(c_ptr) :: mesh_error_percent = c_null_ptr ! real
+    real(c_double) :: mass_kg = 0
+    real(c_double) :: center_of_mass_m = 0
+    type(c_ptr) :: shapes = c_null_ptr ! rotid_shapes
+    integer(c_int) :: nmatrix_rows = 0
+    integer(c_int) :: nmatrix_columns = 0
+    type(c_ptr) :: nco_matrix = c_null_ptr ! real
+    type(c_ptr) :: mac_matrix = c_null_ptr ! real
+    type(c_ptr) :: matrix_rows = c_null_ptr ! integer
+    type(c_ptr) :: matrix_columns = c_null_ptr ! integer
+    type(c_ptr) :: noise = c_null_ptr ! rotid_noise
+    type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
+  end type rotid_identified_state
+
   type, bind(C) :: rotid_identification
     type(c_ptr) :: status = c_null_ptr ! text
     type(c_ptr) :: functional = c_null_ptr ! text
@@ -418,6 +444,8 @@ module rotid
     type(c_ptr) :: message = c_null_ptr ! rotid_message
     type(c_ptr) :: fit = c_null_ptr ! rotid_fit_result
     type(c_ptr) :: memory = c_null_ptr
+    integer(c_int) :: nstates = 0
+    type(c_ptr) :: states = c_null_ptr ! rotid_identified_state
   end type rotid_identification
 
   type, bind(C) :: rotid_meridian_mode

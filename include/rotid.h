@@ -130,7 +130,8 @@ typedef struct rotid_reference {
 
 /* What a deck says. All arrays belong to it and are not to be changed. A deck is only read by the routines below: several threads
  * may work on one, and it may be freed before their results. */
-typedef struct rotid_deck {
+typedef struct rotid_deck rotid_deck;
+struct rotid_deck {
     const char *path;
     int nmessage, nerror; /* of errors beyond the first 200 only the number is kept */
     const rotid_message *message;
@@ -152,7 +153,12 @@ typedef struct rotid_deck {
     const char **heading;        /* [nheading] lines of *HEADING without the references */
     rotid_reference *references; /* [nreferences] */
     void *memory;                /* internal */
-} rotid_deck;
+    /* Several *STATE. Of these rotid_identify alone takes the whole deck; the others work on the deck of one state. Above stand the
+     * parameters of all, and the rest of the first one. 0 and NULL of a deck that is one state. */
+    int nstate;
+    const char *const *state_name; /* [nstate] */
+    rotid_deck *const *state;      /* [nstate] the deck of each, freed with this one */
+};
 
 /* Reads the deck `path`, what it includes and the measured data it names. override [noverride]: texts "CARD.OPTION=VALUE" that
  * replace options of the deck; NULL with 0. Exit: *deck, to be freed with rotid_deck_free also when the status is an error: its
@@ -287,7 +293,7 @@ typedef struct rotid_cause_parameter {
 typedef struct rotid_model_cause {
     const char *name;   /* of the card, or NULL */
     const char *id;     /* of the catalogue, such as joint */
-    const char *target; /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
+    const char *target; /* name of a group, "left|right" for an interface, name of a spring, disk or tie rod; empty: none */
     int sensor;         /* id of the sensor that it acts at; ROTID_NONE where it acts at none */
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
@@ -423,7 +429,31 @@ typedef struct rotid_component {
     double value;
 } rotid_component;
 
-/* A model fitted to measured modes. */
+/* What one of several states has for itself. */
+typedef struct rotid_identified_state {
+    const char *name;     /* of the *STATE */
+    int fitted_residuals; /* its share of the residuals, 0 where it was held out */
+    int shapes_fitted;    /* measured shapes took part in the residuals, or in the quotient of HYBRID */
+    double objective;     /* half the sum of its squared residuals [1] */
+    double chi2;          /* sum of its squared residuals over the squared stated noise [1]; NaN but with LIKELIHOOD */
+    int nmodes;
+    rotid_compared_mode *modes;      /* as those of the identification */
+    double *reduction_error_percent; /* per entry of modes: condensed over full frequency, less one [%]; NaN as in the identification */
+    double *mesh_error_percent;      /* per entry of modes: frequency over its Richardson limit, less one [%] */
+    double mass_kg;                  /* of the fitted model [kg] */
+    double center_of_mass_m;         /* of the fitted model, from the left end [m] */
+    rotid_shapes *shapes;            /* measured beside predicted */
+    int nmatrix_rows, nmatrix_columns;
+    double *nco_matrix;       /* as that of the identification [1]; NULL likewise */
+    double *mac_matrix;       /* as that of the identification [1]; NULL likewise */
+    int *matrix_rows;         /* measured_mode of the rows; empty without measured shapes */
+    int *matrix_columns;      /* mode of the columns; empty without measured shapes */
+    rotid_noise *noise;       /* of the data */
+    rotid_geometry *geometry; /* the model at the values of the fit */
+} rotid_identified_state;
+
+/* A model fitted to measured modes. Of several states modes and what goes with them run over all, mass, noise and geometry are
+ * those of the first, and shapes and matrices stand in states alone. */
 typedef struct rotid_identification {
     const char *status; /* converged, not_converged, or at_bound: converged with at least one parameter pressed against a bound.
                            Undetermined parameters are flagged below */
@@ -479,6 +509,8 @@ typedef struct rotid_identification {
     const rotid_message *message; /* of the pairing and the fit */
     const rotid_fit_result *fit;  /* where the above comes from, with the Jacobian; NULL in a result that was read from a file */
     void *memory;                 /* internal */
+    int nstates;
+    rotid_identified_state *states; /* of a deck with several *STATE, in its order; none of a deck that is one state */
 } rotid_identification;
 
 /* A mode of a solid of revolution in the plane of bending. Four significant digits. */
@@ -623,7 +655,7 @@ typedef struct rotid_cause_value {
 /* A physical cause at one target, by the ids of docs/diagnosis.md. */
 typedef struct rotid_cause {
     const char *id;     /* of the catalogue, such as joint */
-    const char *target; /* name of a group, "left|right" for an interface, name of a spring or tie rod; empty where it has none */
+    const char *target; /* name of a group, "left|right" for an interface, name of a spring, disk or tie rod; empty: none */
     const char *name;   /* of the CAUSE card that it would get, or NULL */
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
@@ -830,7 +862,7 @@ ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int
                                     char *failure, rotid_spectrum **spectrum);
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
-/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again. With nothing to identify the model is
+/* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again; over all states of a deck at once. With nothing to identify the model is
  * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
  * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
  * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL.

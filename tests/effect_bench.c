@@ -13,9 +13,9 @@ static int lump_point(const struct effect *effect, const struct rotor *rotor, in
     if (i > 0)
         return 0;
     if (p < 0)
-        *point = (struct effect_point){effect->value[1], effect->value[0], effect->value[2]};
+        *point = (struct effect_point){.z = effect->value[1], .mass = effect->value[0], .inertia = effect->value[2]};
     else
-        *point = (struct effect_point){p == 1, p == 0, p == 2};
+        *point = (struct effect_point){.z = p == 1, .mass = p == 0, .inertia = p == 2};
     return 1;
 }
 
@@ -45,7 +45,7 @@ struct rotor *bench_rotor(enum bundle_model model, int rods, int elements)
     }
     if (elements)
         rotor->nsensor = 0; /* each would put a node of its own */
-    fan = (struct disk){"fan", 0.256018, 12, 0.4, 0.8};
+    fan = (struct disk){"fan", 0.256018, 12, 0.4, 0.8, 0.09, 0.4};
     rotor->disk = &fan;
     rotor->ndisk = 1;
     rotor->effect = effects;

@@ -18,7 +18,7 @@ struct rig {
     struct disk disk[2];
     struct tierod tierod[2];
     struct bars bars[1];
-    struct effect effect[12];
+    struct effect effect[24];
     struct rotor rotor;
 };
 

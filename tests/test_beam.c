@@ -28,7 +28,7 @@ static struct rotor bar(double length, double diameter, int elements, int withou
     segment = (struct segment){0, elements, 0, length, diameter, 0, diameter, 0, 0};
     springs[0] = (struct spring){"left", 0, 0, 0};
     springs[1] = (struct spring){"right", length, 0, 0};
-    disk = (struct disk){"tip", length, 0, 0, 0};
+    disk = (struct disk){"tip", length, 0, 0, 0, 0, 0};
     return (struct rotor){.ngroup = 1, .group = &shaft, .nsegment = 1, .segment = &segment, .spring = springs, .disk = &disk};
 }
 
@@ -203,7 +203,7 @@ static void rigid_bar_on_soft_springs_translates_and_turns(void **state)
     shaft.material.e *= 100;
     struct element e = properties(&rotor);
     rotor.nspring = rotor.ndisk = 2;
-    struct disk ends[2] = {{"a", 0, 30, 4, 0}, {"b", 1, 30, 4, 0}};
+    struct disk ends[2] = {{"a", 0, 30, 4, 0, 0, 0}, {"b", 1, 30, 4, 0, 0, 0}};
     rotor.disk = ends;
     springs[0].lateral = springs[1].lateral = 5e4;
     springs[0].rotational = springs[1].rotational = 2e3;

@@ -2,8 +2,8 @@
  * beam_build refuses. */
 #include <math.h>
 
-#include "model/discrete.h"
 #include "linalg/matrix.h"
+#include "model/discrete.h"
 #include "paper_rotor.h"
 #include "support.h"
 
@@ -30,7 +30,7 @@ static struct rotor *workshop(enum bundle_model model, int self_equilibrated, in
         }
     }
     bars = (struct bars){"bars", rotor->group[0].material, 1.05, 0.5, model, 12, 4, 0.02, 0.11};
-    disk = (struct disk){"fan", 0.2, 12, 0.4, 0.8};
+    disk = (struct disk){"fan", 0.2, 12, 0.4, 0.8, 0, 0};
     rotor->bars = &bars;
     rotor->disk = &disk;
     rotor->nbars = rotor->ndisk = 1;

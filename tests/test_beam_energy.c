@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/discrete.h"
 #include "linalg/eigen.h"
 #include "linalg/matrix.h"
+#include "model/discrete.h"
 #include "paper_rotor.h"
 #include "support.h"
 
@@ -38,8 +38,8 @@ static struct rotor *dressed(enum bundle_model model, int self_equilibrated, int
     rotor->group[1].hole_pitch = 0.13364;
     bars[0] = (struct bars){"bars", copper, 1.0912, 0.9, model, 40, 6, 0.016, 0.15};
     bars[1] = (struct bars){"more", copper, 1.05, 0.3, model, 7, 2, 0.012, 0.1};
-    disks[0] = (struct disk){"fan", 0.2, 12, 0.4, 0.8};
-    disks[1] = (struct disk){"hub", 1.9, 7, 0.1, 0.2};
+    disks[0] = (struct disk){"fan", 0.2, 12, 0.4, 0.8, 0, 0};
+    disks[1] = (struct disk){"hub", 1.9, 7, 0.1, 0.2, 0, 0};
     rotor->bars = bars;
     rotor->disk = disks;
     rotor->nbars = rotor->ndisk = 2;

@@ -146,10 +146,26 @@ static void a_narrow_zone_keeps_its_mean(void **state)
 
 /* ---- catalogue ---- */
 
-static const struct cause_kind *const all[] = {
-    &cause_step_stiffness, &cause_stiffness_gradient, &cause_stiffness_profile, &cause_stiffness_local,   &cause_joint,
-    &cause_support,        &cause_added_mass,         &cause_density,           &cause_stiffness,         &cause_tie_stiffness,
-    &cause_tie_tension,    &cause_tie_shear,          &cause_shear_coefficient, &cause_accelerometer_mass};
+static const struct cause_kind *const all[] = {&cause_step_stiffness,
+                                               &cause_stiffness_gradient,
+                                               &cause_stiffness_profile,
+                                               &cause_stiffness_local,
+                                               &cause_joint,
+                                               &cause_support,
+                                               &cause_added_mass,
+                                               &cause_density,
+                                               &cause_stiffness,
+                                               &cause_tie_stiffness,
+                                               &cause_tie_tension,
+                                               &cause_tie_shear,
+                                               &cause_shear_coefficient,
+                                               &cause_accelerometer_mass,
+                                               &cause_support_position,
+                                               &cause_support_extra,
+                                               &cause_support_rotation,
+                                               &cause_clamp,
+                                               &cause_hub_stiffness,
+                                               &cause_added_inertia};
 
 #define ALL ((int)(sizeof all / sizeof *all))
 
@@ -176,6 +192,38 @@ static void entries_are_complete(void **state)
                 assert_true(cause->parameter[p].one_sided * (typical - neutral) >= 0);
             }
         }
+    }
+}
+
+/* What is possible holds what is usual, and steps go there and no farther. */
+static void sizes_reach_beyond_their_usual_bounds(void **state)
+{
+    (void)state;
+    struct rotor *rotor = bench_rotor(BUNDLE_TUBE, 1, 0);
+    for (int c = 0; c < ALL; c++) {
+        const struct cause_kind *cause = all[c];
+        struct effect effect = {.kind = cause->effect};
+        double lower, upper, least, most, low, high, neutral = cause->parameter[cause->size].neutral;
+        if (!cause->effect->nparameter)
+            continue;
+        cause->bounds(rotor, &effect, cause->size, &lower, &upper);
+        cause_reach(cause, rotor, &effect, cause->size, &least, &most);
+        assert_true(least <= lower && most >= upper);
+        assert_int_equal(cause->widest > 1, most > upper);
+        if (!(cause->widest > 1)) {
+            assert_int_equal(cause_widen(cause, rotor, 3, &effect), 0);
+            assert_true(effect.bound[0] == 0 && effect.bound[1] == 0);
+            continue;
+        }
+        assert_close(most - neutral, cause->widest * (upper - neutral), 1e-12, 0);
+        assert_int_equal(cause_widen(cause, rotor, 1.5, &effect), 1);
+        cause_bounds(cause, rotor, &effect, cause->size, &low, &high);
+        assert_close(high - neutral, 1.5 * (upper - neutral), 1e-12, 0);
+        assert_true(lower > 0 ? low < lower : low == lower);
+        assert_int_equal(cause_widen(cause, rotor, 1e9, &effect), 1);
+        cause_bounds(cause, rotor, &effect, cause->size, &low, &high);
+        assert_true(low == least && high == most);
+        assert_int_equal(cause_widen(cause, rotor, 1e9, &effect), 0); /* it is there */
     }
 }
 
@@ -216,7 +264,43 @@ static void bounds_of_mass_rest_on_the_mass_of_the_model(void **state)
     beam_mass_properties(&beam, &properties);
     assert_close(rotor_mass(rotor), properties.mass, 1e-12, 0);
     cause_added_mass.bounds(rotor, &effect, 0, &lower, &upper);
-    assert_close(upper, 0.03 * properties.mass, 1e-12, 0);
+    assert_close(upper, 0.03 * properties.mass, 1e-12, 0); /* of a ton */
+    for (int s = 0; s < rotor->nsegment; s++)              /* of a hundredth of it */
+        rotor->segment[s].length /= 100;
+    rotor->ntierod = 0;
+    rotor->ndisk = 0;
+    cause_added_mass.bounds(rotor, &effect, 0, &lower, &upper);
+    assert_close(upper, 0.25 * rotor_mass(rotor), 1e-12, 0);
+}
+
+/* Of a uniform shaft: L/EI and L^3/3EI at its end, less where it is held in the middle; 4.730^4 EI/L^3. */
+static void bounds_of_supports_follow_the_rotor(void **state)
+{
+    (void)state;
+    struct rotor rotor = stepped(0.2, 0);
+    struct spring spring[2] = {{"end", 0, 1e9, 1e6}, {"middle", 0.5, 1e9, 0}};
+    struct effect effect = {.target = 0};
+    double lower, upper, ei = 2.1e11 * pi / 64 * pow(0.12, 4);
+    const int identified[2] = {0, 0};
+    for (int s = 0; s < 5; s++)
+        steps[s].outer = steps[s].stiff_outer = 0.12;
+    rotor.spring = spring;
+    rotor.nspring = 2;
+    cause_clamp.bounds(&rotor, &effect, 0, &lower, &upper);
+    assert_close(upper, 1 / ei / 8, 1e-12, 0);
+    cause_clamp.bounds(&rotor, &effect, 1, &lower, &upper);
+    assert_close(upper, 1 / (3 * ei) / 8, 1e-12, 0);
+    assert_int_equal(cause_clamp.applies(&rotor, 0, identified), 1);
+    assert_int_equal(cause_clamp.applies(&rotor, 1, identified), 0);
+    cause_support_extra.bounds(&rotor, &effect, 0, &lower, &upper);
+    assert_close(upper, pow(4.7300407, 4) * ei, 1e-4, 0);
+    cause_support_position.bounds(&rotor, &effect, 0, &lower, &upper);
+    assert_true(lower == 0 && upper == 0.125); /* it cannot leave the rotor */
+    effect.target = 1;
+    cause_clamp.bounds(&rotor, &effect, 1, &lower, &upper);
+    assert_close(upper, 2 * pow(0.5, 3) / (3 * ei) / 8, 1e-12, 0);
+    cause_support_position.bounds(&rotor, &effect, 0, &lower, &upper);
+    assert_true(lower == -0.125 && upper == 0.125);
 }
 
 /* As soft as ten diameters of the softer neighbour: the last piece of the left shaft. */
@@ -245,8 +329,10 @@ int main(void)
         TEST(a_cone_inside_the_bore_leaves_a_little),
         TEST(a_narrow_zone_keeps_its_mean),
         TEST(entries_are_complete),
+        TEST(sizes_reach_beyond_their_usual_bounds),
         TEST(causes_apply_where_they_make_sense),
         TEST(bounds_of_mass_rest_on_the_mass_of_the_model),
+        TEST(bounds_of_supports_follow_the_rotor),
         TEST(bounds_of_a_joint_are_ten_diameters_of_shaft),
     };
     return cmocka_run_group_tests_name("causes", tests, NULL, NULL);

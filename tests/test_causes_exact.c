@@ -281,6 +281,110 @@ static void masses_anywhere_converge_to_the_exact_frequencies(void **state)
         }
 }
 
+/* The same of the force of a spring: to the ground at any place, of the deck and elsewhere, softer by a clamp that gives way. */
+static void springs_anywhere_converge_to_the_exact_frequencies(void **state)
+{
+    (void)state;
+    static const double place[] = {0.04, 0.256018, 0.6281, 1.0379, 1.9733};
+    for (size_t i = 0; i < sizeof place / sizeof *place; i++)
+        for (int which = 0; which < 3; which++) {
+            const double extra[] = {which == 1 ? 3e7 : 3e8, place[i]}, shift[] = {place[i]};
+            const struct cause_kind *cause = which == 0 ? &cause_support_extra : &cause_support_rotation;
+            struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
+            struct exact exact;
+            double truth[EXACT_MODES];
+            char name[40];
+            exact_open(rotor, &exact);
+            if (which < 2)
+                exact.point[exact.system.points++] = (struct oracle_point){
+                    .z = place[i], .spring = which ? 0 : extra[0], .rotational_spring = which ? extra[0] : 0};
+            for (int p = 0; p < exact.system.points && which == 2; p++)
+                if (exact.point[p].spring > 0 && exact.point[p].z == 0)
+                    exact.point[p].z = place[i];
+            exact_hz(&exact, 3, EXACT_MODES, truth);
+            bench_add(rotor, which < 2 ? cause->effect : cause_support_position.effect, which < 2 ? -1 : 0, 0,
+                      which < 2 ? extra : shift);
+            snprintf(name, sizeof name, "%s at %.4f", rotor->effect[0].kind->id, place[i]);
+            compare(name, rotor, truth, 1e-4, 0.9);
+        }
+}
+
+static void a_clamp_is_in_series_with_its_spring(void **state)
+{
+    (void)state;
+    const double compliance[] = {2e-6, 3e-9};
+    double expected[EXACT_MODES], hz[EXACT_MODES];
+    struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
+    bench_add(rotor, cause_clamp.effect, 0, 0, compliance);
+    mesh_hz(rotor, 1, 2, EXACT_MODES, hz);
+    rotor->neffect = 0;
+    rotor->spring[0].rotational = 1 / (1 / rotor->spring[0].rotational + compliance[0]);
+    rotor->spring[0].lateral = 1 / (1 / rotor->spring[0].lateral + compliance[1]);
+    mesh_hz(rotor, 1, 2, EXACT_MODES, expected);
+    assert_hz(EXACT_MODES, hz, expected, 1e-9);
+}
+
+/* Mass per length over the width, without inertia of its own. */
+static void a_wide_mass_converges_to_mass_per_length(void **state)
+{
+    (void)state;
+    static struct oracle_segment cut[64];
+    const double value[] = {20, 1.0379, 0.3};
+    struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
+    struct exact exact;
+    double truth[EXACT_MODES], z = 0;
+    int count = 0;
+    exact_open(rotor, &exact);
+    for (int i = 0; i < exact.system.segments; i++) {
+        double end = z + exact.segment[i].length,
+               at[4] = {z, fmin(fmax(value[1] - 0.15, z), end), fmin(fmax(value[1] + 0.15, z), end), end};
+        for (int k = 0; k < 3; k++)
+            if (at[k + 1] > at[k]) {
+                cut[count] = exact.segment[i];
+                cut[count].length = at[k + 1] - at[k];
+                cut[count++].mass += k == 1 ? value[0] / value[2] : 0;
+            }
+        z = end;
+    }
+    exact.system.segments = count;
+    exact.system.segment = cut;
+    exact_hz(&exact, 3, EXACT_MODES, truth);
+    bench_add(rotor, cause_added_mass.effect, -1, 1, value);
+    compare("wide mass", rotor, truth, 3e-5, 0.9);
+}
+
+/* A hub that is one with the shaft over all of its length is a thicker shaft without more mass. */
+static void hubs_are_thicker_shafts(void **state)
+{
+    (void)state;
+    const double share[] = {1};
+    struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 0);
+    struct exact exact;
+    static struct oracle_segment cut[64];
+    double truth[EXACT_MODES], z = 0, from, to;
+    int count = 0;
+    rotor_hub_span(rotor, 0, &from, &to);
+    exact_open(rotor, &exact);
+    for (int i = 0, s = 0; i < exact.system.segments; i++) {
+        double end = z + exact.segment[i].length, at[4] = {z, fmin(fmax(from, z), end), fmin(fmax(to, z), end), end};
+        s = segment_at(rotor, (z + end) / 2);
+        double o = rotor->segment[s].outer, b = rotor->segment[s].inner, h = rotor->disk[0].hub_outer;
+        for (int k = 0; k < 3; k++)
+            if (at[k + 1] > at[k]) {
+                cut[count] = exact.segment[i];
+                cut[count].length = at[k + 1] - at[k];
+                cut[count].bending *= k == 1 ? (pow(h, 4) - pow(b, 4)) / (pow(o, 4) - pow(b, 4)) : 1;
+                cut[count++].shear *= k == 1 ? (h * h - b * b) / (o * o - b * b) : 1;
+            }
+        z = end;
+    }
+    exact.system.segments = count;
+    exact.system.segment = cut;
+    exact_hz(&exact, 3, EXACT_MODES, truth);
+    bench_add(rotor, cause_hub_stiffness.effect, -1, 0, share);
+    compare("hub", rotor, truth, 2e-5, 1.5);
+}
+
 static void a_moving_accelerometer_is_its_mass_spread_over_the_sensors(void **state)
 {
     (void)state;
@@ -338,6 +442,10 @@ int main(void)
         TEST(joints_converge_to_the_exact_frequencies),
         TEST(the_side_of_a_joint_matters),
         TEST(masses_anywhere_converge_to_the_exact_frequencies),
+        TEST(springs_anywhere_converge_to_the_exact_frequencies),
+        TEST(a_clamp_is_in_series_with_its_spring),
+        TEST(a_wide_mass_converges_to_mass_per_length),
+        TEST(hubs_are_thicker_shafts),
         TEST(a_moving_accelerometer_is_its_mass_spread_over_the_sensors),
         TEST(factors_on_rods_and_springs_are_those_of_the_deck),
     };

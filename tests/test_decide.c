@@ -307,6 +307,97 @@ static void neighbours_that_share_their_noise_double_the_margin(void **state)
     assert_close(decided.result.required_margin, 2 * LEAST_MARGIN, 1e-12, 0);
 }
 
+static struct candidate *add_pair(const char *id, const char *with, double drop, int explains)
+{
+    static struct candidate second[MOST];
+    struct candidate *c = add(id, "left", 1, drop), *w = &second[c - candidates];
+    *w = (struct candidate){.cause = catalogue_find(with), .target = "right", .nparameter = 1};
+    assert_non_null(w->cause);
+    c->with = w;
+    c->explains = explains;
+    return c;
+}
+
+/* By the same rule as a single cause, with the parameters of both. */
+static void a_pair_is_named_where_it_leads_every_cause_and_every_pair(void **state)
+{
+    (void)state;
+    for (int lead = 3; lead <= 9; lead += 6) {
+        open_round();
+        before.chi2 = 800;
+        add("stiffness", "left", 1, 300);
+        add_pair("stiffness", "density", 400, 1);
+        add_pair("joint", "density", 400 - lead, 1);
+        conclude_as(lead < 6 ? ROTID_AMBIGUOUS : ROTID_NAMED, lead < 6 ? 2 : 1);
+        assert_true(candidates[0].with != NULL);
+        assert_close(candidate_score(&candidates[0]), 400 + 2 * PARAMETER_PENALTY, 1e-12, 0);
+        assert_string_equal(candidate_label(&test_pool, &candidates[0]), "stiffness of left with density of right");
+    }
+    assert_reason("joint", "loses to stiffness of left with density of right by 9");
+}
+
+static void a_pair_that_explains_nothing_more_is_refused(void **state)
+{
+    (void)state;
+    open_round(); /* more than noise is left: the single cause is judged as if there were no pair */
+    before.chi2 = 800;
+    add("stiffness", "left", 1, 340);
+    add_pair("joint", "density", 380, 0);
+    conclude_as(ROTID_NAMED, 1);
+    assert_string_equal(candidates[0].cause->id, "stiffness");
+    assert_reason("joint", "two causes that still leave more than noise");
+    open_round(); /* within what chance adds to one cause alone, be that refused or not */
+    before.chi2 = 800;
+    add("support", "foam", 1, 370)->result.at_bound = 1;
+    add("stiffness", "left", 1, 300);
+    add_pair("joint", "density", 370 + 2 * 13 - 1, 1);
+    conclude_as(ROTID_AMBIGUOUS, 1);
+    assert_string_equal(candidates[0].cause->id, "stiffness");
+    assert_reason("joint", "no more than chance beyond one cause alone");
+    open_round();
+    before.chi2 = 800;
+    struct segment segment = {.length = 1};
+    engine.job.rotor.nsegment = 1;
+    engine.job.rotor.segment = &segment;
+    add("stiffness", "left", 1, 300);
+    add_pair("added_mass", "added_mass", 400, 1)->with->effect.value[1] = 0.02;
+    assert_status(decide(&engine, &before, &decided), ROTID_OK);
+    assert_reason("added_mass", "at one place are one");
+}
+
+static void pairs_that_share_a_cause_name_that(void **state)
+{
+    (void)state;
+    for (int shared = 0; shared < 2; shared++) {
+        open_round();
+        before.chi2 = 800;
+        add("stiffness", "left", 1, 300);
+        add_pair("stiffness", "density", 400, 1);
+        add_pair("joint", shared ? "stiffness" : "tie_tension", 398, 1);
+        conclude_as(shared ? ROTID_NAMED : ROTID_AMBIGUOUS, shared ? 1 : 2);
+        assert_int_equal(candidates[0].with == NULL, shared);
+        assert_string_equal(candidates[0].cause->id, "stiffness");
+    }
+    assert_reason("joint", "for the next round");
+}
+
+/* Noise of frequencies is one cause alone as well. */
+static void a_pair_has_to_beat_noisier_frequencies(void **state)
+{
+    (void)state;
+    const double drop = 51 - 6 - 6 * log(8.5);
+    open_round();
+    before.chi2_frequency = 51;
+    add_pair("joint", "density", drop + 25, 1);
+    conclude_as(ROTID_UNEXPLAINED, 1);
+    assert_string_equal(candidates[0].cause->id, "noise_level");
+    open_round();
+    before.chi2_frequency = 51;
+    add_pair("joint", "density", drop + 27, 1);
+    conclude_as(ROTID_NAMED, 1);
+    assert_string_equal(candidates[0].cause->id, "joint");
+}
+
 /* Frequencies noisier than stated are a rival of what shows in the frequencies alone. */
 static void noise_of_the_frequencies_is_a_rival(void **state)
 {
@@ -391,6 +482,10 @@ int main(void)
         TEST(modes_left_out_in_turn_speak),
         TEST(the_margin_grows_with_what_is_left),
         TEST(neighbours_that_share_their_noise_double_the_margin),
+        TEST(a_pair_is_named_where_it_leads_every_cause_and_every_pair),
+        TEST(a_pair_that_explains_nothing_more_is_refused),
+        TEST(a_pair_has_to_beat_noisier_frequencies),
+        TEST(pairs_that_share_a_cause_name_that),
         TEST(noise_of_the_frequencies_is_a_rival),
         TEST(too_little_data_name_nothing),
         TEST(a_cause_that_fits_as_well_at_another_place_is_not_named),

@@ -79,9 +79,17 @@ static void every_physical_cause_becomes_an_effect_of_its_kind(void **state)
         {"fit", "joint", 0, 0, {1e-9}},
         {"bolts", "joint", 1, 0, {0}},
         {"bearing", "support", 1, 0, {1.5}},
+        {"away", "support_position", 0, 0, {0.02}},
+        {"cord", "support_extra", -1, 0, {2000, 0.4}},
+        {"bush", "support_rotation", -1, 0, {50, 0.8}},
+        {"vice", "clamp", 1, 0, {1e-7, 0}},
         {"lump", "added_mass", -1, 0, {0.25, 0.7}},
+        {"tape", "added_mass", -1, 1, {0.1, 0.6, 0.05}},
+        {"blades", "added_inertia", 0, 0, {-5e-5}},
         {"heavy", "density", 0, 0, {1.02}},
         {"stiff", "stiffness", 2, 0, {0.9}},
+        {"fitted", "layer_slip", 3, 0, {0.03}},
+        {"hubs", "hub_stiffness", -1, 0, {0.7}},
         {"rods", "tie_stiffness", 0, 0, {0.8}},
         {"loose", "tie_tension", 0, 0, {0.5}},
         {"free", "tie_shear", 0, 0, {0}},
@@ -493,6 +501,18 @@ static void a_cause_that_stands_in_the_deck_is_part_of_the_model(void **state)
     pool_close(&r.pool);
 }
 
+static void a_suspect_states_where_its_size_is_looked_for(void **state)
+{
+    (void)state;
+    struct reading r;
+    read_text(&r, MODEL "*CAUSE, NAME=m, TYPE=added_mass, SUSPECT\nmass, 0.01, 0.4\nz, 0.3\n", NULL);
+    const struct suspect *suspect = r.job.unknowns.suspect;
+    assert_int_equal(r.job.unknowns.nsuspect, 1);
+    assert_true(suspect->effect.bound[0] == 0.01 && suspect->effect.bound[1] == 0.4);
+    assert_true(!suspect->fixed[0] && suspect->fixed[1] && suspect->effect.value[1] == 0.3);
+    pool_close(&r.pool);
+}
+
 /* ------------------------------------------------------------------------------------------------ faults of the world */
 
 static void without_memory_nothing_leaks(void **state)
@@ -580,6 +600,7 @@ int main(void)
         cmocka_unit_test(a_correction_without_its_sensor_is_refused),
         cmocka_unit_test(parameters_of_causes_are_identified_beside_moduli),
         cmocka_unit_test(a_cause_that_stands_in_the_deck_is_part_of_the_model),
+        cmocka_unit_test(a_suspect_states_where_its_size_is_looked_for),
         cmocka_unit_test(without_memory_nothing_leaks),
         cmocka_unit_test(a_deck_of_causes_with_one_wrong_byte_gets_an_answer),
     };

@@ -301,6 +301,7 @@ static void what_was_measured_in_part_comes_back(void **state)
     assert_text_comes_back(MODEL "*MODES\n1, 500, , 1\n2, 1300.1, , 0.3\n3, 2407.7, , 0.1\n");
     assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n*SHAPE, MODE=2\n3, 1\n1, -0.1, 0.03\n");
     assert_text_comes_back(MODEL "*FIT, MODEL=SOLID\n");
+    assert_text_comes_back(MODEL "*CAUSE, NAME=m, TYPE=added_mass, SUSPECT\nz, 0.3\nmass, 0.01, 0.4\n");
     assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*FIT, HOLDOUT=2\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\n");
     assert_text_comes_back(MODEL "*MODES\n1, 500\n2, 1300\n*IDENTIFY\ncore.E, 0, 1e12, 2e11\ncore.G, 0, 1e12, 8e10\n");
     assert_text_comes_back(

@@ -8,10 +8,25 @@
 #include "effect_bench.h"
 #include "linalg/matrix.h"
 
-static const struct cause_kind *const physical[] = {
-    &cause_step_stiffness, &cause_stiffness_gradient, &cause_stiffness_profile, &cause_stiffness_local, &cause_joint,
-    &cause_support,        &cause_added_mass,         &cause_density,           &cause_stiffness,       &cause_tie_stiffness,
-    &cause_tie_tension,    &cause_shear_coefficient,  &cause_accelerometer_mass};
+static const struct cause_kind *const physical[] = {&cause_step_stiffness,
+                                                    &cause_stiffness_gradient,
+                                                    &cause_stiffness_profile,
+                                                    &cause_stiffness_local,
+                                                    &cause_joint,
+                                                    &cause_support,
+                                                    &cause_added_mass,
+                                                    &cause_density,
+                                                    &cause_stiffness,
+                                                    &cause_tie_stiffness,
+                                                    &cause_tie_tension,
+                                                    &cause_shear_coefficient,
+                                                    &cause_accelerometer_mass,
+                                                    &cause_support_position,
+                                                    &cause_support_extra,
+                                                    &cause_support_rotation,
+                                                    &cause_clamp,
+                                                    &cause_hub_stiffness,
+                                                    &cause_added_inertia};
 
 #define PHYSICAL ((int)(sizeof physical / sizeof *physical))
 
@@ -132,7 +147,7 @@ static void a_mass_at_a_node_is_a_disk(void **state)
         double from, to;
         rotor_group_span(rotor, 1, &from, &to);
         double z = n == 0 ? 0 : n == 1 ? to : rotor_length(rotor);
-        rotor->disk[0] = (struct disk){"fan", z, 12, 0.4, 0};
+        rotor->disk[0] = (struct disk){"fan", z, 12, 0.4, 0, 0, 0};
         bench_build(rotor, 0, NULL, &disk);
         rotor->ndisk = 0;
         bench_add(rotor, &bench_lump, -1, 0, (double[]){12, z, 0.4});
@@ -309,7 +324,7 @@ static void a_mass_at_the_interface_hangs_on_the_node(void **state)
         double from, to;
         rotor_group_span(rotor, 0, &from, &to);
         bench_add(rotor, cause_joint.effect, 0, 0, (double[]){3e-9});
-        rotor->disk[0] = (struct disk){"fan", to, 12, 0.4, 0};
+        rotor->disk[0] = (struct disk){"fan", to, 12, 0.4, 0, 0, 0};
         bench_build(rotor, 0, NULL, &disk);
         rotor->ndisk = 0;
         bench_add(rotor, &bench_lump, -1, 0, (double[]){12, to, 0.4});

@@ -36,6 +36,14 @@ static const struct subject {
     {&cause_shear_coefficient, 0, 0, {0.8}},
     {&cause_accelerometer_mass, 1, 1, {0.3}},
     {&cause_accelerometer_mass, -1, 0, {0.3}},
+    {&cause_support_position, 0, 0, {LEFT_INTERFACE + 0.011}},
+    {&cause_support_position, 0, 0, {LEFT_INTERFACE - 0.011}},
+    {&cause_support_extra, -1, 0, {2e9, LEFT_INTERFACE - 0.008}},
+    {&cause_support_rotation, -1, 0, {3e7, LEFT_INTERFACE - 0.008}},
+    {&cause_clamp, 0, 0, {2e-6, 3e-9}},
+    {&cause_added_mass, -1, 1, {9, LEFT_INTERFACE + 0.003, 0.213}},
+    {&cause_added_inertia, 0, 0, {0.7}},
+    {&cause_hub_stiffness, -1, 0, {0.6}},
 };
 
 #define SUBJECTS ((int)(sizeof subjects / sizeof *subjects))

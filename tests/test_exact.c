@@ -325,7 +325,7 @@ static void attach(struct random_stream *stream, int index, struct random_rotor 
     struct rotor *rotor = &r->rotor;
     for (int i = rotor->ndisk = below(stream, 4); i-- > 0;) {
         double mass = between(stream, 2, 60);
-        r->disk[i] = (struct disk){"disk", random_position(stream, rotor), mass, mass * between(stream, 0, 0.03), 0};
+        r->disk[i] = (struct disk){"disk", random_position(stream, rotor), mass, mass * between(stream, 0, 0.03), 0, 0, 0};
     }
     for (int i = rotor->nspring = below(stream, 4); i-- > 0;)
         r->spring[i] = (struct spring){"spring", random_position(stream, rotor), pow(10, between(stream, 3, 9)),

@@ -57,7 +57,7 @@ static void open_bench(struct bench *b)
 
 static void add_disk(struct bench *b, double position, double mass, double diametral)
 {
-    b->disk[b->rotor.ndisk++] = (struct disk){"disk", position, mass, diametral, 0};
+    b->disk[b->rotor.ndisk++] = (struct disk){"disk", position, mass, diametral, 0, 0, 0};
 }
 
 static void add_spring(struct bench *b, double position, double lateral, double rotational)

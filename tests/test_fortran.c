@@ -226,7 +226,7 @@ static void both_compilers_give_the_same_values_sizes_and_offsets(void **state)
     struct header header;
     read_header(shell_file(&test_pool, HEADER), &header);
     run_witnesses(folder, &header, MODULE, &in_c, &in_fortran);
-    assert_non_null(strstr(in_c, "\nrotid_deck 1")); /* sizes of three digits */
+    assert_non_null(strstr(in_c, "\nrotid_deck 2")); /* sizes of three digits */
     assert_non_null(strstr(in_c, "\nROTID_ERROR_LIBRARY -15\n"));
     assert_non_null(strstr(in_c, "\nrotid_lm_options says "));
     assert_string_equal(in_fortran, in_c);

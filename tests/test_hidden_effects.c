@@ -50,6 +50,7 @@ static const struct {
     {CLEAR, 14, {"stiffness:group=right,factor=0.88"}, 0},
     {CLEAR, 17, {"shear_coefficient:group=left,factor=0.7"}, 0},
     {CLEAR, 18, {"accelerometer_mass:mass=0.5,mount=fixed,sensor=68"}, 0},
+    {CLEAR, 45, {"support_rotation:z=1.45,stiffness=8e7"}, 0},
     {SMALL, 19, {"stiffness_gradient:group=core,slope=0.05"}, 0},
     {SMALL, 20, {"stiffness_profile:group=core,profile=0.1"}, 0},
     {SMALL, 21, {"stiffness_local:depth=0.15,z=1.0,width=0.04,shape=gaussian"}, 0},
@@ -69,7 +70,6 @@ static const struct {
     {MISSTATED, 42, {"noise_level:block=FREQUENCY,factor=2"}, 0},
     {TWO, 43, {"stiffness:group=left,factor=1.08", "added_mass:mass=20,z=1.2"}, 0},
     {TWO, 44, {"tie_shear:at=ties", "joint:at=core.end,flexibility=1e-9"}, 0},
-    {OUTSIDE, 45, {"outside:kind=ground_rotation,z=1.45,stiffness=8e7"}, 0},
     {OUTSIDE, 46, {"outside:kind=sine,group=core,amplitude=0.4,waves=2"}, 0},
     {TWO, 47, {"stiffness_local:depth=0.8,z=0.4,width=0.03", "stiffness_local:depth=0.8,z=1.5,width=0.03"}, 0},
 };

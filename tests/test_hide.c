@@ -158,8 +158,10 @@ static void frequencies_move_as_they_must(void **state)
                  {"accelerometer_mass:mass=0.5,mount=fixed,sensor=23", -1},
                  {"accelerometer_mass:mass=0.5,mount=moving", -1},
                  {"outside:kind=bend_only,depth=0.5,z=0.6,width=0.03", -1},
-                 {"outside:kind=ground_spring,z=1,stiffness=1e7", 1},
-                 {"outside:kind=ground_rotation,z=1,stiffness=1e7", 1},
+                 {"added_mass:mass=10,z=1.6,width=0.3", -1},
+                 {"support_extra:z=1,stiffness=1e7", 1},
+                 {"support_rotation:z=1,stiffness=1e7", 1},
+                 {"clamp:at=sling,rotational=0,lateral=1e-4", -1},
                  {"outside:kind=inertia,z=1,inertia=0.5", -1},
                  {"outside:kind=density_zone,factor=1.2,z=1,width=0.1", -1}};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
@@ -190,6 +192,8 @@ static void effects_vanish_smoothly(void **state)
                  {"joint:at=core.start,flexibility=%.9g", 0, 1e-11, 0.1},
                  {"support:at=tail,factor=%.9g", 1, 1, 0.1},
                  {"added_mass:mass=%.9g,z=0.3", 0, 0.5, 0.1},
+                 {"added_mass:mass=%.9g,z=0.9,width=0.2", 0, 0.5, 0.1},
+                 {"support_rotation:z=1.2,stiffness=%.9g", 0, 1e5, 0.1},
                  {"density:group=left,factor=%.9g", 1, 0.005, 0.1},
                  {"stiffness:group=right,factor=%.9g", 1, 0.005, 0.1},
                  {"tie_stiffness:at=ties,factor=%.9g", 1, 0.02, 0.1},
@@ -242,7 +246,8 @@ static void effects_are_what_other_cards_say(void **state)
     } table[] = {
         {"added_mass:mass=10,z=1.6,inertia=0.5", "*MODES", "*DISK\n1.6, 10, 0.5\n*MODES", "", "", 1e-10},
         {"support:at=sling,factor=3", "9790", "29370", "", "", 1e-10},
-        {"outside:kind=ground_spring,z=1,stiffness=1e7", "*MODES", "*SPRING\n1.0, 1e7\n*MODES", "", "", 1e-10},
+        {"clamp:at=sling,rotational=0,lateral=2e-5", "9790", "8186.98779", "", "", 1e-9}, /* k/(1 + c k) */
+        {"support_extra:z=1,stiffness=1e7", "*MODES", "*SPRING\n1.0, 1e7\n*MODES", "", "", 1e-10},
         {"density:group=core,factor=0.94", "7380.66", "6937.8204", "", "", 1e-10},
         {"tie_tension:at=ties,factor=2", "", "", tie,
          "FROM=core.start, TO=core.end, MODEL=TUBE, SELF_EQUILIBRATED=NO\n12, 0.032, 0.13364, 300e3, 1", 1e-10},

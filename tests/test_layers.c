@@ -294,7 +294,42 @@ static const struct subject {
     {&cause_step_stiffness, -1, {33.7}},
     {&cause_joint, 0, {3e-9}},
     {&cause_added_mass, -1, {9, 1.03}},
+    {&cause_layer_slip, 3, {0.07}},
+    {&cause_layer_slip, 4, {0.011}},
+    {&cause_hub_stiffness, -1, {0.6}},
 };
+
+/* The mean over an element of 1 - cosh(x/t)/cosh(a/t), by many points; nothing at neutral, all of it lost towards the ends. */
+static void a_layer_that_slips_carries_by_shear_lag(void **state)
+{
+    (void)state;
+    struct rotor *rotor = layered();
+    double begin, end;
+    rotor_group_span(rotor, 3, &begin, &end);
+    const double a = (end - begin) / 2, transfer[] = {0, 1e-4, 0.01, 0.1, a};
+    for (size_t k = 0; k < sizeof transfer / sizeof *transfer; k++) {
+        struct effect effect = {.kind = cause_layer_slip.effect, .target = 3, .value = {transfer[k]}};
+        for (int e = 0; e < 10; e++) {
+            struct effect_span span = {3, 0, begin + 0.2 * a * e, begin + 0.2 * a * (e + 1)};
+            struct effect_field factors = {1, 1, 1};
+            double mean = 0;
+            assert_int_equal(effect.kind->field(&effect, rotor, &span, -1, &factors), 1);
+            for (int i = 0; i < 20000; i++) {
+                double x = fabs(0.2 * a * (e + (i + 0.5) / 20000) - a), t = transfer[k];
+                mean += t > 0 ? (1 - exp((x - a) / t) * (1 + exp(-2 * x / t)) / (1 + exp(-2 * a / t))) / 20000 : 1.0 / 20000;
+            }
+            assert_close(factors.e, mean, 2e-5, 0);
+            assert_true(factors.g == factors.e && factors.rho == 1);
+        }
+    }
+    struct effect effect = {.kind = cause_layer_slip.effect, .target = 3};
+    struct effect_span other = {1, 0, begin, end};
+    struct effect_field factors;
+    assert_int_equal(effect.kind->field(&effect, rotor, &other, -1, &factors), 0);
+    assert_int_equal(cause_layer_slip.applies(rotor, 3, NULL), 1);
+    assert_int_equal(cause_layer_slip.applies(rotor, 1, NULL), 0);
+    assert_int_equal(cause_stiffness.applies(rotor, 3, (const int[]){0, 1, 0, 0, 0}), 1);
+}
 
 static void derivatives_by_what_is_of_a_layer_agree_with_differences(void **state)
 {
@@ -478,6 +513,7 @@ int main(void)
         TEST(two_layers_by_hand),
         TEST(a_shaft_cut_into_core_and_rings_bends_alike),
         TEST(holes_are_those_of_their_layer),
+        TEST(a_layer_that_slips_carries_by_shear_lag),
         TEST(derivatives_by_what_is_of_a_layer_agree_with_differences),
         TEST(a_cause_on_a_layer_leaves_the_other_parts_alone),
         TEST(cones_cut_off_the_layer_and_not_what_lies_within),

@@ -31,10 +31,8 @@ static void take(const struct solid *solid, struct field (*field)(double r, doub
             u[dof] = (field(0, mesh->z[l]).u - field(0, mesh->z[l]).v) / 2;
             u[dof + 1] = field(1, mesh->z[l]).w;
         }
-    for (int s = 0; s < solid->rotor.nsensor; s++) {
-        int slice = solid_mesh_slice(mesh, solid->rotor.sensor[s].position);
-        u[mesh->sensor_dof[s]] = field(mesh->node[mesh->surface[2 * slice + 1]].r, solid->rotor.sensor[s].position).u;
-    }
+    for (int i = 0; i <= 2 * mesh->nslice; i++) /* a node that stands for a sensor moves as that does */
+        u[mesh->node[mesh->surface[i]].dof[0]] = field(mesh->node[mesh->surface[i]].r, mesh->surface_z[i]).u;
 }
 
 static struct field translation(double r, double z)
@@ -104,7 +102,8 @@ static void everything(struct rig *b)
     b->segment[0].inner = 0.02;
     b->segment[6].stiff_outer = 0.12;
     b->rotor.ndisk = 1;
-    b->disk[0] = (struct disk){.name = "fan", .position = 1.72, .mass = 20, .diametral = 0.3};
+    b->disk[0] =
+        (struct disk){.name = "fan", .position = 1.72, .mass = 20, .diametral = 0.3, .hub_length = 0.09, .hub_outer = 0.3};
     b->rotor.ntierod = 1;
     b->tierod[0] = (struct tierod){.name = "rods",
                                    .material = rig_steel,
@@ -186,11 +185,44 @@ static double largest_difference(const rotid_matrix *a, const rotid_matrix *b) /
 
 static void derivatives_agree_with_differences(void **state)
 {
-    static const char *const names[] = {"core.E",          "core.G",       "core.nu",      "core.rho",          "left.E",
-                                        "left.nu",         "ring.E",       "rods.E",       "rods.tension",      "fan.mass",
-                                        "fan.inertia",     "spring.k",     "spring.k_rot", "zone.depth",        "zone.z",
-                                        "zone.width",      "add.mass",     "add.z",        "joint.flexibility", "slope.slope",
-                                        "profile.profile", "dense.factor", "soft.factor",  "tie_e.factor",      "tie_t.factor"};
+    static const char *const names[] = {"core.E",
+                                        "core.G",
+                                        "core.nu",
+                                        "core.rho",
+                                        "left.E",
+                                        "left.nu",
+                                        "ring.E",
+                                        "rods.E",
+                                        "rods.tension",
+                                        "fan.mass",
+                                        "fan.inertia",
+                                        "spring.k",
+                                        "spring.k_rot",
+                                        "zone.depth",
+                                        "zone.z",
+                                        "zone.width",
+                                        "add.mass",
+                                        "add.z",
+                                        "joint.flexibility",
+                                        "slope.slope",
+                                        "profile.profile",
+                                        "dense.factor",
+                                        "soft.factor",
+                                        "tie_e.factor",
+                                        "tie_t.factor",
+                                        "away.shift",
+                                        "extra.stiffness",
+                                        "extra.z",
+                                        "turn.stiffness",
+                                        "turn.z",
+                                        "clamp.rotational",
+                                        "clamp.lateral",
+                                        "wide.mass",
+                                        "wide.z",
+                                        "wide.width",
+                                        "inert.inertia",
+                                        "hubs.share",
+                                        "slip.transfer"};
     static const struct effect effects[] = {{.name = "zone", .target = -1, .value = {0.4, 1.0, 0.05}},
                                             {.name = "add", .target = -1, .value = {3, 1.113}},
                                             {.name = "joint", .target = 0, .value = {2e-9}},
@@ -199,10 +231,19 @@ static void derivatives_agree_with_differences(void **state)
                                             {.name = "dense", .target = 3, .value = {1.1}},
                                             {.name = "soft", .target = 0, .value = {0.8}},
                                             {.name = "tie_e", .target = 0, .value = {0.9}},
-                                            {.name = "tie_t", .target = 0, .value = {1.2}}};
-    static const char *const kinds[] = {"stiffness_local",    "added_mass",        "joint",
-                                        "stiffness_gradient", "stiffness_profile", "density",
-                                        "stiffness",          "tie_stiffness",     "tie_tension"};
+                                            {.name = "tie_t", .target = 0, .value = {1.2}},
+                                            {.name = "away", .target = 0, .value = {0.037}},
+                                            {.name = "extra", .target = -1, .value = {3e6, 0.917}},
+                                            {.name = "turn", .target = -1, .value = {2e5, 1.311}},
+                                            {.name = "clamp", .target = 0, .value = {3e-6, 2e-7}},
+                                            {.name = "wide", .target = -1, .variant = 1, .value = {4, 1.07, 0.21}},
+                                            {.name = "inert", .target = 0, .value = {0.2}},
+                                            {.name = "hubs", .target = -1, .value = {0.6}},
+                                            {.name = "slip", .target = 3, .value = {0.08}}};
+    static const char *const kinds[] = {
+        "stiffness_local", "added_mass",    "joint",         "stiffness_gradient", "stiffness_profile", "density",
+        "stiffness",       "tie_stiffness", "tie_tension",   "support_position",   "support_extra",     "support_rotation",
+        "clamp",           "added_mass",    "added_inertia", "hub_stiffness",      "layer_slip"};
     struct rig b;
     enum { COUNT = sizeof names / sizeof *names };
     struct parameter parameter[COUNT];

@@ -1,5 +1,6 @@
 /* What is attached to a solid beside the same on a beam, on rotors so slender that both agree; sensors; limits of the mesh. */
 #include <math.h>
+#include <string.h>
 
 #include "exact.h"
 #include "linalg/eigen.h"
@@ -62,6 +63,55 @@ static void masses_and_joints_act_as_on_a_beam(void **state)
                 s == way ? 0.09 : 0.06;
         compare(&plain, &b, 5e-3);
     }
+}
+
+/* Away from a line a solid has them by rigid pieces of the sections on either side. */
+static void springs_anywhere_act_as_on_a_beam(void **state)
+{
+    static const struct {
+        const char *id;
+        int target;
+        double value[3];
+    } cause[] = {{"support_extra", -1, {3e6, 0.613}}, {"support_rotation", -1, {4e5, 0.613}},
+                 {"support_position", 0, {0.213}},    {"clamp", 0, {2e-6, 1e-7}},
+                 {"added_inertia", 0, {0.4}},         {"hub_stiffness", -1, {0.8}}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cause / sizeof *cause; i++) {
+        struct rig plain, b;
+        slender(&plain, 1);
+        slender(&b, 1);
+        for (int with = 0; with < 2; with++) {
+            struct rig *r = with ? &b : &plain;
+            r->rotor.ndisk = 1;
+            r->disk[0] =
+                (struct disk){.name = "fan", .position = 1.7, .mass = 20, .diametral = 0.3, .hub_length = 0.2, .hub_outer = 0.16};
+            rig_springs(r, 4e6, 5e6);
+            r->spring[0].position = 0.4;
+            r->spring[0].rotational = 3e5;
+        }
+        b.rotor.neffect = 1;
+        b.effect[0] = (struct effect){.name = "c", .kind = rig_kind(cause[i].id), .target = cause[i].target};
+        memcpy(b.effect[0].value, cause[i].value, sizeof cause[i].value);
+        print_message("%s\n", cause[i].id);
+        compare(&plain, &b, 3e-3);
+    }
+}
+
+/* A cause may put a spring anywhere, so neutral has to be the spring of the deck to the last digit. */
+static void a_spring_that_did_not_move_is_that_of_the_deck(void **state)
+{
+    struct rig b;
+    double plain[MODES], with[MODES];
+    (void)state;
+    slender(&b, 1);
+    rig_springs(&b, 4e6, 5e6);
+    b.spring[0].position = 0.4123;
+    rig_solid(&b.rotor, NULL, 1, 2, MODES, plain);
+    b.rotor.neffect = 1;
+    b.effect[0] = (struct effect){.name = "c", .kind = rig_kind("support_position"), .target = 0};
+    rig_solid(&b.rotor, NULL, 1, 2, MODES, with);
+    for (int j = 0; j < MODES; j++)
+        assert_close(with[j], plain[j], 1e-10, 0);
 }
 
 static void rods(struct rig *b, int elements, double tension)
@@ -298,6 +348,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(disks_and_springs_act_as_on_a_beam, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(springs_anywhere_act_as_on_a_beam, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_spring_that_did_not_move_is_that_of_the_deck, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(masses_and_joints_act_as_on_a_beam, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(tie_rods_act_as_on_a_beam, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(axial_force_acts_as_in_a_beam, open_test_pool, close_test_pool),

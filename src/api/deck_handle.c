@@ -10,7 +10,7 @@
 struct deck_handle {
     struct pool *own;
     int usable; /* without errors */
-    struct job job;
+    struct states states;
 };
 
 static int parse_overrides(struct pool *own, int count, const char *const *text, struct message_list *messages,
@@ -79,6 +79,39 @@ static void show(const struct job *job, struct pool *own, rotid_deck *deck)
     deck->references = job->reference;
 }
 
+/* Each state as a deck of its own, and the unknowns of all. */
+static int show_states(const struct states *states, struct pool *own, const rotid_environment *environment, rotid_deck *deck)
+{
+    rotid_deck **list = POOL_ARRAY(own, rotid_deck *, states->nstate);
+    const char **name = POOL_ARRAY(own, const char *, states->nstate);
+    double *stated = POOL_ARRAY(own, double, states->nparameter);
+    if (!list || !name || !stated)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < states->nstate; s++) {
+        const struct state *state = &states->state[s];
+        struct deck_handle *handle = POOL_NEW(own, struct deck_handle);
+        list[s] = POOL_NEW(own, rotid_deck);
+        if (!handle || !list[s])
+            return ROTID_ERROR_MEMORY;
+        *handle = (struct deck_handle){.usable = 1, .states = {.nstate = 1, .state = (struct state *)state}};
+        *list[s] = (rotid_deck){.path = deck->path, .memory = handle};
+        int status = weigh(&state->job, environment, list[s]);
+        if (status)
+            return status;
+        show(&state->job, own, list[s]);
+        name[s] = state->name;
+        for (int p = 0; p < state->job.unknowns.nparameter; p++)
+            stated[state->unknown[p]] = list[s]->stated[p];
+    }
+    deck->nparameter = states->nparameter;
+    deck->parameter = states->bounds;
+    deck->stated = stated;
+    deck->nstate = states->nstate;
+    deck->state = list;
+    deck->state_name = name;
+    return ROTID_OK;
+}
+
 static int read_deck(struct pool *own, const struct deck_memory *memory, const char *path, int noverride, const char *const *text,
                      struct call *call, rotid_deck *deck)
 {
@@ -94,12 +127,13 @@ static int read_deck(struct pool *own, const struct deck_memory *memory, const c
     deck->length = deck->mass = deck->centre = NAN;
     int status = parse_overrides(own, noverride, text, messages, override);
     if (!status)
-        status = memory ? deck_read_memory(own, memory, noverride, override, messages, &handle->job)
-                        : deck_read(own, path, noverride, override, messages, &handle->job);
+        status = deck_read_states(own, path, memory, noverride, override, messages, &handle->states);
     if (!status)
-        status = weigh(&handle->job, &call->environment, deck);
+        status = weigh(&handle->states.state[0].job, &call->environment, deck);
     if (!status)
-        show(&handle->job, own, deck);
+        show(&handle->states.state[0].job, own, deck);
+    if (!status && handle->states.nstate > 1)
+        status = show_states(&handle->states, own, &call->environment, deck);
     handle->usable = status == ROTID_OK;
     deck->nmessage = (int)messages->count;
     deck->nerror = messages->errors;
@@ -162,21 +196,30 @@ int rotid_deck_read_text(size_t length, const char *text, const char *name, cons
 
 void rotid_deck_free(rotid_deck *deck)
 {
-    if (deck)
+    if (deck && ((struct deck_handle *)deck->memory)->own) /* not a state of another deck */
         pool_free(((struct deck_handle *)deck->memory)->own);
 }
 
 const struct job *deck_job_of(const rotid_deck *deck)
 {
     const struct deck_handle *handle = deck ? deck->memory : NULL;
-    return handle && handle->usable ? &handle->job : NULL;
+    return handle && handle->usable ? &handle->states.state[0].job : NULL;
 }
 
 const struct job *deck_job(const rotid_deck *deck, struct call *call)
 {
+    const struct states *states = deck_states(deck, call);
+    if (!states || states->nstate == 1)
+        return states ? &states->state[0].job : NULL;
+    states_refuse(states, deck->path, &call->notes);
+    return NULL;
+}
+
+const struct states *deck_states(const rotid_deck *deck, struct call *call)
+{
     const struct deck_handle *handle = deck ? deck->memory : NULL;
     if (handle && handle->usable)
-        return &handle->job;
+        return &handle->states;
     for (int i = 0; handle && i < deck->nmessage; i++)
         if (deck->message[i].severity == ROTID_ERROR) {
             const rotid_message *m = &deck->message[i];

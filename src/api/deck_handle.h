@@ -3,13 +3,16 @@
 #define ROTID_API_DECK_HANDLE_H
 
 #include "api/call.h"
-#include "run/job.h"
+#include "run/states.h"
 
-/* The job of a deck, for reading alone; NULL where there is none to compute with (deck NULL, or with errors): the notes of the
+/* The states of a deck, for reading alone; NULL where there is none to compute with (deck NULL, or with errors): the notes of the
  * call say why then. */
+const struct states *deck_states(const rotid_deck *deck, struct call *call);
+
+/* The job of a deck of one state; NULL also where it has several. */
 const struct job *deck_job(const rotid_deck *deck, struct call *call);
 
-/* The same without a call that has to be explained. */
+/* That of the first state, without a call that has to be explained. */
 const struct job *deck_job_of(const rotid_deck *deck);
 
 #endif

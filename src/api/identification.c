@@ -4,6 +4,15 @@
 #include "api/result_geometry.h"
 #include "api/result_identification.h"
 
+static rotid_identification *keep(struct call *call, rotid_identification *made)
+{
+    if (!made)
+        return NULL;
+    made->nmessage = (int)call->notes.count;
+    made->message = call->notes.item;
+    return call_keep(call, &identification_whole_record, made, &made->memory);
+}
+
 static rotid_identification *make_result(struct call *call, const struct job *job, const struct identification *found)
 {
     struct pool *pool = &call->entry.scratch;
@@ -12,25 +21,31 @@ static rotid_identification *make_result(struct call *call, const struct job *jo
         return NULL;
     made->noise = result_noise(pool, job, found->fit);
     made->geometry = result_geometry(pool, &job->rotor, found->spectrum.model);
-    made->nmessage = (int)call->notes.count;
-    made->message = call->notes.item;
-    return call_keep(call, &identification_whole_record, made, &made->memory);
+    return keep(call, made);
 }
 
 static int identify(struct call *call, const rotid_deck *deck, int baseline, rotid_identification **result)
 {
-    struct identification found = {0};
-    const struct job *job = deck_job(deck, call);
-    if (!job)
+    struct pool *pool = &call->entry.scratch;
+    const struct states *states = deck_states(deck, call);
+    if (!states)
         return ROTID_ERROR_ARGUMENT;
-    int status = identify_run(&call->entry.scratch, job, baseline, &call->environment, &call->notes, &found);
+    struct identification *found = POOL_ARRAY(pool, struct identification, states->nstate);
+    rotid_fit_result *fit = NULL;
+    int one = states->nstate == 1, status = ROTID_ERROR_MEMORY;
+    if (found && one)
+        status = identify_run(pool, &states->state[0].job, baseline, &call->environment, &call->notes, found);
+    else if (found)
+        status = identify_states(pool, states, baseline, &call->environment, &call->notes, found, &fit);
     if (status)
         return status;
-    comparison_warn_of_mesh(job, &found.spectrum, &found.compared, &call->notes);
-    *result = make_result(call, job, &found);
+    for (int s = 0; s < states->nstate; s++)
+        comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
+    *result = one ? make_result(call, &states->state[0].job, found)
+                  : keep(call, result_identification_states(pool, states, found, fit));
     if (*result)
         return ROTID_OK;
-    rotid_fit_free(found.fit);
+    rotid_fit_free(one ? found->fit : fit);
     return ROTID_ERROR_MEMORY;
 }
 

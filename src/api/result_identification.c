@@ -2,16 +2,18 @@
 
 #include <math.h>
 
+#include "api/result_geometry.h"
 #include "base/order.h"
 #include "fit/baseline.h"
 #include "run/mode_shapes.h"
 
-static void fill_parameters(struct pool *pool, const struct job *job, const rotid_fit_result *fit, rotid_identification *out)
+static void fill_parameters(struct pool *pool, const rotid_parameter *list, const rotid_fit_result *fit,
+                            rotid_identification *out)
 {
     int undetermined = 0;
     out->nparameters = POOL_LIST(pool, out->parameters, fit->n);
     for (int p = 0; p < out->nparameters; p++) {
-        const rotid_parameter *bounds = &job->unknowns.bounds[p];
+        const rotid_parameter *bounds = &list[p];
         out->parameters[p] = (rotid_fitted_parameter){.name = bounds->name,
                                                       .unit = bounds->unit,
                                                       .value = fit->x[p],
@@ -109,7 +111,8 @@ static double bijection_chi(const struct job *job)
     return job->options.fit.bijection_chi > 0 ? job->options.fit.bijection_chi : standard.bijection_chi;
 }
 
-rotid_identification *result_identification(struct pool *pool, const struct job *job, const struct identification *found)
+static rotid_identification *make(struct pool *pool, const struct job *job, const rotid_parameter *bounds,
+                                  const struct identification *found)
 {
     const rotid_fit_result *fit = found->fit;
     rotid_identification *out = fit ? POOL_NEW(pool, rotid_identification) : NULL;
@@ -137,12 +140,95 @@ rotid_identification *result_identification(struct pool *pool, const struct job 
                                   .nlopt = baseline_exists(),
                                   .seconds = fit->seconds,
                                   .fit = fit};
-    fill_parameters(pool, job, fit, out);
+    fill_parameters(pool, bounds, fit, out);
     fill_modes(pool, job, found, out);
     fill_history(pool, found, out);
     if (found->spectrum.model && mode_shapes_make(pool, job, &found->spectrum, &found->compared, out))
         return NULL;
     return out;
+}
+
+rotid_identification *result_identification(struct pool *pool, const struct job *job, const struct identification *found)
+{
+    return make(pool, job, job->unknowns.bounds, found);
+}
+
+static int fill_state(struct pool *pool, const struct state *state, const rotid_parameter *bounds,
+                      const struct identification *found, rotid_identified_state *out)
+{
+    const rotid_identification *part = make(pool, &state->job, bounds, found);
+    if (!part)
+        return 1;
+    *out = (rotid_identified_state){.name = state->name,
+                                    .fitted_residuals = found->fit->nresidual,
+                                    .shapes_fitted = part->shapes_fitted,
+                                    .objective = part->objective,
+                                    .chi2 = part->chi2,
+                                    .nmodes = part->nmodes,
+                                    .modes = part->modes,
+                                    .reduction_error_percent = part->reduction_error_percent,
+                                    .mesh_error_percent = part->mesh_error_percent,
+                                    .mass_kg = part->mass_kg,
+                                    .center_of_mass_m = part->center_of_mass_m,
+                                    .shapes = part->shapes,
+                                    .nmatrix_rows = part->nmatrix_rows,
+                                    .nmatrix_columns = part->nmatrix_columns,
+                                    .nco_matrix = part->nco_matrix,
+                                    .mac_matrix = part->mac_matrix,
+                                    .matrix_rows = part->matrix_rows,
+                                    .matrix_columns = part->matrix_columns,
+                                    .noise = result_noise(pool, &state->job, found->fit),
+                                    .geometry = result_geometry(pool, &state->job.rotor, found->spectrum.model)};
+    return !out->noise || !out->geometry;
+}
+
+/* The modes of all states, in the order of the fit. */
+static int join_modes(struct pool *pool, const struct identification *found, const rotid_fit_result *fit,
+                      rotid_identification *out)
+{
+    out->reduction_error_percent = POOL_ARRAY(pool, double, fit->m);
+    out->mesh_error_percent = POOL_ARRAY(pool, double, fit->m);
+    out->nmodes = POOL_LIST(pool, out->modes, fit->m);
+    int short_of = !out->nmodes || !out->reduction_error_percent || !out->mesh_error_percent;
+    for (int b = 0; b < out->nbaseline && !short_of; b++) {
+        out->baseline[b].npredicted_hz = POOL_LIST(pool, out->baseline[b].predicted_hz, fit->m);
+        short_of = !out->baseline[b].predicted_hz;
+    }
+    for (int s = 0, mode = 0; s < out->nstates && !short_of; s++)
+        for (int k = 0; k < out->states[s].nmodes; k++, mode++) {
+            out->modes[mode] = out->states[s].modes[k];
+            out->reduction_error_percent[mode] = out->states[s].reduction_error_percent[k];
+            out->mesh_error_percent[mode] = out->states[s].mesh_error_percent[k];
+            for (int b = 0; b < out->nbaseline; b++)
+                out->baseline[b].predicted_hz[mode] = found[s].baseline_hz[k + (ptrdiff_t)b * out->states[s].nmodes];
+        }
+    return short_of;
+}
+
+rotid_identification *result_identification_states(struct pool *pool, const struct states *states,
+                                                   const struct identification *found, const rotid_fit_result *fit)
+{
+    rotid_identified_state *list = POOL_ARRAY(pool, rotid_identified_state, states->nstate);
+    rotid_identification *out = list ? make(pool, &states->state[0].job, states->bounds, &found[0]) : NULL;
+    if (!out)
+        return NULL;
+    for (int s = 0; s < states->nstate; s++) {
+        if (fill_state(pool, &states->state[s], states->bounds, &found[s], &list[s]))
+            return NULL;
+        out->shapes_fitted |= list[s].shapes_fitted;
+    }
+    out->objective = fit->objective;
+    out->chi2 = fit->chi2;
+    out->fit = fit;
+    out->noise = list[0].noise;
+    out->geometry = list[0].geometry;
+    out->shapes = NULL;
+    out->nco_matrix = out->mac_matrix = NULL;
+    out->matrix_rows = out->matrix_columns = NULL;
+    out->nmatrix_rows = out->nmatrix_columns = 0;
+    out->nstates = states->nstate;
+    out->states = list;
+    return join_modes(pool, found, fit, out) ? NULL : out;
 }
 
 /* The middle one of the deviations that are known of what was measured. */

@@ -50,7 +50,7 @@ static void add_axis_element(const struct beam *beam, int e, rotid_matrix *k, ro
     if (beam->nhinge && hinge_in(beam, e)) {
         for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);)
             if (lumped.element == e)
-                lumped_add(beam, &lumped, &element, em);
+                lumped_add(beam, &lumped, &element, ek, em);
         hinge_condense(beam, e, ek, em);
     }
     add_between(k, e, e + 1, ek);
@@ -58,16 +58,17 @@ static void add_axis_element(const struct beam *beam, int e, rotid_matrix *k, ro
 }
 
 /* those outside the elements with a hinge */
-static void add_lumped(const struct beam *beam, rotid_matrix *m)
+static void add_lumped(const struct beam *beam, rotid_matrix *k, rotid_matrix *m)
 {
     struct element element;
     for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);) {
-        double em[16] = {0};
+        double ek[16] = {0}, em[16] = {0};
         int e = lumped.element;
         if (hinge_in(beam, e))
             continue;
         axis_quantities(beam, e, &element);
-        lumped_add(beam, &lumped, &element, em);
+        lumped_add(beam, &lumped, &element, ek, em);
+        add_between(k, e, e + 1, ek);
         add_between(m, e, e + 1, em);
     }
 }
@@ -87,7 +88,7 @@ void beam_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_ma
     beam_set(beam, x);
     for (int e = 0; e < mesh->nelement; e++)
         add_axis_element(beam, e, k, m);
-    add_lumped(beam, m);
+    add_lumped(beam, k, m);
     for (int i = 0; i < beam->rotor.ntierod; i++) {
         tierod_quantities(beam, i, tierod_element_length(beam, i), &element, &stretch);
         element_matrices(&element, ek, em);
@@ -116,9 +117,12 @@ void beam_assemble(struct beam *beam, const double *x, rotid_matrix *k, rotid_ma
     }
     for (int i = 0; i < beam->rotor.nspring && !beam->elastic_only; i++) {
         int v = 2 * mesh->spring_node[i];
-        double factor = effects_on_spring(&beam->rotor, i);
-        matrix_add(k, v, v, beam->rotor.spring[i].lateral * factor);
-        matrix_add(k, v + 1, v + 1, beam->rotor.spring[i].rotational * factor);
+        struct effect_point point;
+        if (effects_move_spring(&beam->rotor, i)) /* it is lumped */
+            continue;
+        effects_on_spring(&beam->rotor, i, &point);
+        matrix_add(k, v, v, point.lateral);
+        matrix_add(k, v + 1, v + 1, point.rotational);
     }
 }
 
@@ -137,8 +141,8 @@ static void differentiate_axis_element(const struct beam *beam, struct parameter
         element_matrices(&element, k, m);
         for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);)
             if (lumped.element == e) {
-                lumped_add(beam, &lumped, &element, m);
-                lumped_differentiate(beam, parameter, &lumped, &element, &d, em);
+                lumped_add(beam, &lumped, &element, k, m);
+                lumped_differentiate(beam, parameter, &lumped, &element, &d, ek, em);
             }
         hinge_differentiate(beam, parameter, e, k, m, ek, em);
     }
@@ -146,35 +150,33 @@ static void differentiate_axis_element(const struct beam *beam, struct parameter
     add_between(dm, e, e + 1, em);
 }
 
-static void differentiate_lumped(const struct beam *beam, struct parameter parameter, rotid_matrix *dm)
+static void differentiate_lumped(const struct beam *beam, struct parameter parameter, rotid_matrix *dk, rotid_matrix *dm)
 {
     struct element element, d;
     for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);) {
-        double em[16] = {0};
+        double ek[16] = {0}, em[16] = {0};
         int e = lumped.element;
         if (hinge_in(beam, e))
             continue;
         axis_quantities(beam, e, &element);
         axis_direction(beam, parameter, e, &d);
-        if (lumped_differentiate(beam, parameter, &lumped, &element, &d, em))
-            add_between(dm, e, e + 1, em);
+        if (!lumped_differentiate(beam, parameter, &lumped, &element, &d, ek, em))
+            continue;
+        add_between(dk, e, e + 1, ek);
+        add_between(dm, e, e + 1, em);
     }
 }
 
 static void differentiate_springs(const struct beam *beam, struct parameter parameter, rotid_matrix *dk)
 {
     const struct rotor *rotor = &beam->rotor;
+    struct effect_point d;
     for (int i = 0; i < rotor->nspring; i++) {
         int v = 2 * beam->mesh.spring_node[i];
-        double d = 0;
-        if (parameter.kind == PARAMETER_EFFECT && effects_spring_derivative(rotor, parameter, i, &d)) {
-            matrix_add(dk, v, v, d * rotor->spring[i].lateral);
-            matrix_add(dk, v + 1, v + 1, d * rotor->spring[i].rotational);
-        } else if (parameter.kind == PARAMETER_SPRING_K && parameter.index == i) {
-            matrix_add(dk, v, v, effects_on_spring(rotor, i));
-        } else if (parameter.kind == PARAMETER_SPRING_K_ROT && parameter.index == i) {
-            matrix_add(dk, v + 1, v + 1, effects_on_spring(rotor, i));
-        }
+        if (effects_move_spring(rotor, i) || !effects_spring_derivative(rotor, parameter, i, &d))
+            continue;
+        matrix_add(dk, v, v, d.lateral);
+        matrix_add(dk, v + 1, v + 1, d.rotational);
     }
 }
 
@@ -187,7 +189,7 @@ void beam_differentiate(const struct beam *beam, int p, rotid_matrix *dk, rotid_
     double ek[16], em[16];
     for (int e = 0; e < mesh->nelement; e++)
         differentiate_axis_element(beam, parameter, e, dk, dm);
-    differentiate_lumped(beam, parameter, dm);
+    differentiate_lumped(beam, parameter, dk, dm);
     for (int i = 0; i < beam->rotor.ntierod; i++)
         if (tierod_direction(beam, parameter, i, &d, &dstretch)) {
             tierod_quantities(beam, i, tierod_element_length(beam, i), &element, &stretch);

@@ -21,11 +21,11 @@ int hinge_in(const struct beam *beam, int e);
 /* Whether one sits at this end (0 left, 1 right) of element e. */
 int hinge_at(const struct beam *beam, int e, int end);
 
-/* Condenses the hinges of element e: K and M [16] of the element, with the lumped masses in it, become those between the nodes.
+/* Condenses the hinges of element e: K and M [16] of the element, with what is lumped in it, become those between the nodes.
  */
 void hinge_condense(const struct beam *beam, int e, double *k, double *m);
 
-/* dK and dM at the same time, k and m being those of the element alone; all four are overwritten. */
+/* dK and dM at the same time, k and m being those of the element with what is lumped in it; all four are overwritten. */
 void hinge_differentiate(const struct beam *beam, struct parameter parameter, int e, double *k, double *m, double *dk,
                          double *dm);
 

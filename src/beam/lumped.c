@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "beam/hinge.h"
+#include "rotor/effects.h"
 
 /* With theta = gamma - v' and the constant shear angle gamma = -6 EI/kGS c3 of v = c0 + ... + c3 z^3, both shapes are
  * (A + phi B)/(1 + phi). */
@@ -74,22 +75,45 @@ static int element_of(const struct beam *beam, double z)
     return e > 0 && z == mesh->z[e] && hinge_at(beam, e, 0) ? e - 1 : e;
 }
 
+static int found(const struct beam *beam, struct lumped *lumped)
+{
+    struct effect_point *point = &lumped->point;
+    double end = beam->mesh.z[beam->mesh.end_node];
+    lumped->clamped = point->z < 0 || point->z > end;
+    point->z = fmin(fmax(point->z, 0), end);
+    lumped->element = element_of(beam, point->z);
+    return 1;
+}
+
 int lumped_next(const struct beam *beam, struct lumped *lumped)
 {
     const struct rotor *rotor = &beam->rotor;
-    struct effect_point *point = &lumped->point;
-    double end = beam->mesh.z[beam->mesh.end_node];
     for (lumped->i++; lumped->effect < rotor->neffect; lumped->effect++, lumped->i = 0) {
         const struct effect *effect = &rotor->effect[lumped->effect];
-        *point = (struct effect_point){0, 0, 0};
-        if (!effect->kind->point || !effect->kind->point(effect, rotor, lumped->i, -1, point))
+        lumped->point = (struct effect_point){.z = 0};
+        if (effect->kind->point && effect->kind->point(effect, rotor, lumped->i, -1, &lumped->point))
+            return found(beam, lumped);
+    }
+    while (lumped->spring < rotor->nspring) {
+        int i = lumped->spring++;
+        if (!effects_move_spring(rotor, i))
             continue;
-        lumped->clamped = point->z < 0 || point->z > end;
-        point->z = fmin(fmax(point->z, 0), end);
-        lumped->element = element_of(beam, point->z);
-        return 1;
+        effects_on_spring(rotor, i, &lumped->point);
+        lumped->point.z += beam->mesh.z[beam->mesh.spring_node[i]] - rotor->spring[i].position; /* which may be a little beside */
+        return found(beam, lumped);
     }
     return 0;
+}
+
+static int is_spring(const struct beam *beam, const struct lumped *lumped)
+{
+    return lumped->effect >= beam->rotor.neffect;
+}
+
+const char *lumped_name(const struct beam *beam, const struct lumped *lumped)
+{
+    const struct rotor *rotor = &beam->rotor;
+    return is_spring(beam, lumped) ? rotor->spring[lumped->spring - 1].name : rotor->effect[lumped->effect].name;
 }
 
 static double place_in(const struct mesh *mesh, const struct lumped *lumped)
@@ -98,23 +122,37 @@ static double place_in(const struct mesh *mesh, const struct lumped *lumped)
     return (lumped->point.z - mesh->z[e]) / (mesh->z[e + 1] - mesh->z[e]);
 }
 
-void lumped_add(const struct beam *beam, const struct lumped *lumped, const struct element *element, double *m)
+void lumped_add(const struct beam *beam, const struct lumped *lumped, const struct element *element, double *k, double *m)
 {
+    const struct effect_point *point = &lumped->point;
     struct lumped_shape n;
     lumped_shapes(element, place_in(&beam->mesh, lumped), &n, NULL, NULL);
-    add_product(lumped->point.mass, n.v, n.v, m);
-    add_product(lumped->point.inertia, n.theta, n.theta, m);
+    add_product(point->mass, n.v, n.v, m);
+    add_product(point->inertia, n.theta, n.theta, m);
+    if (beam->elastic_only)
+        return;
+    add_product(point->lateral, n.v, n.v, k);
+    add_product(point->rotational, n.theta, n.theta, k);
+}
+
+static int rate_of(const struct beam *beam, struct parameter parameter, const struct lumped *lumped, struct effect_point *d)
+{
+    const struct rotor *rotor = &beam->rotor;
+    if (is_spring(beam, lumped))
+        return effects_spring_derivative(rotor, parameter, lumped->spring - 1, d);
+    const struct effect *effect = &rotor->effect[lumped->effect];
+    return parameter.kind == PARAMETER_EFFECT && parameter.index == lumped->effect &&
+           effect->kind->point(effect, rotor, lumped->i, parameter.component, d);
 }
 
 int lumped_differentiate(const struct beam *beam, struct parameter parameter, const struct lumped *lumped,
-                         const struct element *element, const struct element *d, double *dm)
+                         const struct element *element, const struct element *d, double *dk, double *dm)
 {
-    const struct effect *effect = &beam->rotor.effect[lumped->effect];
+    const struct effect_point *point = &lumped->point;
     double dphi = shear_factor(element) * (d->ei / element->ei - d->kgs / element->kgs);
-    struct effect_point dpoint = {0, 0, 0};
+    struct effect_point dpoint = {.z = 0};
     struct lumped_shape n, by_xi, by_phi;
-    int own = parameter.kind == PARAMETER_EFFECT && parameter.index == lumped->effect &&
-              effect->kind->point(effect, &beam->rotor, lumped->i, parameter.component, &dpoint);
+    int own = rate_of(beam, parameter, lumped, &dpoint);
     if (!own && dphi == 0)
         return 0;
     double dxi = lumped->clamped ? 0 : dpoint.z / element->length;
@@ -125,7 +163,11 @@ int lumped_differentiate(const struct beam *beam, struct parameter parameter, co
     }
     add_product(dpoint.mass, n.v, n.v, dm);
     add_product(dpoint.inertia, n.theta, n.theta, dm);
-    add_product(2 * lumped->point.mass, n.v, by_xi.v, dm);
-    add_product(2 * lumped->point.inertia, n.theta, by_xi.theta, dm);
+    add_product(2 * point->mass, n.v, by_xi.v, dm);
+    add_product(2 * point->inertia, n.theta, by_xi.theta, dm);
+    add_product(dpoint.lateral, n.v, n.v, dk);
+    add_product(dpoint.rotational, n.theta, n.theta, dk);
+    add_product(2 * point->lateral, n.v, by_xi.v, dk);
+    add_product(2 * point->rotational, n.theta, by_xi.theta, dk);
     return 1;
 }

@@ -1,7 +1,8 @@
-/* Lumped masses at any place of the axis, which effects put there. The element around the place carries them with its own static
- * shapes, those that its consistent mass matrix integrates, so that nothing jumps as the place crosses a node; a mass at a node
- * is a disk. Inside an element the jump of the shear force is beyond these shapes: that leaves out a flexibility of at most
- * l/(4 kGS), an error of first order in l, 1e-5 of the frequency for 5 kg on a thin end of the paper's rotor. */
+/* Lumped masses and springs to the ground at any place of the axis: those that effects put there, and the springs of the deck
+ * that an effect may move. The element around the place carries them with its own static shapes, those that its consistent mass
+ * matrix integrates, so that nothing jumps as the place crosses a node; a mass at a node is a disk, and a spring at a node the
+ * deck's. Inside an element the jump of the shear force is beyond these shapes: that leaves out a flexibility of at most l/(4
+ * kGS), an error of first order in l, 1e-5 of the frequency for 5 kg on a thin end of the paper's rotor. */
 #ifndef ROTID_BEAM_LUMPED_H
 #define ROTID_BEAM_LUMPED_H
 
@@ -17,21 +18,26 @@ struct lumped_shape {
 void lumped_shapes(const struct element *element, double xi, struct lumped_shape *n, struct lumped_shape *by_xi,
                    struct lumped_shape *by_phi);
 
-struct lumped { /* one of the masses; start with i = -1 and the rest 0 */
+struct lumped { /* one of them; start with i = -1 and the rest 0 */
     int effect, i;
-    int element; /* that carries it: a mass at the very node of a hinge is on the node, like a disk */
+    int spring;  /* behind the effects, which are rotor.neffect then: that of the deck, from 1 */
+    int element; /* that carries it: what is at the very node of a hinge is on the node, like a disk */
     int clamped; /* its place lies outside the axis, and the end of the axis is taken instead */
     struct effect_point point;
 };
 
-/* The next lumped mass of all effects; 0 when there are no more. */
+/* The next one; 0 when there are no more. */
 int lumped_next(const struct beam *beam, struct lumped *lumped);
 
-/* Adds to m [16] of its element mass v v' + inertia theta theta'. */
-void lumped_add(const struct beam *beam, const struct lumped *lumped, const struct element *element, double *m);
+/* Its name in the deck; may be NULL for a spring. */
+const char *lumped_name(const struct beam *beam, const struct lumped *lumped);
 
-/* Adds the derivative to dm, d being the direction of the element's quantities. Returns 0 where it adds nothing. */
+/* Adds to k [16] of its element lateral v v' + rotational theta theta', unless the beam is to be elastic_only, and to m [16]
+ * mass v v' + inertia theta theta'. */
+void lumped_add(const struct beam *beam, const struct lumped *lumped, const struct element *element, double *k, double *m);
+
+/* Adds the derivatives to dk and dm, d being the direction of the element's quantities. Returns 0 where it adds nothing. */
 int lumped_differentiate(const struct beam *beam, struct parameter parameter, const struct lumped *lumped,
-                         const struct element *element, const struct element *d, double *dm);
+                         const struct element *element, const struct element *d, double *dk, double *dm);
 
 #endif

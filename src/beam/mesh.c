@@ -73,8 +73,13 @@ static int gather_positions(const struct rotor *rotor, double *position)
         position[count++] = rotor->sensor[i].position;
     for (int i = 0; i < rotor->nspring; i++)
         position[count++] = rotor->spring[i].position;
-    for (int i = 0; i < rotor->ndisk; i++)
+    for (int i = 0; i < rotor->ndisk; i++) {
         position[count++] = rotor->disk[i].position;
+        if (rotor->disk[i].hub_length > 0) {
+            rotor_hub_span(rotor, i, &position[count], &position[count + 1]);
+            count += 2;
+        }
+    }
     for (int i = 0; i < rotor->nbars; i++)
         position[count++] = rotor->bars[i].center;
     for (int i = 0; i < rotor->ntierod; i++) {
@@ -162,7 +167,7 @@ static void place_members(const struct rotor *rotor, int refine, struct mesh *me
 
 int mesh_build(struct pool *pool, const struct rotor *rotor, int refine, struct mesh *mesh)
 {
-    int base = 1, extra = rotor->nsensor + rotor->nspring + rotor->ndisk + rotor->nbars + 2 * rotor->ntierod;
+    int base = 1, extra = rotor->nsensor + rotor->nspring + 3 * rotor->ndisk + rotor->nbars + 2 * rotor->ntierod;
     for (int s = 0; s < rotor->nsegment; s++)
         base += rotor->segment[s].elements;
     int most = (base + extra) * refine + 1, far = 8 * (rotor->ntierod + 2 * rotor->nbars);

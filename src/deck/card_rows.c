@@ -93,6 +93,7 @@ const struct deck_row deck_fit_rows[] = {
     {.option = "REDUCTION", WORD(rotid_fit_options, reduction, reduction_words), OPTIONAL},
     OTHER("MODES", .what = ""),
     OTHER("HOLDOUT", .what = ""),
+    OTHER("STATE", .what = ""),
     {.option = "DERIVATIVE", WORD(rotid_fit_options, derivative, derivative_words), OPTIONAL},
     OTHER("TIE", .words = ties, .standard = -1),
     OTHER("MODEL", .words = discretisations),

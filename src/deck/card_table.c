@@ -1,5 +1,6 @@
 #include "deck/card_table.h"
 #include "deck/deck_cards.h"
+#include "deck/deck_state.h"
 
 #include <string.h>
 
@@ -18,6 +19,8 @@ static const struct deck_row disk[] = {
     {FROM_0(struct disk, mass, "mass [kg]")},
     {FROM_0(struct disk, diametral, "diametral inertia [kg.m2]"), OPTIONAL},
     {FROM_0(struct disk, polar, "polar inertia [kg.m2]"), OPTIONAL},
+    {FROM_0(struct disk, hub_length, "hub length [m]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
+    {FROM_0(struct disk, hub_outer, "hub outer diameter [m]"), .bits = ROW_MAY_LACK | ROW_ABOVE_0},
     LAST};
 static const struct deck_row spring[] = {
     {.option = "NAME", .kind = ROW_NAME, IN(struct spring, name), OPTIONAL, .what = "name"},
@@ -37,6 +40,7 @@ static const struct deck_row measured[] = {
     OTHER("SCALE", .what = "(1)"),
     OTHER("HAMMER", .what = ""),
     LAST};
+static const struct deck_row state[] = {OTHER("NAME", .what = ""), OTHER("MODES", .what = ""), OTHER("HOLDOUT", .what = ""), LAST};
 static const struct deck_row cause[] = {
     OTHER("NAME", .what = ""),
     OTHER("TYPE", .what = ""),
@@ -50,12 +54,15 @@ static const struct deck_row cause[] = {
     LAST};
 
 #define BY_CODE    .size = 0
+#define COMMON     BY_CODE, .states = CARD_COMMON
+#define REPLACES   BY_CODE, .states = CARD_REPLACES
+#define OF_STATE   BY_CODE, .states = CARD_OF_STATE
 #define LIST(S, M) .size = sizeof(struct S), .list = offsetof(struct rotor, M), .count = offsetof(struct rotor, n##M)
 
 /* In the order of docs/deck.md. */
 const struct deck_card deck_card_table[] = {
-    {"HEADING", CARD_MODEL, 4, deck_heading, "text; see [References](#references-in-the-heading)", nothing, BY_CODE},
-    {"UNITS", CARD_MODEL, 0, deck_units, NULL, deck_units_rows, BY_CODE},
+    {"HEADING", CARD_MODEL, 4, deck_heading, "text; see [References](#references-in-the-heading)", nothing, COMMON},
+    {"UNITS", CARD_MODEL, 0, deck_units, NULL, deck_units_rows, COMMON},
     {"MATERIAL", CARD_MODEL, 1, deck_material, NULL, material, BY_CODE},
     {"ELASTIC", CARD_MODEL, 1, deck_elastic, "E [Pa], nu; with SHEAR: E [Pa], G [Pa], nu; with LAMINATED: E, G along the axis [Pa], E [Pa], nu of a sheet [, stacking factor]", elastic, BY_CODE},
     {"DENSITY", CARD_MODEL, 1, deck_density, "density [kg/m3]", deck_density_rows, BY_CODE},
@@ -68,22 +75,25 @@ const struct deck_card deck_card_table[] = {
      deck_tierod_rows, BY_CODE},
     {"BARS", CARD_MODEL, 4, deck_bars, "number, diameter [m], pitch radius [m], elements", deck_bars_rows, BY_CODE},
     {"PRELOAD", CARD_MODEL, 4, deck_preload, "axial force [N], tension positive", of_group, BY_CODE},
-    {"DISK", CARD_MODEL, 4, NULL, "position, mass [kg], diametral inertia, polar inertia [kg.m2]", disk, LIST(disk, disk)},
+    {"DISK", CARD_MODEL, 4, NULL, "position, mass [kg] [, diametral inertia, polar inertia [kg.m2] [, hub length, hub outer diameter [m]]]", disk, LIST(disk, disk),
+     .check = deck_check_disk},
     {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]", spring,
      LIST(spring, spring)},
-    {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, BY_CODE},
-    {"SENSORS", CARD_MEASURED, 4, deck_sensors, "sensor id, position", nothing, BY_CODE},
+    {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, REPLACES},
+    {"SENSORS", CARD_MEASURED, 4, deck_sensors, "sensor id, position", nothing, REPLACES},
     {"MODES", CARD_MEASURED, 5, deck_modes,
-     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", nothing, BY_CODE},
-    {"SHAPE", CARD_MEASURED, 6, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, BY_CODE},
+     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", nothing, OF_STATE},
+    {"SHAPE", CARD_MEASURED, 6, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, OF_STATE},
     {"FREQUENCIES", CARD_MEASURED, 6, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
-     frequencies, BY_CODE},
-    {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, measured, BY_CODE},
-    {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, deck_noise_rows, BY_CODE},
+     frequencies, OF_STATE},
+    {"MEASURED", CARD_MEASURED, 6, deck_measured, NULL, measured, OF_STATE},
+    {"NOISE", CARD_MEASURED, 5, deck_noise, NULL, deck_noise_rows, REPLACES},
     {"CAUSE", CARD_CAUSE, 7, deck_cause, "parameter, value", cause, BY_CODE},
     {"IDENTIFY", CARD_IDENTIFICATION, 8, deck_identify, "parameter, lower bound, upper bound, start", nothing, BY_CODE},
-    {"FIT", CARD_IDENTIFICATION, 8, deck_fit, NULL, deck_fit_rows, BY_CODE},
-    {"FRF", CARD_FRF, 6, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, BY_CODE},
+    {"FIT", CARD_IDENTIFICATION, 8, deck_fit, NULL, deck_fit_rows, COMMON},
+    {"FRF", CARD_FRF, 6, deck_frf, "response sensor id, reference sensor id", deck_frf_rows, REPLACES},
+    {"STATE", CARD_STATES, 8, deck_state, NULL, state, BY_CODE},
+    {"SET", CARD_STATES, 8, deck_set, "parameter or GROUP.length, value", nothing, BY_CODE},
     {.name = NULL}};
 /* clang-format on */
 

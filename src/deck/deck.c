@@ -8,6 +8,7 @@
 #include "deck/card_table.h"
 #include "deck/deck_cards.h"
 #include "deck/deck_frequencies.h"
+#include "deck/deck_state.h"
 #include "rotid.h"
 
 #define LAST_PHASE 8
@@ -86,11 +87,7 @@ static void settle_moduli(struct deck_reader *reader)
                 job->unknowns.parameter[q].index == job->unknowns.parameter[p].index) {
                 deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)",
                           job->unknowns.bounds[q].name, job->unknowns.bounds[p].name);
-                memmove(job->unknowns.parameter + q, job->unknowns.parameter + q + 1,
-                        (size_t)(job->unknowns.nparameter - q - 1) * sizeof *job->unknowns.parameter);
-                memmove(job->unknowns.bounds + q, job->unknowns.bounds + q + 1,
-                        (size_t)(job->unknowns.nparameter - q - 1) * sizeof *job->unknowns.bounds);
-                job->unknowns.nparameter--;
+                deck_drop_unknown(reader, q);
                 p -= q < p;
                 break;
             }
@@ -243,14 +240,16 @@ static void read_card(struct deck_reader *reader, const struct card *card, int p
         deck_read_list(reader, card, kind, &reader->list_room[kind - deck_card_table]);
 }
 
-static void read_cards(struct deck_reader *reader)
+void deck_read_cards(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     for (int c = 0; c < reader->text.ncard; c++)
         check_names(reader, &reader->text.card[c]);
     for (int phase = 0; phase <= LAST_PHASE; phase++) {
-        if (phase == 3)
+        if (phase == 3) {
+            deck_set_lengths(reader);
             reader->length = rotor_length(&job->rotor);
+        }
         if (phase == 3 && !job->rotor.ngroup) {
             check_materials(reader);
             deck_error(reader, reader->text.end, "the deck has no *SHAFT and no *BEAM, expected at least one");
@@ -291,20 +290,15 @@ static int add_cards(struct pool *pool, struct deck_text *text, int ncard, const
     return ROTID_OK;
 }
 
-int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
-              struct job *job)
-{
-    return deck_read_with(pool, path, noverride, override, 0, NULL, messages, job);
-}
-
 /* `memory`: or NULL, a file */
 static int read_deck(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
                      const struct override *override, int ncard, const struct card *card, struct message_list *messages,
-                     struct job *job)
+                     struct states *states)
 {
-    struct deck_reader reader = {.pool = pool, .messages = messages, .job = job};
-    *job = (struct job){.deck = pool_copy_text(pool, path), .options.frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
-    rotid_fit_defaults(sizeof job->options.fit, &job->options.fit);
+    struct job job = {.deck = pool_copy_text(pool, path), .options.frf = {.axis = 2, .quantity = FRF_ACCELERATION}};
+    struct deck_reader reader = {.pool = pool, .messages = messages, .job = &job};
+    *states = (struct states){0};
+    rotid_fit_defaults(sizeof job.options.fit, &job.options.fit);
     int status =
         memory ? deck_text_read_memory(pool, memory, messages, &reader.text) : deck_text_read(pool, path, messages, &reader.text);
     if (status == ROTID_ERROR_IO || status == ROTID_ERROR_MEMORY || !reader.text.ncard) {
@@ -312,29 +306,41 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
             deck_error(&reader, reader.text.end, "the deck is empty, expected cards such as *SHAFT");
         return status ? status : ROTID_ERROR_SYNTAX;
     }
+    int nread = reader.text.ncard;
     for (int i = 0; i < noverride; i++)
         if (deck_text_override(pool, &override[i], messages, &reader.text) == ROTID_ERROR_MEMORY)
             return ROTID_ERROR_MEMORY;
     if (add_cards(pool, &reader.text, ncard, card))
         return ROTID_ERROR_MEMORY;
-    read_cards(&reader);
-    if (reader.out_of_memory || messages->out_of_memory || !job->deck)
+    deck_read_all_states(&reader, nread, states);
+    if (reader.out_of_memory || messages->out_of_memory || !job.deck)
         return ROTID_ERROR_MEMORY;
-    job->nfile = reader.text.nfile;
-    job->file = reader.text.file;
     if (messages->errors)
         return reader.no_section ? ROTID_ERROR_SECTION : ROTID_ERROR_SYNTAX;
     return ROTID_OK;
 }
 
+int deck_read_states(struct pool *pool, const char *path, const struct deck_memory *memory, int noverride,
+                     const struct override *override, struct message_list *messages, struct states *states)
+{
+    return read_deck(pool, path, memory, noverride, override, 0, NULL, messages, states);
+}
+
 int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
                    const struct card *card, struct message_list *messages, struct job *job)
 {
-    return read_deck(pool, path, NULL, noverride, override, ncard, card, messages, job);
+    struct states states;
+    int status = read_deck(pool, path, NULL, noverride, override, ncard, card, messages, &states);
+    *job = states.nstate ? states.state[0].job : (struct job){.deck = path};
+    if (!status && states.nstate > 1) {
+        states_refuse(&states, path, messages);
+        status = ROTID_ERROR_SYNTAX;
+    }
+    return status;
 }
 
-int deck_read_memory(struct pool *pool, const struct deck_memory *memory, int noverride, const struct override *override,
-                     struct message_list *messages, struct job *job)
+int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
+              struct job *job)
 {
-    return read_deck(pool, memory->name, memory, noverride, override, 0, NULL, messages, job);
+    return deck_read_with(pool, path, noverride, override, 0, NULL, messages, job);
 }

@@ -26,9 +26,14 @@ struct deck_reader {
     double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
-    const char *tie; /* FIT, TIE=E:G */
-    int *mean_kept;  /* [nmode] FREQUENCIES, MEAN=NO */
-    int no_section;  /* the one error is that of a section that cannot be */
+    const char *tie;     /* FIT, TIE=E:G */
+    int *mean_kept;      /* [nmode] FREQUENCIES, MEAN=NO */
+    const char *state;   /* that the cards are of, NULL in a deck without *STATE */
+    int ncommon;         /* the first cards of the text are common to all states; the others are of this one */
+    int ncommon_unknown; /* the first unknowns come from those */
+    int alone;           /* no other state is read beside it */
+    int held_out;        /* HOLDOUT=STATE: all its modes are */
+    int no_section;      /* the one error is that of a section that cannot be */
     int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
     unsigned doubted;          /* kinds of numbers that a warning was given for */
     int out_of_memory;
@@ -97,6 +102,7 @@ int deck_add_group(struct deck_reader *reader, const struct card *card);
 
 #define FRF_MOST_LINES     1000000
 #define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods, of the rotor with its bundles */
+#define DECK_MOST_STATES   100   /* each is read with all common cards */
 #define DECK_MOST_LINES    10000 /* of a card, and sensors of the rotor: they are compared with each other */
 
 /* The readers of the cards, by file. */
@@ -112,6 +118,8 @@ void deck_tierod(struct deck_reader *reader, const struct card *card);
 void deck_bars(struct deck_reader *reader, const struct card *card);
 void deck_preload(struct deck_reader *reader, const struct card *card);
 void deck_sling(struct deck_reader *reader, const struct card *card);
+/* A hub around the shaft under it, of a struct disk. 0, or 1 after an error. */
+int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *disk);
 void deck_heading(struct deck_reader *reader, const struct card *card);
 void deck_sensors(struct deck_reader *reader, const struct card *card);
 void deck_modes(struct deck_reader *reader, const struct card *card);
@@ -122,6 +130,16 @@ void deck_cause(struct deck_reader *reader, const struct card *card);
 
 /* The causes that MODEL=SOLID leaves without a meaning: an error each. */
 void deck_causes_of_solid(struct deck_reader *reader);
+
+/* The cards of the text into the job, with everything that is checked of them. */
+void deck_read_cards(struct deck_reader *reader);
+
+/* Takes an unknown out of the job. */
+void deck_drop_unknown(struct deck_reader *reader, int p);
+/* MODES and HOLDOUT of a card. */
+void deck_choose_modes(struct deck_reader *reader, const struct card *card);
+/* NAME of HOLDOUT=STATE:NAME, else NULL. */
+const char *deck_whole_state(const char *holdout);
 
 void deck_identify(struct deck_reader *reader, const struct card *card);
 void deck_fit(struct deck_reader *reader, const struct card *card);

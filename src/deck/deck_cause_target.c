@@ -13,6 +13,7 @@ static const struct {
                  [TARGET_GROUP] = {"GROUP", "name of a *SHAFT, *BEAM or *LAYER"},
                  [TARGET_INTERFACE] = {"BETWEEN", "two groups that follow each other, or AT=the position where they meet"},
                  [TARGET_SPRING] = {"AT", "name of a *SPRING"},
+                 [TARGET_DISK] = {"AT", "name of a *DISK"},
                  [TARGET_TIEROD] = {"AT", "name of a *TIEROD"},
                  [TARGET_SENSOR] = {"SENSOR", "id of a sensor"},
                  [TARGET_SENSORS] = {"SENSOR", "ids of two sensors"},
@@ -115,14 +116,17 @@ static int read_interface(struct cause_card *c)
     return 1;
 }
 
-/* A spring or a tie rod by name. */
+/* A spring, disk or tie rod by name. */
 static int read_named(struct cause_card *c)
 {
     const struct rotor *rotor = &c->reader->job->rotor;
-    int springs = c->kind->target == TARGET_SPRING, count = springs ? rotor->nspring : rotor->ntierod;
+    enum cause_target target = c->kind->target;
+    int count = target == TARGET_SPRING ? rotor->nspring : target == TARGET_DISK ? rotor->ndisk : rotor->ntierod;
     const char *name = deck_option(c->reader, c->card, "AT", target_of[c->kind->target].expected);
     for (int i = 0; i < count && name; i++) {
-        const char *candidate = springs ? rotor->spring[i].name : rotor->tierod[i].name;
+        const char *candidate = target == TARGET_SPRING ? rotor->spring[i].name
+                                : target == TARGET_DISK ? rotor->disk[i].name
+                                                        : rotor->tierod[i].name;
         if (candidate && same_text(candidate, name)) {
             c->effect.target = i;
             return 0;
@@ -212,6 +216,7 @@ int cause_read_target(struct cause_card *c)
     case TARGET_INTERFACE:
         return read_interface(c);
     case TARGET_SPRING:
+    case TARGET_DISK:
     case TARGET_TIEROD:
         return read_named(c);
     case TARGET_SENSOR:

@@ -1,5 +1,6 @@
 /* IDENTIFY and FIT. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,10 +24,20 @@ static void check_effect_bounds(struct deck_reader *reader, const struct data_li
                    line->field[2].text, lower, upper);
 }
 
+void deck_drop_unknown(struct deck_reader *reader, int p)
+{
+    struct job_unknowns *unknowns = &reader->job->unknowns;
+    size_t behind = (size_t)(--unknowns->nparameter - p);
+    memmove(unknowns->parameter + p, unknowns->parameter + p + 1, behind * sizeof *unknowns->parameter);
+    memmove(unknowns->bounds + p, unknowns->bounds + p + 1, behind * sizeof *unknowns->bounds);
+    reader->ncommon_unknown -= p < reader->ncommon_unknown;
+}
+
 void deck_identify(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
     struct job *job = reader->job;
+    int common = card - reader->text.card < reader->ncommon;
     reader->identify_card = card;
     for (int i = 0, count = deck_lines(reader, card, 1, 100, layout); i < count; i++) {
         const struct data_line *line = &card->line[i];
@@ -76,8 +87,12 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
                        bounds.name, line->field[1].text, line->field[2].text);
         for (int p = 0; p < job->unknowns.nparameter; p++)
             if (job->unknowns.parameter[p].kind == parameter.kind && job->unknowns.parameter[p].index == parameter.index &&
-                job->unknowns.parameter[p].component == parameter.component)
-                deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
+                job->unknowns.parameter[p].component == parameter.component) {
+                if (!common && p < reader->ncommon_unknown) /* the state has one of its own in place of the common one */
+                    deck_drop_unknown(reader, p--);
+                else
+                    deck_error(reader, line->field[0].place, "%s is given twice, expected once", bounds.name);
+            }
         struct parameter *added = DECK_APPEND(reader, job->unknowns.parameter, job->unknowns.nparameter, reader->parameter_room);
         rotid_parameter *limits = DECK_APPEND(reader, job->unknowns.bounds, job->unknowns.nparameter, reader->bounds_room);
         if (!added || !limits)
@@ -85,6 +100,7 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         *added = parameter;
         *limits = bounds;
         job->unknowns.nparameter++;
+        reader->ncommon_unknown += common;
     }
 }
 
@@ -125,7 +141,14 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
     return missing;
 }
 
-static void choose_modes(struct deck_reader *reader, const struct card *card)
+const char *deck_whole_state(const char *holdout)
+{
+    char head[7];
+    (void)snprintf(head, sizeof head, "%s", holdout);
+    return same_text(head, "STATE:") ? holdout + 6 + strspn(holdout + 6, " ") : NULL;
+}
+
+void deck_choose_modes(struct deck_reader *reader, const struct card *card)
 {
     struct job *job = reader->job;
     const struct card_option *modes = card_option(card, "MODES"), *holdout = card_option(card, "HOLDOUT");
@@ -134,13 +157,17 @@ static void choose_modes(struct deck_reader *reader, const struct card *card)
         reader->out_of_memory = 1;
         return;
     }
+    const char *state = holdout ? deck_whole_state(holdout->value) : NULL;
     int bad = modes && mark_modes(reader, modes, fitted);
-    bad |= holdout && mark_modes(reader, holdout, job->measurement.holdout);
+    bad |= holdout && !state && mark_modes(reader, holdout, job->measurement.holdout);
     for (int k = 0; k < job->measurement.nmode; k++) {
         job->measurement.holdout[k] |= modes && !fitted[k];
         left += !job->measurement.holdout[k];
     }
-    if (job->measurement.nmode && !left && !bad)
+    reader->held_out |= state && reader->state && !reader->alone && same_text(state, reader->state);
+    for (int k = 0; k < job->measurement.nmode && reader->held_out; k++)
+        job->measurement.holdout[k] = 1;
+    if (job->measurement.nmode && !left && !bad && !reader->held_out)
         deck_error(reader, card->place, "no mode is left to fit, expected fewer in HOLDOUT or more in MODES");
 }
 
@@ -169,5 +196,5 @@ void deck_fit(struct deck_reader *reader, const struct card *card)
     if (job->options.fit.derivative == ROTID_MODAL && job->options.fit.reduction == ROTID_REDUCTION_NONE)
         deck_error(reader, option ? option->value_place : card->place,
                    "DERIVATIVE=MODAL needs every vector of the model, expected REDUCTION=GUYAN or IRS with it, or NELSON");
-    choose_modes(reader, card);
+    deck_choose_modes(reader, card);
 }

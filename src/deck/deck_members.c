@@ -144,6 +144,42 @@ void deck_bars(struct deck_reader *reader, const struct card *card)
     rotor->nbars++;
 }
 
+int deck_check_disk(struct deck_reader *reader, const struct data_line *line, const void *one)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    const struct disk *disk = one;
+    double from = disk->position - disk->hub_length / 2, to = disk->position + disk->hub_length / 2, z = 0, outer, inner;
+    if ((disk->hub_length > 0) != (disk->hub_outer > 0)) {
+        deck_error(reader, line->field[deck_has(line, 5) ? 5 : 4].place,
+                   "a hub has a length and an outer diameter above zero, expected both or neither");
+        return 1;
+    }
+    for (int s = 0; s < rotor->nsegment && disk->hub_length > 0; s++) {
+        const struct segment *segment = &rotor->segment[s];
+        int under = z < to && z + segment->length > from;
+        z += segment->length;
+        rotor_diameters(rotor, s, &outer, &inner);
+        if (under && (segment->rectangular || disk->hub_outer <= outer)) {
+            if (segment->rectangular)
+                deck_error(reader, line->field[5].place, "the hub sits on a *BEAM, expected a round *SHAFT under it");
+            else
+                deck_error(reader, line->field[5].place,
+                           "hub outer diameter is %s m on a shaft of %.6g m, expected a larger one, or a shorter hub",
+                           line->field[5].text, outer);
+            return 1;
+        }
+    }
+    for (int d = 0; d < rotor->ndisk && disk->hub_length > 0; d++) {
+        double other = rotor->disk[d].hub_length / 2, apart = fabs(rotor->disk[d].position - disk->position);
+        if (other > 0 && apart < (other + disk->hub_length / 2) * (1 - 1e-9)) {
+            deck_error(reader, line->field[4].place, "the hub overlaps that of the disk at %.6g m, expected one after the other",
+                       rotor->disk[d].position);
+            return 1;
+        }
+    }
+    return 0;
+}
+
 void deck_sling(struct deck_reader *reader, const struct card *card)
 {
     if (reader->job->rotor.sling > 0)

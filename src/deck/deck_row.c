@@ -100,7 +100,8 @@ void deck_read_list(struct deck_reader *reader, const struct card *card, const s
             return;
         memset(added, 0, kind->size);
         if (!(deck_read_options(reader, card, kind->row, added) |
-              deck_read_values(reader, &card->line[i], kind->row, kind->lines, added)))
+              deck_read_values(reader, &card->line[i], kind->row, kind->lines, added)) &&
+            (!kind->check || !kind->check(reader, &card->line[i], added)))
             ++*count;
     }
 }
@@ -143,6 +144,8 @@ void deck_write_values(struct deck_writer *w, const char *before, const struct d
     for (; !deck_row_is_last(row); row++) {
         const void *member = (const char *)from + row->offset;
         if (row->option || (row->as && *(const double *)member == *(const double *)((const char *)from + row->as)))
+            continue;
+        if (row->bits & ROW_ABOVE_0 && !(number_of(row, member) > 0))
             continue;
         if (row->kind == ROW_WHOLE)
             deck_put(w, "%s%d", before, *(const int *)member);

@@ -19,7 +19,7 @@ enum row_kind {
 
 enum row_bit {
     ROW_MAY_LACK = 1,
-    ROW_ABOVE_0 = 2 /* written where the member is above zero: below, it was not stated */
+    ROW_ABOVE_0 = 2 /* written where the member is above zero: else it was not stated; of values the last ones */
 };
 
 struct deck_row {
@@ -66,7 +66,15 @@ struct deck_row {
         .option = NULL, .what = NULL                                                                                             \
     }
 
-enum card_section { CARD_MODEL, CARD_MEASURED, CARD_CAUSE, CARD_IDENTIFICATION, CARD_FRF };
+enum card_section { CARD_MODEL, CARD_MEASURED, CARD_CAUSE, CARD_IDENTIFICATION, CARD_FRF, CARD_STATES };
+
+/* Where a card stands in a deck with *STATE. */
+enum card_states {
+    CARD_ANYWHERE, /* what a state has adds to what is common */
+    CARD_REPLACES, /* a state that has one has it in place of the common one */
+    CARD_COMMON,   /* before the first *STATE */
+    CARD_OF_STATE  /* behind it */
+};
 
 struct deck_card {
     const char *name;
@@ -75,7 +83,9 @@ struct deck_card {
     void (*read)(struct deck_reader *reader, const struct card *card); /* NULL: into a list of structs of the rotor */
     const char *lines;          /* what a data line holds, in messages too; NULL: there is none */
     const struct deck_row *row; /* ended by one without option and what */
-    size_t size, list, count;   /* of a list: a struct, and where in struct rotor pointer and number stand */
+    enum card_states states;
+    size_t size, list, count; /* of a list: a struct, and where in struct rotor pointer and number stand */
+    int (*check)(struct deck_reader *reader, const struct data_line *line, const void *one); /* of a list: what no row says */
 };
 
 /* Rows of cards that have code of their own. */

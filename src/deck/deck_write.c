@@ -4,6 +4,8 @@
 
 #include "deck/deck_text.h"
 #include "deck/deck_writer.h"
+#include "diagnose/causes/catalogue.h"
+#include "diagnose/scan.h"
 #include "rotid.h"
 
 /* A line of text that a deck takes for text. */
@@ -67,11 +69,25 @@ static void set_parameters(struct deck_writer *w)
     struct rotor *rotor = &w->rotor;
     rotor->group = copy(w, rotor->group, rotor->ngroup, sizeof *rotor->group);
     rotor->tierod = copy(w, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod);
-    rotor->disk = copy(w, rotor->disk, rotor->ndisk, sizeof *rotor->disk);
-    rotor->spring = copy(w, rotor->spring, rotor->nspring, sizeof *rotor->spring);
     rotor->effect = copy(w, rotor->effect, rotor->neffect, sizeof *rotor->effect);
     for (int p = 0; p < w->job->unknowns.nparameter && !w->status; p++)
         *parameter_value(rotor, w->job->unknowns.parameter[p]) = w->x[p];
+}
+
+/* A cause is said to act on a spring or a disk by its name: those without one get one. */
+static void name_targets(struct deck_writer *w, int count, const struct effect *effect)
+{
+    for (int i = 0; i < count; i++) {
+        const struct cause_kind *kind = catalogue_of(&effect[i]);
+        const char **name = !kind || effect[i].target < 0   ? NULL
+                            : kind->target == TARGET_SPRING ? &w->rotor.spring[effect[i].target].name
+                            : kind->target == TARGET_DISK   ? &w->rotor.disk[effect[i].target].name
+                                                            : NULL;
+        if (!name || *name)
+            continue;
+        *name = scan_free_name(w->pool, &w->rotor, kind->target == TARGET_SPRING ? "spring" : "disk");
+        w->status = *name ? w->status : ROTID_ERROR_MEMORY;
+    }
 }
 
 /* Lines and cards within the limits of a reader. */
@@ -93,8 +109,14 @@ int deck_write(struct pool *pool, const struct job *job, const struct deck_write
 {
     struct deck_writer w = {.pool = pool, .job = job, .rotor = job->rotor, .x = options ? options->x : NULL};
     *text = NULL;
-    if (w.x)
+    w.rotor.disk = copy(&w, w.rotor.disk, w.rotor.ndisk, sizeof *w.rotor.disk);
+    w.rotor.spring = copy(&w, w.rotor.spring, w.rotor.nspring, sizeof *w.rotor.spring);
+    if (w.x && !w.status)
         set_parameters(&w);
+    if (!w.status)
+        name_targets(&w, w.rotor.neffect, w.rotor.effect);
+    for (int i = 0; i < job->unknowns.nsuspect && !w.status; i++)
+        name_targets(&w, 1, &job->unknowns.suspect[i].effect);
     if (w.status)
         return w.status;
     write_heading(&w, options);

@@ -197,6 +197,9 @@ static void write_target(struct deck_writer *w, const struct cause_kind *kind, i
     case TARGET_SPRING:
         deck_put_option(w, "AT", w->rotor.spring[target].name);
         break;
+    case TARGET_DISK:
+        deck_put_option(w, "AT", w->rotor.disk[target].name);
+        break;
     case TARGET_TIEROD:
         deck_put_option(w, "AT", w->rotor.tierod[target].name);
         break;

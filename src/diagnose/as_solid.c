@@ -4,7 +4,8 @@
 
 #include "diagnose/causes/catalogue.h"
 #include "linalg/product.h"
-#include "run/identify.h"
+#include "run/compare.h"
+#include "run/held_mesh.h"
 
 int job_as_solid(struct pool *pool, const struct job *from, struct job *to)
 {
@@ -35,6 +36,17 @@ static int solid_unknowns(struct pool *pool, const struct job *solid, int *unkno
         discrete_structure(&discrete, &structure);
     *unknowns = structure.n;
     return status;
+}
+
+/* Holds the coarse mesh of a solid at x to the one that counts. */
+static int hold_mesh(struct pool *pool, const struct job *solid, const double *x)
+{
+    struct spectrum spectrum;
+    double moved;
+    int status = spectrum_compute_parts(pool, solid->models, &solid->rotor, solid->unknowns.nparameter,
+                                        solid->unknowns.parameter, x, ROTID_GUYAN, comparison_candidates(solid), SPECTRUM_MESH,
+                                        &spectrum);
+    return status ? status : mesh_hold(pool, solid, &spectrum, &moved);
 }
 
 #define HOPELESS 4 /* times the chi2 of the beam, by the coarse mesh: whose error is a twentieth of what a beam lacks at a step */
@@ -77,11 +89,11 @@ int scan_solid(struct pool *pool, const struct job *job, const int *number, cons
             return ROTID_OK;
         }
         if (!status)
-            status = identify_hold(pool, &solid, NULL);
+            status = mesh_hold_as_it_is(pool, &solid, comparison_candidates(&solid));
         if (!status)
             status = chi2_left(pool, &solid, number, holdout, x, scan, &left);
         if (!status && left < HOPELESS * before) {
-            status = identify_hold(pool, &solid, x);
+            status = hold_mesh(pool, &solid, x);
             if (!status)
                 status = chi2_left(pool, &solid, number, holdout, x, scan, &left);
         }

@@ -6,6 +6,7 @@
 #include "diagnose/base.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/data.h"
+#include "diagnose/mesh_check.h"
 #include "diagnose/pairing.h"
 #include "diagnose/refit.h"
 
@@ -14,6 +15,7 @@
 #define MOST_REFINED 3 /* times the mesh is halved */
 #define MOST_WEIGHED 5
 #define SAME_MASS    0.1 /* standard deviations */
+#define MESH_WORTH   1.0 /* of chi2, where noise makes one a residual: from there a mesh is refined */
 #define NEGLIGIBLE   0.1 /* of the noise of a frequency: an error of the mesh that moves no modulus out of its interval */
 
 static int add_numerical(struct engine *engine, const char *id, int count, const double *error, const char *text)
@@ -195,16 +197,21 @@ int base_prepare(struct engine *engine)
         comparison_warn_of_mesh(&engine->job, &out->base.spectrum, &out->base.compared, engine->notes);
     for (int pass = 0; pass < MOST_REFINED && !status && !engine->job.options.solid; pass++) {
         const struct spectrum *s = &out->base.spectrum;
-        double ratio = against_noise(engine, s->mesh_error_percent, s->count, &at);
-        if (!(ratio > 1))
+        double ratio = against_noise(engine, s->mesh_error_percent, s->count, &at), worth = 0;
+        struct job finer = engine->job;
+        status = refine_mesh(engine->pool, &finer.rotor);
+        if (!status && !(ratio > 1))
+            status = mesh_worth(engine, &finer, &worth);
+        if (status || (!(ratio > 1) && !(worth > MESH_WORTH)))
             break;
         if (!pass)
-            status = add_numerical(engine, "mesh", s->count, s->mesh_error_percent,
-                                   pool_format(engine->pool,
-                                               "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer one is judged",
-                                               at + 1, s->mesh_error_percent[at], ratio));
-        if (!status)
-            status = refine_mesh(engine->pool, &engine->job.rotor);
+            status = add_numerical(
+                engine, "mesh", s->count, s->mesh_error_percent,
+                ratio > 1
+                    ? pool_format(engine->pool, "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer one is judged",
+                                  at + 1, s->mesh_error_percent[at], ratio)
+                    : pool_format(engine->pool, "the mesh alone is worth %.2g of chi2; a finer one is judged", worth));
+        engine->job.rotor = finer.rotor;
         if (!status)
             status = fit_base(engine, 0);
     }

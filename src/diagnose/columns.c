@@ -5,7 +5,7 @@
 
 #include "linalg/matrix.h"
 #include "linalg/product.h"
-#include "run/identify.h"
+#include "run/held_mesh.h"
 
 /* (K - lambda M)^+ on the unit vectors of the sensors, in what the cluster of the mode leaves of the space */
 static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const double *zero, double *m_phi, double *unit,
@@ -82,7 +82,7 @@ int columns_open(struct pool *pool, const struct job *job, const int *number, co
 {
     *c = (struct columns){.pool = pool, .job = job};
     double *frequency_hz;
-    int refine, status = identify_mesh(pool, job, number, &refine, &frequency_hz);
+    int refine, status = mesh_of_fit(pool, job, number, &refine, &frequency_hz);
     if (!status)
         status = open_model(pool, job, extra, refine, c);
     if (status)

@@ -149,6 +149,34 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
     round->ncandidate++;
 }
 
+static int has_cause(const struct candidate *set, const struct candidate *cause)
+{
+    return (set->cause == cause->cause && set->effect.target == cause->effect.target) ||
+           (set->with && has_cause(set->with, cause));
+}
+
+/* Pairs that cannot be told apart name what all of them have, and the next round asks for the rest: the candidate of that cause
+ * alone becomes the set. Only a cause without a place is known to be the same in all. 1 where there is one. */
+static int name_common(struct diagnosis_round *round)
+{
+    for (int i = round->result.set; i < round->ncandidate; i++) {
+        struct candidate c = round->candidate[i];
+        int common = !c.with && !c.refused && isfinite(c.result.chi2) && c.cause->class == CAUSE_PHYSICAL && c.cause->place < 0;
+        for (int s = 0; s < round->result.set; s++)
+            common &= has_cause(&round->candidate[s], &c);
+        if (!common)
+            continue;
+        for (int s = 0; s < round->result.set; s++)
+            round->candidate[s].result.rejected_because = "has what is named; what else it has is for the next round";
+        memmove(&round->candidate[1], &round->candidate[0], (size_t)i * sizeof c);
+        c.result.rejected_because = NULL;
+        round->candidate[0] = c;
+        round->result.set = 1;
+        return 1;
+    }
+    return 0;
+}
+
 int decide(const struct engine *engine, const struct before *before, struct diagnosis_round *round)
 {
     struct pool *pool = engine->pool;
@@ -236,5 +264,8 @@ int decide(const struct engine *engine, const struct before *before, struct diag
                          : round->result.set > 1 || !engine->out->result.verdict.confident || refused || weak ? ROTID_AMBIGUOUS
                          : round->candidate[0].cause->class != CAUSE_PHYSICAL                                 ? ROTID_UNEXPLAINED
                                                                                                               : ROTID_NAMED;
+    if (round->result.set > 1 && round->candidate[0].with && engine->out->result.verdict.confident && !refused && !weak &&
+        name_common(round))
+        round->result.kind = ROTID_NAMED;
     return ROTID_OK;
 }

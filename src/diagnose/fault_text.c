@@ -59,7 +59,7 @@ int fault_finding(struct pool *pool, const struct sensor_fault *fault, const int
 
 const char *fault_target(struct pool *pool, const rotid_data_finding *finding)
 {
-    return finding->nsensors > 1 ? pool_format(pool, "sensors %d and %d", finding->sensors[0], finding->sensors[1])
+    return finding->nsensors > 1 ? pool_format(pool, "sensors %d,%d", finding->sensors[0], finding->sensors[1])
                                  : pool_format(pool, "sensor %d", finding->sensors[0]);
 }
 

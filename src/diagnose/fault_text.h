@@ -7,7 +7,7 @@
 
 /* id [nsensor]: of the sensors when the fault was found. ROTID_OK or ROTID_ERROR_MEMORY. */
 int fault_finding(struct pool *pool, const struct sensor_fault *fault, const int *id, rotid_data_finding *finding);
-/* "sensor 7", "sensors 7 and 8"; NULL where memory is out. */
+/* "sensor 7", "sensors 7,8"; NULL where memory is out. */
 const char *fault_target(struct pool *pool, const rotid_data_finding *finding);
 /* Without a name; of a dead channel there is none: nothing could be put right. */
 struct correction fault_correction(const struct sensor_fault *fault, const int *id);

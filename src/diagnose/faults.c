@@ -16,7 +16,7 @@
 #define MOST_FAULTS   8
 #define MOST_RIVALS   4 /* refits beside which the channels are looked at */
 #define FALSE_ALARM   0.005
-#define LEAST_SHIFT   5e-4 /* m: nobody glues a sensor more closely than that */
+#define LEAST_SHIFT   5e-4                    /* m: nobody glues a sensor more closely than that */
 #define FAULT_PENALTY (2 * PARAMETER_PENALTY) /* which sensor, and its value or its partner */
 
 struct rival { /* an explanation of the data */
@@ -122,8 +122,7 @@ static int weigh(struct engine *engine, const int *id, struct rival *rival)
     rival->chi2_frequency = 0;
     for (int i = 0; i < nfrequency; i++)
         rival->chi2_frequency += best->r[i] * best->r[i];
-    rival->score =
-        rival->chi2 + PARAMETER_PENALTY * (best->n - engine->job.unknowns.nparameter) + FAULT_PENALTY * rival->nfault;
+    rival->score = rival->chi2 + PARAMETER_PENALTY * (best->n - engine->job.unknowns.nparameter) + FAULT_PENALTY * rival->nfault;
     return ROTID_OK;
 }
 
@@ -134,8 +133,8 @@ static int look_again(struct engine *engine, const int *id, struct rival *rival)
     return status || !rival->right ? status : weigh(engine, id, rival);
 }
 
-/* The highest score within the margin of a name; where nothing explains the data, every rival has a say: what the model lacks then
- * looks like faults beside one model, and otherwise beside the next. */
+/* The highest score within the margin of a name; where nothing explains the data, every rival has a say: what the model lacks
+ * then looks like faults beside one model, and otherwise beside the next. */
 static double find_limit(int count, const struct rival *rival, int *best)
 {
     *best = 0;
@@ -147,8 +146,8 @@ static double find_limit(int count, const struct rival *rival, int *best)
 
 static int same(const struct sensor_fault *a, const struct sensor_fault *b)
 {
-    return a->kind == b->kind && ((a->sensor == b->sensor && a->other == b->other) ||
-                                  (a->sensor == b->other && a->other == b->sensor));
+    return a->kind == b->kind &&
+           ((a->sensor == b->sensor && a->other == b->other) || (a->sensor == b->other && a->other == b->sensor));
 }
 
 static int has(const struct rival *rival, const struct sensor_fault *fault)

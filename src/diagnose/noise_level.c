@@ -29,8 +29,8 @@ static int allows_for_more(const struct rotor *rotor)
     return 0;
 }
 
-/* Not where the best model leaves more than that noise: then it is the model that is wrong. The stated noise is kept where it is a
- * little too large: a user may have allowed for what a model leaves. chi2: of the shapes, a degree of freedom. */
+/* Not where the best model leaves more than that noise: then it is the model that is wrong. The stated noise is kept where it is
+ * a little too large: a user may have allowed for what a model leaves. chi2: of the shapes, a degree of freedom. */
 static int is_misstated(const struct engine *engine, const struct noise_estimate *noise, double chi2)
 {
     if (!noise->usable || !noise->misstated || chi2 > WHOLE * noise->factor * noise->factor)

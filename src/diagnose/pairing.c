@@ -6,8 +6,12 @@
 #include "base/text.h"
 #include "diagnose/data.h"
 #include "diagnose/decide.h"
+#include "fit/quantile.h"
 
-#define AS_WELL 2.0 /* times the misfit of the others: a mode that was left out and fits no worse is back */
+#define MOST_SHIFT  3    /* of the numbers: two modes of the rigid body, and one */
+#define UNEXPLAINED 1e-3 /* p-value of the whole chi2 */
+#define EXPLAINED   0.01
+#define AS_WELL     2.0 /* times the misfit of the others: a mode that was left out and fits no worse is back */
 
 int pairing_drop(struct engine *engine, int k)
 {
@@ -108,13 +112,86 @@ static int adopt(struct engine *engine, const struct job_measurement *measured, 
     return pairing_note(engine, measured->number);
 }
 
+/* Mode k of a numbering: all numbers `shift` higher from mode `from` on. 0 where that is none: numbers count from 1. */
+static int renumbered(const struct job_measurement *measured, int from, int shift, int k)
+{
+    int number = measured->number[k] + (k >= from ? shift : 0);
+    return number < 1 || (k == from && k > 0 && number <= measured->number[k - 1]) ? 0 : number;
+}
+
+/* The model without a cause beside the data with the numbering; *chi2 INFINITY where there is none. */
+static int fit_renumbered(struct engine *engine, int from, int shift, int *number, double *chi2)
+{
+    const struct job_measurement *measured = &engine->job.measurement;
+    struct job job;
+    rotid_fit_result *fit = NULL;
+    *chi2 = INFINITY;
+    for (int k = 0; k < measured->nmode; k++)
+        if (!(number[k] = renumbered(measured, from, shift, k)))
+            return ROTID_OK;
+    int status = job_started_at(engine->pool, &engine->job, engine->deck_start, &job);
+    if (!status)
+        status = refit_job(engine->pool, &job, number, measured->holdout, engine->environment, &fit);
+    if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
+        return status;
+    if (fit)
+        *chi2 = fit->chi2;
+    rotid_fit_free(fit);
+    return ROTID_OK;
+}
+
+/* Without shapes the numbers are the user's: rigid-body modes may have been counted, or modes missed. Another numbering counts
+ * where with it the model needs no cause, and none explains the data as well without. */
+static int renumber(struct engine *engine, const struct round_result *result, int *changed)
+{
+    const struct job_measurement now = engine->job.measurement;
+    double best = INFINITY, rival = engine->fit->chi2, chi2;
+    int from = 0, shift = 0, *number = POOL_ARRAY(engine->pool, int, now.nmode), status = number ? ROTID_OK : ROTID_ERROR_MEMORY;
+    if (now.paired || engine->fit->dof < 1 || chi_square_tail(engine->fit->chi2, engine->fit->dof) > UNEXPLAINED)
+        return status;
+    for (int i = 0; i < result->nrefit; i++)
+        if (result->refit[i].fit)
+            rival = fmin(rival,
+                         result->refit[i].chi2 + PARAMETER_PENALTY * (result->refit[i].fit->n - engine->job.unknowns.nparameter));
+    for (int k = 0; k < now.nmode && !status; k++)
+        for (int s = k ? 1 : -MOST_SHIFT; s <= MOST_SHIFT && !status; s++) {
+            status = s ? fit_renumbered(engine, k, s, number, &chi2) : ROTID_OK;
+            if (status || !s || chi2 >= best)
+                continue;
+            best = chi2;
+            from = k;
+            shift = s;
+        }
+    if (status || chi_square_tail(best, engine->fit->dof) < EXPLAINED || best + PARAMETER_PENALTY + LEAST_MARGIN > rival)
+        return status;
+    for (int k = 0; k < now.nmode; k++)
+        number[k] = renumbered(&now, from, shift, k);
+    engine->job.measurement.number = engine->number = number;
+    engine->job.measurement.paired = *changed = 1;
+    const char *text =
+        from ? pool_format(
+                   engine->pool,
+                   "from measured mode %d (%.6g Hz) on the numbers are %d too low: modes were missed below it; they are raised",
+                   now.number[from], now.frequency_hz[from], shift)
+        : shift < 0
+            ? pool_format(engine->pool,
+                          "the numbers of all modes are %d too high, as where modes of the rigid body are counted; they are "
+                          "lowered",
+                          -shift)
+            : pool_format(engine->pool, "the numbers of all modes are %d too low: the lowest modes were missed; they are raised",
+                          shift);
+    return data_add_pairing(engine, now.number[from], number[from], text);
+}
+
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed)
 {
     const struct job_measurement now = engine->job.measurement, *measured = engine->dropped ? &engine->measured : &now;
     struct pairing best = {.rate = INFINITY};
     double rate = INFINITY, chi2 = INFINITY;
     *changed = 0;
-    if (!now.shape || now.paired || now.ncorrection != measured->ncorrection)
+    if (!now.shape)
+        return renumber(engine, result, changed);
+    if (now.paired || now.ncorrection != measured->ncorrection)
         return ROTID_OK;
     for (int i = 0; i < result->nrefit; i++) {
         struct pairing pairing;

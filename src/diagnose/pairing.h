@@ -11,7 +11,7 @@ int pairing_drop(struct engine *engine, int k);
 int pairing_note(struct engine *engine, const int *number);
 /* Behind the refits of a round, while nothing is named: the data as measured, modes that were left out among them, are paired anew
  * beside every refit. Where one of them explains all modes that way, its pairing is settled for all, the findings of another one
- * are taken back, and the round has to be repeated: *changed. */
+ * are taken back, and the round has to be repeated: *changed. Without shapes shifts and gaps of the numbers are tried instead. */
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed);
 
 #endif

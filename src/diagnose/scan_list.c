@@ -50,6 +50,8 @@ static int target_count(const struct rotor *rotor, enum cause_target target)
         return rotor_axis_groups(rotor) - 1;
     case TARGET_SPRING:
         return rotor->nspring;
+    case TARGET_DISK:
+        return rotor->ndisk;
     case TARGET_TIEROD:
         return rotor->ntierod;
     default:

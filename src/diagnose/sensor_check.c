@@ -14,6 +14,7 @@
 #define FEW_SENSORS 7.0
 /* Modes in which a copy has to agree, and the share of the sensors, one in so many, that are no copies but mirror images. */
 #define COPY_MODES 2
+#define DIGITS     1e-6 /* of the largest component: as many are no step but all that there are */
 #define MIRRORED   5
 /* Sensors for which a bad neighbour is tried. */
 #define PAIR_TRIES 6
@@ -173,6 +174,25 @@ static int find_pair(struct search *search, int nfault, struct sensor_fault *fau
     return 0;
 }
 
+/* The step of the digits of a mode: the largest number of which all readings are multiples, by Euclid; some DIGITS where there is
+ * none. The scale of the mode does not matter. */
+static double digit_step(int n, const double *reading, const int *present)
+{
+    double step = 0;
+    for (int i = 0; i < n; i++) {
+        double left = present[i] ? fabs(reading[i]) : 0;
+        if (left < DIGITS)
+            continue;
+        while (step > DIGITS) {
+            double rest = fmod(left, step);
+            left = step;
+            step = step - rest < DIGITS ? 0 : rest;
+        }
+        step = left;
+    }
+    return step;
+}
+
 /* Whether two channels agree to the last digit wherever both were measured, so often that noise does not make it. What makes two
  * channels equal in one mode is the step of the digits over the spread of noise; and their neighbours differ, else it is a mirror
  * image without noise. */
@@ -184,17 +204,12 @@ static int is_copy(const struct search *search, int s, int t)
     for (int k = 0; k < field->nmode; k++) {
         const double *m = field->reading + (ptrdiff_t)k * n;
         const int *present = field->present + (ptrdiff_t)k * n;
-        double step = INFINITY;
         if (!present[s] || !present[t] || (m[s] == 0 && m[t] == 0)) /* two that are dead are no copies */
             continue;
         if (m[s] != m[t])
             return 0;
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < i; j++)
-                if (present[i] && present[j] && m[i] != m[j])
-                    step = fmin(step, fabs(m[i] - m[j]));
         shared++;
-        chance += log(fmin(1, step / sqrt(field->variance[s + k * n])));
+        chance += log(fmin(1, digit_step(n, m, present) / sqrt(field->variance[s + k * n])));
     }
     return shared >= COPY_MODES && chance < log(search->false_alarm);
 }

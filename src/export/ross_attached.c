@@ -66,6 +66,15 @@ static int put_disk(FILE *stream, struct ross_names *names, const char *name, in
     return ROTID_OK;
 }
 
+/* A spring that stays at its node: one that is moved is in the matrices of its element. */
+static struct effect_point at_node(const struct rotor *rotor, int spring)
+{
+    struct effect_point point = {.z = 0};
+    if (!effects_move_spring(rotor, spring))
+        effects_on_spring(rotor, spring, &point);
+    return point;
+}
+
 static int put_disks(FILE *stream, struct ross_names *names, const struct beam *beam)
 {
     const struct rotor *rotor = &beam->rotor;
@@ -77,10 +86,10 @@ static int put_disks(FILE *stream, struct ross_names *names, const struct beam *
     }
     for (struct lumped lumped = {.i = -1}; !status && lumped_next(beam, &lumped);)
         if ((node = ross_mass_node(beam, &lumped)) >= 0)
-            status = put_disk(stream, names, rotor->effect[lumped.effect].name, node, lumped.point.mass, lumped.point.inertia, 0);
+            status = put_disk(stream, names, lumped_name(beam, &lumped), node, lumped.point.mass, lumped.point.inertia, 0);
     for (int i = 0; i < rotor->nspring && !status; i++) {
-        double stiffness = rotor->spring[i].rotational * effects_on_spring(rotor, i);
         char number[32];
+        double stiffness = at_node(rotor, i).rotational;
         const char *tag = stiffness > 0 ? ross_name(names, rotor->spring[i].name, "spring") : "";
         if (stiffness > 0 && tag)
             (void)fprintf(stream, "    RotationalSpring(n=%d, stiffness=%s, tag=\"%s\"),\n", beam->mesh.spring_node[i],
@@ -96,8 +105,8 @@ static int put_springs(FILE *stream, struct ross_names *names, const struct beam
     const struct rotor *rotor = &beam->rotor;
     (void)fputs("\nSPRINGS = [\n", stream);
     for (int i = 0; i < rotor->nspring; i++) {
-        double stiffness = rotor->spring[i].lateral * effects_on_spring(rotor, i);
         char number[32];
+        double stiffness = at_node(rotor, i).lateral;
         if (stiffness == 0)
             continue;
         const char *tag = ross_name(names, rotor->spring[i].name, "spring");

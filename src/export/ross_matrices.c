@@ -1,4 +1,5 @@
 #include <math.h>
+#include <string.h>
 
 #include "beam/hinge.h"
 #include "export/ross_model.h"
@@ -9,7 +10,7 @@ int ross_mass_node(const struct beam *beam, const struct lumped *lumped)
 {
     int e = lumped->element;
     double from = beam->mesh.z[e], to = beam->mesh.z[e + 1], near = AT_NODE * (to - from);
-    if (hinge_in(beam, e))
+    if (hinge_in(beam, e) || lumped->point.lateral != 0 || lumped->point.rotational != 0)
         return -1;
     return lumped->point.z <= from + near ? e : lumped->point.z >= to - near ? e + 1 : -1;
 }
@@ -32,7 +33,9 @@ static const char *names_of(struct pool *pool, const struct beam *beam, int e)
             names = pool_format(pool, "%s%sjoint %s", names, *names ? ", " : "", beam->rotor.effect[beam->hinge[h].effect].name);
     for (struct lumped lumped = {.i = -1}; names && lumped_next(beam, &lumped);)
         if (lumped.element == e && ross_mass_node(beam, &lumped) < 0)
-            names = pool_format(pool, "%s%smass %s", names, *names ? ", " : "", beam->rotor.effect[lumped.effect].name);
+            names = pool_format(pool, "%s%s%s %s", names, *names ? ", " : "",
+                                lumped.point.lateral == 0 && lumped.point.rotational == 0 ? "mass" : "spring",
+                                lumped_name(beam, &lumped) ? lumped_name(beam, &lumped) : "(without a name)");
     return names;
 }
 
@@ -47,13 +50,14 @@ int ross_matrices(struct pool *pool, const struct beam *beam, int e, struct ross
     element_matrices(&element, matrices->k, matrices->m);
     for (struct lumped lumped = {.i = -1}; lumped_next(beam, &lumped);)
         if (lumped.element == e && ross_mass_node(beam, &lumped) < 0) {
-            lumped_add(beam, &lumped, &element, matrices->m);
+            lumped_add(beam, &lumped, &element, matrices->k, matrices->m);
             matrices->added += lumped.point.mass;
         }
     massless = element;
     massless.rhos = 0;
     element_matrices(&massless, k, matrices->rotary);
-    if (hinge_in(beam, e)) { /* the second time for the transformation of the rotary part alone */
+    memcpy(k, matrices->k, sizeof k); /* with the springs in it */
+    if (hinge_in(beam, e)) {          /* the second time for the transformation of the rotary part alone */
         hinge_condense(beam, e, matrices->k, matrices->m);
         hinge_condense(beam, e, k, matrices->rotary);
     }

@@ -99,13 +99,14 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
     struct pool *pool = reasons->pool;
     int worst = fit_worst_mode(fit), noisy = isfinite(fit_p_value(fit));
     double rms = fit_rms_percent(fit, 0), held = fit_rms_percent(fit, 1);
+    const char *state = fit_state_of_mode(fit, worst < 0 ? 0 : worst);
     if (worst >= 0)
         say(reasons, !noisy && fabs(fit->modes[worst].error_percent) > POOR_PERCENT ? TONE_CARE : TONE_GOOD,
             pool_format(pool,
                         "The model leaves an error of %s\xc2\xa0%% rms in the frequencies that were fitted, and of %s\xc2\xa0%% "
-                        "in mode %d.",
+                        "in mode %d%s%s.",
                         human_digits(pool, rms, 2), human_signed(pool, fit->modes[worst].error_percent, 2),
-                        fit->modes[worst].mode));
+                        fit->modes[worst].mode, state ? " of state " : "", state ? state : ""));
     if (isfinite(held))
         say(reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,
             pool_format(pool, "The prediction error on held-out modes is %s\xc2\xa0%% rms.", human_digits(pool, held, 2)));

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "page/human.h"
+#include "result/judgement.h"
 
 struct number_table *tables_parameters(struct pool *pool, const rotid_identification *fit)
 {
@@ -46,7 +47,8 @@ struct number_table *tables_fitted_modes(struct pool *pool, const struct result 
         table_head(table, j, head[j]);
     for (int k = 0; k < fit->nmodes; k++) {
         const rotid_compared_mode *mode = &fit->modes[k];
-        table_cell(table, k, 0, human_fixed(pool, mode->mode, 0));
+        const char *state = fit_state_of_mode(fit, k);
+        table_cell(table, k, 0, state ? pool_format(pool, "%d, %s", mode->mode, state) : human_fixed(pool, mode->mode, 0));
         table_cell(table, k, 1, human_fixed(pool, mode->measured_hz, 3));
         table_cell(table, k, 2, human_fixed(pool, mode->predicted_hz, 3));
         table_cell(table, k, 3, human_signed(pool, mode->error_percent, 3));

@@ -106,6 +106,30 @@ static const struct field noise_fields[] = {
 };
 const struct record noise_record = RECORD(rotid_noise, noise_fields);
 
+static const struct field state_fields[] = {
+    TEXT(rotid_identified_state, name, 0),
+    INTEGER(rotid_identified_state, fitted_residuals, FROM_0),
+    FLAG(rotid_identified_state, shapes_fitted, 0),
+    NUMBER(rotid_identified_state, objective, FROM_0),
+    NUMBER(rotid_identified_state, chi2, MAY_BE_NULL | FROM_0),
+    STRUCTS(rotid_identified_state, modes, NOT_EMPTY, mode_record),
+    NUMBERS_BY(rotid_identified_state, reduction_error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
+    NUMBERS_BY(rotid_identified_state, mesh_error_percent, 0, nmodes, "modes"),
+    NUMBER(rotid_identified_state, mass_kg, ABOVE_0),
+    NUMBER(rotid_identified_state, center_of_mass_m, 0),
+    STRUCT(rotid_identified_state, shapes, MAY_BE_NULL | BEHIND_POINTER, shapes_record),
+    MATRIX(rotid_identified_state, nco_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED, nmatrix_rows,
+           nmatrix_columns),
+    MATRIX(rotid_identified_state, mac_matrix, MAY_BE_NULL | ELEMENTS_MAY_BE_NULL | CORRELATION | ROUNDED, nmatrix_rows,
+           nmatrix_columns),
+    INTEGERS_BY(rotid_identified_state, matrix_rows, FROM_1, nmatrix_rows, "rows of mac_matrix"),
+    INTEGERS_BY(rotid_identified_state, matrix_columns, FROM_1, nmatrix_columns, "columns of mac_matrix"),
+    STRUCT(rotid_identified_state, noise, BEHIND_POINTER, noise_record),
+    STRUCT(rotid_identified_state, geometry, BEHIND_POINTER, geometry_record),
+    {0},
+};
+static const struct record state_record = RECORD(rotid_identified_state, state_fields);
+
 static const struct field identification_fields[] = {
     TEXT_OF(rotid_identification, status, 0, fit_status_words),
     TEXT_OF(rotid_identification, functional, 0, functional_words),
@@ -143,6 +167,7 @@ static const struct field identification_fields[] = {
     FLAG(rotid_identification, nlopt, SINCE_LATER),
     STRUCTS(rotid_identification, baseline, 0, minimiser_record),
     NUMBER(rotid_identification, seconds, FROM_0),
+    STRUCTS(rotid_identification, states, IF_KNOWN, state_record),
     {0},
 };
 const struct record identification_record = RECORD(rotid_identification, identification_fields);

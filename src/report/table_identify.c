@@ -7,18 +7,23 @@
 
 static void print_rms(FILE *out, const rotid_identification *fit)
 {
-    (void)fputs("rms error of the fitted modes ", out);
-    number_cell(out, 0, 2, fit_rms_percent(fit, 0));
-    (void)fputs(" %", out);
-    if (isfinite(fit_rms_percent(fit, 1))) {
-        (void)fputs(", of the modes held out ", out);
-        number_cell(out, 0, 2, fit_rms_percent(fit, 1));
+    double fitted = fit_rms_percent(fit, 0), held_out = fit_rms_percent(fit, 1);
+    int predicted_alone = isfinite(held_out) && !isfinite(fitted); /* a state that is held out */
+    if (!predicted_alone) {
+        (void)fputs("rms error of the fitted modes ", out);
+        number_cell(out, 0, 2, fitted);
+        (void)fputs(" %", out);
+    }
+    if (isfinite(held_out)) {
+        (void)fputs(predicted_alone ? "rms error of the modes held out " : ", of the modes held out ", out);
+        number_cell(out, 0, 2, held_out);
         (void)fputs(" %", out);
     }
     (void)fprintf(out, "\n");
 }
 
-static void print_modes(FILE *out, const struct result_head *head, const rotid_identification *fit)
+/* first: number of the first one among the references of the heading */
+static void print_modes(FILE *out, const struct result_head *head, int first, const rotid_identification *fit)
 {
     const rotid_reference *paper_hz = head_reference(head, "predicted_hz"), *paper_error = head_reference(head, "error_percent");
     int paper = paper_hz || paper_error, shapes = 0;
@@ -34,8 +39,8 @@ static void print_modes(FILE *out, const struct result_head *head, const rotid_i
         number_cell(out, 11, 2, mode->predicted_hz);
         signed_cell(out, 9, 2, mode->error_percent);
         if (paper) {
-            number_cell(out, 11, 2, reference_value(paper_hz, k));
-            signed_cell(out, 9, 2, reference_value(paper_error, k));
+            number_cell(out, 11, 2, reference_value(paper_hz, first + k));
+            signed_cell(out, 9, 2, reference_value(paper_error, first + k));
         }
         signed_cell(out, 11, 2, fit->reduction_error_percent[k]);
         signed_cell(out, 8, 3, fit->mesh_error_percent[k]);
@@ -175,7 +180,18 @@ void table_identify(FILE *out, const struct result *result, int baseline, int hi
     if (history)
         print_history(out, fit);
     (void)fputc('\n', out);
-    print_modes(out, &result->head, fit);
+    for (int s = 0, first = 0; s < fit->nstates; first += fit->states[s++].nmodes) {
+        const rotid_identification of_state = fit_of_state(fit, s);
+        (void)fprintf(out, "state %s%s\n", fit->states[s].name, fit->states[s].fitted_residuals ? "" : ", held out");
+        print_modes(out, &result->head, first, &of_state);
+        (void)fputc('\n', out);
+    }
+    if (!fit->nstates) {
+        print_modes(out, &result->head, 0, fit);
+    } else {
+        (void)fputs("all states: ", out);
+        print_rms(out, fit);
+    }
     if (strcmp(fit->functional, "LIKELIHOOD") != 0)
         (void)fprintf(
             out,

@@ -38,6 +38,42 @@ double fit_p_value(const rotid_identification *fit)
     return isfinite(fit->chi2) && fit->dof > 0 ? chi_square_tail(fit->chi2, fit->dof) : (double)NAN;
 }
 
+const char *fit_state_of_mode(const rotid_identification *fit, int k)
+{
+    int s = 0;
+    while (s < fit->nstates && k >= fit->states[s].nmodes)
+        k -= fit->states[s++].nmodes;
+    return s < fit->nstates ? fit->states[s].name : NULL;
+}
+
+rotid_identification fit_of_state(const rotid_identification *fit, int s)
+{
+    const rotid_identified_state *state = &fit->states[s];
+    rotid_identification out = *fit;
+    out.shapes_fitted = state->shapes_fitted;
+    out.objective = state->objective;
+    out.chi2 = state->chi2;
+    out.nmodes = state->nmodes;
+    out.modes = state->modes;
+    out.reduction_error_percent = state->reduction_error_percent;
+    out.mesh_error_percent = state->mesh_error_percent;
+    out.mass_kg = state->mass_kg;
+    out.center_of_mass_m = state->center_of_mass_m;
+    out.shapes = state->shapes;
+    out.nmatrix_rows = state->nmatrix_rows;
+    out.nmatrix_columns = state->nmatrix_columns;
+    out.nco_matrix = state->nco_matrix;
+    out.mac_matrix = state->mac_matrix;
+    out.matrix_rows = state->matrix_rows;
+    out.matrix_columns = state->matrix_columns;
+    out.noise = state->noise;
+    out.geometry = state->geometry;
+    out.nbaseline = 0; /* which predicts the modes of all */
+    out.nstates = 0;
+    out.states = NULL;
+    return out;
+}
+
 const rotid_fitted_parameter *fit_parameter(const rotid_identification *fit, const char *name)
 {
     for (int p = 0; fit && p < fit->nparameters; p++)

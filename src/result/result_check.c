@@ -87,6 +87,16 @@ static void check_fit(const struct json_place *at, const rotid_identification *f
         place_wrong(at, "matrix_rows or matrix_columns is missing, expected the numbers of the modes in mac_matrix");
 }
 
+/* What each state has for itself. */
+static void check_states(const struct json_place *root, const rotid_identification *fit)
+{
+    for (int s = 0; s < fit->nstates; s++) {
+        const rotid_identification of_state = fit_of_state(fit, s);
+        check_fit(root, &of_state);
+        check_geometry(root, of_state.geometry);
+    }
+}
+
 /* The candidates stand in the order of their rounds. */
 static void check_rounds(const struct json_place *root, const rotid_diagnosis *d)
 {
@@ -128,8 +138,10 @@ void result_check(const struct json_place *root, const struct result *result)
         return;
     if (geometry)
         check_geometry(root, geometry);
-    if (result->identify)
+    if (result->identify) {
         check_fit(root, result->identify);
+        check_states(root, result->identify);
+    }
     if (result->diagnose)
         check_diagnosis(root, result->diagnose);
     for (int k = 0; result->modes && k < result->modes->nmodes; k++)

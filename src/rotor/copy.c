@@ -118,7 +118,8 @@ static int same_places(const struct rotor *a, const struct rotor *b)
 {
     int same = 1;
     for (int i = 0; i < a->ndisk; i++)
-        same &= a->disk[i].position == b->disk[i].position;
+        same &= a->disk[i].position == b->disk[i].position && a->disk[i].hub_length == b->disk[i].hub_length &&
+                a->disk[i].hub_outer == b->disk[i].hub_outer;
     for (int i = 0; i < a->nspring; i++)
         same &= a->spring[i].position == b->spring[i].position;
     for (int i = 0; i < a->nsensor; i++)

@@ -32,8 +32,16 @@ struct effect_bundle {     /* of tie rods */
     int as_rods;           /* nonzero: coupled as RODS whatever the deck says; not differentiated */
 };
 
-struct effect_point {        /* a lumped mass anywhere on the axis, which moves with the rotor there */
-    double z, mass, inertia; /* m, kg, kg.m2 */
+struct effect_point {           /* anywhere on the axis, which moves with the rotor there */
+    double z, mass, inertia;    /* m, kg, kg.m2 */
+    double lateral, rotational; /* springs to the ground [N/m, N.m/rad] */
+};
+
+/* What becomes of a spring of the deck: k := factor k, then in series with a compliance, k := k/(1 + c k), at another place. */
+struct effect_spring {
+    double factor;              /* on both stiffnesses */
+    double lateral, rotational; /* compliance [m/N, rad/(N.m)] */
+    double shift;               /* m */
 };
 
 struct effect_parameter_name {
@@ -50,8 +58,9 @@ struct effect_kind {
     int (*section)(const struct effect *effect, const struct rotor *rotor, const struct effect_span *span, int p,
                    struct effect_section *section);
     int (*tierod)(const struct effect *effect, const struct rotor *rotor, int tierod, int p, struct effect_bundle *bundle);
-    int (*spring)(const struct effect *effect, const struct rotor *rotor, int spring, int p, double *factor);
-    /* the i-th lumped mass; with p < 0 a 0 says that there is no i-th one */
+    int (*spring)(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change);
+    int moves_springs; /* the hook above may give a shift, which is 0 at neutral */
+    /* the i-th lumped mass or spring to the ground; with p < 0 a 0 says that there is no i-th one */
     int (*point)(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point);
     /* rotational spring in series at the end of group `target` [rad/(N.m)]; massless */
     int (*joint)(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility);
@@ -62,7 +71,7 @@ struct effect_kind {
 struct effect {
     const char *name; /* of the CAUSE card */
     const struct effect_kind *kind;
-    int target;  /* index of the group, tie rod, spring or sensor; of the group left of an interface; -1: none */
+    int target;  /* index of the group, tie rod, spring, disk or sensor; of the group left of an interface; -1: none */
     int variant; /* of the kind, such as the shape of a soft zone */
     double value[EFFECT_MOST_PARAMETERS];
     double bound[2]; /* of its size, where a deck states them or they were widened; both 0: those of its cause */

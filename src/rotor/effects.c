@@ -66,29 +66,77 @@ int effects_tierod_derivative(const struct rotor *rotor, struct parameter parame
     return 1;
 }
 
-static double on_spring(const struct rotor *rotor, int spring, int except)
+/* Where a spring has no such hook, nothing is changed. */
+static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
 {
-    double product = 1, one;
-    for (int i = 0; i < rotor->neffect; i++) {
-        const struct effect *effect = &rotor->effect[i];
-        if (i != except && effect->kind->spring && effect->kind->spring(effect, rotor, spring, -1, &one))
-            product *= one;
-    }
-    return product;
+    return effect->kind->spring && effect->kind->spring(effect, rotor, spring, p, change);
 }
 
-double effects_on_spring(const struct rotor *rotor, int spring)
+static struct effect_spring change_of(const struct rotor *rotor, int spring, int except)
 {
-    return on_spring(rotor, spring, -1);
+    struct effect_spring sum = {.factor = 1}, one;
+    for (int i = 0; i < rotor->neffect; i++)
+        if (i != except && on_spring(&rotor->effect[i], rotor, spring, -1, &one))
+            sum = (struct effect_spring){sum.factor * one.factor, sum.lateral + one.lateral, sum.rotational + one.rotational,
+                                         sum.shift + one.shift};
+    return sum;
 }
 
-int effects_spring_derivative(const struct rotor *rotor, struct parameter parameter, int spring, double *d)
+static double in_series(double k, double compliance)
 {
-    const struct effect *effect = &rotor->effect[parameter.index];
-    if (!effect->kind->spring || !effect->kind->spring(effect, rotor, spring, parameter.component, d))
+    return k / (1 + compliance * k);
+}
+
+/* d k/(1 + c k) */
+static double in_series_rate(double k, double dk, double compliance, double dcompliance)
+{
+    double one = 1 + compliance * k;
+    return (dk - k * k * dcompliance) / (one * one);
+}
+
+void effects_on_spring(const struct rotor *rotor, int spring, struct effect_point *point)
+{
+    const struct spring *own = &rotor->spring[spring];
+    struct effect_spring change = change_of(rotor, spring, -1);
+    *point = (struct effect_point){.z = own->position + change.shift,
+                                   .lateral = in_series(change.factor * own->lateral, change.lateral),
+                                   .rotational = in_series(change.factor * own->rotational, change.rotational)};
+}
+
+int effects_spring_derivative(const struct rotor *rotor, struct parameter parameter, int spring, struct effect_point *d)
+{
+    const struct spring *own = &rotor->spring[spring];
+    struct effect_spring change = change_of(rotor, spring, -1), rate = {.factor = 0};
+    double lateral = 0, rotational = 0; /* of what the compliance is in series with */
+    if (parameter.kind == PARAMETER_EFFECT) {
+        if (!on_spring(&rotor->effect[parameter.index], rotor, spring, parameter.component, &rate))
+            return 0;
+        rate.factor *= change_of(rotor, spring, parameter.index).factor;
+        lateral = rate.factor * own->lateral;
+        rotational = rate.factor * own->rotational;
+    } else if (parameter.index != spring) {
         return 0;
-    *d *= on_spring(rotor, spring, parameter.index);
+    } else if (parameter.kind == PARAMETER_SPRING_K) {
+        lateral = change.factor;
+    } else if (parameter.kind == PARAMETER_SPRING_K_ROT) {
+        rotational = change.factor;
+    } else {
+        return 0;
+    }
+    *d = (struct effect_point){
+        .z = rate.shift,
+        .lateral = in_series_rate(change.factor * own->lateral, lateral, change.lateral, rate.lateral),
+        .rotational = in_series_rate(change.factor * own->rotational, rotational, change.rotational, rate.rotational)};
     return 1;
+}
+
+int effects_move_spring(const struct rotor *rotor, int spring)
+{
+    struct effect_spring change;
+    for (int i = 0; i < rotor->neffect; i++)
+        if (rotor->effect[i].kind->moves_springs && on_spring(&rotor->effect[i], rotor, spring, -1, &change))
+            return 1;
+    return 0;
 }
 
 /* whether the rods press on what lies at z */

@@ -18,13 +18,19 @@ struct effect_field effects_on_axis(const struct rotor *rotor, const struct effe
 int effects_axis_rate(const struct rotor *rotor, struct parameter parameter, const struct effect_span *span, int sections,
                       struct effect_field *rate);
 
-/* Factors of a tie rod and of a spring. */
+/* Factors of a tie rod. */
 struct effect_bundle effects_on_tierod(const struct rotor *rotor, int tierod);
-double effects_on_spring(const struct rotor *rotor, int spring);
 
 /* Their derivatives; 0 where they do not depend on the parameter. as_rods of *d stays 0. */
 int effects_tierod_derivative(const struct rotor *rotor, struct parameter parameter, int tierod, struct effect_bundle *d);
-int effects_spring_derivative(const struct rotor *rotor, struct parameter parameter, int spring, double *d);
+
+/* Place and stiffness of a spring of the deck, without mass; and how they move with its own stiffness or with a parameter of an
+ * effect, 0 where they do not. */
+void effects_on_spring(const struct rotor *rotor, int spring, struct effect_point *point);
+int effects_spring_derivative(const struct rotor *rotor, struct parameter parameter, int spring, struct effect_point *d);
+
+/* Whether an effect may move it. */
+int effects_move_spring(const struct rotor *rotor, int spring);
 
 /* Force on the axis at z of a group [N], tension positive: its preload less what the tie rods press together there; and the
  * derivative, 0 where it does not depend on the parameter. */

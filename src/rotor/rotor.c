@@ -46,6 +46,13 @@ void rotor_group_span(const struct rotor *rotor, int group, double *from, double
     }
 }
 
+void rotor_hub_span(const struct rotor *rotor, int disk, double *from, double *to)
+{
+    double z = rotor->disk[disk].position, half = rotor->disk[disk].hub_length / 2;
+    *from = fmax(z - half, 0);
+    *to = fmin(z + half, rotor_length(rotor));
+}
+
 double material_shear_modulus(const struct material *material)
 {
     return material->isotropic ? material->e / (2 * (1 + material->nu)) : material->g;

@@ -61,6 +61,7 @@ struct bars { /* short-circuit bars: fixed to the core at their centre only */
 struct disk {
     const char *name;
     double position, mass, diametral, polar; /* kg, kg.m2 */
+    double hub_length, hub_outer;            /* m; 0: no hub is stated */
 };
 
 struct spring {
@@ -113,6 +114,9 @@ int rotor_copy(struct pool *pool, const struct rotor *rotor, struct rotor *copy)
 
 /* (44): a rotor_copy of this mass [kg] and centre of mass [m] hangs by its left end on the sling; sets the last two springs. */
 void rotor_set_sling(struct rotor *rotor, double mass, double center);
+
+/* Both ends of the hub of a disk, inside the rotor. */
+void rotor_hub_span(const struct rotor *rotor, int disk, double *from, double *to);
 
 /* Whether two rotors differ at most in names and in what rotor_same_values compares: whether a discretisation of one serves the
  * other. */

@@ -6,6 +6,7 @@
 #include "modal/prediction.h"
 #include "model/model.h"
 #include "run/doubt.h"
+#include "run/held_mesh.h"
 
 #define ROUNDS 3    /* of fitting and pairing, should the pairs change with the model */
 #define HELD   1e-5 /* of a frequency: a hundredth of the noise of a good measurement */
@@ -24,102 +25,87 @@ static int compute_spectrum(struct pool *pool, const struct job *job, const doub
                                   count, parts, spectrum);
 }
 
-/* ---- A fit of a solid runs on the coarse mesh, whose frequencies are held in ratio to those of the mesh that counts: that ratio
- * hardly depends on E and G. Condensed matrices have no such ratio. */
-
-static int fits_coarse(const struct job *job)
+/* One state for those that have a job. */
+static struct states only(const struct job *job, struct state *state)
 {
-    return job->options.solid && job->options.fit.reduction == ROTID_REDUCTION_NONE;
+    *state = (struct state){.job = *job};
+    return (struct states){.nstate = 1, .state = state, .nparameter = job->unknowns.nparameter, .bounds = job->unknowns.bounds};
 }
 
-/* Where nothing is held: the coarse mesh as it stands, until somebody has compared both. */
-static int hold_nothing(struct pool *pool, const struct job *job, int count)
+/* The unknowns of a state among those of all. */
+static double *unknowns_of(struct pool *pool, const struct state *state, const double *x)
 {
-    int known;
-    double *ratio = POOL_ARRAY(pool, double, count);
-    if (!ratio)
-        return ROTID_ERROR_MEMORY;
-    for (int j = 0; j < count; j++)
-        ratio[j] = 1;
-    return models_held(job->models, &job->rotor, &known) ? ROTID_OK : models_hold(job->models, &job->rotor, count, ratio);
+    int n = state->job.unknowns.nparameter;
+    double *own = POOL_ARRAY(pool, double, n);
+    for (int p = 0; p < n && own; p++)
+        own[p] = x[state->unknown ? state->unknown[p] : p];
+    return own;
 }
 
-/* Holds the ratio at the parameters of the spectrum; *moved: by how much it differs from what was held. */
-static int hold_mesh(struct pool *pool, const struct job *job, const struct spectrum *spectrum, double *moved)
+/* What a state is fitted with: its pairing and what is left out. */
+struct paired {
+    const int *number, *holdout;
+    struct mass_properties *mass; /* to be filled, or NULL */
+};
+
+static int open_state(struct pool *pool, const struct state *state, const struct paired *paired, struct rotor_model *model,
+                      rotid_measured *measured, rotid_state *out)
 {
-    int count;
-    const double *before = models_held(job->models, &job->rotor, &count);
-    double *ratio = POOL_ARRAY(pool, double, spectrum->count);
-    if (!ratio)
-        return ROTID_ERROR_MEMORY;
-    *moved = count < spectrum->count ? INFINITY : 0;
-    for (int j = 0; j < spectrum->count; j++) {
-        ratio[j] = spectrum->full_hz[j] / spectrum->other_hz[j];
-        if (j < count)
-            *moved = fmax(*moved, fabs(ratio[j] / before[j] - 1));
+    const struct job *job = &state->job;
+    double *frequency_hz;
+    int failed, refine, shapes = uses_shapes(job), status = mesh_of_fit(pool, job, paired->number, &refine, &frequency_hz);
+    if (status)
+        return status;
+    *measured = (rotid_measured){.size = sizeof *measured,
+                                 .nmode = job->measurement.nmode,
+                                 .number = paired->number,
+                                 .frequency_hz = frequency_hz,
+                                 .frequency_std = job_knows_frequency_noise(job) ? job->measurement.frequency_std : NULL,
+                                 .shape = shapes ? job->measurement.shape : NULL,
+                                 .shape_std = shapes && job_knows_shape_noise(job) ? job->measurement.shape_std : NULL,
+                                 .holdout = paired->holdout};
+    *out = (rotid_state){sizeof *out, &model->equations, measured, state->unknown};
+    return model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model, &failed);
+}
+
+static int fit_states(struct pool *pool, const struct states *states, const struct paired *paired,
+                      const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit)
+{
+    int count = states->nstate;
+    struct rotor_model *model = POOL_ARRAY(pool, struct rotor_model, count);
+    rotid_measured *measured = POOL_ARRAY(pool, rotid_measured, count);
+    rotid_state *state = POOL_ARRAY(pool, rotid_state, count);
+    int status = model && measured && state ? ROTID_OK : ROTID_ERROR_MEMORY;
+    for (int s = 0; s < count && !status; s++)
+        status = open_state(pool, &states->state[s], &paired[s], &model[s], &measured[s], &state[s]);
+    if (!status)
+        status = rotid_fit_states(count, state, states->nparameter, states->bounds, options, environment, NULL, fit);
+    for (int s = 0, mode = 0; s < count && !status; mode += measured[s].nmode, s++)
+        for (int k = 0; k < measured[s].nmode; k++) /* as the mesh that counts has it */
+            (*fit)->predicted_hz[mode + k] *= states->state[s].job.measurement.frequency_hz[k] / measured[s].frequency_hz[k];
+    for (int s = 0; s < count && !status; s++) {
+        if (!paired[s].mass)
+            continue;
+        double *x = unknowns_of(pool, &states->state[s], (*fit)->x);
+        if (!x) {
+            rotid_fit_free(*fit);
+            *fit = NULL;
+            return ROTID_ERROR_MEMORY;
+        }
+        model_set(&model[s], x); /* the model stands at the last point that was evaluated; the mass wants the best one */
+        model_mass_properties(&model[s], paired[s].mass);
     }
-    return models_hold(job->models, &job->rotor, spectrum->count, ratio);
+    return status;
 }
-
-int identify_hold(struct pool *pool, const struct job *job, const double *x)
-{
-    struct spectrum spectrum;
-    double moved;
-    if (!x)
-        return hold_nothing(pool, job, comparison_candidates(job));
-    int status = compute_spectrum(pool, job, x, comparison_candidates(job), SPECTRUM_MESH, &spectrum);
-    return status ? status : hold_mesh(pool, job, &spectrum, &moved);
-}
-
-int identify_mesh(struct pool *pool, const struct job *job, const int *number, int *refine, double **frequency_hz)
-{
-    int count;
-    const double *ratio = fits_coarse(job) ? models_held(job->models, &job->rotor, &count) : NULL;
-    *frequency_hz = POOL_ARRAY(pool, double, job->measurement.nmode);
-    *refine = 1;
-    if (!*frequency_hz)
-        return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < job->measurement.nmode && ratio; k++)
-        if (number[k] > count)
-            ratio = NULL;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        (*frequency_hz)[k] = job->measurement.frequency_hz[k] / (ratio ? ratio[number[k] - 1] : 1);
-    if (ratio)
-        *refine = COARSE_MESH;
-    return ROTID_OK;
-}
-
-/* ---- */
 
 int identify_fit(struct pool *pool, const struct job *job, const int *number, const int *holdout,
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit)
 {
-    struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
-    double *frequency_hz;
-    int failed, refine, status = model ? identify_mesh(pool, job, number, &refine, &frequency_hz) : ROTID_ERROR_MEMORY;
-    if (!status)
-        status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model,
-                            &failed);
-    if (status)
-        return status;
-    int shapes = uses_shapes(job);
-    rotid_measured measured = {.size = sizeof measured,
-                               .nmode = job->measurement.nmode,
-                               .number = number,
-                               .frequency_hz = frequency_hz,
-                               .frequency_std = job_knows_frequency_noise(job) ? job->measurement.frequency_std : NULL,
-                               .shape = shapes ? job->measurement.shape : NULL,
-                               .shape_std = shapes && job_knows_shape_noise(job) ? job->measurement.shape_std : NULL,
-                               .holdout = holdout};
-    status = rotid_fit(&model->equations, job->unknowns.bounds, &measured, options, environment, NULL, fit);
-    for (int k = 0; k < job->measurement.nmode && !status; k++)
-        (*fit)->predicted_hz[k] *= job->measurement.frequency_hz[k] / frequency_hz[k];
-    if (!status && mass) { /* the model stands at the last point that was evaluated; the mass wants the best one */
-        model_set(model, (*fit)->x);
-        model_mass_properties(model, mass);
-    }
-    return status;
+    struct state state;
+    const struct states states = only(job, &state);
+    const struct paired paired = {number, holdout, mass};
+    return fit_states(pool, &states, &paired, options, environment, fit);
 }
 
 /* Also while NLopt ran: the fit itself is complete then. */
@@ -130,8 +116,9 @@ static int is_cancelled(const rotid_fit_result *fit, const rotid_environment *en
 }
 
 /* What the model that was fitted predicts at the points of the baseline. */
-static int predict_baseline(struct pool *pool, const struct job *job, struct identification *out)
+static int predict_baseline(struct pool *pool, const struct state *state, struct identification *out)
 {
+    const struct job *job = &state->job;
     const rotid_fit_result *fit = out->fit;
     int failed, highest = 1, nmode = job->measurement.nmode;
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model);
@@ -141,7 +128,7 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
     for (int k = 0; k < nmode; k++)
         highest = out->compared.number[k] > highest ? out->compared.number[k] : highest;
     out->baseline_hz = POOL_ARRAY(pool, double, (size_t)nmode *(size_t)fit->nbaseline);
-    int status = model && out->baseline_hz ? identify_mesh(pool, job, out->compared.number, &refine, &frequency_hz)
+    int status = model && out->baseline_hz ? mesh_of_fit(pool, job, out->compared.number, &refine, &frequency_hz)
                                            : ROTID_ERROR_MEMORY;
     if (!status)
         status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model,
@@ -150,7 +137,10 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
         status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON,
                                 model->equations.nrigid + highest, 0, &p);
     for (int i = 0; i < fit->nbaseline && status != ROTID_ERROR_MEMORY; i++) {
-        int lost = status ? status : prediction_compute(&p, fit->baseline[i].x);
+        double *x = unknowns_of(pool, state, fit->baseline[i].x);
+        if (!x)
+            return ROTID_ERROR_MEMORY;
+        int lost = status ? status : prediction_compute(&p, x);
         for (int k = 0; k < nmode; k++)
             out->baseline_hz[k + (ptrdiff_t)i * nmode] =
                 lost ? NAN
@@ -160,96 +150,223 @@ static int predict_baseline(struct pool *pool, const struct job *job, struct ide
     return status == ROTID_ERROR_MEMORY ? status : ROTID_OK; /* the fit stands without these */
 }
 
-static int with_models(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
-                       struct message_list *notes, struct identification *out)
+static void pass_on(const struct message_list *from, const char *name, struct message_list *notes)
 {
-    int status, candidates = comparison_candidates(job);
-    double *start = POOL_ARRAY(pool, double, job->unknowns.nparameter);
-    if (!job->measurement.nmode)
-        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes, expected *MODES or *MEASURED");
-    if (!job->measurement.nmode || !start)
-        return start ? ROTID_ERROR_ARGUMENT : ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        start[p] = job->unknowns.bounds[p].start;
+    for (size_t i = 0; i < from->count; i++)
+        if (name)
+            message_add(notes, from->item[i].severity, NULL, 0, 0, "%s (state %s)", from->item[i].text, name);
+        else
+            message_add(notes, from->item[i].severity, NULL, 0, 0, "%s", from->item[i].text);
+}
+
+/* A state while it is fitted. */
+struct running {
+    const struct state *state;
     struct comparison before;
-    struct message_list quiet; /* what the pairing at the start says is not worth repeating unless it ends the run */
-    message_open(&quiet, pool);
-    int coarse = fits_coarse(job), paired = job->measurement.shape ? SPECTRUM_REDUCED : 0,
-        parts = (bare ? paired : SPECTRUM_MESH | SPECTRUM_REDUCED) | (coarse ? SPECTRUM_MESH : 0);
-    status = compute_spectrum(pool, job, start, candidates, paired | (coarse ? SPECTRUM_COARSE : 0), &out->spectrum);
-    if (!status && coarse)
-        status = hold_nothing(pool, job, out->spectrum.count);
-    if (!status)
-        (void)doubt_units(job, &out->spectrum, SEVERITY_WARNING, notes);
-    if (!status)
-        status = comparison_make(pool, job, &out->spectrum, &quiet, &before);
-    if (status) {
-        for (size_t i = 0; i < quiet.count; i++)
-            message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
-        out->compared = before;
-        return status;
+    struct message_list quiet;
+    struct identification *out;
+    int candidates, held; /* held: on the coarse mesh of a solid */
+};
+
+/* The spectrum at the unknowns x of all, and the pairs there. parts: beyond what pairing needs */
+static int pair_state(struct pool *pool, struct running *run, const double *x, int parts, struct comparison *pairs)
+{
+    double *own = unknowns_of(pool, run->state, x);
+    message_open(&run->quiet, pool);
+    if (!own)
+        return ROTID_ERROR_MEMORY;
+    parts |= run->state->job.measurement.shape ? SPECTRUM_REDUCED : 0;
+    int status = compute_spectrum(pool, &run->state->job, own, run->candidates, parts, &run->out->spectrum);
+    return status ? status : comparison_make(pool, &run->state->job, &run->out->spectrum, &run->quiet, pairs);
+}
+
+static int pairs_moved(const struct running *run)
+{
+    return memcmp(run->before.number, run->out->compared.number,
+                  (size_t)run->state->job.measurement.nmode * sizeof *run->before.number) != 0;
+}
+
+/* At the start. What the pairing there says is not worth repeating unless it ends the run. */
+static int pair_at_start(struct pool *pool, const struct states *states, struct running *run, struct message_list *notes)
+{
+    int status = ROTID_OK;
+    double *start = POOL_ARRAY(pool, double, states->nparameter);
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job *job = &run[s].state->job;
+        run[s].candidates = comparison_candidates(job);
+        run[s].held = mesh_is_held(job);
+        if (job->measurement.nmode)
+            continue;
+        message_add(notes, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes%s%s, expected *MODES or *MEASURED",
+                    run[s].state->name ? " in state " : "", run[s].state->name ? run[s].state->name : "");
+        status = ROTID_ERROR_ARGUMENT;
     }
-    rotid_fit_options options = job->options.fit;
-    for (int round = 1;; round++) {
-        double moved = 0;
-        options.baseline = baseline && (!coarse || round > 1);
-        rotid_fit_free(out->fit);
-        out->fit = NULL;
-        status = identify_fit(pool, job, before.number, job->measurement.holdout, &options, environment, &out->mass, &out->fit);
-        if (!status)
-            status = compute_spectrum(pool, job, out->fit->x, candidates, parts, &out->spectrum);
-        if (!status && coarse)
-            status = hold_mesh(pool, job, &out->spectrum, &moved);
-        message_open(&quiet, pool);
-        if (!status)
-            status = comparison_make(pool, job, &out->spectrum, &quiet, &out->compared);
-        if (status || round == ROUNDS || is_cancelled(out->fit, environment))
-            break;
-        if (moved <= HELD && options.baseline == baseline &&
-            !memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number))
-            break;
-        before = out->compared;
+    if (!start)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < states->nparameter; p++)
+        start[p] = states->bounds[p].start;
+    for (int s = 0; s < states->nstate && !status; s++) {
+        const struct spectrum *spectrum = &run[s].out->spectrum;
+        status = pair_state(pool, &run[s], start, run[s].held ? SPECTRUM_COARSE : 0, &run[s].before);
+        if (!status || status == ROTID_ERROR_UNPAIRED)
+            (void)doubt_units(&run[s].state->job, spectrum, SEVERITY_WARNING, notes);
+        if (!status && run[s].held)
+            status = mesh_hold_as_it_is(pool, &run[s].state->job, spectrum->count);
+        if (status) {
+            pass_on(&run[s].quiet, run[s].state->name, notes);
+            run[s].out->compared = run[s].before;
+        }
     }
-    for (size_t i = 0; i < quiet.count; i++)
-        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
-    if (!status && out->fit->nbaseline)
-        status = predict_baseline(pool, job, out);
-    if (status) {
-        rotid_fit_free(out->fit);
-        out->fit = NULL;
-        return status;
+    return status;
+}
+
+/* The fit of all as a state sees it: its modes and residuals. */
+static int share_fit(struct pool *pool, const rotid_fit_result *fit, int functional, int nstate, struct running *run)
+{
+    for (int s = 0, mode = 0, row = 0; s < nstate; mode += fit->state_m[s], row += fit->state_nresidual[s], s++) {
+        rotid_fit_result *own = POOL_NEW(pool, rotid_fit_result);
+        if (!own)
+            return ROTID_ERROR_MEMORY;
+        *own = *fit;
+        own->m = fit->state_m[s];
+        own->nresidual = fit->state_nresidual[s];
+        own->predicted_hz += mode;
+        own->mac += mode;
+        own->residual += mode;
+        own->r += row;
+        own->jacobian = NULL;
+        own->memory = NULL;
+        own->nstate = 1;
+        own->state_m += s;
+        own->state_nresidual += s;
+        own->objective = 0;
+        for (int i = 0; i < own->nresidual; i++)
+            own->objective += own->r[i] * own->r[i] / 2;
+        own->chi2 = functional == ROTID_LIKELIHOOD ? 2 * own->objective : (double)NAN;
+        run[s].out->fit = own;
     }
-    if (memcmp(before.number, out->compared.number, (size_t)job->measurement.nmode * sizeof *before.number))
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the pairing of the modes still changes with the fitted model: do not trust this result");
-    out->shapes_fitted = uses_shapes(job) &&
-                         !(job->options.fit.functional != ROTID_LIKELIHOOD && job->options.fit.reduction == ROTID_REDUCTION_NONE);
     return ROTID_OK;
 }
 
-static int identify(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
-                    struct message_list *notes, struct identification *out)
+/* After a fit: the spectrum and the pairs of a state there; *moved: another fit is wanted, as these differ from those it had. */
+static int look_again(struct pool *pool, struct running *run, const double *x, int bare, int *moved)
 {
-    struct job run = *job;
-    *out = (struct identification){0};
-    run.models = models_for_run(pool, job->models);
-    if (!run.models)
-        return ROTID_ERROR_MEMORY;
-    int status = with_models(pool, &run, baseline, bare, environment, notes, out);
-    models_end_run(pool, run.models, job->models);
+    double ratio = 0;
+    int status = pair_state(pool, run, x, (bare ? 0 : SPECTRUM_MESH | SPECTRUM_REDUCED) | (run->held ? SPECTRUM_MESH : 0),
+                            &run->out->compared);
+    if (!status && run->held)
+        status = mesh_hold(pool, &run->state->job, &run->out->spectrum, &ratio);
+    if (!status)
+        *moved |= ratio > HELD || pairs_moved(run);
     return status;
+}
+
+static int with_models(struct pool *pool, const struct states *states, int baseline, int bare,
+                       const rotid_environment *environment, struct message_list *notes, struct running *run,
+                       rotid_fit_result **fit)
+{
+    int count = states->nstate, status = pair_at_start(pool, states, run, notes), moved = 0;
+    struct paired *paired = POOL_ARRAY(pool, struct paired, count);
+    if (status || !paired)
+        return status ? status : ROTID_ERROR_MEMORY;
+    rotid_fit_options options = states->state[0].job.options.fit;
+    for (int round = 1;; round++) {
+        options.baseline = baseline && (!run[0].held || round > 1); /* not before the coarse mesh is held */
+        rotid_fit_free(*fit);
+        *fit = NULL;
+        for (int s = 0; s < count; s++)
+            paired[s] = (struct paired){run[s].before.number, run[s].state->job.measurement.holdout, &run[s].out->mass};
+        status = fit_states(pool, states, paired, &options, environment, fit);
+        moved = options.baseline != baseline;
+        for (int s = 0; s < count && !status; s++)
+            status = look_again(pool, &run[s], (*fit)->x, bare, &moved);
+        if (status || round == ROUNDS || !moved || is_cancelled(*fit, environment))
+            break;
+        for (int s = 0; s < count; s++)
+            run[s].before = run[s].out->compared;
+    }
+    for (int s = 0; s < count; s++)
+        pass_on(&run[s].quiet, run[s].state->name, notes);
+    if (!status && run[0].state->name)
+        status = share_fit(pool, *fit, options.functional, count, run);
+    else if (!status)
+        run[0].out->fit = *fit;
+    for (int s = 0; s < count && !status && (*fit)->nbaseline; s++)
+        status = predict_baseline(pool, run[s].state, run[s].out);
+    if (status)
+        return status;
+    for (int s = 0, paired_anew = 0; s < count; s++)
+        if (pairs_moved(&run[s]) && !paired_anew++)
+            message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                        "the pairing of the modes still changes with the fitted model: do not trust this result");
+    for (int s = 0; s < count; s++) {
+        const struct job *job = &run[s].state->job;
+        run[s].out->shapes_fitted = uses_shapes(job) && !(job->options.fit.functional != ROTID_LIKELIHOOD &&
+                                                          job->options.fit.reduction == ROTID_REDUCTION_NONE);
+    }
+    return ROTID_OK;
+}
+
+static int identify(struct pool *pool, const struct states *given, int baseline, int bare, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out, rotid_fit_result **fit)
+{
+    int count = given->nstate, status = ROTID_OK, begun = 0;
+    struct states states = *given;
+    struct running *run = POOL_ARRAY(pool, struct running, count);
+    states.state = POOL_ARRAY(pool, struct state, count);
+    *fit = NULL;
+    for (int s = 0; s < count; s++)
+        out[s] = (struct identification){0};
+    if (!run || !states.state)
+        return ROTID_ERROR_MEMORY;
+    for (; begun < count && !status; begun++) {
+        struct state *state = &states.state[begun];
+        *state = given->state[begun];
+        state->job.models = models_for_run(pool, state->job.models);
+        status = state->job.models ? ROTID_OK : ROTID_ERROR_MEMORY;
+        message_open(&run[begun].quiet, pool);
+        run[begun].state = state;
+        run[begun].out = &out[begun];
+    }
+    if (!status)
+        status = with_models(pool, &states, baseline, bare, environment, notes, run, fit);
+    for (int s = 0; s < begun; s++)
+        if (states.state[s].job.models)
+            models_end_run(pool, states.state[s].job.models, given->state[s].job.models);
+    if (status) {
+        rotid_fit_free(*fit);
+        *fit = NULL;
+        for (int s = 0; s < count; s++)
+            out[s].fit = NULL;
+    }
+    return status;
+}
+
+static int identify_one(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
+                        struct message_list *notes, struct identification *out)
+{
+    struct state state;
+    const struct states states = only(job, &state);
+    rotid_fit_result *fit;
+    return identify(pool, &states, baseline, bare, environment, notes, out, &fit);
+}
+
+int identify_states(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out, rotid_fit_result **fit)
+{
+    return identify(pool, states, baseline, 0, environment, notes, out, fit);
 }
 
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out)
 {
-    return identify(pool, job, baseline, 0, environment, notes, out);
+    return identify_one(pool, job, baseline, 0, environment, notes, out);
 }
 
 int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                       struct message_list *notes, struct identification *out)
 {
-    return identify(pool, job, baseline, 1, environment, notes, out);
+    return identify_one(pool, job, baseline, 1, environment, notes, out);
 }
 
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,

@@ -3,7 +3,7 @@
 #define ROTID_RUN_IDENTIFY_H
 
 #include "run/compare.h"
-#include "run/job.h"
+#include "run/states.h"
 
 struct identification {
     rotid_fit_result *fit;      /* to be freed with rotid_fit_free */
@@ -20,15 +20,6 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit);
 
-/* Fits of a solid run on its coarse mesh: holds its frequencies to those of the mesh that counts, at x [nparameter]; x
- * NULL: takes the coarse mesh as it stands, unless something is held. identify_run does so itself. Statuses of spectrum_compute.
- */
-int identify_hold(struct pool *pool, const struct job *job, const double *x);
-
-/* The mesh for fits of a job with this pairing [nmode], model_open's refine, and the measured frequencies as that mesh has them,
- * frequency_hz [nmode]: those of the coarse mesh of a solid times what is held (models_hold). ROTID_OK or ROTID_ERROR_MEMORY. */
-int identify_mesh(struct pool *pool, const struct job *job, const int *number, int *refine, double **frequency_hz);
-
 /* With nothing to identify the model is compared as it stands. baseline: NLopt as well. Notes and reasons go to the list.
  * Statuses of rotid_fit and of comparison_make, ROTID_ERROR_ARGUMENT where nothing is measured (the list says so). */
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
@@ -39,6 +30,10 @@ int identify_run(struct pool *pool, const struct job *job, int baseline, const r
 int identify_run_bare(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                       struct message_list *notes, struct identification *out);
 
+/* The same over the states of a deck: out [nstate], each with the fit as its state sees it, all unknowns but its modes and
+ * residuals alone, chi2 of these. *fit: of all, to be freed with rotid_fit_free, in place of those. */
+int identify_states(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
+                    struct message_list *notes, struct identification *out, rotid_fit_result **fit);
 
 /* Warns where the condensed model that was fitted has other frequencies than the full one, of which `what` is said: "written". */
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,

@@ -8,8 +8,8 @@
 
 #define MOST_MASTERS 1000 /* more cost seconds and gigabytes to condense onto, the cube and the square of their number */
 
-/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. */
-static int full_model(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+/* Full model on a mesh `refine` times as fine; *count is lowered to the modes it has. scratch: for what its solution takes */
+static int full_model(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
                       const struct parameter *parameter, const double *x, int refine, int *count, struct rotor_model *model,
                       struct prediction *prediction)
 {
@@ -17,8 +17,8 @@ static int full_model(struct pool *pool, struct models *models, const struct rot
     int most = status ? 0 : model->equations.n - model->equations.nrigid;
     *count = *count < most ? *count : most;
     if (!status)
-        status = prediction_new(pool, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model->equations.nrigid + *count, 0,
-                                prediction);
+        status = prediction_new(scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model->equations.nrigid + *count,
+                                0, prediction);
     return status ? status : prediction_compute(prediction, x);
 }
 
@@ -38,16 +38,25 @@ static void keep_shapes(const struct rotor_model *model, const struct prediction
     }
 }
 
+static double *copy(struct pool *pool, const double *from, int rows, int columns)
+{
+    size_t count = (size_t)rows * (size_t)columns;
+    double *to = POOL_ARRAY(pool, double, count);
+    if (to && count)
+        memcpy(to, from, count * sizeof *to);
+    return to;
+}
+
 /* Frequencies of the condensed model as far as it has any, and Guyan's mass for the NCO; full_hz: of the same mesh in full. */
-static int condensed_model(struct pool *pool, struct rotor_model *model, const double *x, int reduction, const double *full_hz,
-                           struct spectrum *s)
+static int condensed_model(struct pool *pool, struct pool *scratch, struct rotor_model *model, const double *x, int reduction,
+                           const double *full_hz, struct spectrum *s)
 {
     int wanted = s->nrigid + s->count, count = wanted < s->nmaster ? wanted : s->nmaster;
     struct prediction p;
     for (int kind = ROTID_GUYAN; kind <= ROTID_IRS && s->nmaster <= MOST_MASTERS; kind++) {
         if (kind == ROTID_IRS && reduction != ROTID_IRS)
             break;
-        int status = prediction_new(pool, &model->equations, kind, ROTID_NELSON, count, 0, &p);
+        int status = prediction_new(scratch, &model->equations, kind, ROTID_NELSON, count, 0, &p);
         if (status)
             return status;
         status = prediction_compute(&p, x);
@@ -55,8 +64,8 @@ static int condensed_model(struct pool *pool, struct rotor_model *model, const d
             return ROTID_OK; /* one sensor, say: nothing to condense onto, and nothing to report */
         if (status)
             return status;
-        if (kind == ROTID_GUYAN)
-            s->mass = p.condensed.mc;
+        if (kind == ROTID_GUYAN && !(s->mass = copy(pool, p.condensed.mc, s->nmaster, s->nmaster)))
+            return ROTID_ERROR_MEMORY;
         for (int j = 0; j < s->count && kind == reduction; j++)
             s->reduced_hz[j] = s->nrigid + j < count ? prediction_hz(&p, s->nrigid + j) * s->full_hz[j] / full_hz[j] : NAN;
     }
@@ -70,19 +79,19 @@ int spectrum_compute(struct pool *pool, struct models *models, const struct roto
                                   SPECTRUM_MESH | SPECTRUM_REDUCED, spectrum);
 }
 
-int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
-                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
-                           struct spectrum *s)
+/* The matrices and factors of a solution, ten times what is kept of it, are in the scratch. */
+static int compute(struct pool *pool, struct pool *scratch, struct models *models, const struct rotor *rotor, int nparameter,
+                   const struct parameter *parameter, const double *x, int reduction, int count, int parts, struct spectrum *s)
 {
     struct rotor_model *model = POOL_NEW(pool, struct rotor_model), *other = POOL_NEW(pool, struct rotor_model);
     struct prediction p, q;
     if (!model || !other)
         return ROTID_ERROR_MEMORY;
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
-    int status = full_model(pool, models, rotor, nparameter, parameter, x, refine, &count, model, &p);
+    int status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, refine, &count, model, &p);
     double share = status ? 0 : model_mesh_error(model, &refine);
     if (!status && parts & SPECTRUM_MESH)
-        status = full_model(pool, models, rotor, nparameter, parameter, x, refine, &count, other, &q);
+        status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, refine, &count, other, &q);
     if (status)
         return status;
     *s = (struct spectrum){.nrigid = model->equations.nrigid,
@@ -90,7 +99,7 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
                            .nmaster = model->equations.nmaster,
                            .nnode = model->naxis,
                            .model = model,
-                           .phi = p.phi + (ptrdiff_t)model->equations.nrigid * p.size};
+                           .phi = copy(pool, p.phi + (ptrdiff_t)model->equations.nrigid * p.size, p.size, count)};
     double **arrays[] = {&s->full_hz, &s->other_hz, &s->reduced_hz, &s->reduction_error_percent, &s->mesh_error_percent};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (!(*arrays[i] = POOL_ARRAY(pool, double, count)))
@@ -98,7 +107,7 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
     s->shape = POOL_ARRAY(pool, double, (size_t)s->nmaster *(size_t)count);
     s->master_z = POOL_ARRAY(pool, double, s->nmaster);
     s->rigid_hz = POOL_ARRAY(pool, double, s->nrigid);
-    if (!s->shape || !s->master_z || !s->rigid_hz)
+    if (!s->phi || !s->shape || !s->master_z || !s->rigid_hz)
         return ROTID_ERROR_MEMORY;
     for (int j = 0; j < s->nrigid; j++)
         s->rigid_hz[j] = prediction_hz(&p, j);
@@ -111,12 +120,23 @@ int spectrum_compute_parts(struct pool *pool, struct models *models, const struc
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = parts & SPECTRUM_MESH && other->equations.n < model->equations.n && other->equations.nmaster == s->nmaster;
     if (parts & SPECTRUM_REDUCED)
-        status = condensed_model(pool, on_other ? other : model, x, reduction, on_other ? s->other_hz : s->full_hz, s);
+        status = condensed_model(pool, scratch, on_other ? other : model, x, reduction, on_other ? s->other_hz : s->full_hz, s);
     for (int j = 0; j < count && !status; j++) {
         double hz = s->full_hz[j];
         s->mesh_error_percent[j] = 100 * (hz / (hz - share * (s->other_hz[j] - hz)) - 1);
         s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / hz - 1);
     }
+    return status;
+}
+
+int spectrum_compute_parts(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
+                           const struct parameter *parameter, const double *x, int reduction, int count, int parts,
+                           struct spectrum *s)
+{
+    struct pool scratch;
+    pool_open(&scratch, pool->allocator);
+    int status = compute(pool, &scratch, models, rotor, nparameter, parameter, x, reduction, count, parts, s);
+    pool_close(&scratch);
     return status;
 }
 

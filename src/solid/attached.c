@@ -13,27 +13,6 @@ static const struct solid_line *line_at(const struct solid *solid, double z)
 
 /* ---- springs and disks move with the section */
 
-/* lateral and rotational stiffness of spring i, or their derivatives */
-static int spring_of(const struct solid *solid, int i, int p, double *lateral, double *rotational)
-{
-    const struct rotor *rotor = &solid->rotor;
-    const struct spring *spring = &rotor->spring[i];
-    double factor = effects_on_spring(rotor, i), d = 0;
-    *lateral = factor * spring->lateral;
-    *rotational = factor * spring->rotational;
-    if (p < 0)
-        return 1;
-    struct parameter parameter = solid->parameter[p];
-    if (parameter.kind == PARAMETER_EFFECT && effects_spring_derivative(rotor, parameter, i, &d)) {
-        *lateral = d * spring->lateral;
-        *rotational = d * spring->rotational;
-        return 1;
-    }
-    *lateral = parameter.kind == PARAMETER_SPRING_K ? factor : 0;
-    *rotational = parameter.kind == PARAMETER_SPRING_K_ROT ? factor : 0;
-    return parameter.index == i && *lateral + *rotational != 0;
-}
-
 static int disk_of(const struct solid *solid, int i, int p, double *mass, double *inertia)
 {
     const struct disk *disk = &solid->rotor.disk[i];
@@ -55,10 +34,55 @@ static void add_to_section(rotid_matrix *a, const struct solid_line *line, doubl
         motion_add(a, theta, &line->theta, &line->theta);
 }
 
+/* ---- springs to the ground anywhere: shared between the lines on either side by their nearness, each with the motion that its
+ * section would have there if it went on rigidly, v - dz theta. At a line nothing but that line is left, and no line is coupled
+ * with the next one, which would widen the band. */
+
+/* adds a stiffness on v - dz theta of a line and its derivative by dz, and one on theta */
+static void add_carried(const struct solid_line *line, double dz, double lateral, double by_dz, double rotational,
+                        rotid_matrix *k)
+{
+    motion_add(k, lateral, &line->v, &line->v);
+    motion_add(k, -2 * lateral * dz - 2 * by_dz, &line->v, &line->theta);
+    motion_add(k, lateral * dz * dz + 2 * by_dz * dz + rotational, &line->theta, &line->theta);
+}
+
+/* d: NULL, or the rate of the point; then the derivative */
+static void add_ground(const struct solid *solid, const struct effect_point *point, const struct effect_point *d, rotid_matrix *k)
+{
+    const struct solid_mesh *mesh = &solid->mesh;
+    double length = mesh->z[mesh->nslice], z = fmin(fmax(point->z, 0), length), moves = d && z == point->z ? d->z : 0;
+    int slice = solid_mesh_slice(mesh, z);
+    for (int side = 0; side < 2; side++) {
+        double slope = (side ? 1 : -1) / (mesh->z[slice + 1] - mesh->z[slice]), dz = z - mesh->z[slice + side],
+               share = 1 + slope * dz;
+        const struct solid_line *line = &solid->line[slice + side];
+        if (d)
+            add_carried(line, dz, share * d->lateral + slope * moves * point->lateral, share * moves * point->lateral,
+                        share * d->rotational + slope * moves * point->rotational, k);
+        else
+            add_carried(line, dz, share * point->lateral, 0, share * point->rotational, k);
+    }
+}
+
+static void add_springs(const struct solid *solid, int p, rotid_matrix *k)
+{
+    const struct rotor *rotor = &solid->rotor;
+    for (int i = 0; i < rotor->nspring; i++) {
+        struct effect_point point, d;
+        double line = solid->mesh.z[solid_mesh_line(&solid->mesh, rotor->spring[i].position)];
+        if (p >= 0 && !effects_spring_derivative(rotor, solid->parameter[p], i, &d))
+            continue;
+        effects_on_spring(rotor, i, &point);
+        point.z += line - rotor->spring[i].position; /* which may be a little beside */
+        add_ground(solid, &point, p < 0 ? NULL : &d, k);
+    }
+}
+
 /* ---- lumped masses sit on the surface as a ring: half of the mass in each of U, V and W. What inertia about a diameter a mass
  * has beyond that of a ring of the surface's radius acts on the slope W/R of the surface. */
 
-int attached_next_mass(const struct solid *solid, int *effect, int *i, struct effect_point *point)
+int attached_next_point(const struct solid *solid, int *effect, int *i, struct effect_point *point)
 {
     for (; *effect < solid->rotor.neffect; (*effect)++, *i = -1) {
         const struct effect *e = &solid->rotor.effect[*effect];
@@ -87,23 +111,28 @@ static void add_ring(const struct solid *solid, double z, double mass, double in
     }
 }
 
-static void add_masses(const struct solid *solid, int p, rotid_matrix *m)
+/* The masses of effects, and their springs to the ground. */
+static void add_points(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
 {
     struct effect_point point, d;
     struct parameter parameter = p < 0 ? (struct parameter){0} : solid->parameter[p];
     double length = solid->mesh.z[solid->mesh.nslice];
     if (p >= 0 && parameter.kind != PARAMETER_EFFECT)
         return;
-    for (int effect = 0, i = -1; attached_next_mass(solid, &effect, &i, &point);) {
+    for (int effect = 0, i = -1; attached_next_point(solid, &effect, &i, &point);) {
         const struct effect *e = &solid->rotor.effect[effect];
-        if (p < 0) {
+        int rate = p >= 0 && parameter.index == effect && e->kind->point(e, &solid->rotor, i, parameter.component, &d);
+        if (p >= 0 && !rate)
+            continue;
+        if (k && !solid->elastic_only &&
+            (point.lateral != 0 || point.rotational != 0 || (rate && (d.lateral != 0 || d.rotational != 0))))
+            add_ground(solid, &point, p < 0 ? NULL : &d, k);
+        if (m && p < 0)
             add_ring(solid, point.z, point.mass, point.inertia, 0, m);
-        } else if (parameter.index == effect && e->kind->point(e, &solid->rotor, i, parameter.component, &d)) {
-            if (d.mass != 0 || d.inertia != 0)
-                add_ring(solid, point.z, d.mass, d.inertia, 0, m);
-            if (d.z != 0 && point.z > 0 && point.z < length)
-                add_ring(solid, point.z, point.mass, point.inertia, d.z, m);
-        }
+        if (m && rate && (d.mass != 0 || d.inertia != 0))
+            add_ring(solid, point.z, d.mass, d.inertia, 0, m);
+        if (m && rate && d.z != 0 && point.z > 0 && point.z < length)
+            add_ring(solid, point.z, point.mass, point.inertia, d.z, m);
     }
 }
 
@@ -111,14 +140,13 @@ void attached_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_
 {
     const struct rotor *rotor = &solid->rotor;
     double a, b;
-    for (int i = 0; i < rotor->nspring && !solid->elastic_only && k; i++)
-        if (spring_of(solid, i, p, &a, &b))
-            add_to_section(k, line_at(solid, rotor->spring[i].position), a, b);
+    if (k && !solid->elastic_only)
+        add_springs(solid, p, k);
     for (int i = 0; i < rotor->ndisk && m; i++)
         if (disk_of(solid, i, p, &a, &b))
             add_to_section(m, line_at(solid, rotor->disk[i].position), a, b);
-    if (rotor->neffect && m)
-        add_masses(solid, p, m);
+    if (rotor->neffect)
+        add_points(solid, p, k, m);
     members_assemble(solid, p, k, m);
 }
 
@@ -133,7 +161,7 @@ void attached_moments(const struct solid *solid, double moment[3])
         moment[1] += mass * z;
         moment[2] += mass * z * z + rotor->disk[i].diametral;
     }
-    for (int effect = 0, i = -1; attached_next_mass(solid, &effect, &i, &point);) {
+    for (int effect = 0, i = -1; attached_next_point(solid, &effect, &i, &point);) {
         double z = fmin(fmax(point.z, 0), mesh->z[mesh->nslice]),
                radius = mesh->node[mesh->surface[2 * solid_mesh_slice(mesh, z) + 1]].r;
         moment[0] += point.mass;

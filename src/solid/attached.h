@@ -10,7 +10,7 @@ void attached_assemble(const struct solid *solid, int p, rotid_matrix *k, rotid_
 /* Adds the masses about the left end: zeroth, first and second moments [kg, kg.m, kg.m2]. */
 void attached_moments(const struct solid *solid, double moment[3]);
 
-/* The i-th lumped mass of all effects; *effect and *i begin at 0 and -1. Returns 0 when there are no more. */
-int attached_next_mass(const struct solid *solid, int *effect, int *i, struct effect_point *point);
+/* The i-th lumped mass or spring of all effects; *effect and *i begin at 0 and -1. Returns 0 when there are no more. */
+int attached_next_point(const struct solid *solid, int *effect, int *i, struct effect_point *point);
 
 #endif

@@ -141,7 +141,7 @@ static int axial_stops(struct pool *pool, const struct rotor *rotor, const struc
                        struct stop **stops)
 {
     double largest = largest_size(rotor, rule, refine, 1), end = 0, smallest = largest;
-    int n = 0, most = rotor->nsegment + 1 + rotor->nspring + rotor->ndisk + 2 * rotor->ntierod + 3 * rotor->nbars;
+    int n = 0, most = rotor->nsegment + 1 + rotor->nspring + 3 * rotor->ndisk + 2 * rotor->ntierod + 3 * rotor->nbars;
     struct stop *stop = POOL_ARRAY(pool, struct stop, most);
     if (!stop)
         return ROTID_ERROR_MEMORY;
@@ -159,8 +159,15 @@ static int axial_stops(struct pool *pool, const struct rotor *rotor, const struc
     }
     for (int i = 0; i < rotor->nspring; i++)
         stop[n++] = (struct stop){rotor->spring[i].position, 0, largest};
-    for (int i = 0; i < rotor->ndisk; i++)
+    for (int i = 0; i < rotor->ndisk; i++) {
+        double from, to;
         stop[n++] = (struct stop){rotor->disk[i].position, 0, largest};
+        if (rotor->disk[i].hub_length > 0) {
+            rotor_hub_span(rotor, i, &from, &to);
+            stop[n++] = (struct stop){from, 0, largest};
+            stop[n++] = (struct stop){to, 0, largest};
+        }
+    }
     for (int i = 0; i < rotor->ntierod; i++) {
         stop[n++] = (struct stop){rotor->tierod[i].from, 0, largest};
         stop[n++] = (struct stop){rotor->tierod[i].to, 0, largest};

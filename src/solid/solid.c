@@ -16,37 +16,19 @@ static int compare_ints(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static int hold_on(struct pool *pool, struct solid *solid, double z)
-{
-    int i = solid_mesh_line(&solid->mesh, z);
-    struct solid_line *line = &solid->line[i];
-    if (line->used)
-        return ROTID_OK;
-    line->used = 1;
-    return motion_of_section(pool, &solid->mesh, i, &line->v, &line->theta);
-}
-
-/* The sections that something holds on to. */
+/* All sections, since a cause may put a spring anywhere, and the ends of tie rods. */
 static int build_lines(struct pool *pool, struct solid *solid, int *failed)
 {
     const struct rotor *rotor = &solid->rotor;
     int status = ROTID_OK, from, to;
-    for (int i = 0; i < rotor->nspring && !status; i++)
-        status = hold_on(pool, solid, rotor->spring[i].position);
-    for (int i = 0; i < rotor->ndisk && !status; i++)
-        status = hold_on(pool, solid, rotor->disk[i].position);
-    for (int i = 0; i < rotor->nbars && !status; i++)
-        status = hold_on(pool, solid, rotor->bars[i].center);
+    for (int l = 0; l <= solid->mesh.nslice && !status; l++)
+        status = motion_of_section(pool, &solid->mesh, l, &solid->line[l].v, &solid->line[l].theta);
     for (int i = 0; i < rotor->ntierod && !status; i++) {
         *failed = rotor->ngroup + i;
         solid_mesh_member(rotor, &solid->mesh, i, &from, &to);
-        for (int l = from; l <= to && !status; l++)
-            if (l == from || l == to || solid_mesh_follows(rotor, i))
-                status = hold_on(pool, solid, solid->mesh.z[l]);
         double pitch = rotor->tierod[i].pitch, reach = WASHER / 2 * rotor->tierod[i].diameter;
         struct motion *stretch = &solid->stretch[2 * (ptrdiff_t)i];
-        if (!status)
-            status = motion_axial(pool, &solid->mesh, from, pitch, reach, &stretch[0]);
+        status = motion_axial(pool, &solid->mesh, from, pitch, reach, &stretch[0]);
         if (!status)
             status = motion_axial(pool, &solid->mesh, to, pitch, reach, &stretch[1]);
     }

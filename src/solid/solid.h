@@ -11,8 +11,7 @@
 #include "solid/mesh.h"
 #include "solid/motion.h"
 
-struct solid_line { /* of the mesh, where something holds on to the section */
-    int used;
+struct solid_line { /* of the mesh: the motion of the section there */
     struct motion v, theta;
 };
 

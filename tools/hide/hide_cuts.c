@@ -98,6 +98,15 @@ static void cut_for(struct list *list, const struct hide_rotor *rotor, const str
         cut_steps(list, rotor, hide_get(e, "angle")->number, refine);
     else if (hide_is(e, "stiffness_local") || hide_is(e, "bend_only") || hide_is(e, "density_zone"))
         cut_zone(list, e, refine);
+    else if (hide_is(e, "added_mass") && hide_get(e, "width")->number > 0) {
+        cut(list, hide_get(e, "z")->number - hide_get(e, "width")->number / 2);
+        cut(list, hide_get(e, "z")->number + hide_get(e, "width")->number / 2);
+    } else if (hide_is(e, "hub_stiffness"))
+        for (int i = 0; i < rotor->disks; i++) {
+            double half = hide_get(e, "share")->number * rotor->disk[i].hub_length / 2;
+            cut(list, rotor->disk[i].z - half);
+            cut(list, rotor->disk[i].z + half);
+        }
 }
 
 static int ascending(const void *left, const void *right)

@@ -159,6 +159,62 @@ static int draw_stiffness(struct draw *d, const char *id, char spec[HIDE_SPEC])
     return 1;
 }
 
+static int holds(const struct hide_rotor *rotor, int spring)
+{
+    return rotor->spring[spring].lateral > 0 && rotor->spring[spring].rotational > 0;
+}
+
+static int draw_support(struct draw *d, const char *id, char spec[HIDE_SPEC])
+{
+    /* A spring of `first` would take the first elastic mode of a uniform free beam, lambda m = 500 EI/L^3, to about twice its
+     * square. */
+    double length = d->rotor->length, first = 500 * d->bending / pow(length, 3), z = anywhere(d);
+    const struct hide_spring *spring = d->rotor->spring;
+    if (!strcmp(id, "support_extra"))
+        snprintf(spec, HIDE_SPEC, "%s:z=%.6g,stiffness=%.6g", id, z, first * sized(d, 1e-3, 0.5));
+    else if (!strcmp(id, "support_rotation"))
+        snprintf(spec, HIDE_SPEC, "%s:z=%.6g,stiffness=%.6g", id, z, first * length * length * sized(d, 1e-4, 0.035));
+    else {
+        int clamp = !strcmp(id, "clamp"), i = pick_fitting(d, d->rotor->springs, clamp ? holds : any);
+        double shift = length * either_sign(d, 0.002, 0.1), size = sized(d, 1e-3, 0.11), lateral = sized(d, 1e-4, 0.1);
+        if (i < 0)
+            return 0;
+        if (spring[i].z + shift < 0 || spring[i].z + shift > length)
+            shift = -shift;
+        char name[HIDE_NAME];
+        snprintf(name, sizeof name, "%d", i + 1);
+        const char *at = spring[i].name[0] ? spring[i].name : name;
+        if (clamp)
+            snprintf(spec, HIDE_SPEC, "%s:at=%s,rotational=%.6g,lateral=%.6g", id, at, length / d->bending * size,
+                     hide_pick(d->random, 2) ? pow(length, 3) / 3 / d->bending * lateral : 0);
+        else
+            snprintf(spec, HIDE_SPEC, "%s:at=%s,shift=%.6g", id, at, shift);
+    }
+    return 1;
+}
+
+static int has_hub(const struct hide_rotor *rotor, int disk)
+{
+    return rotor->disk[disk].hub > 0;
+}
+
+static int draw_disk(struct draw *d, const char *id, char spec[HIDE_SPEC])
+{
+    int hub = !strcmp(id, "hub_stiffness"), i = pick_fitting(d, d->rotor->disks, hub ? has_hub : any);
+    double share = sized(d, 0.02, 1), length = d->rotor->length;
+    if (i < 0)
+        return 0;
+    const struct hide_disk *disk = &d->rotor->disk[i];
+    double weighs = disk->mass > 0 ? disk->mass : d->mass;
+    if (hub)
+        snprintf(spec, HIDE_SPEC, "%s:share=%.6g", id, share);
+    else if (disk->name[0])
+        snprintf(spec, HIDE_SPEC, "%s:at=%s,inertia=%.6g", id, disk->name, weighs * length * length * share / 10);
+    else
+        snprintf(spec, HIDE_SPEC, "%s:at=%d,inertia=%.6g", id, i + 1, weighs * length * length * share / 10);
+    return 1;
+}
+
 static int draw_attached(struct draw *d, const char *id, char spec[HIDE_SPEC])
 {
     if (!strcmp(id, "density"))
@@ -169,6 +225,8 @@ static int draw_attached(struct draw *d, const char *id, char spec[HIDE_SPEC])
     }
     if (!strcmp(id, "tie_tension") || !strcmp(id, "tie_shear"))
         return of_tie(d, id, factor(d, 0.1, 1.5), spec);
+    if (!strncmp(id, "support_", 8) || !strcmp(id, "clamp"))
+        return draw_support(d, id, spec);
     if (!strcmp(id, "support")) {
         int spring = d->rotor->springs ? hide_pick(d->random, d->rotor->springs) : -1;
         if (spring >= 0 && d->rotor->spring[spring].name[0])
@@ -178,11 +236,13 @@ static int draw_attached(struct draw *d, const char *id, char spec[HIDE_SPEC])
         return spring >= 0;
     }
     if (!strcmp(id, "added_mass")) { /* an end takes a hundredth of what the middle takes to be seen */
-        double mass = d->mass * sized(d, 2e-5, 0.028),
-               z = hide_pick(d->random, 5) ? anywhere(d) : hide_pick(d->random, 2) * d->rotor->length;
+        double mass = d->mass * sized(d, 2e-5, fmax(0.028, fmin(0.2, 8 / d->mass))), /* a small rotor carries more, up to 8 kg */
+            z = hide_pick(d->random, 5) ? anywhere(d) : hide_pick(d->random, 2) * d->rotor->length;
         snprintf(spec, HIDE_SPEC, "%s:mass=%.6g,z=%.6g", id, mass, z);
         return 1;
     }
+    if (!strcmp(id, "added_inertia") || !strcmp(id, "hub_stiffness"))
+        return draw_disk(d, id, spec);
     double mass = fmin(0.19, d->mass * sized(d, 2e-5, 3e-3)); /* accelerometer_mass, with cable and magnet */
     int sensors = d->rotor->sensors;
     if (!sensors)
@@ -238,17 +298,10 @@ static int draw_data(struct draw *d, const char *id, char spec[HIDE_SPEC])
 
 static int draw_outside(struct draw *d, const char *name, char spec[HIDE_SPEC])
 {
-    /* A spring of `first` would take the first elastic mode of a uniform free beam, lambda m = 500 EI/L^3, to about twice its
-     * square. */
-    double length = d->rotor->length, first = 500 * d->bending / pow(length, 3), z = anywhere(d), depth = sized(d, 0.1, 0.9);
+    double length = d->rotor->length, z = anywhere(d), depth = sized(d, 0.1, 0.9);
     double width = length * sized(d, 0.0075, 0.03);
     if (!strcmp(name, "bend_only"))
         snprintf(spec, HIDE_SPEC, "outside:kind=%s,depth=%.6g,z=%.6g,width=%.6g", name, depth, z, width);
-    else if (!strcmp(name, "ground_spring"))
-        snprintf(spec, HIDE_SPEC, "outside:kind=%s,z=%.6g,stiffness=%.6g", name, z, first * sized(d, 1e-3, 0.5));
-    else if (!strcmp(name, "ground_rotation"))
-        snprintf(spec, HIDE_SPEC, "outside:kind=%s,z=%.6g,stiffness=%.6g", name, z,
-                 first * length * length * sized(d, 1e-4, 0.05));
     else if (!strcmp(name, "inertia"))
         snprintf(spec, HIDE_SPEC, "outside:kind=%s,z=%.6g,inertia=%.6g", name, z,
                  d->mass * length * length * sized(d, 1e-5, 1e-2));
@@ -265,8 +318,10 @@ static int draw_outside(struct draw *d, const char *name, char spec[HIDE_SPEC])
 
 static int draw_kind(struct draw *d, const struct hide_kind *kind, char spec[HIDE_SPEC])
 {
-    static const char *const attached[] = {"density", "tie_stiffness", "tie_tension",       "tie_shear",
-                                           "support", "added_mass",    "accelerometer_mass"};
+    static const char *const attached[] = {
+        "density",    "tie_stiffness",      "tie_tension",      "tie_shear",     "support",
+        "added_mass", "accelerometer_mass", "support_position", "support_extra", "support_rotation",
+        "clamp",      "added_inertia",      "hub_stiffness"};
     if (kind->outside)
         return draw_outside(d, kind->outside, spec);
     if (kind->class == HIDE_DATA)

@@ -109,6 +109,9 @@ static int read_value(const struct spec *spec, const struct hide_key *key, const
     case HIDE_SPRING:
         value->index = hide_find_spring(rotor, text);
         return value->index >= 0 ? HIDE_OK : expected(spec, key->name, "the name of a spring, or its number from 1");
+    case HIDE_DISK:
+        value->index = hide_find_disk(rotor, text);
+        return value->index >= 0 ? HIDE_OK : expected(spec, key->name, "the name of a disk, or its number from 1");
     case HIDE_SENSOR:
         value->index = sensor(spec, text);
         return value->index >= 0 ? HIDE_OK : expected(spec, key->name, "the id of a sensor");
@@ -158,6 +161,13 @@ static int check_together(const struct spec *spec, const struct hide_effect *eff
         return expected(spec, "step_stiffness", "a deck without *LAYER: this program has no cones through rings");
     if (hide_is(effect, "accelerometer_mass") && (hide_get(effect, "mount")->index == 0) != on->given)
         return expected(spec, "sensor", "the id of a sensor with mount=fixed, none with mount=moving");
+    if (hide_is(effect, "support_position")) {
+        double z = spec->rotor->spring[at->index].z + hide_get(effect, "shift")->number;
+        if (!(z >= 0 && z <= spec->rotor->length))
+            return expected(spec, "shift", "one that leaves the spring on the rotor");
+    }
+    if (hide_is(effect, "added_inertia") && spec->rotor->disk[at->index].inertia + hide_get(effect, "inertia")->number < 0)
+        return expected(spec, "inertia", "one that leaves the disk some");
     if (hide_is(effect, "sensor_position")) {
         double z = spec->rotor->sensor[on->index].z + hide_get(effect, "shift")->number;
         if (!(z >= 0 && z <= spec->rotor->length))

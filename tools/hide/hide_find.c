@@ -35,6 +35,16 @@ int hide_find_spring(const struct hide_rotor *rotor, const char *name)
     return end != name && !*end && number >= 1 && number <= rotor->springs ? (int)number - 1 : -1;
 }
 
+int hide_find_disk(const struct hide_rotor *rotor, const char *name)
+{
+    char *end;
+    long number = strtol(name, &end, 10);
+    for (int i = 0; i < rotor->disks; i++)
+        if (*name && hide_same(rotor->disk[i].name, name))
+            return i;
+    return end != name && !*end && number >= 1 && number <= rotor->disks ? (int)number - 1 : -1;
+}
+
 int hide_find_sensor(const struct hide_rotor *rotor, long id)
 {
     for (int i = 0; i < rotor->sensors; i++)

@@ -20,6 +20,7 @@ enum hide_key_type {
     HIDE_INTERFACE,   /* GROUP.end or GROUP.start between two groups; index: of the left one, number: its place */
     HIDE_TIE,
     HIDE_SPRING,
+    HIDE_DISK,
     HIDE_SENSOR, /* an id; index: of the sensor */
     HIDE_SENSOR_PAIR,
     HIDE_MODE, /* from 1; index: from 0 */

@@ -138,37 +138,61 @@ static void add_joint(const struct hide_physics *physics, const struct hide_effe
 static void add_effect(const struct hide_physics *physics, const struct hide_effect *e, struct hide_model *model)
 {
     double z = hide_get(e, "z")->number, k = physics->ground * hide_get(e, "stiffness")->number;
-    if (hide_is(e, "added_mass"))
+    if (hide_is(e, "added_mass") && hide_get(e, "width")->number == 0) /* else it is spread: hide_section.c */
         add_point(model,
                   (struct oracle_point){.z = z, .mass = hide_get(e, "mass")->number, .inertia = hide_get(e, "inertia")->number});
     else if (hide_is(e, "accelerometer_mass") && hide_get(e, "mount")->index == 0)
         add_point(model, (struct oracle_point){.z = physics->rotor->sensor[hide_get(e, "sensor")->index].z,
                                                .mass = hide_get(e, "mass")->number});
-    else if (hide_is(e, "ground_spring"))
+    else if (hide_is(e, "support_extra"))
         add_point(model, (struct oracle_point){.z = z, .spring = k});
-    else if (hide_is(e, "ground_rotation"))
+    else if (hide_is(e, "support_rotation"))
         add_point(model, (struct oracle_point){.z = z, .rotational_spring = k});
     else if (hide_is(e, "inertia"))
         add_point(model, (struct oracle_point){.z = z, .inertia = hide_get(e, "inertia")->number});
 }
 
+/* A spring as it is: stiffer, on a clamp that gives way, elsewhere. */
+static struct oracle_point spring_at(const struct hide_physics *physics, int i)
+{
+    const struct hide_spring *spring = &physics->rotor->spring[i];
+    struct oracle_point point = {.z = spring->z, .spring = spring->lateral, .rotational_spring = spring->rotational};
+    double lateral = 0, rotational = 0;
+    for (int j = 0; j < physics->effects; j++) {
+        const struct hide_effect *e = &physics->effect[j];
+        if (hide_get(e, "at")->index != i)
+            continue;
+        if (hide_is(e, "support")) {
+            point.spring *= hide_get(e, "factor")->number;
+            point.rotational_spring *= hide_get(e, "factor")->number;
+        } else if (hide_is(e, "support_position"))
+            point.z += hide_get(e, "shift")->number;
+        else if (hide_is(e, "clamp")) {
+            lateral += hide_get(e, "lateral")->number;
+            rotational += hide_get(e, "rotational")->number;
+        }
+    }
+    if (point.spring > 0)
+        point.spring = physics->ground / (1 / point.spring + lateral);
+    if (point.rotational_spring > 0)
+        point.rotational_spring = physics->ground / (1 / point.rotational_spring + rotational);
+    return point;
+}
+
 static void lay_points(const struct hide_physics *physics, struct hide_model *model)
 {
     const struct hide_rotor *rotor = physics->rotor;
-    for (int i = 0; i < rotor->disks; i++)
-        add_point(model,
-                  (struct oracle_point){.z = rotor->disk[i].z, .mass = rotor->disk[i].mass, .inertia = rotor->disk[i].inertia});
+    for (int i = 0; i < rotor->disks; i++) {
+        struct oracle_point point = {.z = rotor->disk[i].z, .mass = rotor->disk[i].mass, .inertia = rotor->disk[i].inertia};
+        for (int j = 0; j < physics->effects; j++)
+            if (hide_is(&physics->effect[j], "added_inertia") && hide_get(&physics->effect[j], "at")->index == i)
+                point.inertia += hide_get(&physics->effect[j], "inertia")->number;
+        add_point(model, point);
+    }
     if (physics->moving)
         add_point(model, (struct oracle_point){.z = physics->moving->z, .mass = physics->moving->mass});
-    for (int i = 0; i < rotor->springs; i++) {
-        double factor = physics->ground;
-        for (int j = 0; j < physics->effects; j++)
-            if (hide_is(&physics->effect[j], "support") && hide_get(&physics->effect[j], "at")->index == i)
-                factor *= hide_get(&physics->effect[j], "factor")->number;
-        add_point(model, (struct oracle_point){.z = rotor->spring[i].z,
-                                               .spring = factor * rotor->spring[i].lateral,
-                                               .rotational_spring = factor * rotor->spring[i].rotational});
-    }
+    for (int i = 0; i < rotor->springs; i++)
+        add_point(model, spring_at(physics, i));
     if (rotor->sling > 0)
         add_sling(physics, model);
     for (int i = 0; i < physics->effects; i++)

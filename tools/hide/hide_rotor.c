@@ -216,23 +216,26 @@ static int read_tie(struct reader *r)
     return HIDE_OK;
 }
 
-/* DISK and SPRING: position and up to three numbers */
+/* DISK and SPRING: position and up to five numbers */
 static int read_attached(struct reader *r)
 {
     struct hide_rotor *rotor = r->rotor;
     int disk = hide_same(r->card->name, "DISK"), status;
     for (int i = 0; i < r->card->lines; i++) {
         char *position, name[HIDE_NAME];
-        double v[3] = {0}, z;
+        double v[5] = {0}, z;
         if ((disk ? rotor->disks : rotor->springs) == HIDE_MOST_ATTACHED)
             return expected(r, "fewer of them");
         if ((status = take_name(r, "NAME", name)) ||
-            (status = read_line(r, i, 1, &position, 1, disk ? 3 : 2, v, "a position and numbers")))
+            (status = read_line(r, i, 1, &position, 1, disk ? 5 : 2, v, "a position and numbers")))
             return status;
         if (!hide_position(rotor, position, &z) || v[0] < 0 || v[1] < 0)
             return expected(r, "a position inside the rotor and numbers not below zero");
+        if (disk && ((v[3] > 0) != (v[4] > 0) || v[3] < 0 || v[4] < 0))
+            return expected(r, "a hub with length and outer diameter above zero, or none");
         if (disk) {
-            rotor->disk[rotor->disks] = (struct hide_disk){.z = z, .mass = v[0], .inertia = v[1]};
+            rotor->disk[rotor->disks] =
+                (struct hide_disk){.z = z, .mass = v[0], .inertia = v[1], .hub_length = v[3], .hub = v[4]};
             memcpy(rotor->disk[rotor->disks++].name, name, sizeof name);
         } else {
             rotor->spring[rotor->springs] = (struct hide_spring){.z = z, .lateral = v[0], .rotational = v[1]};

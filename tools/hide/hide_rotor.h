@@ -51,8 +51,8 @@ struct hide_tie {
 };
 
 struct hide_disk {
-    char name[HIDE_NAME]; /* "" where there is none */
-    double z, mass, inertia;
+    char name[HIDE_NAME];                     /* "" where there is none: then its number in the deck is its name */
+    double z, mass, inertia, hub_length, hub; /* hub: its outer diameter, 0 where there is none */
 };
 
 struct hide_spring {
@@ -90,10 +90,11 @@ int hide_rotor_read(const struct hide_cards *cards, const char *name, struct hid
 /* Metres, start, end, GROUP.start, GROUP.end. Nonzero if it lies inside the rotor. */
 int hide_position(const struct hide_rotor *rotor, const char *text, double *z);
 
-/* By name; -1 where there is none. A spring is also found by its number from 1. */
+/* By name; -1 where there is none. A spring or a disk is also found by its number from 1. */
 int hide_find_group(const struct hide_rotor *rotor, const char *name);
 int hide_find_tie(const struct hide_rotor *rotor, const char *name);
 int hide_find_spring(const struct hide_rotor *rotor, const char *name);
+int hide_find_disk(const struct hide_rotor *rotor, const char *name);
 int hide_find_sensor(const struct hide_rotor *rotor, long id);
 
 double hide_shear_modulus(const struct hide_material *material);

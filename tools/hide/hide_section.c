@@ -115,6 +115,27 @@ static void add_part(const struct hide_physics *physics, int group, const struct
     section->inertia += part.inertia;
 }
 
+/* Of the length of every hub the middle part `share` is one piece with the shaft, which is that much thicker there. */
+static void thicken(const struct hide_rotor *rotor, const struct hide_segment *s, double share, double z,
+                    struct hide_section *section)
+{
+    for (int i = 0; i < rotor->disks; i++) {
+        const struct hide_disk *disk = &rotor->disk[i];
+        if (s->rectangular || !(disk->hub > s->outer) || fabs(z - disk->z) > share * disk->hub_length / 2)
+            continue;
+        struct moments own = ring(s->stiff, s->inner), with = ring(disk->hub, s->inner);
+        section->bending *= with.second / own.second;
+        section->shear *= with.area / own.area;
+    }
+}
+
+/* A mass spread over a width; its turning is that of its parts moving, as of a sleeve without thickness. */
+static double spread(const struct hide_effect *e, double z)
+{
+    double width = hide_get(e, "width")->number;
+    return width > 0 && fabs(z - hide_get(e, "z")->number) <= width / 2 ? hide_get(e, "mass")->number / width : 0;
+}
+
 void hide_section_at(const struct hide_physics *physics, int segment, double z, struct hide_section *section)
 {
     const struct hide_rotor *rotor = physics->rotor;
@@ -130,5 +151,12 @@ void hide_section_at(const struct hide_physics *physics, int segment, double z, 
     for (int i = 0; i < s->rings; i++) {
         struct hide_segment ring = {.outer = s->ring[i].outer, .inner = s->ring[i].inner};
         add_part(physics, s->ring[i].group, &ring, ring.outer, z, section);
+    }
+    for (int i = 0; i < physics->effects; i++) {
+        const struct hide_effect *e = &physics->effect[i];
+        if (hide_is(e, "hub_stiffness"))
+            thicken(rotor, s, hide_get(e, "share")->number, z, section);
+        else if (hide_is(e, "added_mass"))
+            section->mass += spread(e, z);
     }
 }

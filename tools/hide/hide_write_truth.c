@@ -47,13 +47,13 @@ static void add_data(struct hide_text *text, const char *name, const struct hide
     hide_add(text, "]\n  }");
 }
 
-/* A spring or a support has a name, or the number it has in the deck. */
-static void name_spring(const struct hide_rotor *rotor, int spring, char *name, size_t room)
+/* A spring or a disk has a name, or the number it has in the deck. */
+static void name_or_number(const char *own, int number, char *name, size_t room)
 {
-    if (rotor->spring[spring].name[0])
-        snprintf(name, room, "%s", rotor->spring[spring].name);
+    if (own[0])
+        snprintf(name, room, "%s", own);
     else
-        snprintf(name, room, "%d", spring + 1);
+        snprintf(name, room, "%d", number);
 }
 
 /* The target of an effect as its card would name it; "" where it has none. */
@@ -76,7 +76,10 @@ static void name_target(const struct hide_rotor *rotor, const struct hide_effect
             snprintf(name, room, "%s", rotor->tie[value->index].name);
             break;
         case HIDE_SPRING:
-            name_spring(rotor, value->index, name, room);
+            name_or_number(rotor->spring[value->index].name, value->index + 1, name, room);
+            break;
+        case HIDE_DISK:
+            name_or_number(rotor->disk[value->index].name, value->index + 1, name, room);
             break;
         case HIDE_SENSOR: /* the first one: a duplicate has another key */
             if (!name[0])
@@ -107,7 +110,8 @@ static void add_parameters(struct hide_text *text, const struct hide_rotor *roto
         int optional_number = key->type == HIDE_NUMBER && !key->required;
         if (!value->given && !optional_number && key->type != HIDE_WORD)
             continue;
-        if (key->type == HIDE_GROUP || key->type == HIDE_KNOWN_GROUP || key->type == HIDE_TIE || key->type == HIDE_SPRING)
+        if (key->type == HIDE_GROUP || key->type == HIDE_KNOWN_GROUP || key->type == HIDE_TIE || key->type == HIDE_SPRING ||
+            key->type == HIDE_DISK)
             continue;
         hide_add(text, "%s\"%s\": ", count++ ? ", " : "", key->type == HIDE_INTERFACE ? "z" : key->name);
         if (key->type == HIDE_WORD) {

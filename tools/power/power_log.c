@@ -26,6 +26,8 @@ static cJSON *candidate_line(const struct candidate *c)
         add_number(o, c->effect.kind->parameter[p].name, c->effect.value[p]);
     if (c->cause->variant[0] && c->effect.kind)
         cJSON_AddStringToObject(o, "variant", c->cause->variant[c->effect.variant]);
+    if (c->with)
+        cJSON_AddItemToObject(o, "with", candidate_line(c->with));
     add_number(o, "predicted", c->result.predicted_drop);
     if (c->result.refitted) {
         add_number(o, "drop", c->result.chi2_drop);
@@ -89,6 +91,7 @@ static const struct {
 } field[] = {{"id", TEXT, offsetof(struct hidden_score, id), HIDDEN_NAME},
              {"wrong", TEXT, offsetof(struct hidden_score, wrong), HIDDEN_NAME},
              {"failure", TEXT, offsetof(struct hidden_score, failure), sizeof((struct hidden_score *)0)->failure},
+             {"shapes", INTEGER, offsetof(struct hidden_score, shapes), 0},
              {"coloured", INTEGER, offsetof(struct hidden_score, coloured), 0},
              {"reported", INTEGER, offsetof(struct hidden_score, reported), 0},
              {"names", INTEGER, offsetof(struct hidden_score, names), 0},
@@ -135,11 +138,9 @@ static void add_score(cJSON *line, const struct hidden_score *s)
 char *power_line(const struct power_case *c, const struct diagnosis *d, const cJSON *truth, const struct hidden_score *score)
 {
     static const char *const of_truth[] = {"noise", "modes", "rigid_modes", "length", "effects", "parameters"};
-    const struct hide_request *r = &c->hidden.request;
     cJSON *line = cJSON_CreateObject();
     cJSON_AddNumberToObject(line, "case", c->hidden.number);
     cJSON_AddStringToObject(line, "again", c->again);
-    cJSON_AddBoolToObject(line, "shapes", !r->no_shapes);
     for (size_t i = 0; truth && i < sizeof of_truth / sizeof *of_truth; i++)
         cJSON_AddItemToObject(line, of_truth[i], cJSON_Duplicate(cJSON_GetObjectItem(truth, of_truth[i]), 1));
     add_score(line, score);

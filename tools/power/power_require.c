@@ -19,6 +19,8 @@ enum {
     DIAGNOSED,
     REQUIRED, /* the others are shown beside them */
     REPORTED = REQUIRED,
+    WITH_SHAPES,
+    WITHOUT_SHAPES,
     REFITTED,
     CLEARLY_NAMED,
     ANY_WRONG,
@@ -49,6 +51,8 @@ static const struct {
     [COVERAGE] = {"95 % intervals of E and G hold the truth", 0, 0.93, 0.97},
     [DIAGNOSED] = {"a diagnosis, and no error", 0, 1, 1},
     [REPORTED] = {"one effect worth 30: reported", 0, 0, 1},
+    [WITH_SHAPES] = {"one effect worth 150, shapes: named alone", 0, 0, 1},
+    [WITHOUT_SHAPES] = {"one effect worth 150, frequencies alone: the same", 0, 0, 1},
     [REFITTED] = {"one effect worth 30: the true cause refitted", 0, 0, 1},
     [CLEARLY_NAMED] = {"one effect, margin 15: named, or one of two", 0, 0, 1},
     [ANY_WRONG] = {"one effect of any size: wrong name", 1, 0, 1},
@@ -87,8 +91,10 @@ static void add_physical(const struct hidden_score *s, struct power_share share[
         add(&share[REPORTED], s->reported);
         add(&share[REFITTED], isfinite(s->margin));
     }
-    if (s->drop >= LARGE)
+    if (s->drop >= LARGE) {
         add(&share[NAMED], named);
+        add(&share[s->shapes ? WITH_SHAPES : WITHOUT_SHAPES], named);
+    }
     if (s->margin >= CLEAR_MARGIN)
         add(&share[CLEARLY_NAMED], named || (s->outcome == HIDDEN_IN_SET && s->nset <= 2));
 }
@@ -161,10 +167,10 @@ int power_requirements(FILE *out, int count, const struct power_result *result)
         if (i == REQUIRED)
             fprintf(out, "beside that\n");
         if (!share[i].count) {
-            fprintf(out, "  %-46s no case\n", table[i].text);
+            fprintf(out, "  %-50s no case\n", table[i].text);
             continue;
         }
-        fprintf(out, "  %-46s %4d of %-4d %5.1f %% (%.1f to %.1f)", table[i].text, share[i].right, share[i].count, 100 * part,
+        fprintf(out, "  %-50s %4d of %-4d %5.1f %% (%.1f to %.1f)", table[i].text, share[i].right, share[i].count, 100 * part,
                 100 * lower, 100 * upper);
         if (i < REQUIRED) {
             show_bounds(out, table[i].least, table[i].most);

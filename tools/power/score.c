@@ -95,7 +95,7 @@ static int same_target(const struct candidate *c, const char *target)
         *p = *p == ',' ? '|' : *p;
     if (c->cause->target == TARGET_NONE || same_text(c->target, name))
         return 1;
-    return c->cause->target == TARGET_SPRING && !c->target[0] && c->effect.target + 1 == atoi(name);
+    return (c->cause->target == TARGET_SPRING || c->cause->target == TARGET_DISK) && c->effect.target + 1 == atoi(name);
 }
 
 /* Whether a candidate is this effect: id, target, and place within one width or 3 % of the length. */
@@ -136,10 +136,17 @@ static int is_beyond(const struct rotor *rotor, const cJSON *effect)
     double lower, upper, value = parameter_of(effect, cause->effect->parameter[cause->size].name);
     struct effect at = {.kind = cause->effect, .target = -1};
     const char *target = text_of(effect, "target");
-    for (int g = 0; g < rotor->ngroup; g++) /* an interface has the name of the group before it, and a comma */
+    int of_group = cause->target == TARGET_GROUP || cause->target == TARGET_INTERFACE;
+    for (int g = 0; g < rotor->ngroup && of_group; g++) /* an interface has the name of the group before it, and a comma */
         if (!strncmp(rotor->group[g].name, target, strlen(rotor->group[g].name)))
             at.target = g;
-    if (at.target < 0 && cause->target == TARGET_INTERFACE)
+    for (int i = 0; i < rotor->nspring && cause->target == TARGET_SPRING; i++)
+        if (rotor->spring[i].name ? same_text(rotor->spring[i].name, target) : atoi(target) == i + 1)
+            at.target = i;
+    for (int i = 0; i < rotor->ndisk && cause->target == TARGET_DISK; i++)
+        if (rotor->disk[i].name ? same_text(rotor->disk[i].name, target) : atoi(target) == i + 1)
+            at.target = i;
+    if (at.target < 0 && cause->target != TARGET_NONE && cause->target != TARGET_SENSOR)
         return 0;
     cause->bounds(rotor, &at, cause->size, &lower, &upper);
     return value < lower || (value > upper && value != cause->parameter[cause->size].neutral);
@@ -276,14 +283,22 @@ static int measure_chi2(struct pool *pool, const struct diagnosis *d, const stru
     return status;
 }
 
+/* How many of the causes of a candidate, one or two, are there. */
+static int true_causes(const struct diagnosis *d, const struct candidate *c, const cJSON *truth)
+{
+    return (which(&d->job, c, truth) >= 0) + (c->with && which(&d->job, c->with, truth) >= 0);
+}
+
+/* A pair of which one is true neither leads nor is led. */
 static double margin(const struct diagnosis *d, const cJSON *truth)
 {
     for (int r = 0; r < d->nround; r++) {
         double right = INFINITY, other = INFINITY;
         for (int i = 0; i < d->round[r].ncandidate; i++) {
             const struct candidate *c = &d->round[r].candidate[i];
-            double *best = which(&d->job, c, truth) >= 0 ? &right : &other;
-            if (c->result.refitted && isfinite(c->result.chi2))
+            int found = true_causes(d, c, truth);
+            double *best = found ? &right : &other;
+            if (c->result.refitted && isfinite(c->result.chi2) && (!found || found == 1 + (c->with != NULL)))
                 *best = fmin(*best, c->result.chi2);
         }
         if (isfinite(right))
@@ -359,7 +374,7 @@ static enum hidden_outcome judge_verdict(const struct diagnosis *d, const cJSON 
             found[n & 1] = 1;
         noise |= s->class == HIDDEN_NOISE && is(effect, d->alternative[i].cause->id);
     }
-    s->nset = d->nalternative;
+    s->nset = d->nalternative ? d->alternative[d->nalternative - 1].set : 0;
     s->found = found[0] + found[1];
     if (d->ncause)
         return HIDDEN_RIGHT;
@@ -377,6 +392,7 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct
     s->class = class_of(&read->rotor, effects);
     s->truths = cJSON_GetArraySize(effects);
     snprintf(s->id, sizeof s->id, "%s", !effect ? "none" : text_of(effect, is(effect, "outside") ? "kind" : "id"));
+    s->shapes = read->measurement.shape != NULL;
     s->coloured = number_of(cJSON_GetObjectItem(truth, "noise"), "correlation") != 0;
     s->reported = d->result.verdict.kind != ROTID_ADEQUATE;
     s->names = d->ncause;

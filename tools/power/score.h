@@ -33,6 +33,7 @@ struct hidden_score {
     char id[HIDDEN_NAME];    /* of the first true effect; a kind outside by its name; "none" */
     char wrong[HIDDEN_NAME]; /* the first id that was named and is not true; "" */
     enum hidden_outcome outcome;
+    int shapes;        /* were measured */
     int coloured;      /* noise correlated along the rotor */
     int reported;      /* anything but adequate */
     int names;         /* causes named */

@@ -21,15 +21,17 @@ class Material:
     plane_nu: float = 0
     axial_nu: float = 0
     rho: float = 0
+    laminated: bool = False  # sheets: the plane keeps its moduli when those along the axis change
 
 
 @dataclass
 class Section:
-    """From z to z + length; rings of (inner radius, outer radius, material name) in m."""
+    """From z to z + length; rings of (inner radius, outer radius, material name) in m, and for each the group or layer it is of."""
     group: str
     z: float
     length: float
     rings: list
+    names: list
 
 
 @dataclass
@@ -74,7 +76,7 @@ def elastic(options, values):
         return Material(e, g, e, nu, nu)
     if kind == "LAMINATED":
         e, g, sheet_e, nu, stacking = values if len(values) == 5 else [*values, 1.0]
-        return Material(e, g, stacking * sheet_e, nu, nu * e / sheet_e)
+        return Material(e, g, stacking * sheet_e, nu, nu * e / sheet_e, laminated=True)
     raise ValueError(f"TYPE={kind}")
 
 
@@ -94,8 +96,8 @@ def read_section(deck, options, values):
     if len(values) > 4 and values[4] != outer:
         raise ValueError("a diameter that carries stiffness belongs to beams")
     z = deck.length if deck.sections else 0.0
-    ring = (inner / 2, outer / 2, options["MATERIAL"].lower())
-    deck.sections.append(Section(options["NAME"].lower(), z, length, [ring]))
+    ring, name = (inner / 2, outer / 2, options["MATERIAL"].lower()), options["NAME"].lower()
+    deck.sections.append(Section(name, z, length, [ring], [name]))
 
 
 def read_layer(deck, options, lines):
@@ -107,6 +109,7 @@ def read_layer(deck, options, lines):
         if any(inner / 2 < b and a < outer / 2 for a, b, _ in section.rings):
             raise ValueError("layers overlap")
         section.rings.append((inner / 2, outer / 2, options["MATERIAL"].lower()))
+        section.names.append(options["NAME"].lower())
 
 
 def read(path):

@@ -24,6 +24,7 @@ const struct generated generated_parts[] = {
     CARDS("card of the causes", CARD_CAUSE),
     CARDS("cards of the identification", CARD_IDENTIFICATION),
     CARDS("card of the transfer functions", CARD_FRF),
+    CARDS("cards of the states", CARD_STATES),
     {NULL, NULL, NULL, NULL, 0}};
 
 char *generated_text(const struct generated *part, const char *text)

@@ -22,7 +22,7 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
 {
     (void)effect, (void)p;
     *lower = 0;
-    *upper = fmin(0.2, 0.03 * rotor_mass(rotor)); /* kg: no accelerometer with its cable and magnet weighs more */
+    *upper = fmin(0.2, heaviest_overlooked(rotor)); /* kg: no accelerometer with its cable and magnet weighs more */
 }
 
 static const struct effect_kind kind = {

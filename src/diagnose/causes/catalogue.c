@@ -22,9 +22,16 @@
     X(stiffness_local)                                                                                                           \
     X(joint)                                                                                                                     \
     X(support)                                                                                                                   \
+    X(support_position)                                                                                                          \
+    X(support_extra)                                                                                                             \
+    X(support_rotation)                                                                                                          \
+    X(clamp)                                                                                                                     \
     X(added_mass)                                                                                                                \
+    X(added_inertia)                                                                                                             \
     X(density)                                                                                                                   \
     X(stiffness)                                                                                                                 \
+    X(layer_slip)                                                                                                                \
+    X(hub_stiffness)                                                                                                             \
     X(tie_stiffness)                                                                                                             \
     X(tie_tension)                                                                                                               \
     X(tie_shear)                                                                                                                 \

@@ -65,6 +65,8 @@ const char *cause_target_name(struct pool *pool, const struct rotor *rotor, cons
     case TARGET_SPRING:
         return rotor->spring[target].name ? rotor->spring[target].name
                                           : pool_format(pool, "at %.4g m", rotor->spring[target].position);
+    case TARGET_DISK:
+        return rotor->disk[target].name ? rotor->disk[target].name : pool_format(pool, "at %.4g m", rotor->disk[target].position);
     case TARGET_TIEROD:
         return rotor->tierod[target].name;
     default:

@@ -13,6 +13,7 @@ enum cause_target { /* what a CAUSE card names, and what the scan enumerates */
                     TARGET_GROUP,     /* GROUP= */
                     TARGET_INTERFACE, /* BETWEEN=left,right: two groups that follow each other */
                     TARGET_SPRING,    /* AT= name of a spring */
+                    TARGET_DISK,      /* AT= name of a disk */
                     TARGET_TIEROD,    /* AT= name of a tie rod */
                     TARGET_SENSOR,    /* SENSOR= id */
                     TARGET_SENSORS,   /* SENSOR= two ids */
@@ -32,12 +33,13 @@ struct cause_kind {
     enum cause_target target;
     const struct effect_kind *effect; /* NULL for other than physical causes */
     struct cause_parameter parameter[EFFECT_MOST_PARAMETERS];
-    int size;                   /* index of the parameter that is the size; the others are places and widths */
-    int place;                  /* index of the parameter that is a place z, or -1 */
-    int width;                  /* index of the parameter that is a width, or -1 */
-    int secant;                 /* no derivative at neutral: the scan uses the difference to `typical` */
-    int solid;                  /* the remedy is not in the rotor: the rotor is to be a solid */
-    const char *variant[5];     /* words of option SHAPE= (stiffness_local) or MOUNT= (accelerometer_mass), NULL at the end */
+    int size;   /* index of the parameter that is the size; the others are places and widths */
+    int place;  /* index of the parameter that is a place z, or -1 */
+    int width;  /* index of the parameter that is a width, or -1 */
+    int secant; /* no derivative at neutral: the scan uses the difference to `typical` */
+    int solid;  /* the remedy is not in the rotor: the rotor is to be a solid */
+    const char
+        *variant[5]; /* words of option SHAPE= (stiffness_local, added_mass) or MOUNT= (accelerometer_mass), NULL at the end */
     const char *variant_option; /* "SHAPE", "MOUNT" or NULL */
     /* the cause is an approximation: what it leaves, relative to frequencies and to the largest component of a shape */
     double discrepancy_frequency, discrepancy_shape;

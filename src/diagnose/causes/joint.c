@@ -3,9 +3,7 @@
 #include <math.h>
 
 #include "diagnose/causes/cause.h"
-#include "rotor/section.h"
-
-static const double pi = 3.14159265358979323846;
+#include "diagnose/causes/shared.h"
 
 static int joint(const struct effect *effect, const struct rotor *rotor, int p, double *flexibility)
 {
@@ -26,19 +24,10 @@ static int segment_before(const struct rotor *rotor, int group)
 
 static double diameter_flexibility(const struct rotor *rotor, int s)
 {
-    const struct segment *segment = &rotor->segment[s];
-    double e = rotor->group[segment->group].material.e, h = segment->height;
-    if (segment->rectangular)
-        return h / (e * segment->width * h * h * h / 12);
-    double whole, bore, outer = segment->stiff_outer, inner = segment->inner;
-    double sum = e * pi / 64 * (outer * outer * outer * outer - inner * inner * inner * inner);
-    for (int i = 0; i < rotor->nring; i++) {
-        struct section section;
-        if (rotor->ring[i].segment == s && !section_of_ring(rotor, i, &section))
-            sum += rotor->group[rotor->ring[i].group].material.e * section.stiff_inertia;
-    }
-    rotor_diameters(rotor, s, &whole, &bore);
-    return whole / sum;
+    double whole = rotor->segment[s].height, bore;
+    if (!rotor->segment[s].rectangular)
+        rotor_diameters(rotor, s, &whole, &bore);
+    return whole / bending_stiffness(rotor, s);
 }
 
 /* from nothing to the joint as soft as a shaft ten diameters long, of the softer neighbour */

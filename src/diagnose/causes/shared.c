@@ -1,5 +1,11 @@
 #include "diagnose/causes/shared.h"
 
+#include <math.h>
+
+#include "rotor/section.h"
+
+static const double pi = 3.14159265358979323846;
+
 const double gauss_place[GAUSS_POINTS] = {-0.861136311594052575223946, -0.339981043584856264802666, 0.339981043584856264802666,
                                           0.861136311594052575223946};
 const double gauss_weight[GAUSS_POINTS] = {0.347854845137453857373064, 0.652145154862546142626936, 0.652145154862546142626936,
@@ -21,6 +27,53 @@ void bounds_of_factor(const struct rotor *rotor, const struct effect *effect, in
     (void)rotor, (void)effect, (void)p;
     *lower = 0.5;
     *upper = 1.5;
+}
+
+double bending_stiffness(const struct rotor *rotor, int s)
+{
+    const struct segment *segment = &rotor->segment[s];
+    double e = rotor->group[segment->group].material.e, h = segment->height;
+    if (segment->rectangular)
+        return e * segment->width * h * h * h / 12;
+    double outer = segment->stiff_outer, inner = segment->inner;
+    double sum = e * pi / 64 * (outer * outer * outer * outer - inner * inner * inner * inner);
+    for (int i = 0; i < rotor->nring; i++) {
+        struct section section;
+        if (rotor->ring[i].segment == s && !section_of_ring(rotor, i, &section))
+            sum += rotor->group[rotor->ring[i].group].material.e * section.stiff_inertia;
+    }
+    return sum;
+}
+
+double mean_bending_stiffness(const struct rotor *rotor)
+{
+    double sum = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        sum += bending_stiffness(rotor, s) * rotor->segment[s].length;
+    return sum / rotor_length(rotor);
+}
+
+double bending_flexibility(const struct rotor *rotor, double from, int n)
+{
+    double sum = 0, z = -from;
+    for (int s = 0; s < rotor->nsegment; s++) {
+        double end = z + rotor->segment[s].length;
+        sum += (pow(end, n + 1) - pow(z, n + 1)) / (n + 1) / bending_stiffness(rotor, s);
+        z = end;
+    }
+    return sum;
+}
+
+double heaviest_overlooked(const struct rotor *rotor)
+{
+    double mass = rotor_mass(rotor);
+    return fmax(0.03 * mass, fmin(0.25 * mass, 10));
+}
+
+int applies_to_felt_spring(const struct rotor *rotor, int target, const int *identified)
+{
+    (void)identified;
+    return rotor->spring[target].lateral > 0 || rotor->spring[target].rotational > 0;
 }
 
 int applies_to_known_group(const struct rotor *rotor, int target, const int *identified)

@@ -23,6 +23,20 @@ int scale_stiffness(double factor, int p, struct effect_field *field);
 /* Lower and upper bound of a factor on what is known roughly, whatever the target: 0.5 ... 1.5. */
 void bounds_of_factor(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper);
 
+/* EI of a segment without its holes, rings of layers included. */
+double bending_stiffness(const struct rotor *rotor, int segment);
+
+/* Over the axis the mean of EI, and the integral of (z - from)^n/EI: what the rotor as a whole gives way by. */
+double mean_bending_stiffness(const struct rotor *rotor);
+double bending_flexibility(const struct rotor *rotor, double from, int n);
+
+/* kg: the heaviest thing that one may have forgotten. Of a large rotor 3 % of what it weighs by its dimensions; on a small one
+ * what is fixed to it counts for more, since fixtures do not shrink with it: 10 kg, or a quarter of it. */
+double heaviest_overlooked(const struct rotor *rotor);
+
+/* Whether a spring has a stiffness. */
+int applies_to_felt_spring(const struct rotor *rotor, int target, const int *identified);
+
 /* Whether neither E nor G of a group is free. */
 int applies_to_known_group(const struct rotor *rotor, int target, const int *identified);
 

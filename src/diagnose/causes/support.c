@@ -1,12 +1,13 @@
 /* A spring that is stiffer or softer than stated. */
 #include "diagnose/causes/cause.h"
+#include "diagnose/causes/shared.h"
 
-static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, double *factor)
+static int on_spring(const struct effect *effect, const struct rotor *rotor, int spring, int p, struct effect_spring *change)
 {
     (void)rotor;
     if (spring != effect->target)
         return 0;
-    *factor = p < 0 ? effect->value[0] : 1;
+    *change = (struct effect_spring){.factor = p < 0 ? effect->value[0] : 1};
     return 1;
 }
 
@@ -15,12 +16,6 @@ static void bounds(const struct rotor *rotor, const struct effect *effect, int p
     (void)rotor, (void)effect, (void)p;
     *lower = 0.01;
     *upper = 100;
-}
-
-static int applies(const struct rotor *rotor, int target, const int *identified)
-{
-    (void)identified;
-    return rotor->spring[target].lateral > 0 || rotor->spring[target].rotational > 0;
 }
 
 static const struct effect_kind kind = {.id = "support", .nparameter = 1, .parameter = {{"factor", "1"}}, .spring = on_spring};
@@ -33,7 +28,7 @@ const struct cause_kind cause_support = {
     .parameter = {{.neutral = 1, .typical = 2}},
     .place = -1,
     .width = -1,
-    .applies = applies,
+    .applies = applies_to_felt_spring,
     .bounds = bounds,
     .widest = 100,
     .sentence = "a support stiffer or softer than stated",

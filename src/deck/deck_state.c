@@ -1,0 +1,275 @@
+#include "deck/deck_state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "deck/card_table.h"
+
+void deck_state(struct deck_reader *reader, const struct card *card)
+{
+    for (int i = 0; i < card->nline; i++)
+        deck_error(reader, card->line[i].place, "*STATE has no data lines, expected the cards of the state behind it");
+    deck_choose_modes(reader, card);
+}
+
+static int is_state(const struct card *card)
+{
+    return !strcmp(card->name, "STATE");
+}
+
+static const char *name_of(const struct card *card)
+{
+    const struct card_option *option = card_option(card, "NAME");
+    return option ? option->value : "";
+}
+
+/* Where the deck says which states: its *STATE cards, and those that *FIT chooses or holds out. */
+struct division {
+    int nread, nstate, first; /* first: number of common cards in front */
+    const struct card **state;
+    const char *list;   /* "bare, disc" for messages */
+    const char *chosen; /* FIT, STATE=NAME, or NULL */
+};
+
+static const struct card *find_state(const struct division *d, const char *name)
+{
+    for (int s = 0; s < d->nstate; s++)
+        if (same_text(name_of(d->state[s]), name))
+            return d->state[s];
+    return NULL;
+}
+
+static void check_option(struct deck_reader *reader, const struct division *d, const struct card_option *option, const char *name)
+{
+    if (!find_state(d, name))
+        deck_error(reader, option->value_place, d->nstate ? "state %s is not defined, expected one of %s" : "state %s: %s", name,
+                   d->nstate ? d->list : "the deck has no *STATE, expected none");
+}
+
+static void find_states(struct deck_reader *reader, int nread, struct division *d)
+{
+    const struct deck_text *text = &reader->text;
+    *d = (struct division){.nread = nread, .first = nread, .state = POOL_ARRAY(reader->pool, const struct card *, text->ncard)};
+    reader->out_of_memory |= !d->state;
+    for (int c = 0; c < nread && d->state; c++) {
+        const struct card *card = &text->card[c];
+        if (!is_state(card))
+            continue;
+        const char *name = deck_option(reader, card, "NAME", "name");
+        d->first = d->nstate ? d->first : c;
+        if (name && find_state(d, name))
+            deck_error(reader, card_option(card, "NAME")->value_place, "state %s is given twice, expected a new name", name);
+        if (name && strpbrk(name, ":,"))
+            deck_error(reader, card_option(card, "NAME")->value_place, "%s is no name of a state, expected one without colon",
+                       name);
+        d->state[d->nstate++] = card;
+        d->list = d->nstate == 1 ? name : pool_format(reader->pool, "%s, %s", d->list ? d->list : "", name ? name : "");
+    }
+    if (d->nstate > DECK_MOST_STATES)
+        deck_error(reader, d->state[DECK_MOST_STATES]->place, "the deck has more than %d states, expected fewer",
+                   DECK_MOST_STATES);
+    for (int c = 0; c < text->ncard; c++) {
+        const struct card_option *option = card_option(&text->card[c], "STATE"),
+                                 *holdout = card_option(&text->card[c], "HOLDOUT");
+        const char *held = holdout ? deck_whole_state(holdout->value) : NULL;
+        if (strcmp(text->card[c].name, "FIT") != 0)
+            continue;
+        if (option)
+            check_option(reader, d, option, option->value);
+        if (held)
+            check_option(reader, d, holdout, held);
+        d->chosen = option ? option->value : d->chosen;
+    }
+}
+
+/* Cards of which a state has one kind alone, or none. */
+static void check_places(struct deck_reader *reader, const struct division *d)
+{
+    for (int c = 0; c < reader->text.ncard && d->nstate; c++) {
+        const struct card *card = &reader->text.card[c];
+        const struct deck_card *kind = deck_card_find(card->name);
+        int of_state = c >= d->first && c < d->nread;
+        if (kind && of_state && kind->states == CARD_COMMON)
+            deck_error(reader, card->place, "*%s stands behind *STATE, expected it before the first one: it is common to all",
+                       card->name);
+        if (kind && !of_state && kind->states == CARD_OF_STATE)
+            deck_error(reader, card->place, "*%s stands before the first *STATE, expected it behind that of the state it is of",
+                       card->name);
+    }
+}
+
+/* The text of one state: common cards, but for those in whose place it has its own, then its own. */
+static void text_of_state(struct deck_reader *reader, const struct division *d, int s, struct deck_reader *own)
+{
+    const struct deck_text *text = &reader->text;
+    const struct card *begin = d->state[s], *end = s + 1 < d->nstate ? d->state[s + 1] : text->card + d->nread;
+    own->text.card = POOL_ARRAY(reader->pool, struct card, text->ncard);
+    own->text.ncard = 0;
+    if (!own->text.card) {
+        reader->out_of_memory = 1;
+        return;
+    }
+    for (int c = 0; c < text->ncard; c++) {
+        const struct card *card = &text->card[c];
+        const struct deck_card *kind = deck_card_find(card->name);
+        int replaced = 0;
+        if (c >= d->first && c < d->nread)
+            continue;
+        for (const struct card *other = begin; other < end; other++)
+            replaced |= kind && kind->states == CARD_REPLACES && !strcmp(other->name, card->name);
+        if (!replaced)
+            own->text.card[own->text.ncard++] = *card;
+    }
+    own->ncommon = own->text.ncard;
+    for (const struct card *card = begin; card < end; card++)
+        own->text.card[own->text.ncard++] = *card;
+}
+
+static void read_one(struct deck_reader *reader, const struct division *d, int s, struct message_list *messages, struct state *to)
+{
+    struct deck_reader own = {.pool = reader->pool, .messages = messages, .text = reader->text, .job = &to->job};
+    to->name = d->nstate ? name_of(d->state[s]) : NULL;
+    to->job = *reader->job;
+    own.state = to->name;
+    own.alone = d->nstate < 2 || d->chosen;
+    own.ncommon = own.text.ncard;
+    if (d->nstate)
+        text_of_state(reader, d, s, &own);
+    if (!reader->out_of_memory)
+        deck_read_cards(&own);
+    reader->no_section |= own.no_section;
+    reader->out_of_memory |= own.out_of_memory || messages->out_of_memory;
+    reader->text.nfile = own.text.nfile; /* they go on where this one ends */
+    reader->text.file = own.text.file;
+    reader->text.file_room = own.text.file_room;
+    to->job.nfile = own.text.nfile;
+    to->job.file = own.text.file;
+    to->unknown = POOL_ARRAY(reader->pool, int, to->job.unknowns.nparameter);
+    reader->out_of_memory |= !to->unknown;
+    for (int p = own.ncommon_unknown; p < to->job.unknowns.nparameter && !own.alone; p++) {
+        rotid_parameter *bounds = &to->job.unknowns.bounds[p];
+        bounds->name = pool_format(reader->pool, "%s:%s", to->name, bounds->name);
+        reader->out_of_memory |= !bounds->name;
+    }
+    to->ncommon = own.ncommon_unknown;
+}
+
+static int says(const struct message_list *list, const rotid_message *m)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        const rotid_message *n = &list->item[i];
+        if (m->line == n->line && m->column == n->column && m->severity == n->severity && !strcmp(m->text, n->text) &&
+            !strcmp(m->file ? m->file : "", n->file ? n->file : ""))
+            return 1;
+    }
+    return 0;
+}
+
+/* What every state says is said once, the rest with the name of the state. */
+static void merge_messages(struct deck_reader *reader, const struct states *states, const struct message_list *of)
+{
+    for (int s = 0; s < states->nstate; s++)
+        for (size_t i = 0; i < of[s].count; i++) {
+            const rotid_message *m = &of[s].item[i];
+            int all = 1;
+            for (int t = 0; t < states->nstate && all; t++)
+                all &= says(&of[t], m);
+            if (!all)
+                message_add(reader->messages, m->severity, m->file, m->line, m->column, "%s (state %s)", m->text,
+                            states->state[s].name);
+            else if (s == 0)
+                message_add(reader->messages, m->severity, m->file, m->line, m->column, "%s", m->text);
+        }
+}
+
+static int add_unknown(struct states *states, const rotid_parameter *bounds)
+{
+    for (int p = 0; p < states->nparameter; p++)
+        if (same_text(states->bounds[p].name, bounds->name))
+            return p;
+    states->bounds[states->nparameter] = *bounds;
+    return states->nparameter++;
+}
+
+/* The unknowns of all: the common ones first. */
+static void number_unknowns(struct deck_reader *reader, struct states *states)
+{
+    int most = 0;
+    for (int s = 0; s < states->nstate; s++)
+        most += states->state[s].job.unknowns.nparameter;
+    states->bounds = POOL_ARRAY(reader->pool, rotid_parameter, most);
+    reader->out_of_memory |= !states->bounds;
+    for (int own = 0; own < 2 && !reader->out_of_memory; own++)
+        for (int s = 0; s < states->nstate; s++) {
+            struct state *state = &states->state[s];
+            int first = own ? state->ncommon : 0, end = own ? state->job.unknowns.nparameter : state->ncommon;
+            for (int p = first; p < end; p++)
+                state->unknown[p] = add_unknown(states, &state->job.unknowns.bounds[p]);
+        }
+}
+
+/* What is fitted together is weighed alike: without a word from the user by the noise where all states know it. */
+static void agree_on_functional(struct states *states)
+{
+    int functional = ROTID_LIKELIHOOD;
+    for (int s = 0; s < states->nstate; s++)
+        if (states->state[s].job.options.fit.functional != ROTID_LIKELIHOOD)
+            functional = states->state[s].job.options.fit.functional;
+    for (int s = 0; s < states->nstate; s++)
+        states->state[s].job.options.fit.functional = functional;
+}
+
+static int fits_any(const struct job *job)
+{
+    for (int k = 0; k < job->measurement.nmode; k++)
+        if (!job->measurement.holdout[k])
+            return 1;
+    return 0;
+}
+
+/* An unknown acts in a state with a mode that is fitted. */
+static void check_use(struct deck_reader *reader, const struct division *d, const struct states *states)
+{
+    for (int p = 0; p < states->nparameter; p++) {
+        int used = 0, of = 0;
+        for (int s = states->nstate - 1; s >= 0; s--)
+            for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
+                if (states->state[s].unknown[q] == p) {
+                    of = s;
+                    used |= fits_any(&states->state[s].job);
+                }
+        if (!used)
+            deck_error(reader, d->state[of]->place, "%s acts in no state that is fitted, expected it in one that is not held out",
+                       states->bounds[p].name);
+    }
+}
+
+void deck_read_all_states(struct deck_reader *reader, int nread, struct states *states)
+{
+    struct division d;
+    find_states(reader, nread, &d);
+    check_places(reader, &d);
+    *states = (struct states){0};
+    if (d.nstate && (reader->messages->errors || reader->out_of_memory))
+        return;
+    int several = d.nstate > 1 && !d.chosen, count = several ? d.nstate : 1, s = 0;
+    while (d.chosen && d.nstate && d.state[s] != find_state(&d, d.chosen))
+        s++;
+    struct message_list *of = POOL_ARRAY(reader->pool, struct message_list, count);
+    states->state = POOL_ARRAY(reader->pool, struct state, count);
+    reader->out_of_memory |= !of || !states->state;
+    for (int i = 0; i < count && !reader->out_of_memory; i++) {
+        message_open(&of[i], reader->pool);
+        states->nstate = i + 1;
+        read_one(reader, &d, several ? i : s, several ? &of[i] : reader->messages, &states->state[i]);
+    }
+    if (reader->out_of_memory)
+        return;
+    if (several)
+        merge_messages(reader, states, of);
+    number_unknowns(reader, states);
+    if (several && !reader->messages->errors && !reader->out_of_memory) {
+        agree_on_functional(states);
+        check_use(reader, &d, states);
+    }
+}

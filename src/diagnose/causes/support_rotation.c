@@ -1,0 +1,37 @@
+/* A rotational spring to the ground that the model does not have: a bearing or a bush so long that it holds the rotation, a
+ * coupling. Up to twenty times EI/L, what turns the end of a shaft as long as the rotor: nearly a clamp. */
+#include "diagnose/causes/cause.h"
+#include "diagnose/causes/shared.h"
+
+static int point(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point)
+{
+    (void)rotor;
+    if (i > 0)
+        return 0;
+    *point = (struct effect_point){.z = p < 0 ? effect->value[1] : p == 1, .rotational = p < 0 ? effect->value[0] : p == 0};
+    return 1;
+}
+
+static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
+{
+    (void)effect;
+    double length = rotor_length(rotor);
+    *lower = 0;
+    *upper = p == 0 ? 20 * mean_bending_stiffness(rotor) / length : length;
+}
+
+static const struct effect_kind kind = {
+    .id = "support_rotation", .nparameter = 2, .parameter = {{"stiffness", "N.m/rad"}, {"z", "m"}}, .point = point};
+
+const struct cause_kind cause_support_rotation = {
+    .id = "support_rotation",
+    .class = CAUSE_PHYSICAL,
+    .target = TARGET_NONE,
+    .effect = &kind,
+    .parameter = {{.typical = 1e6, .one_sided = 1}, {0}},
+    .place = 1,
+    .width = -1,
+    .bounds = bounds,
+    .sentence = "something that holds the rotation of the shaft and is not in the model",
+    .check = "look at the length of what the rotor rests in there, and for a coupling that was left on",
+};

@@ -1,0 +1,98 @@
+/* Causes that small structures have, hidden by tools/hide and diagnosed: hubs on a thin shaft, a strip in a vice, a beam on a
+ * roller. What is looked for: the name, and a size near enough. The mesh
+ * is that of a user, elements as long as a quarter of a hub. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "hidden.h"
+#include "support.h"
+
+#define STEEL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+#define DATA(part)                                                                                                               \
+    "*MODES\n1, 1\n*NOISE, FREQUENCY=0.001, SHAPE=0.015\n*IDENTIFY\n" part ".E, 1.5e11, 2.7e11, 2.1e11\n"                        \
+    "*FIT, FUNCTIONAL=LIKELIHOOD\n"
+#define HUBS(first, second)                                                                                                      \
+    STEEL "*SHAFT, NAME=shaft, MATERIAL=steel\n0.9, 0.02, 0, 60\n*DISK, NAME=a\n0.2, 2.0, 0.004, 0.008, 0.06, 0.05\n"            \
+          "*DISK, NAME=b\n0.45, 3.0, 0.007, 0.014, 0.07, 0.05\n*DISK, NAME=c\n0.75, 1.5, 0.003, 0.006, 0.05, 0.05\n"             \
+          "*SPRING\n" first "\n" second "\n" DATA("shaft")
+#define STRIP(more)                                                                                                              \
+    STEEL "*BEAM, NAME=strip, MATERIAL=steel\n0.5, 0.006, 0.05, 60\n*SPRING, NAME=vice\n0, 1e9, 1e7\n" more DATA("strip")
+
+static const char hung[] = HUBS("0.1, 500", "0.8, 500"), held[] = HUBS("0.05, 2e6", "0.85, 2e6"), strip[] = STRIP(""),
+                  roller[] = STRIP("*SPRING, NAME=roller\n0.3, 3e4\n");
+
+static const struct {
+    const char *deck, *effect;
+    int shapes, named; /* else in the set */
+    double within;     /* of the size: a point for what is wide, and a little spring, are known no better */
+} table[] = {
+    {hung, "hub_stiffness:share=0.7", 1, 1, 0.1},
+    {held, "hub_stiffness:share=0.4", 1, 1, 0.1},
+    {hung, "hub_stiffness:share=0.7", 0, 0, 0.1},
+    {held, "hub_stiffness:share=0.7", 0, 0, 0.1},
+    {hung, "added_mass:mass=0.9,z=0.6", 1, 1, 0.1}, /* a tenth of the structure */
+    {hung, "added_inertia:at=b,inertia=0.01", 1, 1, 0.1},
+    {strip, "added_mass:mass=0.12,z=0.5", 1, 1, 0.1},
+    {strip, "added_mass:mass=0.12,z=0.3,width=0.05", 1, 1, 0.25},
+    {strip, "clamp:at=vice,rotational=1.5e-4", 1, 1, 0.1},
+    {strip, "clamp:at=vice,rotational=1.5e-4", 0, 0, 0.1},
+    {roller, "support_position:at=roller,shift=0.03", 1, 1, 0.15},
+    {roller, "support_extra:z=0.4,stiffness=1e5", 1, 1, 0.25},
+};
+
+static char directory[] = "/tmp/structures.XXXXXX";
+
+struct seen {
+    int ncause, in_set;
+};
+
+static void look(void *context, const struct hidden_case *c, const struct diagnosis *d, const cJSON *truth,
+                 const struct hidden_score *score)
+{
+    struct seen *seen = context;
+    size_t length = strcspn(table[c->number].effect, ":");
+    (void)truth, (void)score;
+    seen->ncause = d->ncause;
+    for (int i = 0; i < d->nalternative; i++) {
+        const char *id = d->alternative[i].cause->id;
+        seen->in_set |= strlen(id) == length && !strncmp(id, table[c->number].effect, length);
+    }
+}
+
+static void causes_of_small_structures_are_found(void **state)
+{
+    (void)state;
+    int bad = 0;
+    assert_non_null(mkdtemp(directory));
+    for (int i = 0; i < (int)(sizeof table / sizeof *table); i++) {
+        struct hidden_case c = {.request = hide_request_default(), .directory = directory, .number = i};
+        struct hidden_score score = {0};
+        struct seen seen = {0, 0};
+        c.request.deck = table[i].deck;
+        c.request.name = "structure.inp";
+        c.request.seed = 5;
+        c.request.modes = table[i].shapes ? 5 : 4;
+        c.request.sensors = table[i].shapes ? 15 : 0;
+        c.request.no_shapes = !table[i].shapes;
+        c.request.effect = &table[i].effect;
+        c.request.effects = 1;
+        assert_int_equal(hidden_run(&c, NULL, look, &seen, &score), 0);
+        int right = score.outcome == HIDDEN_RIGHT;
+        int good = table[i].named ? right && score.size_error < table[i].within : right || seen.in_set;
+        bad += !good;
+        print_message("%s %-42s %-10s %s%s%s, drop %.0f, size off by %.3f\n", good ? "    " : " BAD", table[i].effect,
+                      table[i].shapes ? "" : "frequencies", hidden_outcome_name(score.outcome), score.wrong[0] ? ": " : "",
+                      score.wrong, score.drop, score.size_error);
+    }
+    rmdir(directory);
+    assert_int_equal(bad, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(causes_of_small_structures_are_found)};
+    return cmocka_run_group_tests_name("hidden structures", tests, NULL, NULL);
+}
