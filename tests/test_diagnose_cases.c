@@ -264,9 +264,8 @@ static void six_frequencies_of_the_paper_carry_no_name(void **state)
         guyan += !strcmp(d->result.numerical_findings[i].id, "guyan_reduction");
     assert_int_equal(guyan, 1);
     const struct candidate *mass = find(d->round[0].ncandidate, d->round[0].candidate, "added_mass");
-    assert_non_null(mass); /* fits well, and is beyond anything on this rotor */
-    assert_true(mass->result.at_bound);
-    assert_non_null(mass->result.rejected_because);
+    assert_non_null(mass); /* fits well, but six frequencies do not tell 7 % of the rotor's mass from nothing */
+    assert_true(mass->ci_upper[0] - mass->ci_lower[0] > mass->effect.value[0]);
     assert_non_null(find(d->round[0].ncandidate, d->round[0].candidate, "tie_shear"));
     assert_non_null(find(d->round[0].ncandidate, d->round[0].candidate, "step_stiffness"));
     close_run(&r);
