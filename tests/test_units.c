@@ -6,6 +6,7 @@
 #include "deck/deck.h"
 #include "deck/deck_write.h"
 #include "folder.h"
+#include "run/compare.h"
 #include "run/doubt.h"
 #include "run/spectrum.h"
 #include "support.h"
