@@ -234,7 +234,8 @@ bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases: what they call is in the others
-DIAGNOSE_MANY := hidden_effects hidden_faults diagnose_cases diagnose_bounds stiff_supports
+DIAGNOSE_MANY := hidden_effects hidden_faults hidden_pairs hidden_rivals hidden_numbers hidden_structures diagnose_cases diagnose_bounds \
+                 stiff_supports power held_mesh
 COUNT_MANY := ema_statistics accelerometer hide
 check-asan:
 	@ROTID_CHAIN_RUNS=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \

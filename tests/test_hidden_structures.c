@@ -36,7 +36,7 @@ static const struct {
     {hung, "added_mass:mass=0.9,z=0.6", 1, 1, 0.1}, /* a tenth of the structure */
     {hung, "added_inertia:at=b,inertia=0.01", 1, 1, 0.1},
     {strip, "added_mass:mass=0.12,z=0.5", 1, 1, 0.1},
-    {strip, "added_mass:mass=0.12,z=0.3,width=0.05", 1, 1, 0.25},
+    {strip, "added_mass:mass=0.12,z=0.3,width=0.05", 1, 0, 0.25}, /* searched as a point */
     {strip, "clamp:at=vice,rotational=1.5e-4", 1, 1, 0.1},
     {strip, "clamp:at=vice,rotational=1.5e-4", 0, 0, 0.1},
     {roller, "support_position:at=roller,shift=0.03", 1, 1, 0.15},

@@ -75,8 +75,8 @@ static void mistakes_that_a_deck_finds_stand_in_the_plan(void **state)
     complains(ONE "*DATA, SOURCE=MODEL\n*TRUTH\ncore.X, 1\n", 6, 1, "core.X is no parameter of deck deck.inp");
     complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mas\n", 5, 13, "TYPE=added_mas is no cause, expected one of");
     complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mass\nmass, 0.1\n", 5, 1, "no value of z [m]");
-    complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mass\nmass, 0.1, 9\nz, 0.5\n", 6, 12,
-              "mass is 9, expected a value from 0");
+    complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mass\nmass, 0.1, 900\nz, 0.5\n", 6, 12,
+              "mass is 900, expected a value from 0");
     complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mass\nmass, 0.1\nz, 0.5, core.start\n", 5, 1,
               "z lies between 0.5 and 0.3");
     complains(ONE "*DATA, SOURCE=MODEL\n*HIDE, TYPE=sensor_gain, SENSOR=3\ngain, 2\n", 5, 1,

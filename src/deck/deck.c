@@ -245,7 +245,7 @@ void deck_read_cards(struct deck_reader *reader)
     struct job *job = reader->job;
     for (int c = 0; c < reader->text.ncard; c++)
         check_names(reader, &reader->text.card[c]);
-    for (int phase = 0; phase <= LAST_PHASE; phase++) {
+    for (int phase = 0; phase <= LAST_PHASE && !reader->out_of_memory; phase++) {
         if (phase == 3) {
             deck_set_lengths(reader);
             reader->length = rotor_length(&job->rotor);

@@ -1,6 +1,7 @@
 /* SET: a parameter, or the length of a group, has this value. */
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "deck/deck_row.h"
 #include "deck/deck_state.h"
@@ -20,8 +21,8 @@ static void set_length(struct deck_reader *reader, const struct data_line *line)
     double length, from, to;
     int group = 0;
     size_t count = (size_t)(strrchr(name, '.') - name);
-    while (group < rotor->ngroup && (strlen(rotor->group[group].name) != count ||
-                                     !same_text(pool_format(reader->pool, "%.*s", (int)count, name), rotor->group[group].name)))
+    while (group < rotor->ngroup &&
+           (strlen(rotor->group[group].name) != count || strncasecmp(name, rotor->group[group].name, count)))
         group++;
     if (group == rotor->ngroup) {
         deck_error(reader, line->field[0].place, "%s is no length, expected that of a *SHAFT or *BEAM", name);

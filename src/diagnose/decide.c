@@ -92,6 +92,12 @@ static int is_one_place(const struct engine *engine, const struct candidate *c)
            fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->job.rotor);
 }
 
+/* Two zones, six numbers, follow a wave of the stiffness along a group within the noise. */
+static int is_pattern(const struct candidate *c)
+{
+    return c->cause == c->with->cause && c->cause->width >= 0;
+}
+
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
  * noise, and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. A pair has to do
  * what it was tried for, and what no cause alone comes near: alone is their least chi2. */
@@ -109,6 +115,8 @@ static const char *reason(const struct engine *engine, const struct before *befo
         return bound_met(pool, c->with && c->with->result.at_bound ? c->with : c);
     if (c->with && is_one_place(engine, c))
         return "two of one cause at one place are one";
+    if (c->with && is_pattern(c))
+        return "two zones imitate any pattern of the stiffness along the rotor";
     if (c->with && !c->explains)
         return "two causes that still leave more than noise";
     if (c->with && alone - c->result.chi2 <= CLEAR * threshold)
