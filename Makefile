@@ -3,7 +3,7 @@
 #                   build/rotid-study as well
 #   make demo       identifies the paper's rotor from its measured frequencies, diagnoses a beam, and makes a page of that
 #   make figures    the paper's figures and Table 1 for its rotor, beside the paper's numbers, as pages
-#   make test       builds and runs every test; ends with one line "N passed, N failed"
+#   make test       builds and runs the tests; ends with one line "N passed, N failed"; make test-long: the rest, effects hidden by dozens
 #   make power      hides effects in a thousand random rotors and counts what the diagnosis makes of them
 #   make power-solid, coverage-solid   the same of solids of revolution by other elements
 #   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
@@ -224,18 +224,22 @@ figures: all
 	@sh tools/figures $(BUILD)/rotid $(BUILD)/figures
 
 # WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
-LONGEST := $(addprefix $(BUILD)/tests/test_,hidden_effects chain limits diagnose_bounds diagnose ema_statistics diagnose_cases \
-           sensor_check accelerometer page_input study_run)
-TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
+LONGEST := $(addprefix $(BUILD)/tests/test_,chain hidden_effects diagnose diagnose_cases diagnose_bounds limits embedding held_mesh \
+           ema_statistics accelerometer study_run page_input hidden_faults api_cancel install sensor_check)
+# Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis.
+LONG := hidden_numbers hidden_rivals hidden_pairs power
+TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: all $(TESTED)
 	@sh tools/run-tests $(TESTED)
+.PHONY: test-long
+test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG))
+	@sh tools/run-tests $(addprefix $(BUILD)/tests/test_,$(LONG))
 
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases: what they call is in the others
-DIAGNOSE_MANY := hidden_effects hidden_faults hidden_pairs hidden_rivals hidden_numbers hidden_structures diagnose_cases diagnose_bounds \
-                 stiff_supports power held_mesh
+DIAGNOSE_MANY := hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds stiff_supports held_mesh chain
 COUNT_MANY := ema_statistics accelerometer hide
 check-asan:
 	@ROTID_CHAIN_RUNS=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
@@ -252,7 +256,7 @@ check-tsan:
 # without those and other long ones
 check-valgrind: all $(TEST_PROGRAMS)
 	@ROTID_UNDER='valgrind -q --error-exitcode=99 --leak-check=full --suppressions=tests/valgrind.supp' \
-	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) $(COUNT_MANY) chain api_cancel host threads study_run),$(TEST_PROGRAMS))
+	    sh tools/run-tests $(filter-out $(addprefix %/test_,$(DIAGNOSE_MANY) $(COUNT_MANY) $(LONG) api_cancel host threads study_run),$(TEST_PROGRAMS))
 
 # beside MINPACK, where its C version is installed
 $(BUILD)/minpack_peer: $(BUILD)/tests/peers/minpack_peer.o $(BUILD)/tests/more_garbow_hillstrom.o \
