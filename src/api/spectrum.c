@@ -81,7 +81,7 @@ static int run(struct call *call, const struct job *job, const double *x, int nm
     int status = compute(job, x, nmode, &call->entry, &at, &found), paired;
     if (status)
         return status;
-    (void)doubt_units(job, &found, SEVERITY_WARNING, &call->notes);
+    (void)doubt_units(job, &found, 0, &call->notes);
     paired = comparison_make(&call->entry.scratch, job, &found, &call->notes, &compared);
     if (paired && paired != ROTID_ERROR_UNPAIRED)
         return paired;

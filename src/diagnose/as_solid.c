@@ -30,8 +30,7 @@ static int solid_unknowns(struct pool *pool, const struct job *solid, int *unkno
 {
     struct discrete discrete;
     rotid_matrix structure = {.n = 0};
-    int failed, nrigid,
-        status = models_discretise(pool, solid->models, &solid->rotor, 0, NULL, 1, &discrete, &nrigid, &failed);
+    int failed, nrigid, status = models_discretise(pool, solid->models, &solid->rotor, 0, NULL, 1, &discrete, &nrigid, &failed);
     if (!status)
         discrete_structure(&discrete, &structure);
     *unknowns = structure.n;
@@ -43,13 +42,13 @@ static int hold_mesh(struct pool *pool, const struct job *solid, const double *x
 {
     struct spectrum spectrum;
     double moved;
-    int status = spectrum_compute_parts(pool, solid->models, &solid->rotor, solid->unknowns.nparameter,
-                                        solid->unknowns.parameter, x, ROTID_GUYAN, comparison_candidates(solid), SPECTRUM_MESH,
-                                        &spectrum);
+    int status = spectrum_compute_parts(pool, solid->models, &solid->rotor, solid->unknowns.nparameter, solid->unknowns.parameter,
+                                        x, ROTID_GUYAN, comparison_candidates(solid), SPECTRUM_MESH, &spectrum);
     return status ? status : mesh_hold(pool, solid, &spectrum, &moved);
 }
 
-#define HOPELESS 4 /* times the chi2 of the beam, by the coarse mesh: whose error is a twentieth of what a beam lacks at a step */
+#define HOPELESS 4 /* times the chi2 of the beam, by the coarse mesh: whose error is a twentieth of what a beam lacks at a step  \
+                    */
 
 /* chi2 that the residual of the solid at x leaves where the beam's columns take what is fitted anyway. */
 static int chi2_left(struct pool *pool, const struct job *solid, const int *number, const int *holdout, const double *x,

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/order.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/data.h"
+#include "run/doubt.h"
 
 #define ASSUMED_FREQUENCY_NOISE 0.003 /* of a hammer test with care, where the deck states none */
 #define LEAST_MODES             3     /* fewer cannot carry a name: with two moduli free nothing is left over */
@@ -50,8 +50,9 @@ int data_copy(struct pool *pool, struct job *job)
         copy(pool, job->measurement.frequency_std, (size_t)job->measurement.nmode, sizeof *job->measurement.frequency_std);
     job->measurement.holdout =
         copy(pool, job->measurement.holdout, (size_t)job->measurement.nmode, sizeof *job->measurement.holdout);
-    if (!job->rotor.sensor || !job->rotor.effect || !job->unknowns.suspect || !job->measurement.number || !job->measurement.frequency_hz || !job->measurement.damping ||
-        !job->measurement.frequency_std || !job->measurement.holdout)
+    if (!job->rotor.sensor || !job->rotor.effect || !job->unknowns.suspect || !job->measurement.number ||
+        !job->measurement.frequency_hz || !job->measurement.damping || !job->measurement.frequency_std ||
+        !job->measurement.holdout)
         return ROTID_ERROR_MEMORY;
     if (job->measurement.shape) {
         job->measurement.shape = copy(pool, job->measurement.shape, components, sizeof *job->measurement.shape);
@@ -149,38 +150,29 @@ static int drop_doubles(struct engine *engine)
     return ROTID_OK;
 }
 
-/* Frequencies in rad/s lie 2 pi above those of the model in every mode; no wrong modulus does that to all of them alike. */
+/* No wrong modulus moves all modes alike by 2 pi: a diagnosis of frequencies in rad/s is refused. */
 static int look_like_radians(struct engine *engine)
 {
     const struct job *job = &engine->job;
     struct spectrum spectrum;
+    struct message_list said;
     struct pool scratch;
-    double ratio[64];
-    int count = 0, highest = comparison_highest(job);
-    double *x = POOL_ARRAY(engine->pool, double, job->unknowns.nparameter);
+    double *x = POOL_ARRAY(engine->pool, double, job->unknowns.nparameter), factor = 0;
     if (!x)
         return ROTID_ERROR_MEMORY;
     for (int p = 0; p < job->unknowns.nparameter; p++)
         x[p] = job->unknowns.bounds[p].start;
     pool_open(&scratch, engine->pool->allocator);
+    message_open(&said, &scratch); /* what is no error, the base fit says */
     int status = spectrum_compute_parts(&scratch, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x,
-                                        ROTID_REDUCTION_NONE, highest, 0, &spectrum);
-    for (int k = 0; k < job->measurement.nmode && !status && count < 64; k++)
-        if (job->measurement.number[k] <= spectrum.count)
-            ratio[count++] = job->measurement.frequency_hz[k] / spectrum.full_hz[job->measurement.number[k] - 1];
+                                        ROTID_REDUCTION_NONE, comparison_highest(job), job->options.solid ? SPECTRUM_COARSE : 0,
+                                        &spectrum);
+    if (!status)
+        factor = doubt_units(job, &spectrum, DOUBT_RADIANS, &said);
+    for (size_t i = 0; i < said.count && factor == DOUBT_RADIANS; i++)
+        message_add(engine->notes, said.item[i].severity, job->deck, 1, 1, "%s", said.item[i].text);
     pool_close(&scratch);
-    if (status || !count)
-        return status;
-    sort_doubles((size_t)count, ratio);
-    double middle = ratio[count / 2] / 6.283185307;
-    if (middle > 0.7 && middle < 1.45 && ratio[0] > 0.7 * ratio[count / 2] && ratio[count - 1] < 1.45 * ratio[count / 2]) {
-        message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
-                    "the measured frequencies are %.3g times those of the model in every mode, expected hertz: these look like "
-                    "rad/s",
-                    ratio[count / 2]);
-        return ROTID_ERROR_ARGUMENT;
-    }
-    return ROTID_OK;
+    return factor == DOUBT_RADIANS ? ROTID_ERROR_ARGUMENT : status;
 }
 
 static int count_fitted(const struct job *job)

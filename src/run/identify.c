@@ -134,8 +134,8 @@ static int predict_baseline(struct pool *pool, const struct state *state, struct
     int status = model && out->baseline_hz ? mesh_of_fit(pool, job, out->compared.number, &refine, &frequency_hz, &shape)
                                            : ROTID_ERROR_MEMORY;
     if (!status)
-        status = model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model,
-                            &failed);
+        status =
+            model_open(pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, refine, model, &failed);
     if (!status)
         status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON,
                                 model->equations.nrigid + highest, 0, &p);
@@ -212,7 +212,7 @@ static int pair_at_start(struct pool *pool, const struct states *states, struct 
         const struct spectrum *spectrum = &run[s].out->spectrum;
         status = pair_state(pool, &run[s], start, run[s].held ? SPECTRUM_COARSE : 0, &run[s].before);
         if (!status || status == ROTID_ERROR_UNPAIRED)
-            (void)doubt_units(&run[s].state->job, spectrum, SEVERITY_WARNING, notes);
+            (void)doubt_units(&run[s].state->job, spectrum, 0, notes);
         if (!status && run[s].held)
             status = mesh_hold_as_it_is(pool, &run[s].state->job, spectrum->count);
         if (status) {

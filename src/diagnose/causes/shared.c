@@ -70,6 +70,15 @@ double heaviest_overlooked(const struct rotor *rotor)
     return fmax(0.03 * mass, fmin(0.25 * mass, 10));
 }
 
+int spring_anywhere(const struct effect *effect, int i, int p, int rotational, struct effect_point *point)
+{
+    if (i > 0)
+        return 0;
+    *point = (struct effect_point){.z = p < 0 ? effect->value[1] : p == 1};
+    *(rotational ? &point->rotational : &point->lateral) = p < 0 ? effect->value[0] : p == 0;
+    return 1;
+}
+
 int applies_to_felt_spring(const struct rotor *rotor, int target, const int *identified)
 {
     (void)identified;

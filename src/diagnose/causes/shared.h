@@ -34,6 +34,9 @@ double bending_flexibility(const struct rotor *rotor, double from, int n);
  * what is fixed to it counts for more, since fixtures do not shrink with it: 10 kg, or a quarter of it. */
 double heaviest_overlooked(const struct rotor *rotor);
 
+/* A `point` hook but for what is held: a spring to the ground of stiffness value 0 at z, value 1. */
+int spring_anywhere(const struct effect *effect, int i, int p, int rotational, struct effect_point *point);
+
 /* Whether a spring has a stiffness. */
 int applies_to_felt_spring(const struct rotor *rotor, int target, const int *identified);
 

@@ -9,10 +9,7 @@ static const double first_mode = 500.56; /* (4.730)^4 */
 static int point(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point)
 {
     (void)rotor;
-    if (i > 0)
-        return 0;
-    *point = (struct effect_point){.z = p < 0 ? effect->value[1] : p == 1, .lateral = p < 0 ? effect->value[0] : p == 0};
-    return 1;
+    return spring_anywhere(effect, i, p, 0, point);
 }
 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)

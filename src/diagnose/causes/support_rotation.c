@@ -6,10 +6,7 @@
 static int point(const struct effect *effect, const struct rotor *rotor, int i, int p, struct effect_point *point)
 {
     (void)rotor;
-    if (i > 0)
-        return 0;
-    *point = (struct effect_point){.z = p < 0 ? effect->value[1] : p == 1, .rotational = p < 0 ? effect->value[0] : p == 0};
-    return 1;
+    return spring_anywhere(effect, i, p, 1, point);
 }
 
 static void bounds(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper)
