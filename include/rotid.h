@@ -530,7 +530,7 @@ typedef struct rotid_model_mode {
     double reduced_hz; /* frequency of the condensed model [Hz]; NaN where the masters are too few or more than 1,000 */
     double reduction_error_percent; /* reduced over full frequency, less one [%] */
     double mesh_error_percent;      /* frequency over its Richardson limit from this mesh and one twice as fine, less one [%];
-                                       of a solid, whose frequencies are such limits, what they are in doubt by */
+                                       of a solid, whose full_hz is such a limit, what it may be off by */
     int nshape;
     double *shape;                 /* deflection of the full model at sensor_z_m, largest component 1 [1] */
     rotid_compared_mode *measured; /* NULL where no measured mode is paired with it; residual is NaN */

@@ -58,11 +58,12 @@ int discrete_place_joints(struct pool *pool, struct discrete *discrete);
 int discrete_member_elements(const struct discrete *discrete, int i);
 void discrete_member_deflection(const struct discrete *discrete, int i, const double *u, int npoint, double *z, double *v);
 
-/* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). left: the part of that correction by
- * which a frequency as it is reported may still be off: 1 where f is reported, less where the limit is. */
+/* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). counts: the limit is the
+ * frequency that counts, and f otherwise. */
 struct mesh_limit {
     int refine;
-    double share, left;
+    double share;
+    int counts;
 };
 struct mesh_limit discrete_mesh_limit(const struct discrete *discrete);
 

@@ -128,8 +128,8 @@ static int compute(struct pool *pool, struct pool *scratch, struct models *model
             continue;
         s->other_hz[j] = prediction_hz(&q, other->equations.nrigid + j);
         double led_to = hz - limit.share * (s->other_hz[j] - hz);
-        s->full_hz[j] = limit.left < 1 ? led_to : hz;
-        s->mesh_error_percent[j] = 100 * limit.left * (hz / led_to - 1);
+        s->full_hz[j] = limit.counts ? led_to : hz;
+        s->mesh_error_percent[j] = 100 * (hz / led_to - 1);
     }
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = alike && other->equations.n < model->equations.n;
