@@ -956,6 +956,7 @@ typedef struct rotid_fit_options {
     double step_tolerance;     /* [1e-12] relative step */
     double bijection_chi;      /* [0.05] 1e-50 ... 1e6: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
                                   their start */
+    double decrease_tolerance; /* [0] as in rotid_lm_options */
 } rotid_fit_options;
 
 /* *options := ROTID_LIKELIHOOD without reduction, the defaults in brackets; size is sizeof *options of the host. */
@@ -1135,6 +1136,8 @@ typedef struct rotid_lm_options {
     double initial_damping;                                        /* [1e-14] */
     int (*trace)(void *user, const rotid_lm_iteration *iteration); /* NULL, or told of every accepted point; nonzero cancels */
     void *trace_user;
+    double decrease_tolerance; /* [0] decrease by the last five accepted steps over the objective: smaller, the iteration creeps
+                                  along a valley, and ends with ROTID_STOP_OBJECTIVE */
 } rotid_lm_options;
 
 typedef struct rotid_lm_result {
