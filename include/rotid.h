@@ -660,6 +660,7 @@ typedef struct rotid_cause {
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
     rotid_cause_value *parameters; /* at the best values found */
+    const char *state; /* the one state in which it acts; NULL: in all that have its target, or the deck has no *STATE */
 } rotid_cause;
 
 /* What a diagnosis says of physical causes: faults of the data and of the numbers are removed before. */
@@ -694,6 +695,7 @@ typedef struct rotid_data_finding {
     double std;        /* standard deviation of value */
     double chi2_drop;  /* drop of chi2 by the correction [1] */
     const char *text;  /* what was found and done */
+    const char *state; /* name of the state whose data these are; NULL in a deck without *STATE */
 } rotid_data_finding;
 
 /* An error of the model's own numbers, removed. */
@@ -703,6 +705,7 @@ typedef struct rotid_numerical_finding {
     int *modes;            /* numbers */
     double *error_percent; /* per entry of modes: error of the frequency [%] */
     const char *text;      /* what was found and done */
+    const char *state;     /* name of the state, as in rotid_data_finding */
 } rotid_numerical_finding;
 
 /* One cause is named a round; the last round names nothing more. */
@@ -781,6 +784,7 @@ typedef struct rotid_sensor_residual {
     int id;     /* as in the deck or the universal file */
     double z_m; /* position [m] */
     double rms; /* of its shape residuals over their noise [1]; NaN where nothing was measured */
+    const char *state; /* name of the state that it is a sensor of; NULL in a deck without *STATE */
 } rotid_sensor_residual;
 
 /* A place on the axis. */

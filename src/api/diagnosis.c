@@ -7,13 +7,13 @@
 #include "deck/deck_extended.h"
 #include "diagnose/diagnose.h"
 
-static rotid_diagnosis *make_result(struct call *call, const struct job *job, const char *path, struct diagnosis *d)
+static rotid_diagnosis *make_result(struct call *call, const struct states *states, const char *path, struct diagnosis *d)
 {
     struct pool *pool = &call->entry.scratch;
     char *text = NULL;
-    if (d->result.verdict.sentence && d->base.fit)
+    if (d->result.verdict.sentence && d->base.fit && states->nstate == 1)
         (void)deck_write_extended(pool, d, path, &text);
-    rotid_diagnosis *made = result_diagnosis(pool, job, d);
+    rotid_diagnosis *made = result_diagnosis(pool, states, d);
     made->extended_deck = text;
     made->nmessage = (int)call->notes.count;
     made->message = call->notes.item;
@@ -44,14 +44,16 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
 {
     struct diagnose_options options;
     struct diagnosis d;
-    const struct job *job = deck_job(deck, call);
-    int status = job ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
+    const struct states *states = deck_states(deck, call);
+    int status = states ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
     if (status)
         return status;
-    status = diagnose_run(&call->entry.scratch, job, &options, &call->environment, &call->notes, &d);
+    status = states->nstate == 1
+                 ? diagnose_run(&call->entry.scratch, &states->state->job, &options, &call->environment, &call->notes, &d)
+                 : diagnose_states(&call->entry.scratch, states, &options, &call->environment, &call->notes, &d);
     if (status)
         return status;
-    *result = make_result(call, job, deck->path, &d);
+    *result = make_result(call, states, deck->path, &d);
     if (*result)
         return ROTID_OK;
     diagnose_free(&d);
