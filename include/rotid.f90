@@ -746,15 +746,19 @@ module rotid
     type(c_ptr) :: message = c_null_ptr ! rotid_message
     type(c_ptr) :: extended_deck = c_null_ptr ! text
     type(c_ptr) :: memory = c_null_ptr
+    type(c_ptr) :: before = c_null_ptr ! text
+    type(c_ptr) :: after = c_null_ptr ! text
   end type rotid_diagnosis
 
   ! ---- types: end of results
 
   type, bind(C) :: rotid_diagnose_options
-    integer(c_size_t) :: size = 24
+    integer(c_size_t) :: size = 40
     integer(c_int) :: threads = 0
     integer(c_int) :: replicates = 0
     integer(c_long) :: seed = 0
+    type(c_ptr) :: before = c_null_ptr ! text
+    type(c_ptr) :: after = c_null_ptr ! text
   end type rotid_diagnose_options
 
   ! ------------------------------------------------------------------------------------------------ types: your own model

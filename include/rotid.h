@@ -845,6 +845,7 @@ typedef struct rotid_diagnosis {
     const char
         *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
     void *memory;       /* internal */
+    const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
 } rotid_diagnosis;
 
 /* ---- the runs */
@@ -883,9 +884,10 @@ typedef struct rotid_diagnose_options {
     int threads;    /* [1] of this call; its BLAS should have one then */
     int replicates; /* [1000] of the bootstrap */
     long seed;      /* [1] >= 0, of the random numbers */
+    const char *before, *after; /* [NULL] names of two states of the deck: what changed between them, not what the model lacks */
 } rotid_diagnose_options;
 
-/* What `rotid diagnose` does; the same numbers whatever the number of threads. options may be NULL. Allocator, statuses, failure
+/* What `rotid diagnose` does, over all states of a deck at once, or of what changed between two of them; the same numbers whatever the number of threads. options may be NULL. Allocator, statuses, failure
  * and *result as for rotid_identify. The allocator and the callbacks of the environment are called from several threads where
  * options ask for more than one. */
 ROTID_API int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options, const rotid_environment *environment,

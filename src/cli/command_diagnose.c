@@ -1,3 +1,5 @@
+#include <string.h>
+
 #include "cli/command.h"
 #include "report/table.h"
 #include "report/table_diagnose.h"
@@ -44,8 +46,13 @@ int command_diagnose(struct command *command)
     double last = 0;
     if (!command->seed) /* of which the library takes its default: the result states the one that was used */
         command->head.seed = (double)(command->seed = 1);
-    const rotid_diagnose_options options = {
+    rotid_diagnose_options options = {
         .size = sizeof options, .threads = command->threads, .replicates = command->replicates, .seed = (long)command->seed};
+    const char *comma = command->changed ? strchr(command->changed, ',') : NULL;
+    if (comma) {
+        options.before = pool_format(&command->pool, "%.*s", (int)(comma - command->changed), command->changed);
+        options.after = comma + 1;
+    }
     const rotid_environment environment = command_environment(command, &last);
     rotid_diagnosis *diagnosis;
     int status = rotid_diagnose(command->read, &options, &environment, failure, &diagnosis);

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "diagnose/base.h"
+#include "diagnose/changed.h"
 #include "diagnose/data.h"
 #include "diagnose/detectable.h"
 #include "diagnose/finalise.h"
@@ -101,7 +102,7 @@ static const rotid_diagnosis nothing = {
         {{NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}},
     .noise = {.frequency = NAN, .shape = NAN}};
 
-int diagnose_states(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+static int diagnose(struct pool *pool, const struct states *states, const struct diagnose_options *options,
                     const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
 {
     struct engine engine = {.pool = pool,
@@ -110,6 +111,8 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
                             .seed = options->seed,
                             .environment = environment,
                             .notes = notes,
+                            .before = options->before,
+                            .after = options->after,
                             .out = out,
                             .mode_out_rms = NAN,
                             .mode_out_shape = NAN,
@@ -117,11 +120,15 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
     struct round_result last = {0};
     engine.user_reduction = states->state->job.options.fit.reduction;
     *out = (struct diagnosis){.result = nothing};
+    out->result.before = options->before;
+    out->result.after = options->after;
     out->result.steps = POOL_ARRAY(pool, rotid_step, MOST_STEPS);
     out->result.numerical_findings = POOL_ARRAY(pool, rotid_numerical_finding, NUMERICAL_FINDINGS * states->nstate);
     if (!out->result.steps || !out->result.numerical_findings)
         return ROTID_ERROR_MEMORY;
-    int status = run_with_models(&engine, states, &last);
+    int status = states_copy(pool, states, &out->given);
+    if (!status)
+        status = run_with_models(&engine, states, &last);
     round_free(&last);
     if (engine.fit != out->base.fit)
         rotid_fit_free(engine.fit);
@@ -139,6 +146,23 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
     if (status)
         diagnose_free(out);
     return status;
+}
+
+int diagnose_states(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+                    const rotid_environment *environment, struct message_list *notes, struct diagnosis *out)
+{
+    struct job job;
+    struct state state;
+    if (!options->before)
+        return diagnose(pool, states, options, environment, notes, out);
+    *out = (struct diagnosis){.result = nothing};
+    int status = changed_job(pool, states, options->before, options->after, environment, notes, &job);
+    if (status == ROTID_STOP_CANCELLED) {
+        out->result.interrupted = 1;
+        return ROTID_OK;
+    }
+    const struct states only = states_of(&job, &state);
+    return status ? status : diagnose(pool, &only, options, environment, notes, out);
 }
 
 int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose_options *options,

@@ -12,7 +12,8 @@
 struct diagnose_options {
     int threads;
     unsigned long seed;
-    int replicates; /* of the bootstrap; 0: 1000 */
+    int replicates;             /* of the bootstrap; 0: 1000 */
+    const char *before, *after; /* what changed between these two states, instead of what the model lacks in all; NULL */
 };
 
 /* A cause at one target (for those with a place: at its best place), with what became of it. Of two at once it is the first. */
@@ -43,6 +44,7 @@ struct diagnosis_round {
 
 struct diagnosis {
     rotid_diagnosis result;      /* as the steps find it; candidates, causes and the fits are put there at the end, from below */
+    struct states given;         /* what was diagnosed, as it came: of what changed the second state, corrected */
     struct states judged;        /* the states that were judged: LIKELIHOOD, NONE, faults of the data taken out, noise as found */
     struct job job;              /* the first of them */
     struct identification today; /* by the FIT of the deck; fit NULL where it could not be made. Of several states this, base and

@@ -12,6 +12,7 @@ struct engine {
     unsigned long seed;
     const rotid_environment *environment;
     struct message_list *notes;
+    const char *before, *after; /* the question is what changed between these states, or NULL */
     struct diagnosis *out;
     struct states states;                /* judged, with the causes named so far; their starts are the fitted values */
     struct job *job;                     /* of the state whose data are looked at, else of the first */

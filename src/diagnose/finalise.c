@@ -153,6 +153,35 @@ static const char *open_parameters(struct engine *engine)
     return text;
 }
 
+/* The same where the question is what changed: the parts of the sentence, and what it ends with. */
+static const char *change_sentence(const struct engine *engine, const char *causes, const char *others, const char *chance,
+                                   const char *end)
+{
+    const struct diagnosis *out = engine->out;
+    const rotid_verdict *verdict = &out->result.verdict;
+    struct pool *pool = engine->pool;
+    const char *from = engine->before, *to = engine->after;
+    switch (verdict->kind) {
+    case ROTID_ADEQUATE:
+        return pool_format(pool, "Nothing changed between %s and %s that these data show (%s).%s", from, to, chance, end);
+    case ROTID_NAMED:
+        return pool_format(pool, "Between %s and %s changed: %s; %s%s (%s before).%s", from, to, causes,
+                           verdict->adequate_after ? "with this the model explains the difference of the states within the noise"
+                           : out->nalternative     ? "the data cannot tell what causes the rest: "
+                                                   : "the rest still exceeds the noise",
+                           !verdict->adequate_after && out->nalternative ? others : "", chance, end);
+    case ROTID_AMBIGUOUS:
+        return pool_format(pool, "Something changed between %s and %s (%s); the data cannot tell which of %s it is%s.%s", from,
+                           to, chance, others, verdict->confident ? "" : ", nor with confidence that it is any of them", end);
+    default:
+        return pool_format(
+            pool,
+            "Something changed between %s and %s (%s), and no cause in the catalogue gains more than its parameters "
+            "cost.%s",
+            from, to, chance, end);
+    }
+}
+
 static const char *verdict_sentence(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
@@ -180,6 +209,10 @@ static const char *verdict_sentence(struct engine *engine)
                              : "";
     if (!misfit || !causes || !others || !open || !faults || !chance)
         return NULL;
+    if (engine->before) {
+        const char *end = pool_format(pool, "%s%s%s", solid, faults, open);
+        return end ? change_sentence(engine, causes, others, chance, end) : NULL;
+    }
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);

@@ -180,6 +180,8 @@ static const struct record step_record = RECORD(rotid_step, step_fields);
 
 static const struct field diagnosis_fields[] = {
     FLAG(rotid_diagnosis, interrupted, 0),
+    TEXT(rotid_diagnosis, before, MAY_BE_NULL | SINCE_LATER),
+    TEXT(rotid_diagnosis, after, MAY_BE_NULL | SINCE_LATER),
     STRUCT(rotid_diagnosis, verdict, 0, verdict_record),
     STRUCTS(rotid_diagnosis, data_findings, 0, data_finding_record),
     STRUCTS(rotid_diagnosis, numerical_findings, 0, numerical_finding_record),
