@@ -332,11 +332,11 @@ int base_again(struct engine *engine)
     return status ? status : base_residuals(engine);
 }
 
-int base_refine(struct engine *engine, struct job *job, const int *number, const struct spectrum *spectrum)
+int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum)
 {
     int at, status = ROTID_OK;
     double ratio = job->options.solid ? 0 : against_noise(job, number, spectrum->mesh_error_percent, spectrum->count, &at);
     for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status; pass++, ratio /= 4)
-        status = refine_mesh(engine->pool, &job->rotor);
+        status = refine_mesh(pool, &job->rotor);
     return status;
 }

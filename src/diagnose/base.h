@@ -13,7 +13,7 @@ int base_prepare(struct engine *engine);
 int base_again(struct engine *engine);
 /* Elements of a job until the error of its mesh, which the spectrum states, is negligible beside the noise: what is too small to
  * be a cause still moves a modulus by part of its interval. */
-int base_refine(struct engine *engine, struct job *job, const int *number, const struct spectrum *spectrum);
+int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum);
 /* "lower" or "upper": the bound at which parameter p of the base ends. */
 const char *base_bound_side(const struct engine *engine, int p);
 /* What the condensation of the user's own fit costs. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "diagnose/base.h"
 #include "diagnose/data.h"
 
 #define SAME_PLACE 1e-6 /* of the length: two positions in two states of a deck that are one */
@@ -37,7 +38,8 @@ static int suffices(const struct state *state, struct message_list *notes)
     return 0;
 }
 
-/* The unknowns of `before` as the likelihood of the full model has them. */
+/* The unknowns of `before` as the likelihood of the full model has them, on a mesh without error: the shapes of the second state
+ * are judged on the same. */
 static int fit_before(struct pool *pool, const struct state *before, const rotid_environment *environment,
                       struct message_list *notes, struct job *job, struct identification *found)
 {
@@ -48,11 +50,26 @@ static int fit_before(struct pool *pool, const struct state *before, const rotid
     job->options.fit.reduction = ROTID_REDUCTION_NONE;
     job->options.fit.derivative = ROTID_NELSON;
     int status = identify_run(pool, job, 0, environment, &quiet, found);
+    const struct segment *coarse = job->rotor.segment;
+    if (!status && found->fit->status != ROTID_STOP_CANCELLED)
+        status = base_refine(pool, job, found->compared.number, &found->spectrum);
+    if (!status && job->rotor.segment != coarse) {
+        rotid_fit_free(found->fit);
+        found->fit = NULL;
+        status = identify_run(pool, job, 0, environment, &quiet, found);
+    }
     for (size_t i = 0; i < quiet.count && status; i++)
         message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, before->name);
     if (!status && found->fit->status == ROTID_STOP_CANCELLED)
         status = ROTID_STOP_CANCELLED;
     return status;
+}
+
+/* The mesh of `fine` for a rotor with the elements of `coarse`. */
+static void refine_like(const struct rotor *fine, const struct rotor *coarse, struct rotor *rotor)
+{
+    for (int i = 0; i < rotor->nsegment && i < fine->nsegment; i++)
+        rotor->segment[i].elements *= fine->segment[i].elements / coarse->segment[i].elements;
 }
 
 /* Holds the unknowns that `after` has of those of `before`; its own stay free. */
@@ -119,8 +136,21 @@ static void gather(const struct job *before, const struct identification *found,
     }
 }
 
-/* The shape of mode k less what the model misses of it in `before`, where it is mode j. work [3 * nsensor] */
-static void correct_shape(const struct job *before, const struct identification *found, int j, int k, double *work,
+/* The part of a that is not along b, squared, over what noise makes of it; a share of a. std: of a, absolute */
+static double unlike(int n, const double *a, double std, const double *b, const double *b_std)
+{
+    double ab = dot(n, a, b), bb = dot(n, b, b), aa = 0, noise = 0;
+    for (int i = 0; i < n; i++)
+        if (isfinite(a[i]) && isfinite(b[i])) {
+            aa += a[i] * a[i];
+            noise += std * std + ab / bb * ab / bb * b_std[i] * b_std[i];
+        }
+    return fmax(0, aa - ab * ab / bb - noise) / aa;
+}
+
+/* The shape of mode k less what the model misses of it in `before`, where it is mode j; *other: d^2, to which the shape adds.
+ * work [3 * nsensor] */
+static void correct_shape(const struct job *before, const struct identification *found, int j, int k, double *work, double *other,
                           struct job *job)
 {
     int n = job->rotor.nsensor;
@@ -128,14 +158,16 @@ static void correct_shape(const struct job *before, const struct identification 
            *b_std = b + n, *phi = b_std + n, was = largest(n, a);
     gather(before, found, j, &job->rotor, b, b_std, phi);
     double g = dot(n, a, b) / dot(n, b, b), square = 0, along = 0;
+    *other += unlike(n, a, std[0] * was, b, b_std);
     for (int i = 0; i < n; i++)
         if (isfinite(a[i]) && isfinite(b[i])) {
             square += phi[i] * phi[i];
             along += phi[i] * b[i];
         }
     for (int i = 0; i < n; i++) {
-        std[i] = hypot(std[i] * was, g * b_std[i]);
-        a[i] -= g * (b[i] - along / square * phi[i]); /* NaN where it was not measured twice */
+        double missed = g * (b[i] - along / square * phi[i]);
+        std[i] = hypot(hypot(std[i] * was, g * b_std[i]), *other > 0 && isfinite(missed) ? sqrt(*other) * missed : 0);
+        a[i] -= missed; /* NaN where it was not measured twice */
     }
     double is = largest(n, a);
     for (int i = 0; i < n; i++)
@@ -184,12 +216,13 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
             left_out++;
             continue;
         }
-        double mesh = before->options.solid ? 0 : found->spectrum.mesh_error_percent[number - 1] / 100;
-        job->measurement.frequency_hz[k] *=
-            found->fit->predicted_hz[j] / (1 + (isfinite(mesh) ? mesh : 0)) / before->measurement.frequency_hz[j];
-        job->measurement.frequency_std[k] = hypot(job->measurement.frequency_std[k], before->measurement.frequency_std[j]);
+        double ratio = found->fit->predicted_hz[j] / before->measurement.frequency_hz[j],
+               moved = 2 * log(job->measurement.frequency_hz[k] / before->measurement.frequency_hz[j]), other = moved * moved;
         if (shapes)
-            correct_shape(before, found, j, k, work, job);
+            correct_shape(before, found, j, k, work, &other, job);
+        job->measurement.frequency_hz[k] *= ratio;
+        job->measurement.frequency_std[k] =
+            hypot(hypot(job->measurement.frequency_std[k], before->measurement.frequency_std[j]), sqrt(other) * log(ratio));
     }
     if (left_out)
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
@@ -209,7 +242,8 @@ int changed_job(struct pool *pool, const struct states *states, const char *befo
     if (!second || second == first || !suffices(first, notes) || !suffices(second, notes))
         return ROTID_ERROR_ARGUMENT;
     *out = second->job;
-    out->measurement.raw = NULL; /* the corrections of the deck are applied, and no deck is written of this */
+    out->measurement.has_noise_floor = 1; /* where a mode is another one it holds more than scatter */
+    out->measurement.raw = NULL;          /* the corrections of the deck are applied, and no deck is written of this */
     out->measurement.ncorrection = 0;
     out->measurement.point_frequency_hz = out->measurement.point_frequency_std = NULL; /* an accelerometer loads both states */
     int status = data_copy(pool, out);
@@ -217,6 +251,8 @@ int changed_job(struct pool *pool, const struct states *states, const char *befo
         status = fit_before(pool, first, environment, notes, &job, &found);
     if (!status)
         status = hold(pool, first, found.fit->x, second, out);
+    if (!status)
+        refine_like(&job.rotor, &first->job.rotor, &out->rotor);
     if (!status)
         status = correct(pool, &job, &found, notes, second->name, out);
     rotid_fit_free(found.fit);

@@ -261,7 +261,7 @@ static int refine_base(struct engine *engine)
     int status = ROTID_OK, finer_mesh = 0;
     for (int s = 0, mode = 0; s < out->judged.nstate && !status; mode += out->judged.state[s].job.measurement.nmode, s++) {
         struct job *job = &out->judged.state[s].job;
-        status = base_refine(engine, job, engine->number + mode, &out->state_base[s].spectrum);
+        status = base_refine(engine->pool, job, engine->number + mode, &out->state_base[s].spectrum);
         finer_mesh |= job->rotor.segment != engine->states.state[s].job.rotor.segment;
     }
     if (status || !finer_mesh)

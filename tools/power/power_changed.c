@@ -114,6 +114,15 @@ static int diagnose(const char *text, const cJSON *truth, const rotid_environmen
     return status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
+static void keep(const struct power_options *options, int number, const char *text)
+{
+    char path[600];
+    (void)snprintf(path, sizeof path, "%s/pair_%d.inp", options->keep, number);
+    FILE *file = fopen(path, "w");
+    if (!file || fputs(text, file) < 0 || fclose(file))
+        fprintf(stderr, "power: cannot write %s\n", path);
+}
+
 static int run_pair(void *context, int index, int worker)
 {
     struct pairs *pairs = context;
@@ -146,6 +155,8 @@ static int run_pair(void *context, int index, int worker)
         const struct hidden_state states[] = {{"before", "", 1, effect}, {"after", "", 1 + comes, effect}};
         text = second ? hidden_states_deck(r, 2, states, NULL, message, sizeof message) : NULL;
     }
+    if (text && options.keep)
+        keep(&options, options.first + index, text);
     if (text) {
         if (!comes) {
             cJSON_DeleteItemFromObject(second, "effects");
@@ -164,15 +175,15 @@ static int run_pair(void *context, int index, int worker)
     return status;
 }
 
-static int report(FILE *out, int count, const struct pair *pair)
+static int report(FILE *out, int count, int first, const struct pair *pair)
 {
     int visible = 0, named = 0, in_set = 0, nothing = 0, quiet = 0, wrong = 0, failed = 0;
     double seconds = 0;
     for (int i = 0; i < count; i++) {
         const struct pair *p = &pair[i];
         int comes = p->comes[0] != 0, shows = comes && p->worth >= VISIBLE;
-        fprintf(out, "%3d %-12s %9.3g %5.1f s  stays %s, comes %s\n    %s\n", i, hidden_outcome_name(p->outcome), p->worth,
-                p->seconds, p->stays, comes ? p->comes : "nothing", p->said);
+        fprintf(out, "%3d %-12s %9.3g %5.1f s  stays %s, comes %s\n    %s\n", first + i, hidden_outcome_name(p->outcome),
+                p->worth, p->seconds, p->stays, comes ? p->comes : "nothing", p->said);
         failed += p->outcome == HIDDEN_FAILED;
         wrong += p->outcome == HIDDEN_WRONG;
         seconds += p->seconds;
@@ -198,7 +209,7 @@ int power_changed(const struct power_options *options, const volatile sig_atomic
 {
     struct pairs pairs = {options, interrupted, calloc((size_t)options->cases, sizeof(struct pair))};
     int status = pairs.pair ? parallel_for(options->jobs, options->cases, run_pair, &pairs) : ROTID_ERROR_MEMORY;
-    int code = status ? 3 : report(out, options->cases, pairs.pair);
+    int code = status ? 3 : report(out, options->cases, options->first, pairs.pair);
     free(pairs.pair);
     return code;
 }
