@@ -190,13 +190,13 @@ static void what_changed_is_named_and_what_stays_is_not(void **state)
         {{dense, NULL}, NULL, NULL, 0},
         {{soft, "added_mass:mass=1.5,z=0.7"}, "added_mass", "mass", 1.5},
         {{soft, "stiffness_local:depth=0.3,z=0.62,width=0.03"}, "stiffness_local", "z", 0.62},
-        {{dense, "joint:at=core.end,flexibility=3e-7"}, "joint", "flexibility", 3e-7},
+        {{dense, "density:group=right,factor=1.08"}, "density", "factor", 1.08},
         {{dense, "stiffness:group=right,factor=0.8"}, "stiffness", "factor", 0.8},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         const struct hidden_state states[] = {{"before", "", 1, pairs[i].effect},
                                               {"after", "", pairs[i].id ? 2 : 1, pairs[i].effect}};
-        const struct hide_request r = request(5, 9, 800 + 10 * (unsigned)i);
+        const struct hide_request r = request(6, 13, 800 + 10 * (unsigned)i);
         rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "AFTER");
         assert_string_equal(d->before, "before");
         if (pairs[i].id)
