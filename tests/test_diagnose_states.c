@@ -196,7 +196,7 @@ static void what_changed_is_named_and_what_stays_is_not(void **state)
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         const struct hidden_state states[] = {{"before", "", 1, pairs[i].effect},
                                               {"after", "", pairs[i].id ? 2 : 1, pairs[i].effect}};
-        const struct hide_request r = request(6, 13, 800 + 10 * (unsigned)i);
+        const struct hide_request r = request(6, 13, 1100 + 10 * (unsigned)i);
         rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "AFTER");
         assert_string_equal(d->before, "before");
         if (pairs[i].id)

@@ -6,6 +6,8 @@
 #include "base/text.h"
 #include "diagnose/base.h"
 #include "diagnose/data.h"
+#include "diagnose/imitate.h"
+#include "diagnose/refit.h"
 
 #define SAME_PLACE 1e-6 /* of the length: two positions in two states of a deck that are one */
 
@@ -40,8 +42,9 @@ static int suffices(const struct state *state, struct message_list *notes)
 
 /* The unknowns of `before` as the likelihood of the full model has them, on a mesh without error: the shapes of the second state
  * are judged on the same. */
-static int fit_before(struct pool *pool, const struct state *before, const rotid_environment *environment,
-                      struct message_list *notes, struct job *job, struct identification *found)
+static int fit_before(struct pool *pool, const struct state *before, const struct diagnose_options *options,
+                      const rotid_environment *environment, struct message_list *notes, struct job *job,
+                      struct identification *found)
 {
     struct message_list quiet;
     message_open(&quiet, pool);
@@ -49,7 +52,9 @@ static int fit_before(struct pool *pool, const struct state *before, const rotid
     job->options.fit.functional = ROTID_LIKELIHOOD;
     job->options.fit.reduction = ROTID_REDUCTION_NONE;
     job->options.fit.derivative = ROTID_NELSON;
-    int status = identify_run(pool, job, 0, environment, &quiet, found);
+    int status = imitate(pool, job, options, environment, job);
+    if (!status)
+        status = identify_run(pool, job, 0, environment, &quiet, found);
     const struct segment *coarse = job->rotor.segment;
     if (!status && found->fit->status != ROTID_STOP_CANCELLED)
         status = base_refine(pool, job, found->compared.number, &found->spectrum);
@@ -70,6 +75,29 @@ static void refine_like(const struct rotor *fine, const struct rotor *coarse, st
 {
     for (int i = 0; i < rotor->nsegment && i < fine->nsegment; i++)
         rotor->segment[i].elements *= fine->segment[i].elements / coarse->segment[i].elements;
+}
+
+/* The effects that imitate what `before` has, at their fitted values, in the rotor of the other state. */
+static int keep_effects(struct pool *pool, const struct job *before, const double *x, int first, struct rotor *rotor)
+{
+    struct state state;
+    (void)states_of(before, &state);
+    int more = before->rotor.neffect - first;
+    struct effect *effect = POOL_ARRAY(pool, struct effect, rotor->neffect + more);
+    if (!effect)
+        return ROTID_ERROR_MEMORY;
+    if (rotor->neffect)
+        memcpy(effect, rotor->effect, (size_t)rotor->neffect * sizeof *effect);
+    for (int e = first; e < before->rotor.neffect; e++) {
+        struct effect *kept = &effect[rotor->neffect++];
+        effect_at(&state, e, x, kept);
+        kept->stays = 1;
+        kept->name = pool_format(pool, "stays_%d", e - first + 1);
+        if (!kept->name)
+            return ROTID_ERROR_MEMORY;
+    }
+    rotor->effect = effect;
+    return ROTID_OK;
 }
 
 /* Holds the unknowns that `after` has of those of `before`; its own stay free. */
@@ -232,7 +260,8 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
 }
 
 int changed_job(struct pool *pool, const struct states *states, const char *before, const char *after,
-                const rotid_environment *environment, struct message_list *notes, struct job *out)
+                const struct diagnose_options *options, const rotid_environment *environment, struct message_list *notes,
+                struct job *out)
 {
     const struct state *first = find(states, before, notes), *second = first ? find(states, after, notes) : NULL;
     struct identification found = {0};
@@ -248,9 +277,11 @@ int changed_job(struct pool *pool, const struct states *states, const char *befo
     out->measurement.point_frequency_hz = out->measurement.point_frequency_std = NULL; /* an accelerometer loads both states */
     int status = data_copy(pool, out);
     if (!status)
-        status = fit_before(pool, first, environment, notes, &job, &found);
+        status = fit_before(pool, first, options, environment, notes, &job, &found);
     if (!status)
         status = hold(pool, first, found.fit->x, second, out);
+    if (!status)
+        status = keep_effects(pool, &job, found.fit->x, first->job.rotor.neffect, &out->rotor);
     if (!status)
         refine_like(&job.rotor, &first->job.rotor, &out->rotor);
     if (!status)

@@ -156,7 +156,7 @@ int diagnose_states(struct pool *pool, const struct states *states, const struct
     if (!options->before)
         return diagnose(pool, states, options, environment, notes, out);
     *out = (struct diagnosis){.result = nothing};
-    int status = changed_job(pool, states, options->before, options->after, environment, notes, &job);
+    int status = changed_job(pool, states, options->before, options->after, options, environment, notes, &job);
     if (status == ROTID_STOP_CANCELLED) {
         out->result.interrupted = 1;
         return ROTID_OK;

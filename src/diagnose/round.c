@@ -210,6 +210,12 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     return status;
 }
 
+int round_fit(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
+{
+    int again;
+    return fit_round(engine, round, result, 0, &again);
+}
+
 int round_settle(struct engine *engine)
 {
     struct diagnosis_round round;

@@ -19,7 +19,7 @@ static int effects_alike(const struct rotor *rotor, const struct cause_kind *cau
 {
     int count = 0;
     for (int i = 0; i < rotor->neffect; i++)
-        count += rotor->effect[i].kind == cause->effect && rotor->effect[i].target == target;
+        count += rotor->effect[i].kind == cause->effect && rotor->effect[i].target == target && !rotor->effect[i].stays;
     return count;
 }
 
