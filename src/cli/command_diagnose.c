@@ -15,7 +15,8 @@ static int write_extended(struct command *command, const rotid_diagnosis *diagno
         return code;
     }
     if (!diagnosis->extended_deck) {
-        terminal_say("rotid: cannot write %s: no deck can say this model\n", command->extended);
+        terminal_say("rotid: cannot write %s: no deck %s\n", command->extended,
+                     diagnosis->base && diagnosis->base->nstates ? "with several states is written" : "can say this model");
         return EXIT_INTERNAL;
     }
     return command_write_file(command, command->extended, diagnosis->extended_deck, code);
