@@ -288,6 +288,39 @@ static void wrong_states_are_refused(void **state)
     free(text);
 }
 
+/* Both questions, with each allocation of a growing row failing. */
+static void failing_allocations_are_survived(void **state)
+{
+    (void)state;
+    static const char *const mass[] = {"added_mass:mass=0.5,z=0.7"};
+    static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", DISC, 1, mass}};
+    const struct hide_request r = request(5, 0, 900);
+    char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
+    assert_non_null(text);
+    for (int question = 0; question < 2; question++) {
+        const rotid_diagnose_options options = {
+            .size = sizeof options, .replicates = 100, .before = question ? "before" : NULL, .after = question ? "after" : NULL};
+        rotid_deck *deck = read_text(text, NULL);
+        for (int n = 1, done = 0; !done; n += 1 + n / 4) {
+            struct failing_allocator failing;
+            rotid_diagnosis *d = NULL;
+            failing_allocator_open(&failing, n);
+            const rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
+            int status = rotid_diagnose(deck, &options, &environment, NULL, &d);
+            if (status)
+                assert_status(status, ROTID_ERROR_MEMORY);
+            done = !status;
+            assert_true(!done || failing.until_failure > 0);
+            rotid_diagnosis_free(d);
+            assert_int_equal(failing.in_use, 0);
+            if (done)
+                print_message("%d allocations at most\n", n);
+        }
+        rotid_deck_free(deck);
+    }
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +333,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(data_are_corrected_by_what_the_first_state_shows, open_test_pool, close_test_pool),
         cmocka_unit_test(what_the_deck_states_is_no_change),
         cmocka_unit_test(wrong_states_are_refused),
+        cmocka_unit_test(failing_allocations_are_survived),
     };
     return cmocka_run_group_tests_name("diagnose_states", tests, NULL, NULL);
 }
