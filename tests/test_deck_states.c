@@ -145,6 +145,22 @@ static void states_and_modes_are_held_out(void **state)
         assert_memory_equal(s.state[i].job.measurement.holdout, held[i], sizeof held[i]);
 }
 
+/* In a deck each item of the list begins with STATE:, on a command line the first does. */
+static void several_states_are_held_out(void **state)
+{
+    (void)state;
+    const char *three = "*STATE, NAME=b\n*MODES\n1, 225\n*STATE, NAME=c c\n*MODES\n1, 225\n";
+    struct states s =
+        good(pool_format(&test_pool, "%s*FIT, HOLDOUT=STATE:free,\n  state: C c\n%s%s", BAR UNKNOWN, FREE, three), NULL);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(s.state[i].job.measurement.holdout[0], i != 1);
+    s = good(pool_format(&test_pool, "%s%s%s", BAR UNKNOWN, FREE, three), "FIT.HOLDOUT=STATE:b,STATE:c c");
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(s.state[i].job.measurement.holdout[0], i != 0);
+    assert_refused(pool_format(&test_pool, "%s*FIT, HOLDOUT=STATE:b, STATE:d\n%s%s", BAR UNKNOWN, FREE, three), 17,
+                   "state d is not defined, expected one of free, b, c c");
+}
+
 /* Without *FIT all are weighed by their noise, or none. */
 static void the_functional_is_that_of_all(void **state)
 {
@@ -202,6 +218,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(one_state_can_be_chosen, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(set_and_identify_hold_for_their_state, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(states_and_modes_are_held_out, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(several_states_are_held_out, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_functional_is_that_of_all, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(what_is_wrong_has_its_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(states_have_a_limit, open_test_pool, close_test_pool),
