@@ -167,7 +167,7 @@ static void set_lengths(int nstate, struct written *state, const char *name)
 static int was_set(const struct written *s, const char *name)
 {
     size_t length = strlen(name);
-    for (const char *line = s->set.text; line && *line; line = strchr(line, '\n') + 1)
+    for (const char *line = s->set.text, *end; line && (end = strchr(line, '\n')); line = end + 1)
         if (!strncmp(line, name, length) && line[length] == ',')
             return 1;
     return 0;
