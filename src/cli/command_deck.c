@@ -13,11 +13,31 @@ static const char *place_of(const struct command *command, const char *file)
     return file;
 }
 
-void command_take_messages(struct command *command, int count, const rotid_message *message)
+void command_take_messages(struct command *command, const char *state, int count, const rotid_message *message)
 {
     for (int i = 0; i < count; i++)
         message_add(&command->messages, (enum severity)message[i].severity, place_of(command, message[i].file), message[i].line,
-                    message[i].column, "%s", message[i].text);
+                    message[i].column, state ? "%s (state %s)" : "%s", message[i].text, state);
+}
+
+int command_state_count(const struct command *command)
+{
+    return command->read->nstate ? command->read->nstate : 1;
+}
+
+const rotid_deck *command_state(const struct command *command, int i, const char **name)
+{
+    *name = command->read->nstate ? command->read->state_name[i] : NULL;
+    return command->read->nstate ? command->read->state[i] : command->read;
+}
+
+int command_begin_states(struct command *command, struct result *result)
+{
+    result->nstates = command->read->nstate;
+    result->states = POOL_ARRAY(&command->pool, struct result_state, result->nstates);
+    for (int i = 0; i < result->nstates && result->states; i++)
+        result->states[i].name = command->read->state_name[i];
+    return result->states ? EXIT_DONE : command_fail(command, ROTID_ERROR_MEMORY);
 }
 
 int command_read_deck(struct command *command)
@@ -30,7 +50,7 @@ int command_read_deck(struct command *command)
         override[i] = command->override[i].given;
     int status = rotid_deck_read(command->deck, command->noverride, override, NULL, failure, &command->read);
     if (command->read) {
-        command_take_messages(command, command->read->nmessage, command->read->message);
+        command_take_messages(command, NULL, command->read->nmessage, command->read->message);
         command->messages.errors = command->read->nerror;
     }
     if (!command->read || (status && !command->read->nerror)) /* no message says why */
