@@ -26,7 +26,7 @@ int command_identify(struct command *command)
     double last = 0;
     const rotid_environment environment = command_environment(command, &last);
     rotid_identification *found;
-    if (!command->job->unknowns.nparameter) {
+    if (!command->read->nparameter) {
         message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
                     "the deck names nothing to identify, expected a card *IDENTIFY");
         return command_fail(command, ROTID_ERROR_ARGUMENT);
