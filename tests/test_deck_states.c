@@ -90,6 +90,14 @@ static void a_state_is_the_common_cards_and_its_own(void **state)
     assert_int_equal(s.state[1].unknown[1], 1);
 }
 
+/* A state may be called as a part of the rotor. */
+static void states_have_names_of_their_own(void **state)
+{
+    (void)state;
+    struct states s = good(BAR UNKNOWN "*STATE, NAME=bar\n*MODES\n1, 225\n*STATE, NAME=d\n*MODES\n1, 225\n", NULL);
+    assert_string_equal(s.state[1].name, "d");
+}
+
 static void one_state_can_be_chosen(void **state)
 {
     (void)state;
@@ -215,6 +223,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_deck_without_states_is_one, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_state_is_the_common_cards_and_its_own, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(states_have_names_of_their_own, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(one_state_can_be_chosen, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(set_and_identify_hold_for_their_state, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(states_and_modes_are_held_out, open_test_pool, close_test_pool),

@@ -51,18 +51,24 @@ static int makes_group(const struct card *card)
     return !strcmp(card->name, "SHAFT") || !strcmp(card->name, "BEAM") || !strcmp(card->name, "LAYER");
 }
 
+/* Materials and states have names of their own. */
+static int shares_names(const struct card *card)
+{
+    return strcmp(card->name, "MATERIAL") != 0 && strcmp(card->name, "STATE") != 0;
+}
+
 /* Parameters are addressed by name, so groups, rods, springs, disks and causes share one set of names. */
 static void check_unique(struct deck_reader *reader)
 {
     for (int c = 0; c < reader->text.ncard; c++) {
         const struct card *card = &reader->text.card[c];
         const struct card_option *option = card_option(card, "NAME");
-        if (!option || !strcmp(card->name, "MATERIAL"))
+        if (!option || !shares_names(card))
             continue;
         for (int d = 0; d < c; d++) {
             const struct card_option *other = card_option(&reader->text.card[d], "NAME");
             int groups = makes_group(card) && makes_group(&reader->text.card[d]); /* which compare their own */
-            if (other && strcmp(reader->text.card[d].name, "MATERIAL") && !groups && same_text(option->value, other->value))
+            if (other && shares_names(&reader->text.card[d]) && !groups && same_text(option->value, other->value))
                 deck_error(reader, option->value_place, "the name %s is given twice, expected a new one", option->value);
         }
     }
