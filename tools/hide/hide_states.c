@@ -119,6 +119,27 @@ static int make_state(const struct reader *r, int state, const struct hide_part 
     return status;
 }
 
+char *hide_state_text(const char *deck, const char *name, const char *state, const struct hide_cards *cards, int *first, int *end,
+                      int *status, const struct hide_message *message)
+{
+    const struct hide_request request = {.deck = deck, .name = name};
+    struct reader r = {.request = &request, .cards = cards, .message = message};
+    char *text = NULL;
+    *status = find_states(&r);
+    int s = 0;
+    while (s < r.states && !hide_same(name_of(&r, s), state))
+        s++;
+    if (!*status && s == r.states) {
+        *status = hide_fail(message, HIDE_INPUT, "--state %s: expected a *STATE of %s", state, name);
+    } else if (!*status) {
+        *first = r.first[s];
+        *end = r.first[s + 1];
+        text = deck_of(&r, s);
+        *status = text ? HIDE_OK : hide_fail(message, HIDE_FAILURE, "no memory for a state");
+    }
+    return text;
+}
+
 int hide_states(const struct hide_request *request, const struct hide_cards *cards, struct hide_text *deck,
                 struct hide_text *truth, const struct hide_message *message)
 {

@@ -17,6 +17,12 @@ struct hide_part {
 int hide_one(const struct hide_request *request, struct hide_part *part, const struct hide_message *message);
 void hide_part_free(struct hide_part *part);
 
+/* The deck of the state of this name, to be freed: the text with blanks for what is not of it, so that lines keep their numbers.
+ * The *STATE card of it and the card behind it go to *first and *end; cards: of the text, some of them *STATE or none. NULL with
+ * *status and a message. */
+char *hide_state_text(const char *deck, const char *name, const char *state, const struct hide_cards *cards, int *first, int *end,
+                      int *status, const struct hide_message *message);
+
 /* The deck and the truth of all states; cards: of request->deck, some of them *STATE. */
 int hide_states(const struct hide_request *request, const struct hide_cards *cards, struct hide_text *deck,
                 struct hide_text *truth, const struct hide_message *message);
