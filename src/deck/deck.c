@@ -333,20 +333,20 @@ int deck_read_states(struct pool *pool, const char *path, const struct deck_memo
 }
 
 int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
-                   const struct card *card, struct message_list *messages, struct job *job)
+                   const struct card *card, struct message_list *messages, struct states *states)
+{
+    return read_deck(pool, path, NULL, noverride, override, ncard, card, messages, states);
+}
+
+int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
+              struct job *job)
 {
     struct states states;
-    int status = read_deck(pool, path, NULL, noverride, override, ncard, card, messages, &states);
+    int status = read_deck(pool, path, NULL, noverride, override, 0, NULL, messages, &states);
     *job = states.nstate ? states.state[0].job : (struct job){.deck = path};
     if (!status && states.nstate > 1) {
         states_refuse(&states, path, messages);
         status = ROTID_ERROR_SYNTAX;
     }
     return status;
-}
-
-int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
-              struct job *job)
-{
-    return deck_read_with(pool, path, noverride, override, 0, NULL, messages, job);
 }

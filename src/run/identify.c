@@ -390,6 +390,12 @@ int identify_states(struct pool *pool, const struct states *states, int baseline
     return identify(pool, states, baseline, 0, environment, notes, out, fit);
 }
 
+int identify_states_bare(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
+                         struct message_list *notes, struct identification *out, rotid_fit_result **fit)
+{
+    return identify(pool, states, baseline, 1, environment, notes, out, fit);
+}
+
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,
                  struct message_list *notes, struct identification *out)
 {

@@ -35,6 +35,10 @@ int identify_run_bare(struct pool *pool, const struct job *job, int baseline, co
 int identify_states(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
                     struct message_list *notes, struct identification *out, rotid_fit_result **fit);
 
+/* The same with as little as identify_run_bare. */
+int identify_states_bare(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
+                         struct message_list *notes, struct identification *out, rotid_fit_result **fit);
+
 /* The fit that identify_states left in `out` of a state, for those that work on its job: of its own unknowns alone, n, x, std,
  * limits, at_bound and identifiable in the order of the job; without what goes over pairs of them. ROTID_OK or
  * ROTID_ERROR_MEMORY. */
