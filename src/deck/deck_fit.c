@@ -172,7 +172,7 @@ void deck_choose_modes(struct deck_reader *reader, const struct card *card)
     int bad = modes && mark_modes(reader, modes, fitted);
     while ((state = deck_whole_state(reader, &rest)))
         reader->held_out |= reader->state && !reader->alone && same_text(state, reader->state);
-    if (*rest || (holdout && rest == holdout->value)) /* not of states, or not to its end */
+    if (holdout && (*rest || rest == holdout->value)) /* not of states, or not to its end */
         bad |= mark_modes(reader, &(struct card_option){.name = "HOLDOUT", .value = rest, .value_place = holdout->value_place},
                           job->measurement.holdout);
     for (int k = 0; k < job->measurement.nmode; k++) {
