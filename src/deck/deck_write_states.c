@@ -38,6 +38,8 @@ static void split(struct written *s, size_t begin, int part)
             block = &s->block[s->nblock++];
             *block = (struct block){.text = line, .part = part};
         }
+        if (!block) /* none: a deck begins with a card */
+            continue;
         if (*line == '*')
             block->kind = kind_of(line);
         block->length += next - i;
