@@ -31,6 +31,7 @@ _rotid_options=(
     '--points:sensitivity:value:'
     '--no-baseline:identify::'
     '--extended:diagnose:files:inp'
+    '--changed:diagnose:value:'
     '--replicates:diagnose:value:'
     '-o --output:frf:files:unv|uff|uf'
     '-o --output:ema:files:unv|uff|uf'

@@ -42,6 +42,7 @@ complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l range -x -d 'r
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l points -x -d 'points of a curve'
 complete -c rotid -n '__fish_seen_subcommand_from identify' -l no-baseline -d 'without NLopt beside it'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l extended -r -F -d 'a deck with what was found, as cards, and with the fitted values as starts'
+complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l changed -x -d 'what changed between two states of the deck, whatever the model lacks in both'
 complete -c rotid -n '__fish_seen_subcommand_from diagnose' -l replicates -x -d 'of the bootstrap that tells a cause from chance (default: 1000)'
 complete -c rotid -n '__fish_seen_subcommand_from frf' -s o -l output -r -F -d 'the synthesised functions as a universal file'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -s o -l output -r -F -d 'the modes as a universal file, for *MEASURED'

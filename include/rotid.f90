@@ -575,6 +575,7 @@ module rotid
     type(c_ptr) :: variant = c_null_ptr ! text
     integer(c_int) :: nparameters = 0
     type(c_ptr) :: parameters = c_null_ptr ! rotid_cause_value
+    type(c_ptr) :: state = c_null_ptr ! text
   end type rotid_cause
 
   type, bind(C) :: rotid_verdict
@@ -607,6 +608,7 @@ module rotid
     real(c_double) :: std = 0
     real(c_double) :: chi2_drop = 0
     type(c_ptr) :: text = c_null_ptr ! text
+    type(c_ptr) :: state = c_null_ptr ! text
   end type rotid_data_finding
 
   type, bind(C) :: rotid_numerical_finding
@@ -615,6 +617,7 @@ module rotid
     type(c_ptr) :: modes = c_null_ptr ! integer
     type(c_ptr) :: error_percent = c_null_ptr ! real
     type(c_ptr) :: text = c_null_ptr ! text
+    type(c_ptr) :: state = c_null_ptr ! text
   end type rotid_numerical_finding
 
   type, bind(C) :: rotid_round
@@ -688,6 +691,7 @@ module rotid
     integer(c_int) :: id = 0
     real(c_double) :: z_m = 0
     real(c_double) :: rms = 0
+    type(c_ptr) :: state = c_null_ptr ! text
   end type rotid_sensor_residual
 
   type, bind(C) :: rotid_localisation
@@ -742,15 +746,19 @@ module rotid
     type(c_ptr) :: message = c_null_ptr ! rotid_message
     type(c_ptr) :: extended_deck = c_null_ptr ! text
     type(c_ptr) :: memory = c_null_ptr
+    type(c_ptr) :: before = c_null_ptr ! text
+    type(c_ptr) :: after = c_null_ptr ! text
   end type rotid_diagnosis
 
   ! ---- types: end of results
 
   type, bind(C) :: rotid_diagnose_options
-    integer(c_size_t) :: size = 24
+    integer(c_size_t) :: size = 40
     integer(c_int) :: threads = 0
     integer(c_int) :: replicates = 0
     integer(c_long) :: seed = 0
+    type(c_ptr) :: before = c_null_ptr ! text
+    type(c_ptr) :: after = c_null_ptr ! text
   end type rotid_diagnose_options
 
   ! ------------------------------------------------------------------------------------------------ types: your own model

@@ -661,6 +661,7 @@ typedef struct rotid_cause {
     const char *variant; /* word of the option SHAPE or MOUNT of its card, or NULL */
     int nparameters;
     rotid_cause_value *parameters; /* at the best values found */
+    const char *state; /* the one state in which it acts; NULL: in all that have its target, or the deck has no *STATE */
 } rotid_cause;
 
 /* What a diagnosis says of physical causes: faults of the data and of the numbers are removed before. */
@@ -695,6 +696,7 @@ typedef struct rotid_data_finding {
     double std;        /* standard deviation of value */
     double chi2_drop;  /* drop of chi2 by the correction [1] */
     const char *text;  /* what was found and done */
+    const char *state; /* name of the state whose data these are; NULL in a deck without *STATE */
 } rotid_data_finding;
 
 /* An error of the model's own numbers, removed. */
@@ -704,6 +706,7 @@ typedef struct rotid_numerical_finding {
     int *modes;            /* numbers */
     double *error_percent; /* per entry of modes: error of the frequency [%] */
     const char *text;      /* what was found and done */
+    const char *state;     /* name of the state, as in rotid_data_finding */
 } rotid_numerical_finding;
 
 /* One cause is named a round; the last round names nothing more. */
@@ -782,6 +785,7 @@ typedef struct rotid_sensor_residual {
     int id;     /* as in the deck or the universal file */
     double z_m; /* position [m] */
     double rms; /* of its shape residuals over their noise [1]; NaN where nothing was measured */
+    const char *state; /* name of the state that it is a sensor of; NULL in a deck without *STATE */
 } rotid_sensor_residual;
 
 /* A place on the axis. */
@@ -842,6 +846,7 @@ typedef struct rotid_diagnosis {
     const char
         *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
     void *memory;       /* internal */
+    const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
 } rotid_diagnosis;
 
 /* ---- the runs */
@@ -880,9 +885,10 @@ typedef struct rotid_diagnose_options {
     int threads;    /* [1] of this call; its BLAS should have one then */
     int replicates; /* [1000] of the bootstrap */
     long seed;      /* [1] >= 0, of the random numbers */
+    const char *before, *after; /* [NULL] names of two states of the deck: what changed between them, not what the model lacks */
 } rotid_diagnose_options;
 
-/* What `rotid diagnose` does; the same numbers whatever the number of threads. options may be NULL. Allocator, statuses, failure
+/* What `rotid diagnose` does, over all states of a deck at once, or of what changed between two of them; the same numbers whatever the number of threads. options may be NULL. Allocator, statuses, failure
  * and *result as for rotid_identify. The allocator and the callbacks of the environment are called from several threads where
  * options ask for more than one. */
 ROTID_API int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_options *options, const rotid_environment *environment,

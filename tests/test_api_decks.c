@@ -207,7 +207,7 @@ static void arguments_out_of_range_are_refused(void **state)
     } wrong[] = {{{.size = sizeof wrong->options, .threads = -1}, "options->threads is -1, expected 0 or more"},
                  {{.size = sizeof wrong->options, .replicates = -1}, "options->replicates is -1, expected 0 or more"},
                  {{.size = sizeof wrong->options, .seed = -1}, "options->seed is -1, expected 0 or more"},
-                 {{.threads = 1}, "options->size is 0, expected sizeof(rotid_diagnose_options), here 24"}};
+                 {{.threads = 1}, "options->size is 0, expected sizeof(rotid_diagnose_options), here 40"}};
     const double x[2] = {1e11, NAN};
     char failure[512];
     rotid_deck *deck;

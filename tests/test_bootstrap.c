@@ -50,6 +50,9 @@ static struct scan random_scan(int nrow, int nfrequency, int nbasis, int nitem)
     scan.column = POOL_ARRAY(&test_pool, double, nrow *nitem);
     scan.basis = POOL_ARRAY(&test_pool, double, nrow *nbasis);
     scan.r = POOL_ARRAY(&test_pool, double, nrow);
+    scan.is_frequency = POOL_ARRAY(&test_pool, char, nrow);
+    for (int i = 0; i < nfrequency; i++)
+        scan.is_frequency[i] = 1;
     for (; scan.nbasis < nbasis; scan.nbasis++) {
         double *q = scan.basis + (ptrdiff_t)scan.nbasis * nrow;
         draw(&stream, nrow, q);

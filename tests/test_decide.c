@@ -12,6 +12,7 @@
 static double noise[MODES];
 static struct candidate candidates[MOST];
 static struct engine engine;
+static struct state only;
 static struct diagnosis_round decided;
 static struct before before;
 static struct diagnosis made;
@@ -22,9 +23,10 @@ static void open_round(void)
     for (int k = 0; k < MODES; k++)
         noise[k] = 0.001;
     made = (struct diagnosis){.result.verdict.confident = 1};
-    engine = (struct engine){.pool = &test_pool, .out = &made};
-    engine.job.measurement.nmode = MODES;
-    engine.job.measurement.frequency_std = noise;
+    only = (struct state){0};
+    engine = (struct engine){.pool = &test_pool, .out = &made, .states = {.nstate = 1, .state = &only}, .job = &only.job};
+    engine.job->measurement.nmode = MODES;
+    engine.job->measurement.frequency_std = noise;
     memset(candidates, 0, sizeof candidates);
     decided = (struct diagnosis_round){.candidate = candidates, .result.threshold = 13};
     before = (struct before){.dof = 400,
@@ -357,8 +359,8 @@ static void a_pair_that_explains_nothing_more_is_refused(void **state)
     open_round();
     before.chi2 = 800;
     struct segment segment = {.length = 1};
-    engine.job.rotor.nsegment = 1;
-    engine.job.rotor.segment = &segment;
+    engine.job->rotor.nsegment = 1;
+    engine.job->rotor.segment = &segment;
     add("stiffness", "left", 1, 300);
     add_pair("added_mass", "added_mass", 400, 1)->with->effect.value[1] = 0.02;
     assert_status(decide(&engine, &before, &decided), ROTID_OK);

@@ -87,6 +87,15 @@ static struct job make_job(double noise)
                                         .derivative = ROTID_NELSON}};
 }
 
+/* The job as the only state. */
+static const struct states *of(const struct job *job)
+{
+    static struct state state;
+    static struct states states;
+    states = states_of(job, &state);
+    return &states;
+}
+
 static rotid_fit_result *fit_job(const struct job *job, const int *held)
 {
     rotid_fit_result *fit;
@@ -153,7 +162,7 @@ static void compare_with_refits(const struct job *job, double tolerance)
 {
     double sums[3] = {0}, standardised, rms;
     rotid_fit_result *fit = fit_job(job, job->measurement.holdout);
-    assert_status(sensor_out(&test_pool, job, job->measurement.holdout, fit, &standardised, &rms), ROTID_OK);
+    assert_status(sensor_out(&test_pool, of(job), job->measurement.holdout, fit, &standardised, &rms), ROTID_OK);
     rotid_fit_free(fit);
     for (int s = 0; s < SENSORS; s++)
         leave_sensor_out(job, s, sums);
@@ -187,7 +196,7 @@ static void sensors_out_need_shapes(void **state)
     double standardised = 0, rms = 0;
     rotid_fit_result *fit = fit_job(&job, holdout);
     job.measurement.shape = NULL;
-    assert_status(sensor_out(&test_pool, &job, holdout, fit, &standardised, &rms), ROTID_OK);
+    assert_status(sensor_out(&test_pool, of(&job), holdout, fit, &standardised, &rms), ROTID_OK);
     assert_true(isnan(standardised) && isnan(rms));
     rotid_fit_free(fit);
 }
@@ -239,18 +248,18 @@ static void errors_are_as_defined(void **state)
             assert_close(shape_difference(&job, k, fit->mac[k]), shape_by_definition(&job, fit->x, k), 1e-6, 0);
             count++;
         }
-        fitted_errors(&job, holdout, fit, held, &rms, &most, &shapes);
+        fitted_errors(of(&job), holdout, fit, held, &rms, &most, &shapes);
         assert_close(rms, sqrt(squares / count), 1e-12, 0);
         assert_close(most, largest, 1e-12, 0);
         assert_close(shapes, sqrt(shape_squares / count), 1e-6, 0);
     }
     memset(holdout, 0, sizeof holdout);
-    fitted_errors(&job, holdout, fit, 1, &rms, &most, &shapes);
+    fitted_errors(of(&job), holdout, fit, 1, &rms, &most, &shapes);
     assert_true(isnan(rms) && isnan(most) && isnan(shapes));
     assert_true(isnan(shape_difference(&job, 0, NAN)));
     job.measurement.shape = NULL;
     assert_true(isnan(shape_difference(&job, 0, 0.9)));
-    fitted_errors(&job, holdout, fit, 0, &rms, &most, &shapes);
+    fitted_errors(of(&job), holdout, fit, 0, &rms, &most, &shapes);
     assert_true(isfinite(rms) && isnan(shapes));
     rotid_fit_free(fit);
 }
@@ -265,7 +274,7 @@ static void a_mode_out_is_a_fit_without_it(void **state)
         double error, difference;
         held[k] = 1;
         rotid_fit_result *fit = fit_job(&job, held);
-        assert_status(mode_out_fit(&job, number, holdout, k, NULL, NULL, &error, &difference), ROTID_OK);
+        assert_status(mode_out_fit(of(&job), number, holdout, k, NULL, NULL, &error, &difference), ROTID_OK);
         assert_close(error, 100 * (fit->predicted_hz[k] / hz[k] - 1), 1e-5, 1e-6);
         assert_close(difference, shape_by_definition(&job, fit->x, k), 1e-4, 0);
         rotid_fit_free(fit);
@@ -273,10 +282,10 @@ static void a_mode_out_is_a_fit_without_it(void **state)
     struct failing_allocator failing;
     double error, difference;
     failing_allocator_open(&failing, 0);
-    assert_status(mode_out_fit(&job, number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_OK);
+    assert_status(mode_out_fit(of(&job), number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_OK);
     assert_int_equal(failing.in_use, 0);
     failing_allocator_open(&failing, 5);
-    assert_status(mode_out_fit(&job, number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_ERROR_MEMORY);
+    assert_status(mode_out_fit(of(&job), number, holdout, 0, NULL, &failing.allocator, &error, &difference), ROTID_ERROR_MEMORY);
     assert_int_equal(failing.in_use, 0);
 }
 
@@ -287,12 +296,12 @@ static void a_mode_out_leaves_enough_or_nothing_is_said(void **state)
     double error = 0, difference = 0;
     job.measurement.shape = NULL;
     holdout[2] = holdout[3] = holdout[4] = 1; /* two frequencies for two moduli; one of them left out is too few */
-    assert_status(mode_out_fit(&job, number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_status(mode_out_fit(of(&job), number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
     assert_true(isnan(error) && isnan(difference));
-    assert_status(mode_out_fit(&job, number, holdout, 2, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_status(mode_out_fit(of(&job), number, holdout, 2, NULL, NULL, &error, &difference), ROTID_OK);
     assert_true(isfinite(error) && isnan(difference));
     holdout[1] = 1; /* the last one */
-    assert_status(mode_out_fit(&job, number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
+    assert_status(mode_out_fit(of(&job), number, holdout, 0, NULL, NULL, &error, &difference), ROTID_OK);
     assert_true(isnan(error));
 }
 
@@ -308,7 +317,7 @@ static void a_host_can_cancel(void **state)
     struct job job = make_job(0.02);
     double error, difference;
     const rotid_environment environment = {.size = sizeof environment, .cancelled = at_once};
-    assert_status(mode_out_fit(&job, number, holdout, 0, &environment, NULL, &error, &difference), ROTID_STOP_CANCELLED);
+    assert_status(mode_out_fit(of(&job), number, holdout, 0, &environment, NULL, &error, &difference), ROTID_STOP_CANCELLED);
 }
 
 int main(void)

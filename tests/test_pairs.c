@@ -19,12 +19,13 @@ static struct scan_item item[MOST];
 static struct scan_candidate candidate[MOST];
 static double column[ROWS * MOST], residual[ROWS];
 static struct segment segment = {.length = 1};
-static struct job job;
+static struct state only;
+static const struct states states = {.nstate = 1, .state = &only};
 
 static void open_scan(void)
 {
     scan = (struct scan){.nrow = ROWS, .dof = ROWS, .item = item, .candidate = candidate, .column = column, .r = residual};
-    job = (struct job){.rotor = {.nsegment = 1, .segment = &segment}};
+    only = (struct state){.job.rotor = {.nsegment = 1, .segment = &segment}};
 }
 
 static struct scan_candidate *add_candidate(const char *id, int target)
@@ -32,7 +33,7 @@ static struct scan_candidate *add_candidate(const char *id, int target)
     struct scan_candidate *c = &candidate[scan.ncandidate++];
     const struct cause_kind *cause = catalogue_find(id);
     assert_non_null(cause);
-    *c = (struct scan_candidate){.cause = cause, .effect = {.kind = cause->effect, .target = target}, .first = scan.nitem};
+    *c = (struct scan_candidate){.state = -1, .cause = cause, .effect = {.kind = cause->effect, .target = target}, .first = scan.nitem};
     return c;
 }
 
@@ -91,7 +92,7 @@ static double drop_on_grid(int i, int j)
 static int choose(struct scan_set *set)
 {
     int count;
-    assert_status(pairs_choose(&test_pool, &job, &scan, MOST, set, &count), ROTID_OK);
+    assert_status(pairs_choose(&test_pool, &states, &scan, MOST, set, &count), ROTID_OK);
     return count;
 }
 

@@ -175,7 +175,7 @@ static void fill_named(void)
     for (int i = 0; i < SENSORS; i++) {
         s.sensor[i] = (struct sensor){i + 1, LENGTH * i / (SENSORS - 1)};
         double z = LENGTH * i / (SENSORS - 1);
-        s.sensor_rms[i] = (rotid_sensor_residual){i + 1, z, 1 + 3 * exp(-pow((z - 1.4) / 0.15, 2))};
+        s.sensor_rms[i] = (rotid_sensor_residual){.id = i + 1, .z_m = z, .rms = 1 + 3 * exp(-pow((z - 1.4) / 0.15, 2))};
     }
     for (int i = 0; i < LOCAL; i++) {
         double z = LENGTH * i / (LOCAL - 1);
@@ -462,7 +462,13 @@ static struct pool *open_result(struct result *result)
 {
     struct pool *memory = pool_new(NULL);
     static struct diagnosis d;
+    static struct state deck, judged, extended;
+    const struct states states = states_of(&s.deck, &deck);
     d = s.d;
+    if (d.job.deck)
+        d.judged = states_of(&d.job, &judged);
+    if (d.extended_job.deck)
+        d.extended_states = states_of(&d.extended_job, &extended);
     assert_non_null(memory);
     *result = (struct result){.head = {.schema = RESULT_SCHEMA,
                                        .rotid = "0.1.0",
@@ -474,7 +480,7 @@ static struct pool *open_result(struct result *result)
                                        .deck = s.deck.deck,
                                        .nheading = s.deck.nheading,
                                        .heading = s.deck.heading},
-                              .diagnose = result_diagnosis(memory, &s.deck, &d)};
+                              .diagnose = result_diagnosis(memory, &states, &d)};
     assert_non_null(result->diagnose);
     return memory;
 }

@@ -7,13 +7,13 @@
 #include "deck/deck_extended.h"
 #include "diagnose/diagnose.h"
 
-static rotid_diagnosis *make_result(struct call *call, const struct job *job, const char *path, struct diagnosis *d)
+static rotid_diagnosis *make_result(struct call *call, const struct states *states, const char *path, struct diagnosis *d)
 {
     struct pool *pool = &call->entry.scratch;
     char *text = NULL;
-    if (d->result.verdict.sentence && d->base.fit)
+    if (d->result.verdict.sentence && d->base.fit && d->judged.nstate == 1 && !d->result.before)
         (void)deck_write_extended(pool, d, path, &text);
-    rotid_diagnosis *made = result_diagnosis(pool, job, d);
+    rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;
     made->nmessage = (int)call->notes.count;
     made->message = call->notes.item;
@@ -33,8 +33,14 @@ static int take_options(const rotid_diagnose_options *given, char *failure, stru
         return refuse(failure, "options->replicates is %d, expected 0 or more", o.replicates);
     if (o.seed < 0)
         return refuse(failure, "options->seed is %ld, expected 0 or more", o.seed);
-    *options = (struct diagnose_options){
-        .threads = o.threads ? o.threads : 1, .seed = o.seed ? (unsigned long)o.seed : 1, .replicates = o.replicates};
+    if (!o.before != !o.after)
+        return refuse(failure, "options->%s is NULL, expected the name of a state as well as in options->%s",
+                      o.before ? "after" : "before", o.before ? "before" : "after");
+    *options = (struct diagnose_options){.threads = o.threads ? o.threads : 1,
+                                         .seed = o.seed ? (unsigned long)o.seed : 1,
+                                         .replicates = o.replicates,
+                                         .before = o.before,
+                                         .after = o.after};
     if (options->threads > PARALLEL_MOST)
         options->threads = PARALLEL_MOST;
     return ROTID_OK;
@@ -44,14 +50,16 @@ static int diagnose(struct call *call, const rotid_deck *deck, const rotid_diagn
 {
     struct diagnose_options options;
     struct diagnosis d;
-    const struct job *job = deck_job(deck, call);
-    int status = job ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
+    const struct states *states = deck_states(deck, call);
+    int status = states ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
     if (status)
         return status;
-    status = diagnose_run(&call->entry.scratch, job, &options, &call->environment, &call->notes, &d);
+    status = states->nstate == 1 && !options.before
+                 ? diagnose_run(&call->entry.scratch, &states->state->job, &options, &call->environment, &call->notes, &d)
+                 : diagnose_states(&call->entry.scratch, states, &options, &call->environment, &call->notes, &d);
     if (status)
         return status;
-    *result = make_result(call, job, deck->path, &d);
+    *result = make_result(call, states, deck->path, &d);
     if (*result)
         return ROTID_OK;
     diagnose_free(&d);

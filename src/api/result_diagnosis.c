@@ -9,7 +9,8 @@
 static rotid_cause cause_of(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
-    rotid_cause out = {.id = c->cause->id, .target = c->target, .name = c->effect.name, .variant = candidate_variant(c)};
+    rotid_cause out = {
+        .id = c->cause->id, .target = c->target, .name = c->effect.name, .variant = candidate_variant(c), .state = c->state_name};
     int room = POOL_LIST(pool, out.parameters, EFFECT_MOST_PARAMETERS);
     for (int p = 0; p < room && (parameter = candidate_parameter(c, p)); p++)
         out.parameters[out.nparameters++] = (rotid_cause_value){.name = parameter->name,
@@ -80,26 +81,36 @@ static rotid_changed_parameter changed_parameter(const rotid_parameter *name, co
 static void fill_changes(struct pool *pool, const struct diagnosis *d, rotid_gain *out)
 {
     const rotid_fit_result *base = d->base.fit, *extended = d->extended.fit;
+    const rotid_parameter *before = d->judged.bounds, *after = d->extended_states.bounds;
     int nbase = base ? base->n : 0, nextended = extended ? extended->n : 0,
         room = POOL_LIST(pool, out->parameters, nbase + nextended);
     for (int p = 0; p < nbase && room; p++)
         out->parameters[out->nparameters++] =
-            changed_parameter(&d->job.unknowns.bounds[p], base, p, extended,
-                              fitted_parameter(&d->extended_job, extended, d->job.unknowns.bounds[p].name));
+            changed_parameter(&before[p], base, p, extended, fitted_parameter(after, extended, before[p].name));
     for (int p = 0; p < nextended && room; p++)
-        if (fitted_parameter(&d->job, base, d->extended_job.unknowns.bounds[p].name) < 0)
-            out->parameters[out->nparameters++] = changed_parameter(&d->extended_job.unknowns.bounds[p], base, -1, extended, p);
+        if (fitted_parameter(before, base, after[p].name) < 0)
+            out->parameters[out->nparameters++] = changed_parameter(&after[p], base, -1, extended, p);
 }
 
-rotid_diagnosis *result_diagnosis(struct pool *pool, const struct job *deck, struct diagnosis *d)
+/* Of one state, or of several together. */
+static rotid_identification *identification(struct pool *pool, const struct states *states, const struct identification *first,
+                                            const struct identification *each)
+{
+    if (states->nstate > 1)
+        return first->fit ? result_identification_states(pool, states, each, first->fit) : NULL;
+    return states->nstate ? result_identification(pool, &states->state->job, first) : NULL;
+}
+
+rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, struct diagnosis *d)
 {
     rotid_diagnosis *out = &d->result;
     fill_verdict(pool, d, &out->verdict);
     fill_rounds(pool, d, out);
     fill_changes(pool, d, &out->gain);
-    out->geometry = result_geometry(pool, d->job.deck ? &d->job.rotor : &deck->rotor, d->base.spectrum.model);
-    out->today = result_identification(pool, deck, &d->today);
-    out->base = result_identification(pool, &d->job, &d->base);
-    out->extended = result_identification(pool, &d->extended_job, &d->extended);
+    out->geometry =
+        result_geometry(pool, d->judged.nstate ? &d->judged.state->job.rotor : &deck->state->job.rotor, d->base.spectrum.model);
+    out->today = identification(pool, deck, &d->today, d->state_today);
+    out->base = identification(pool, &d->judged, &d->base, d->state_base);
+    out->extended = identification(pool, &d->extended_states, &d->extended, d->state_extended);
     return out;
 }

@@ -4,8 +4,8 @@
 
 #include "diagnose/diagnose.h"
 
-/* deck: the job as the user states it, whose FIT `today` was fitted with. It leans on both. Without
+/* deck: the states as the user states them, whose FIT `today` was fitted with. It leans on both. Without
  * messages and the extended deck. The result of `d`; where memory is out the pool says so. */
-rotid_diagnosis *result_diagnosis(struct pool *pool, const struct job *deck, struct diagnosis *d);
+rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, struct diagnosis *d);
 
 #endif

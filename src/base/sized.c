@@ -27,7 +27,7 @@ static const struct sized_struct table[] = {
 };
 
 ENDS_WITH(rotid_environment, context);
-ENDS_WITH(rotid_diagnose_options, seed);
+ENDS_WITH(rotid_diagnose_options, after);
 ENDS_WITH(rotid_model, user);
 ENDS_WITH(rotid_measured, holdout);
 ENDS_WITH(rotid_state, parameter);

@@ -96,6 +96,13 @@ static int refuse_study(const struct command *command)
     return -1;
 }
 
+/* Two names with a comma between. */
+static int is_pair(const char *text)
+{
+    const char *comma = strchr(text, ',');
+    return comma && comma > text && comma[1] && !strchr(comma + 1, ',');
+}
+
 int arguments_refuse(const struct command *command, const struct command_entry *entry)
 {
     int refused = -1;
@@ -107,6 +114,11 @@ int arguments_refuse(const struct command *command, const struct command_entry *
         refused = refuse_study(command);
     else if (!strcmp(command->name, "report") && !command->output)
         return arguments_wrong("%s: expected -o FOLDER", command->name);
+    else if (command->changed && !is_pair(command->changed))
+        return arguments_wrong("--changed %s: expected BEFORE,AFTER, the names of two states of the deck", command->changed);
+    else if (command->changed && command->extended)
+        return arguments_wrong("--extended %s does not go with --changed, which holds the model that it says nothing of",
+                               command->extended);
     else if (arguments_given(command, "format") && !command->output)
         return arguments_wrong("--format %s: expected --output as well", arguments_given(command, "format"));
     return refused >= 0 ? refused : refuse_files(command);

@@ -32,7 +32,7 @@ struct given_option {
 
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
-    const char *name, *deck, *json, *at, *extended, *output, *state;
+    const char *name, *deck, *json, *at, *extended, *changed, *output, *state;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
     int quiet, verbose, threads, no_baseline, compare, points, replicates, start, condensed;

@@ -1,3 +1,5 @@
+#include <string.h>
+
 #include "cli/command.h"
 #include "report/table.h"
 #include "report/table_diagnose.h"
@@ -13,7 +15,8 @@ static int write_extended(struct command *command, const rotid_diagnosis *diagno
         return code;
     }
     if (!diagnosis->extended_deck) {
-        terminal_say("rotid: cannot write %s: no deck can say this model\n", command->extended);
+        terminal_say("rotid: cannot write %s: no deck %s\n", command->extended,
+                     diagnosis->base && diagnosis->base->nstates ? "with several states is written" : "can say this model");
         return EXIT_INTERNAL;
     }
     return command_write_file(command, command->extended, diagnosis->extended_deck, code);
@@ -44,8 +47,13 @@ int command_diagnose(struct command *command)
     double last = 0;
     if (!command->seed) /* of which the library takes its default: the result states the one that was used */
         command->head.seed = (double)(command->seed = 1);
-    const rotid_diagnose_options options = {
+    rotid_diagnose_options options = {
         .size = sizeof options, .threads = command->threads, .replicates = command->replicates, .seed = (long)command->seed};
+    const char *comma = command->changed ? strchr(command->changed, ',') : NULL;
+    if (comma) {
+        options.before = pool_format(&command->pool, "%.*s", (int)(comma - command->changed), command->changed);
+        options.after = comma + 1;
+    }
     const rotid_environment environment = command_environment(command, &last);
     rotid_diagnosis *diagnosis;
     int status = rotid_diagnose(command->read, &options, &environment, failure, &diagnosis);

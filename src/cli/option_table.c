@@ -53,6 +53,8 @@ const struct option_row option_table[] = {
 
     {.name = "extended", .commands = "diagnose", .kind = OPTION_WRITES, AT(extended), .value = "FILE", .files = "inp",
      .help = "a deck with what was found, as cards, and with the fitted values as starts"},
+    {.name = "changed", .commands = "diagnose", .kind = OPTION_TEXT, AT(changed), .value = "BEFORE,AFTER",
+     .help = "what changed between two states of the deck, whatever the model lacks in both"},
     {.name = "replicates", .commands = "diagnose", .kind = OPTION_WHOLE, AT(replicates), FROM(100, 1000000), .value = "N",
      .help = "of the bootstrap that tells a cause from chance (default: 1000)"},
 

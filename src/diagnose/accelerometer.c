@@ -28,11 +28,11 @@ int is_moving_accelerometer(const struct effect *effect)
 
 static int open_weighing(struct pool *pool, const struct engine *engine, struct weighing *w)
 {
-    int status = columns_open(pool, &engine->job, engine->number, engine->holdout, NULL, engine->fit->x, &w->columns);
+    int status = columns_open(pool, engine->job, engine->number, engine->holdout, NULL, engine->fit->x, &w->columns);
     if (status)
         return status;
     w->nmode = w->columns.nmode;
-    w->npoint = engine->job.rotor.nsensor;
+    w->npoint = engine->job->rotor.nsensor;
     size_t count = (size_t)w->nmode * (size_t)w->npoint;
     double **arrays[] = {&w->hz, &w->std, &w->square, &w->others, &w->phi, &w->bend, &w->across, &w->across_bend, &w->spread};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
@@ -41,7 +41,7 @@ static int open_weighing(struct pool *pool, const struct engine *engine, struct 
     w->order = POOL_ARRAY(pool, double, w->npoint);
     w->hammer = -1;
     for (int s = 0; s < w->npoint; s++)
-        if (engine->job.measurement.hammer && engine->job.rotor.sensor[s].id == engine->job.measurement.hammer)
+        if (engine->job->measurement.hammer && engine->job->rotor.sensor[s].id == engine->job->measurement.hammer)
             w->hammer = s;
     return w->order ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
@@ -110,7 +110,7 @@ static void take_mode(struct weighing *w, int m, struct nelson_band *nelson, dou
 static int take_modes(struct pool *pool, const struct engine *engine, struct weighing *w)
 {
     const struct prediction *p = &w->columns.functional.prediction;
-    const struct job *job = &engine->job;
+    const struct job *job = engine->job;
     struct nelson_band nelson;
     double *vector = POOL_ARRAY(pool, double, (CLUSTER_MOST + 3) * (size_t)p->size);
     if (!vector)
@@ -135,7 +135,7 @@ static int add_mass(struct engine *engine, const struct weighing *w)
 {
     static const int fixed[EFFECT_MOST_PARAMETERS] = {1, 1, 1, 1};
     const struct roving_accelerometer *moving = &engine->moving;
-    struct job *job = &engine->job;
+    struct job *job = engine->job;
     const struct cause_kind *cause = catalogue_find("accelerometer_mass");
     double half = quantile_student_95(moving->dof) * moving->std;
     const char *drift =
@@ -165,13 +165,15 @@ static int add_mass(struct engine *engine, const struct weighing *w)
     for (int m = 0; m < w->nmode; m++) /* the mean of the readings has a second order that MOVING does not */
         if (isfinite(moving->spread_hz[m]))
             job->measurement.frequency_hz[w->columns.mode[m].k] = moving->spread_hz[m];
-    return job_with_effect(engine->pool, job, NULL, &effect, cause, fixed, job);
+    status = job_with_effect(engine->pool, job, NULL, &effect, cause, fixed, job);
+    engine_take_job(engine, job);
+    return status;
 }
 
 /* The mean over a drift that is linear in the order of the points is off by no more than its spread. */
 static int add_drift(struct engine *engine)
 {
-    const struct job *job = &engine->job;
+    const struct job *job = engine->job;
     double square = 0, spread = fabs(engine->moving.drift) / sqrt(12);
     for (int k = 0; k < job->measurement.nmode; k++)
         square += job->measurement.frequency_std[k] * job->measurement.frequency_std[k] / job->measurement.nmode;
@@ -196,7 +198,7 @@ static double most_mass(const struct rotor *rotor)
 void data_note_readings(struct engine *engine)
 {
     const struct roving_accelerometer *moving = &engine->moving;
-    double most = most_mass(&engine->job.rotor);
+    double most = most_mass(&engine->job->rotor);
     if (moving->dropped)
         message_add(
             engine->notes, SEVERITY_WARNING, NULL, 0, 0,
@@ -211,7 +213,7 @@ void data_note_readings(struct engine *engine)
 
 int data_weigh_accelerometer(struct engine *engine, int *changed)
 {
-    const struct job *job = &engine->job;
+    const struct job *job = engine->job;
     struct pool scratch;
     struct weighing w = {0};
     double most = most_mass(&job->rotor);
@@ -241,8 +243,8 @@ int data_weigh_accelerometer(struct engine *engine, int *changed)
         *changed = 1;
     } else if (!status && engine->moving.usable) {
         double bound = fmin(fmax(engine->moving.mass, 0) + NOT_EXCLUDED * engine->moving.std, PLAUSIBLE);
-        loaded_shapes_allow(&engine->job, &w, bound);
-        *changed = bound > 0 && job_fits_shapes(&engine->job);
+        loaded_shapes_allow(engine->job, &w, bound);
+        *changed = bound > 0 && job_fits_shapes(engine->job);
     }
     pool_close(&scratch);
     if (!status && engine->moving.drifts) {

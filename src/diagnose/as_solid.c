@@ -1,6 +1,7 @@
 #include "diagnose/as_solid.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "diagnose/causes/catalogue.h"
 #include "linalg/product.h"
@@ -47,38 +48,66 @@ static int hold_mesh(struct pool *pool, const struct job *solid, const double *x
     return status ? status : mesh_hold(pool, solid, &spectrum, &moved);
 }
 
-#define HOPELESS 4 /* times the chi2 of the beam, by the coarse mesh: whose error is a twentieth of what a beam lacks at a step  \
-                    */
+#define HOPELESS                                                                                                                 \
+    4 /* times the chi2 of the beam, by the coarse mesh: whose error is a twentieth of what a beam lacks at a step               \
+       */
 
-/* chi2 that the residual of the solid at x leaves where the beam's columns take what is fitted anyway. */
-static int chi2_left(struct pool *pool, const struct job *solid, const int *number, const int *holdout, const double *x,
+/* chi2 that the residual of the solids at x leaves where the beams' columns take what is fitted anyway. */
+static int chi2_left(struct pool *pool, const struct states *solids, const int *number, const int *holdout, const double *x,
                      const struct scan *scan, double *left)
 {
-    struct columns columns;
-    int status = columns_open(pool, solid, number, holdout, NULL, x, &columns);
-    if (status)
-        return status;
-    *left = product_dot(scan->nrow, columns.r, columns.r);
+    double *r = POOL_ARRAY(pool, double, scan->nrow);
+    int row = 0;
+    if (!r)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, mode = 0; s < solids->nstate; mode += solids->state[s].job.measurement.nmode, s++) {
+        struct columns columns;
+        double *own = state_values(pool, &solids->state[s], x);
+        int fitted = 0;
+        for (int k = 0; k < solids->state[s].job.measurement.nmode; k++)
+            fitted += !holdout[mode + k];
+        if (!fitted)
+            continue;
+        int status = own ? columns_open(pool, &solids->state[s].job, number + mode, holdout + mode, NULL, own, &columns)
+                         : ROTID_ERROR_MEMORY;
+        if (status)
+            return status;
+        memcpy(r + row, columns.r, (size_t)columns.nrow * sizeof *r);
+        row += columns.nrow;
+    }
+    *left = product_dot(scan->nrow, r, r);
     for (int b = 0; b < scan->nbasis; b++) {
-        double along = product_dot(scan->nrow, scan->basis + (ptrdiff_t)b * scan->nrow, columns.r);
+        double along = product_dot(scan->nrow, scan->basis + (ptrdiff_t)b * scan->nrow, r);
         *left -= along * along;
     }
     return ROTID_OK;
 }
 
-int scan_solid(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+/* The states as solids; *unknowns: of the largest. */
+static int open_solids(struct pool *pool, const struct states *states, struct states *solids, int *unknowns)
+{
+    int status = states_copy(pool, states, solids), size;
+    *unknowns = 0;
+    for (int s = 0; s < states->nstate && !status; s++) {
+        status = job_as_solid(pool, &states->state[s].job, &solids->state[s].job);
+        if (!status)
+            status = solid_unknowns(pool, &solids->state[s].job, &size);
+        *unknowns = !status && size > *unknowns ? size : *unknowns;
+    }
+    return status;
+}
+
+int scan_solid(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
                struct scan *scan, struct message_list *notes)
 {
     double left, before = product_dot(scan->nrow, scan->r, scan->r);
     for (int i = 0; i < scan->ncandidate; i++) {
         struct scan_candidate *c = &scan->candidate[i];
-        struct job solid;
+        struct states solids;
         int unknowns, status;
         if (!c->cause->solid)
             continue;
-        status = job_as_solid(pool, job, &solid);
-        if (!status)
-            status = solid_unknowns(pool, &solid, &unknowns);
+        status = open_solids(pool, states, &solids, &unknowns);
         if (!status && unknowns > MOST_UNKNOWNS) {
             if (notes)
                 message_add(notes, SEVERITY_NOTE, NULL, 0, 0,
@@ -87,14 +116,17 @@ int scan_solid(struct pool *pool, const struct job *job, const int *number, cons
                             unknowns, MOST_UNKNOWNS);
             return ROTID_OK;
         }
+        for (int s = 0; s < solids.nstate && !status; s++)
+            status = mesh_hold_as_it_is(pool, &solids.state[s].job, comparison_candidates(&solids.state[s].job));
         if (!status)
-            status = mesh_hold_as_it_is(pool, &solid, comparison_candidates(&solid));
-        if (!status)
-            status = chi2_left(pool, &solid, number, holdout, x, scan, &left);
+            status = chi2_left(pool, &solids, number, holdout, x, scan, &left);
         if (!status && left < HOPELESS * before) {
-            status = hold_mesh(pool, &solid, x);
+            for (int s = 0; s < solids.nstate && !status; s++) {
+                double *own = state_values(pool, &solids.state[s], x);
+                status = own ? hold_mesh(pool, &solids.state[s].job, own) : ROTID_ERROR_MEMORY;
+            }
             if (!status)
-                status = chi2_left(pool, &solid, number, holdout, x, scan, &left);
+                status = chi2_left(pool, &solids, number, holdout, x, scan, &left);
         }
         if (status) /* the rotor can be no solid: nothing to propose */
             return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;

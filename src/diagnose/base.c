@@ -29,20 +29,21 @@ static int add_numerical(struct engine *engine, const char *id, int count, const
         mode[k] = k + 1;
         copy[k] = error[k];
     }
-    out->result.numerical_findings[out->result.nnumerical_findings++] = (rotid_numerical_finding){id, count, mode, copy, text};
+    out->result.numerical_findings[out->result.nnumerical_findings++] =
+        (rotid_numerical_finding){.id = id, .nmodes = count, .modes = mode, .error_percent = copy, .text = text};
     return ROTID_OK;
 }
 
 /* Largest error of the measured modes against the noise of their frequencies; *at: that mode. */
-static double against_noise(const struct engine *engine, const double *error, int count, int *at)
+static double against_noise(const struct job *job, const int *number, const double *error, int count, int *at)
 {
     double largest = 0;
     *at = 0;
-    for (int k = 0; k < engine->job.measurement.nmode; k++) {
-        int mode = engine->number[k] - 1;
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        int mode = number[k] - 1;
         if (mode >= count || !isfinite(error[mode]))
             continue;
-        double ratio = fabs(error[mode]) / (100 * engine->job.measurement.frequency_std[k]);
+        double ratio = fabs(error[mode]) / (100 * job->measurement.frequency_std[k]);
         if (ratio > largest) {
             largest = ratio;
             *at = mode;
@@ -70,9 +71,9 @@ int base_note_reduction(struct engine *engine)
     const struct diagnosis *out = engine->out;
     const struct spectrum *s = &out->today.spectrum;
     int at;
-    if (!out->today.fit || engine->user_reduction == ROTID_REDUCTION_NONE)
+    if (engine->states.nstate > 1 || !out->today.fit || engine->user_reduction == ROTID_REDUCTION_NONE)
         return ROTID_OK;
-    double ratio = against_noise(engine, s->reduction_error_percent, s->count, &at);
+    double ratio = against_noise(engine->job, engine->number, s->reduction_error_percent, s->count, &at);
     if (!(ratio > 1))
         return ROTID_OK;
     return add_numerical(engine, "guyan_reduction", s->count, s->reduction_error_percent,
@@ -82,23 +83,38 @@ int base_note_reduction(struct engine *engine)
                                      s->nmaster, at + 1, s->reduction_error_percent[at], ratio));
 }
 
+int base_identify(struct engine *engine, const struct states *states, struct message_list *notes, struct identification **each,
+                  struct identification *first)
+{
+    rotid_fit_result *fit = NULL;
+    *each = POOL_ARRAY(engine->pool, struct identification, states->nstate);
+    if (!*each)
+        return ROTID_ERROR_MEMORY;
+    int status = identify_states(engine->pool, states, 0, engine->environment, notes, *each, &fit);
+    *first = **each;
+    first->fit = fit;
+    return status;
+}
+
 /* A parameter at a bound may have been caught there: once more from inside, and the better fit counts. */
 static int leave_bound(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    struct identification second;
+    struct identification second, *each;
     struct message_list quiet;
-    struct job job;
+    struct states states;
     message_open(&quiet, engine->pool);
-    int status = job_started_at(engine->pool, &engine->job, out->base.fit->x, &job);
+    int status = states_started_at(engine->pool, &engine->states, out->base.fit->x, &states);
     if (!status)
-        status = identify_run(engine->pool, &job, 0, engine->environment, &quiet, &second);
+        status = base_identify(engine, &states, &quiet, &each, &second);
     if (status) /* the first one stands */
         return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
     int better = second.fit->status != ROTID_STOP_CANCELLED && second.fit->chi2 < out->base.fit->chi2;
     rotid_fit_free(better ? out->base.fit : second.fit);
-    if (better)
+    if (better) {
         out->base = second;
+        out->state_base = each;
+    }
     return ROTID_OK;
 }
 
@@ -107,7 +123,7 @@ static void note_bounds(struct engine *engine)
 {
     for (int p = 0; p < engine->nown; p++)
         if (engine->fit->at_bound[p]) {
-            const rotid_parameter *bounds = &engine->out->job.unknowns.bounds[p];
+            const rotid_parameter *bounds = &engine->out->judged.bounds[p];
             message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
                         "without a cause %s ends at its %s bound %.4g %s: the bound itself may be what is wrong; widen it where "
                         "physics allows",
@@ -117,11 +133,33 @@ static void note_bounds(struct engine *engine)
 
 const char *base_bound_side(const struct engine *engine, int p)
 {
-    const rotid_parameter *bounds = &engine->out->job.unknowns.bounds[p];
+    const rotid_parameter *bounds = &engine->out->judged.bounds[p];
     double x = engine->out->base.fit->x[p];
     return x - bounds->lower < bounds->upper - x ? "lower" : "upper";
 }
 
+/* Numbers and held-out modes of all states, one behind the other, as the base has them. */
+static int take_numbers(struct engine *engine)
+{
+    const struct states *states = &engine->states;
+    int modes = states_modes(states, states->nstate);
+    engine->number = engine->out->base.compared.number;
+    engine->holdout = engine->job->measurement.holdout;
+    if (states->nstate == 1)
+        return ROTID_OK;
+    engine->number = POOL_ARRAY(engine->pool, int, modes);
+    engine->holdout = POOL_ARRAY(engine->pool, int, modes);
+    if (!engine->number || !engine->holdout)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, at = 0; s < states->nstate; s++)
+        for (int k = 0; k < states->state[s].job.measurement.nmode; k++, at++) {
+            engine->number[at] = engine->out->state_base[s].compared.number[k];
+            engine->holdout[at] = states->state[s].job.measurement.holdout[k];
+        }
+    return ROTID_OK;
+}
+
+/* say: the notes of the fit */
 static int fit_base(struct engine *engine, int say)
 {
     struct diagnosis *out = engine->out;
@@ -129,14 +167,14 @@ static int fit_base(struct engine *engine, int say)
     message_open(&quiet, engine->pool);
     rotid_fit_free(out->base.fit);
     out->base.fit = engine->fit = NULL;
-    int status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
-    for (int pass = 0; status == ROTID_ERROR_UNPAIRED && pass < MOST_DROPPED && engine->job.measurement.nmode > LEAST_LEFT &&
-                       !engine->job.measurement.raw;
+    int status = base_identify(engine, &engine->states, &quiet, &out->state_base, &out->base);
+    for (int pass = 0; status == ROTID_ERROR_UNPAIRED && engine->states.nstate == 1 && pass < MOST_DROPPED &&
+                       engine->job->measurement.nmode > LEAST_LEFT && !engine->job->measurement.raw;
          pass++) {
         status = pairing_drop(engine, engine->out->base.compared.clash);
         message_open(&quiet, engine->pool);
         if (!status)
-            status = identify_run(engine->pool, &engine->job, 0, engine->environment, &quiet, &out->base);
+            status = base_identify(engine, &engine->states, &quiet, &out->state_base, &out->base);
     }
     for (size_t i = 0; i < quiet.count && (say || status); i++)
         message_add(engine->notes, quiet.item[i].severity, NULL, 0, 0, "%s", quiet.item[i].text);
@@ -149,10 +187,12 @@ static int fit_base(struct engine *engine, int say)
     engine->fit = out->base.fit;
     if (out->base.fit->status == ROTID_STOP_CANCELLED)
         return ROTID_STOP_CANCELLED;
-    engine->number = out->base.compared.number;
-    engine->holdout = engine->job.measurement.holdout;
-    out->job = engine->job;
-    return job_started_at(engine->pool, &engine->job, engine->fit->x, &engine->job);
+    status = take_numbers(engine);
+    out->judged = engine->states;
+    if (!status)
+        status = states_started_at(engine->pool, &out->judged, engine->fit->x, &engine->states);
+    engine_look_at(engine, 0);
+    return status;
 }
 
 /* The accelerometer is weighed by the shapes of the fitted model, and the fit is spoilt by its weight: in turn, each time from
@@ -160,7 +200,7 @@ static int fit_base(struct engine *engine, int say)
 static int weigh_accelerometer(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    const struct job came = engine->job;
+    const struct job came = *engine->job;
     double mass = 0;
     int status = ROTID_OK, changed = 1, nfinding = out->result.ndata_findings;
     for (int pass = 0; pass < MOST_WEIGHED && changed && !status; pass++) {
@@ -169,7 +209,7 @@ static int weigh_accelerometer(struct engine *engine)
         status = job_started_at(engine->pool, &came, x, &job);
         if (!status)
             status = data_copy(engine->pool, &job);
-        engine->job = job;
+        engine_take_job(engine, &job);
         out->result.ndata_findings = nfinding;
         if (!status)
             status = data_weigh_accelerometer(engine, &changed);
@@ -184,21 +224,31 @@ static int weigh_accelerometer(struct engine *engine)
     return status;
 }
 
+static int is_judgeable(struct engine *engine)
+{
+    if (engine->fit->dof >= 1)
+        return ROTID_OK;
+    message_add(engine->notes, SEVERITY_ERROR, engine->job->deck, 1, 1,
+                "%d residuals for %d parameters leave nothing to judge the model by, expected more modes or shapes",
+                engine->fit->nresidual, engine->fit->n);
+    return ROTID_ERROR_ARGUMENT;
+}
+
 /* Base fit and a mesh fine enough: what the rounds start from. */
 int base_prepare(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    int status = fit_base(engine, 1), at;
-    if (!status)
-        status = pairing_note(engine, engine->job.measurement.number);
-    if (!status) /* before the channels are judged: its mass is seen in the shapes too */
+    int status = fit_base(engine, 1), at, one = engine->states.nstate == 1;
+    if (!status && one)
+        status = pairing_note(engine, engine->job->measurement.number);
+    if (!status && one) /* before the channels are judged: its mass is seen in the shapes too */
         status = weigh_accelerometer(engine);
-    if (!status && engine->job.options.solid) /* whose mesh follows from its outline, not from elements of the deck */
-        comparison_warn_of_mesh(&engine->job, &out->base.spectrum, &out->base.compared, engine->notes);
-    for (int pass = 0; pass < MOST_REFINED && !status && !engine->job.options.solid; pass++) {
+    if (!status && one && engine->job->options.solid) /* whose mesh follows from its outline, not from elements of the deck */
+        comparison_warn_of_mesh(engine->job, &out->base.spectrum, &out->base.compared, engine->notes);
+    for (int pass = 0; pass < MOST_REFINED && !status && one && !engine->job->options.solid; pass++) {
         const struct spectrum *s = &out->base.spectrum;
-        double ratio = against_noise(engine, s->mesh_error_percent, s->count, &at), worth = 0;
-        struct job finer = engine->job;
+        double ratio = against_noise(engine->job, engine->number, s->mesh_error_percent, s->count, &at), worth = 0;
+        struct job finer = *engine->job;
         status = refine_mesh(engine->pool, &finer.rotor);
         if (!status && !(ratio > 1))
             status = mesh_worth(engine, &finer, &worth);
@@ -211,49 +261,67 @@ int base_prepare(struct engine *engine)
                     ? pool_format(engine->pool, "the mesh moves mode %d by %+.2f %%, %.1f times its noise; a finer one is judged",
                                   at + 1, s->mesh_error_percent[at], ratio)
                     : pool_format(engine->pool, "the mesh alone is worth %.2g of chi2; a finer one is judged", worth));
-        engine->job.rotor = finer.rotor;
+        engine->job->rotor = finer.rotor;
         if (!status)
             status = fit_base(engine, 0);
     }
-    if (!status && engine->fit->dof < 1) {
-        message_add(engine->notes, SEVERITY_ERROR, out->job.deck, 1, 1,
-                    "%d residuals for %d parameters leave nothing to judge the model by, expected more modes or shapes",
-                    engine->fit->nresidual, engine->fit->n);
-        return ROTID_ERROR_ARGUMENT;
-    }
+    if (!status)
+        status = is_judgeable(engine);
     if (!status)
         note_bounds(engine);
     return status;
 }
 
-int base_residuals(struct engine *engine)
+/* The residuals of a state, whose modes begin at `mode` of all and whose rows at `row`. */
+static void residuals_of(const struct engine *engine, const struct job *job, int mode, int row, rotid_sensor_residual *sensor,
+                         int *count)
 {
-    rotid_diagnosis *out = &engine->out->result;
-    const struct job *job = &engine->job;
     const rotid_fit_result *fit = engine->fit;
-    int nsensor = job->rotor.nsensor, row = 0, shapes = job_fits_shapes(job);
-    int *count = POOL_ARRAY(engine->pool, int, nsensor);
-    out->nmodes_standardised = POOL_LIST(engine->pool, out->modes_standardised, job->measurement.nmode);
-    out->nsensors = POOL_LIST(engine->pool, out->sensors, nsensor);
-    if (!out->modes_standardised || !out->sensors || !count)
-        return ROTID_ERROR_MEMORY;
+    const int *holdout = engine->holdout + mode;
+    int nsensor = job->rotor.nsensor, shapes = job_fits_shapes(job);
     for (int k = 0; k < job->measurement.nmode; k++) {
-        out->modes_standardised[k] = fit->residual[k];
-        row += !engine->holdout[k];
+        engine->out->result.modes_standardised[mode + k] = fit->residual[mode + k];
+        row += !holdout[k];
     }
     for (int k = 0; k < job->measurement.nmode && shapes; k++)
-        for (int s = 0; s < nsensor && !engine->holdout[k]; s++)
+        for (int s = 0; s < nsensor && !holdout[k]; s++)
             if (isfinite(job->measurement.shape[s + (ptrdiff_t)k * nsensor])) {
-                out->sensors[s].rms += fit->r[row] * fit->r[row];
+                sensor[s].rms += fit->r[row] * fit->r[row];
                 count[s]++;
                 row++;
             }
     for (int s = 0; s < nsensor; s++)
-        out->sensors[s] = (rotid_sensor_residual){job->rotor.sensor[s].id, job->rotor.sensor[s].position,
-                                                  count[s] ? sqrt(out->sensors[s].rms / count[s]) : (double)NAN};
+        sensor[s] = (rotid_sensor_residual){.id = job->rotor.sensor[s].id,
+                                            .z_m = job->rotor.sensor[s].position,
+                                            .rms = count[s] ? sqrt(sensor[s].rms / count[s]) : (double)NAN};
+}
+
+int base_residuals(struct engine *engine)
+{
+    rotid_diagnosis *out = &engine->out->result;
+    const struct states *states = &engine->states;
+    const struct job *job = engine->job;
+    int nsensor = 0, shapes = job_fits_shapes(job);
+    for (int s = 0; s < states->nstate; s++)
+        nsensor += states->state[s].job.rotor.nsensor;
+    int *count = POOL_ARRAY(engine->pool, int, nsensor);
+    out->nmodes_standardised = POOL_LIST(engine->pool, out->modes_standardised, states_modes(states, states->nstate));
+    out->nsensors = POOL_LIST(engine->pool, out->sensors, nsensor);
+    if (!out->modes_standardised || !out->sensors || !count)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, mode = 0, row = 0, at = 0; s < states->nstate; s++) {
+        const struct job *own = &states->state[s].job;
+        residuals_of(engine, own, mode, row, out->sensors + at, count + at);
+        for (int i = at; i < at + own->rotor.nsensor; i++)
+            out->sensors[i].state = states->state[s].name;
+        mode += own->measurement.nmode;
+        row += engine->fit->state_nresidual[s];
+        at += own->rotor.nsensor;
+    }
     if (job->measurement.nmode)
         out->noise.frequency = job->measurement.frequency_std[0];
-    for (ptrdiff_t i = 0; i < (ptrdiff_t)nsensor * job->measurement.nmode && shapes && !isfinite(out->noise.shape); i++)
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode && shapes && !isfinite(out->noise.shape);
+         i++)
         out->noise.shape = job->measurement.shape_std[i];
     return ROTID_OK;
 }
@@ -264,11 +332,11 @@ int base_again(struct engine *engine)
     return status ? status : base_residuals(engine);
 }
 
-int base_refine(struct engine *engine, struct job *job, const struct spectrum *spectrum)
+int base_refine(struct pool *pool, struct job *job, const int *number, const struct spectrum *spectrum)
 {
     int at, status = ROTID_OK;
-    double ratio = job->options.solid ? 0 : against_noise(engine, spectrum->mesh_error_percent, spectrum->count, &at);
+    double ratio = job->options.solid ? 0 : against_noise(job, number, spectrum->mesh_error_percent, spectrum->count, &at);
     for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status; pass++, ratio /= 4)
-        status = refine_mesh(engine->pool, &job->rotor);
+        status = refine_mesh(pool, &job->rotor);
     return status;
 }

@@ -48,7 +48,7 @@ static int block(void *context, int index, int worker)
                 largest = fmax(largest, along[i] * along[i]);
         for (int i = 0; i < n; i++) {
             total += r[i] * r[i];
-            frequency += i < scan->nfrequency ? r[i] * r[i] : 0;
+            frequency += scan->is_frequency[i] ? r[i] * r[i] : 0;
         }
         job->largest[first + c] = largest;
         job->frequency[first + c] = frequency;

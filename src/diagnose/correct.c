@@ -9,7 +9,7 @@
 
 int data_correct(struct engine *engine, const rotid_data_finding *finding, const struct correction *found)
 {
-    struct job *job = &engine->job;
+    struct job *job = engine->job;
     struct correction *more = POOL_ARRAY(engine->pool, struct correction, job->measurement.ncorrection + 1), correction = *found;
     correction.name = pool_format(engine->pool, "fault_%d", job->measurement.ncorrection + 1);
     correction.id = finding->id;

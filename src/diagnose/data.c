@@ -80,6 +80,7 @@ int data_add_finding(struct engine *engine, const rotid_data_finding *finding)
     if (out->result.ndata_findings)
         memcpy(more, out->result.data_findings, (size_t)out->result.ndata_findings * sizeof *more);
     more[out->result.ndata_findings] = *finding;
+    more[out->result.ndata_findings].state = engine->state;
     more[out->result.ndata_findings++].unit = catalogue_find(finding->id)->value.unit;
     out->result.data_findings = more;
     return ROTID_OK;
@@ -126,7 +127,7 @@ void data_remove_mode(struct job *job, int k)
 /* A nearly axisymmetric rotor has each mode twice: two measured modes of one shape and nearly one frequency. The second goes. */
 static int drop_doubles(struct engine *engine)
 {
-    struct job *job = &engine->job;
+    struct job *job = engine->job;
     int nsensor = job->rotor.nsensor;
     for (int k = 1; k < job->measurement.nmode && job->measurement.shape && nsensor > 3; k++) {
         const double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor;
@@ -153,7 +154,7 @@ static int drop_doubles(struct engine *engine)
 /* No wrong modulus moves all modes alike by 2 pi: a diagnosis of frequencies in rad/s is refused. */
 static int look_like_radians(struct engine *engine)
 {
-    const struct job *job = &engine->job;
+    const struct job *job = engine->job;
     struct spectrum spectrum;
     struct message_list said;
     struct pool scratch;
@@ -183,18 +184,38 @@ static int count_fitted(const struct job *job)
     return count;
 }
 
-/* What keeps the data from carrying a name, said once. */
-static void judge_amount(struct engine *engine)
+/* Share of the rotor that the sensors of a state cover. */
+static double covered(const struct rotor *rotor)
 {
-    const struct job *job = &engine->job;
-    const struct rotor *rotor = &job->rotor;
+    return rotor->nsensor ? (rotor->sensor[rotor->nsensor - 1].position - rotor->sensor[0].position) / rotor_length(rotor) : 1;
+}
+
+/* The most that the sensors of a state cover whose shapes are fitted; 1 where none are. */
+static double most_covered(const struct states *states)
+{
+    double most = 0;
+    int any = 0;
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job *job = &states->state[s].job;
+        if (!job_fits_shapes(job))
+            continue;
+        any = 1;
+        most = fmax(most, covered(&job->rotor));
+    }
+    return any ? most : 1;
+}
+
+/* What keeps the data from carrying a name, said once. fitted: modes */
+static void judge_amount(struct engine *engine, int fitted)
+{
     int *confident = &engine->out->result.verdict.confident;
+    double share = most_covered(&engine->states);
     *confident = 1;
-    if (count_fitted(job) < LEAST_MODES) {
+    if (fitted < LEAST_MODES) {
         *confident = 0;
         message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "%d fitted mode%s cannot carry a name for what is wrong, expected at least %d", count_fitted(job),
-                    count_fitted(job) == 1 ? "" : "s", LEAST_MODES);
+                    "%d fitted mode%s cannot carry a name for what is wrong, expected at least %d", fitted,
+                    fitted == 1 ? "" : "s", LEAST_MODES);
     }
     if (engine->out->result.noise.frequency_assumed) {
         *confident = 0;
@@ -203,58 +224,65 @@ static void judge_amount(struct engine *engine)
                     "statements can be made",
                     100 * ASSUMED_FREQUENCY_NOISE);
     }
-    if (job_fits_shapes(job) && rotor->nsensor &&
-        rotor->sensor[rotor->nsensor - 1].position - rotor->sensor[0].position < LEAST_SPAN * rotor_length(rotor)) {
+    if (share < LEAST_SPAN) {
         *confident = 0;
         message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
                     "the sensors cover %.0f %% of the rotor, expected at least %.0f %%: what lies elsewhere cannot be placed",
-                    100 * (rotor->sensor[rotor->nsensor - 1].position - rotor->sensor[0].position) / rotor_length(rotor),
-                    100 * LEAST_SPAN);
+                    100 * share, 100 * LEAST_SPAN);
     }
 }
 
-int data_prepare(struct engine *engine, const struct job *job)
+/* The state at hand: its own copies of the data, their noise, no mode twice. */
+static int prepare_state(struct engine *engine)
 {
-    struct diagnosis *out = engine->out;
-    engine->job = *job;
+    struct job *job = engine->job;
     if (!job->measurement.nmode) {
         message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
-                    "the deck has no measured modes, expected *MODES or *MEASURED");
+                    "the deck has no measured modes%s%s, expected *MODES or *MEASURED", engine->state ? " in state " : "",
+                    engine->state ? engine->state : "");
         return ROTID_ERROR_ARGUMENT;
     }
-    int status = data_copy(engine->pool, &engine->job);
+    int known = job_knows_frequency_noise(job), status = data_copy(engine->pool, job);
     if (status)
         return status;
-    struct job *judged = &engine->job;
-    engine->nown = job->unknowns.nparameter;
-    engine->deck_start = POOL_ARRAY(engine->pool, double, job->unknowns.nparameter);
-    if (!engine->deck_start)
-        return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        engine->deck_start[p] = job->unknowns.bounds[p].start;
-    judged->options.fit.functional = ROTID_LIKELIHOOD;
-    judged->options.fit.reduction = ROTID_REDUCTION_NONE;
-    judged->options.fit.derivative = ROTID_NELSON;
-    if (!job_knows_frequency_noise(job)) {
-        out->result.noise.frequency_assumed = 1;
-        for (int k = 0; k < judged->measurement.nmode; k++)
-            if (!isfinite(judged->measurement.frequency_std[k]))
-                judged->measurement.frequency_std[k] = ASSUMED_FREQUENCY_NOISE;
+    job->options.fit.functional = ROTID_LIKELIHOOD;
+    job->options.fit.reduction = ROTID_REDUCTION_NONE;
+    job->options.fit.derivative = ROTID_NELSON;
+    if (!known) {
+        engine->out->result.noise.frequency_assumed = 1;
+        for (int k = 0; k < job->measurement.nmode; k++)
+            if (!isfinite(job->measurement.frequency_std[k]))
+                job->measurement.frequency_std[k] = ASSUMED_FREQUENCY_NOISE;
     }
     status = look_like_radians(engine);
-    if (!status)
-        status = drop_doubles(engine);
+    return status ? status : drop_doubles(engine);
+}
+
+int data_prepare(struct engine *engine, const struct states *states)
+{
+    int fitted = 0, shapes = 0, nparameter = engine->nown = states->nparameter, status = engine_take_states(engine, states);
+    engine->deck_start = POOL_ARRAY(engine->pool, double, nparameter);
+    if (status || !engine->deck_start)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < nparameter; p++)
+        engine->deck_start[p] = states->bounds[p].start;
+    for (int s = 0; s < states->nstate && !status; s++) {
+        engine_look_at(engine, s);
+        status = prepare_state(engine);
+        fitted += count_fitted(engine->job);
+        shapes |= job_fits_shapes(engine->job);
+    }
+    engine_look_at(engine, 0);
     if (status)
         return status;
-    int fitted = count_fitted(judged), shapes = job_fits_shapes(judged);
-    if (!shapes && fitted <= judged->unknowns.nparameter) {
-        message_add(engine->notes, SEVERITY_ERROR, job->deck, 1, 1,
+    if (!shapes && fitted <= nparameter) {
+        message_add(engine->notes, SEVERITY_ERROR, engine->job->deck, 1, 1,
                     "%d %s for %d parameters leave nothing to judge the model by, expected more modes, or shapes with *NOISE, "
                     "SHAPE=",
-                    fitted, fitted == 1 ? "frequency" : "frequencies", judged->unknowns.nparameter);
+                    fitted, fitted == 1 ? "frequency" : "frequencies", nparameter);
         return ROTID_ERROR_ARGUMENT;
     }
-    judge_amount(engine);
+    judge_amount(engine, fitted);
     engine->nprepared = engine->out->result.ndata_findings;
     return ROTID_OK;
 }

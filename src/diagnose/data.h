@@ -4,8 +4,9 @@
 
 #include "diagnose/engine.h"
 
-/* Copies the data, states the noise, refuses what cannot be judged. ROTID_ERROR_ARGUMENT with a reason in the notes. */
-int data_prepare(struct engine *engine, const struct job *job);
+/* Copies the data of all states, states the noise, refuses what cannot be judged. ROTID_ERROR_ARGUMENT with a reason in the
+ * notes. */
+int data_prepare(struct engine *engine, const struct states *states);
 /* Gives a job its own copies of the data that the steps change. */
 int data_copy(struct pool *pool, struct job *job);
 void data_remove_mode(struct job *job, int k);

@@ -62,11 +62,12 @@ static double noise_drop(const struct before *before)
 }
 
 /* Largest stated noise of a frequency, percent. */
-static double frequency_noise(const struct job *job)
+static double frequency_noise(const struct states *states)
 {
     double noise = 0;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        noise = fmax(noise, 100 * job->measurement.frequency_std[k]);
+    for (int s = 0; s < states->nstate; s++)
+        for (int k = 0; k < states->state[s].job.measurement.nmode; k++)
+            noise = fmax(noise, 100 * states->state[s].job.measurement.frequency_std[k]);
     return noise;
 }
 
@@ -89,7 +90,7 @@ static int is_one_place(const struct engine *engine, const struct candidate *c)
 {
     int place = c->cause->place;
     return c->cause == c->with->cause && place >= 0 &&
-           fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->job.rotor);
+           fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->job->rotor);
 }
 
 /* Two zones, six numbers, follow a wave of the stiffness along a group within the noise. */
@@ -136,7 +137,7 @@ static int is_doubted(const struct engine *engine, const struct before *before, 
 {
     int worse = isfinite(c->result.mode_out_rms) && c->result.mode_out_rms > WORSE * before->mode_out_rms,
         no_better = !(isfinite(c->result.sensor_out_rms) && c->result.sensor_out_rms < before->sensor_out_rms);
-    return worse && c->result.mode_out_rms > 2 * frequency_noise(&engine->job) && no_better;
+    return worse && c->result.mode_out_rms > 2 * frequency_noise(&engine->states) && no_better;
 }
 
 /* frequencies whose noise is larger than stated, as a candidate among the others */
@@ -159,7 +160,7 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
 
 static int has_cause(const struct candidate *set, const struct candidate *cause)
 {
-    return (set->cause == cause->cause && set->effect.target == cause->effect.target) ||
+    return (set->cause == cause->cause && set->effect.target == cause->effect.target && set->state == cause->state) ||
            (set->with && has_cause(set->with, cause));
 }
 
@@ -193,7 +194,7 @@ int decide(const struct engine *engine, const struct before *before, struct diag
     int *doubted = POOL_ARRAY(pool, int, round->ncandidate + 1);
     if (!doubted)
         return ROTID_ERROR_MEMORY;
-    double left_frequency = 0, predicts = INFINITY, alone = INFINITY, noise = frequency_noise(&engine->job);
+    double left_frequency = 0, predicts = INFINITY, alone = INFINITY, noise = frequency_noise(&engine->states);
     for (int i = 0; i < round->ncandidate; i++)
         if (round->candidate[i].result.refitted && !round->candidate[i].with)
             alone = fmin(alone, round->candidate[i].result.chi2);

@@ -47,7 +47,7 @@ int detectable_sizes(struct engine *engine, const struct round_result *last)
     for (int i = 0; i < scan->ncandidate; i++) {
         const struct scan_candidate *c = &scan->candidate[i];
         const struct cause_kind *cause = c->cause;
-        if (c->suspect || !c->count)
+        if (c->suspect || !c->count || c->state >= 0)
             continue;
         rotid_detectable *d = &out->detectable[out->ndetectable++];
         *d = (rotid_detectable){.id = cause->id, .target = c->target, .z_m = NAN, .worst = NAN};
@@ -62,7 +62,7 @@ int detectable_sizes(struct engine *engine, const struct round_result *last)
             continue;
         }
         double lower, upper, neutral = cause->parameter[cause->size].neutral;
-        cause_bounds(cause, &engine->job.rotor, &c->effect, cause->size, &lower, &upper);
+        cause_bounds(cause, &engine->states.state[c->home].job.rotor, &c->effect, cause->size, &lower, &upper);
         d->parameter = cause->effect->parameter[cause->size].name;
         d->unit = cause->effect->parameter[cause->size].unit;
         int side = cause->parameter[cause->size].one_sided;
@@ -87,7 +87,7 @@ int localise(struct engine *engine, const struct scan *scan)
     for (int i = 0; i < scan->nitem; i++) {
         const struct scan_item *item = &scan->item[i];
         const struct scan_candidate *c = &scan->candidate[item->candidate];
-        if (c->cause->place < 0 || c->suspect)
+        if (c->cause->place < 0 || c->suspect || c->state >= 0)
             continue;
         double z = item->effect.value[c->cause->place];
         int at = 0;

@@ -12,7 +12,8 @@
 struct diagnose_options {
     int threads;
     unsigned long seed;
-    int replicates; /* of the bootstrap; 0: 1000 */
+    int replicates;             /* of the bootstrap; 0: 1000 */
+    const char *before, *after; /* what changed between these two states, instead of what the model lacks in all; NULL */
 };
 
 /* A cause at one target (for those with a place: at its best place), with what became of it. Of two at once it is the first. */
@@ -20,8 +21,11 @@ struct candidate {
     rotid_candidate result; /* `cause` is put there at the end, from the following members up to the intervals */
     const struct cause_kind *cause;
     struct effect effect; /* at the best values found; effect.name is that of the card it would get */
-    const char *target;   /* "core", "core|right", name of a spring or tie rod, "" */
-    int nparameter;       /* of the effect, in use */
+    int state, home;      /* as in struct scan_candidate */
+    const int *in;
+    const char *state_name; /* of the one state in which it acts, NULL: in all that have its target */
+    const char *target;     /* "core", "core|right", name of a spring or tie rod, "" */
+    int nparameter;         /* of the effect, in use */
     int fixed[EFFECT_MOST_PARAMETERS];
     double std[EFFECT_MOST_PARAMETERS], ci_lower[EFFECT_MOST_PARAMETERS], ci_upper[EFFECT_MOST_PARAMETERS]; /* NaN: not stated */
     int refit;                      /* index of the fit in the round, -1 where there is none */
@@ -40,23 +44,30 @@ struct diagnosis_round {
 
 struct diagnosis {
     rotid_diagnosis result;      /* as the steps find it; candidates, causes and the fits are put there at the end, from below */
-    struct job job;              /* the job that was judged: LIKELIHOOD, NONE, faults of the data taken out, noise as found */
-    struct identification today; /* by the FIT of the deck; fit NULL where it could not be made */
+    struct states given;         /* what was diagnosed, as it came: of what changed the second state, corrected */
+    struct states judged;        /* the states that were judged: LIKELIHOOD, NONE, faults of the data taken out, noise as found */
+    struct job job;              /* the first of them */
+    struct identification today; /* by the FIT of the deck; fit NULL where it could not be made. Of several states this, base and
+                                    extended are those of the first with the fit of all, and stand for all in what follows */
     struct identification base;
+    struct identification *state_today, *state_base, *state_extended; /* [judged.nstate] of each, the fit as it sees it */
     int nround;
     struct diagnosis_round *round; /* the last one names nothing more */
     int ncause;
     struct candidate *cause; /* [ncause] as they stand in the final model */
     int nalternative;        /* ambiguous: the causes of candidates that cannot be told apart, best first */
     struct candidate *alternative;
-    struct job extended_job;
+    struct states extended_states;  /* without states where nothing was named */
+    struct job extended_job;        /* the first of them */
     struct identification extended; /* the base again where nothing was named: fit NULL then */
 };
 
-/* Everything hangs on the pool except the fits: diagnose_free. Notes go to the list. ROTID_OK; ROTID_ERROR_ARGUMENT where the job
- * has nothing that can be judged (the list says what and what was expected); any status of the fits. An interruption by the
- * environment is no error: what is finished stands in *out with
- * `result.interrupted`. */
+/* Over all states of a deck. Everything hangs on the pool except the fits: diagnose_free. Notes go to the list. ROTID_OK;
+ * ROTID_ERROR_ARGUMENT where the job has nothing that can be judged (the list says what and what was expected); any status of the
+ * fits. An interruption by the environment is no error: what is finished stands in *out with `result.interrupted`. */
+int diagnose_states(struct pool *pool, const struct states *states, const struct diagnose_options *options,
+                    const rotid_environment *environment, struct message_list *notes, struct diagnosis *out);
+/* The same of a job, the only state. */
 int diagnose_run(struct pool *pool, const struct job *job, const struct diagnose_options *options,
                  const rotid_environment *environment, struct message_list *notes, struct diagnosis *out);
 void diagnose_free(struct diagnosis *out);

@@ -9,6 +9,8 @@ const char *candidate_label(struct pool *pool, const struct candidate *c)
 {
     const char *text = c->result.suspect ? pool_format(pool, "%s, a %s", c->effect.name, c->cause->id)
                                          : pool_format(pool, "%s%s%s", c->cause->id, c->target[0] ? " of " : "", c->target);
+    if (text && c->state_name)
+        text = pool_format(pool, "%s in state %s", text, c->state_name);
     const char *with = text && c->with ? candidate_label(pool, c->with) : NULL;
     return !c->with ? text : with ? pool_format(pool, "%s with %s", text, with) : NULL;
 }
@@ -26,12 +28,34 @@ struct candidate candidate_blank(const struct cause_kind *cause, const char *tar
                                      .cosine = NAN},
                           .cause = cause,
                           .target = target,
+                          .state = -1,
                           .refit = -1,
                           .other_place = NAN,
                           .other_chi2 = NAN};
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c.std[p] = c.ci_lower[p] = c.ci_upper[p] = NAN;
     return c;
+}
+
+int engine_take_states(struct engine *engine, const struct states *states)
+{
+    int status = states_copy(engine->pool, states, &engine->states);
+    if (!status)
+        engine_look_at(engine, 0);
+    return status;
+}
+
+void engine_look_at(struct engine *engine, int s)
+{
+    engine->job = &engine->states.state[s].job;
+    engine->state = engine->states.state[s].name;
+}
+
+void engine_take_job(struct engine *engine, const struct job *job)
+{
+    *engine->job = *job;
+    engine->states.nparameter = job->unknowns.nparameter;
+    engine->states.bounds = job->unknowns.bounds;
 }
 
 const char *rotid_verdict_name(int kind)

@@ -18,24 +18,25 @@
 #define OUT_MARGIN 25.0 /* of chi2 from the best one: further ones do not win whatever they predict */
 #define SHOWN      0.05 /* of the best promise: candidates not fitted but worth a line */
 
-/* The effect and its parameters, those of the fit that belong to it: the last effects of the job are those of the set. */
-static void take_parameters(const struct refit *refit, int e, struct candidate *c)
+/* The effect and its parameters, those of the fit that belong to it: effect number e of a state in which it acts. */
+static void take_parameters(const struct refit *refit, const struct state *state, int e, struct candidate *c)
 {
     const rotid_fit_result *fit = refit->fit;
+    const struct job *job = &state->job;
     if (c->cause->solid)
         return;
-    c->effect = refit->job.rotor.effect[e];
-    for (int p = 0; p < fit->n; p++) {
-        int component = refit->job.unknowns.parameter[p].component;
-        if (refit->job.unknowns.parameter[p].kind != PARAMETER_EFFECT || refit->job.unknowns.parameter[p].index != e)
+    c->effect = job->rotor.effect[e];
+    for (int q = 0; q < job->unknowns.nparameter; q++) {
+        int component = job->unknowns.parameter[q].component, p = state_unknown(state, q);
+        if (job->unknowns.parameter[q].kind != PARAMETER_EFFECT || job->unknowns.parameter[q].index != e)
             continue;
         c->std[component] = fit->std[p];
-        c->ci_lower[component] = fmax(fit->ci_lower[p], refit->job.unknowns.bounds[p].lower);
-        c->ci_upper[component] = fmin(fit->ci_upper[p], refit->job.unknowns.bounds[p].upper);
+        c->ci_lower[component] = fmax(fit->ci_lower[p], job->unknowns.bounds[q].lower);
+        c->ci_upper[component] = fmin(fit->ci_upper[p], job->unknowns.bounds[q].upper);
         if (!isfinite(fit->std[p])) /* fmax and fmin prefer the number */
             c->ci_lower[component] = c->ci_upper[component] = NAN;
         if (component == c->cause->size)
-            c->result.at_bound = size_at_bound(&refit->job.unknowns.bounds[p], c->cause->parameter[component].neutral, fit->x[p]);
+            c->result.at_bound = size_at_bound(&job->unknowns.bounds[q], c->cause->parameter[component].neutral, fit->x[p]);
     }
 }
 
@@ -61,18 +62,18 @@ static void mend_intervals(const struct scan *scan, const struct scan_candidate 
     c->ci_upper[place] = fmax(upper, c->effect.value[place]);
 }
 
-static double frequency_chi2(const rotid_fit_result *fit, int nfrequency)
+static double frequency_chi2(const struct scan *scan, const rotid_fit_result *fit)
 {
     double sum = 0;
-    for (int i = 0; i < nfrequency; i++)
-        sum += fit->r[i] * fit->r[i];
+    for (int i = 0; i < scan->nrow; i++)
+        sum += scan->is_frequency[i] ? fit->r[i] * fit->r[i] : 0;
     return sum;
 }
 
 int fit_explains(const struct scan *scan, const rotid_fit_result *fit)
 {
     int dof = scan->dof - (fit->n - scan->nfree);
-    return dof > 0 && chi_square_tail(frequency_chi2(fit, scan->nfrequency), scan->nfrequency) > BLOCK_LEVEL &&
+    return dof > 0 && chi_square_tail(frequency_chi2(scan, fit), scan->nfrequency) > BLOCK_LEVEL &&
            chi_square_tail(fit->chi2, dof) > BLOCK_LEVEL;
 }
 
@@ -81,6 +82,10 @@ static struct candidate listed(const struct scan *scan, int index)
 {
     const struct scan_candidate *s = &scan->candidate[index];
     struct candidate c = candidate_blank(s->cause, s->target);
+    c.state = s->state;
+    c.home = s->home;
+    c.in = s->in;
+    c.state_name = s->state_name;
     c.effect = s->effect;
     c.result.suspect = s->suspect;
     c.nparameter = cause_parameters(&s->effect);
@@ -104,13 +109,23 @@ static struct candidate scanned(const struct round_result *result, int index)
     return c;
 }
 
+/* Number of effect m of a set in the rotor of its home: the last ones are those of the set. */
+static int effect_of(const struct refit *refit, const struct scan *scan, const struct scan_set *set, int m)
+{
+    const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
+    int behind = 0;
+    for (int other = m + 1; other < set->count; other++)
+        behind += scan->candidate[set->candidate[other]].in[c->home] != 0;
+    return refit->states.state[c->home].job.rotor.neffect - 1 - behind;
+}
+
 /* Fit `number` of the round. No chance is stated for a pair: the bootstrap asks for the best of single columns. */
 static int fill_candidate(struct engine *engine, const struct round_result *result, int number, struct candidate *c)
 {
     const struct scan *scan = &result->scan;
     const struct refit *refit = &result->refit[number];
     const struct scan_set *set = &result->set[number];
-    int pair = set->count > 1, last = refit->fit ? refit->job.rotor.neffect : 0;
+    int pair = set->count > 1;
     *c = pair ? listed(scan, set->candidate[0]) : scanned(result, set->candidate[0]);
     if (pair && !(c->with = POOL_NEW(engine->pool, struct candidate)))
         return ROTID_ERROR_MEMORY;
@@ -127,26 +142,26 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     double unused, shape;
     c->result.chi2 = refit->chi2;
     c->result.chi2_drop = engine->fit->chi2 - refit->chi2;
-    c->result.bic = refit->chi2 + log(scan->nrow) * refit->job.unknowns.nparameter;
+    c->result.bic = refit->chi2 + log(scan->nrow) * refit->states.nparameter;
     c->result.p_value = pair ? NAN : bootstrap_p(&result->bootstrap, c->result.chi2_drop);
-    c->result.chi2_frequency = frequency_chi2(refit->fit, scan->nfrequency);
+    c->result.chi2_frequency = frequency_chi2(scan, refit->fit);
     c->explains = fit_explains(scan, refit->fit);
-    take_parameters(refit, last - set->count, c);
+    take_parameters(refit, &refit->states.state[c->home], effect_of(refit, scan, set, 0), c);
     mend_intervals(scan, pair ? NULL : &scan->candidate[set->candidate[0]], c);
     if (pair) {
-        take_parameters(refit, last - 1, c->with);
+        take_parameters(refit, &refit->states.state[c->with->home], effect_of(refit, scan, set, 1), c->with);
         mend_intervals(scan, NULL, c->with);
         c->result.at_bound |= c->with->result.at_bound;
     }
-    fitted_errors(&refit->job, engine->holdout, refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
-    return sensor_out(engine->pool, &refit->job, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
+    fitted_errors(&refit->states, engine->holdout, refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
+    return sensor_out(engine->pool, &refit->states, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
 }
 
 struct leave_out {
     const struct engine *engine;
-    const struct job *const *job; /* [models] */
-    int nmode;
-    double *error, *shape; /* [nmode * models] */
+    const struct states *const *model; /* [models] */
+    int nmode;                         /* of all states */
+    double *error, *shape;             /* [nmode * models] */
 };
 
 static int leave_out_task(void *context, int index, int worker)
@@ -157,7 +172,7 @@ static int leave_out_task(void *context, int index, int worker)
     (void)worker;
     if (e->holdout[k])
         return ROTID_OK;
-    return mode_out_fit(out->job[index / out->nmode], e->number, e->holdout, k, e->environment, e->pool->allocator,
+    return mode_out_fit(out->model[index / out->nmode], e->number, e->holdout, k, e->environment, e->pool->allocator,
                         &out->error[index], &out->shape[index]);
 }
 
@@ -173,11 +188,12 @@ static double rms(int n, const double *value)
     return count ? sqrt(sum / count) : NAN;
 }
 
-int modes_in_turn(const struct engine *engine, int models, const struct job *const *job, double *error, double *shape)
+int modes_in_turn(const struct engine *engine, int models, const struct states *const *model, double *error, double *shape)
 {
-    int nmode = engine->job.measurement.nmode;
+    int nmode = states_modes(&engine->states, engine->states.nstate);
     size_t cells = (size_t)models * (size_t)nmode;
-    struct leave_out out = {engine, job, nmode, POOL_ARRAY(engine->pool, double, cells), POOL_ARRAY(engine->pool, double, cells)};
+    struct leave_out out = {engine, model, nmode, POOL_ARRAY(engine->pool, double, cells),
+                            POOL_ARRAY(engine->pool, double, cells)};
     if (!out.error || !out.shape)
         return ROTID_ERROR_MEMORY;
     for (size_t i = 0; i < cells; i++)
@@ -193,7 +209,7 @@ int modes_in_turn(const struct engine *engine, int models, const struct job *con
 /* For the model before the round, should it not be known, and for the candidates near the best one. */
 static int leave_modes_out(struct engine *engine, struct round_result *result, struct candidate *candidate)
 {
-    const struct job *job[MOST_OUT + 1] = {&engine->job};
+    const struct states *model[MOST_OUT + 1] = {&engine->states};
     double error[MOST_OUT + 1], shape[MOST_OUT + 1], best = INFINITY;
     int who[MOST_OUT + 1], count = 1;
     for (int i = 0; i < result->nrefit; i++)
@@ -210,9 +226,9 @@ static int leave_modes_out(struct engine *engine, struct round_result *result, s
             break;
         least = candidate_score(&candidate[next]);
         who[count] = next;
-        job[count++] = &result->refit[next].job;
+        model[count++] = &result->refit[next].states;
     }
-    int status = modes_in_turn(engine, count, job, error, shape);
+    int status = modes_in_turn(engine, count, model, error, shape);
     if (status)
         return status;
     engine->mode_out_rms = error[0];
@@ -273,11 +289,11 @@ int evidence_collect(struct engine *engine, struct round_result *result, struct 
                             .chi2 = scan->chi2,
                             .chi2_frequency = scan->chi2_frequency,
                             .mode_out_rms = engine->mode_out_rms};
-    fitted_errors(&engine->job, engine->holdout, engine->fit, 1, &before.holdout_rms, &unused, &shape);
+    fitted_errors(&engine->states, engine->holdout, engine->fit, 1, &before.holdout_rms, &unused, &shape);
     if (!status)
-        status = sensor_out(pool, &engine->job, engine->holdout, engine->fit, &before.sensor_out_rms, &shape);
+        status = sensor_out(pool, &engine->states, engine->holdout, engine->fit, &before.sensor_out_rms, &shape);
     if (!status && result->nrefit)
-        status = refit_beyond(pool, &engine->job, engine->nown, engine->fit, engine->number, engine->holdout, engine->environment,
-                              &before.beyond_drop);
+        status = refit_beyond(pool, &engine->states, engine->nown, engine->fit, engine->number, engine->holdout,
+                              engine->environment, &before.beyond_drop);
     return status ? status : decide(engine, &before, round);
 }

@@ -10,7 +10,7 @@
 int fit_explains(const struct scan *scan, const rotid_fit_result *fit);
 /* Fills the round's candidates from the refits and lets decide() judge them. */
 int evidence_collect(struct engine *engine, struct round_result *result, struct diagnosis_round *round);
-/* Prediction of modes left out in turn, for several jobs at once: error [models] in percent, shape [models]. */
-int modes_in_turn(const struct engine *engine, int models, const struct job *const *job, double *error, double *shape);
+/* Prediction of modes left out in turn, for several models at once: error [models] in percent, shape [models]. */
+int modes_in_turn(const struct engine *engine, int models, const struct states *const *model, double *error, double *shape);
 
 #endif

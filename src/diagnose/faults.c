@@ -115,14 +115,14 @@ static int weigh(struct engine *engine, const int *id, struct rival *rival)
     }
     if (status || !best)
         return status;
-    for (int k = 0; k < engine->job.measurement.nmode; k++)
+    for (int k = 0; k < engine->job->measurement.nmode; k++)
         nfrequency += !engine->holdout[k];
     rival->dof = best->dof;
     rival->chi2 = best->chi2 + (rival->fit->nresidual - best->nresidual);
     rival->chi2_frequency = 0;
     for (int i = 0; i < nfrequency; i++)
         rival->chi2_frequency += best->r[i] * best->r[i];
-    rival->score = rival->chi2 + PARAMETER_PENALTY * (best->n - engine->job.unknowns.nparameter) + FAULT_PENALTY * rival->nfault;
+    rival->score = rival->chi2 + PARAMETER_PENALTY * (best->n - engine->job->unknowns.nparameter) + FAULT_PENALTY * rival->nfault;
     return ROTID_OK;
 }
 
@@ -162,7 +162,7 @@ static int has(const struct rival *rival, const struct sensor_fault *fault)
 static int choose(const struct engine *engine, const struct round_result *result, struct rival *rival)
 {
     int count = 1, taken[MOST_RIVALS];
-    rival[0] = (struct rival){.stated = &engine->job, .fit = engine->fit};
+    rival[0] = (struct rival){.stated = engine->job, .fit = engine->fit};
     while (count <= MOST_RIVALS) {
         int best = -1;
         for (int i = 0; i < result->nrefit; i++) {
@@ -175,7 +175,7 @@ static int choose(const struct engine *engine, const struct round_result *result
         if (best < 0)
             break;
         taken[count - 1] = best;
-        rival[count++] = (struct rival){.stated = &result->refit[best].job, .fit = result->refit[best].fit};
+        rival[count++] = (struct rival){.stated = &result->refit[best].states.state->job, .fit = result->refit[best].fit};
     }
     return count;
 }
@@ -188,7 +188,7 @@ static int correct(struct engine *engine, const struct sensor_fault *fault, cons
     if (status)
         return status;
     if (fault->kind == FAULT_DEAD) {
-        status = put_right(engine->pool, fault, id, &engine->job);
+        status = put_right(engine->pool, fault, id, engine->job);
         return status ? status : data_add_finding(engine, &finding);
     }
     const struct correction correction = fault_correction(fault, id);
@@ -216,12 +216,12 @@ static int keep_open(struct engine *engine, const struct rival *base, const int 
 
 static int settle(struct engine *engine, int count, struct rival *rival, struct round_result *result, int *changed)
 {
-    int best, any = 0, status = ROTID_OK, nsensor = engine->job.rotor.nsensor;
+    int best, any = 0, status = ROTID_OK, nsensor = engine->job->rotor.nsensor;
     int *id = POOL_ARRAY(engine->pool, int, nsensor);
     if (!id)
         return ROTID_ERROR_MEMORY;
     for (int s = 0; s < nsensor; s++)
-        id[s] = engine->job.rotor.sensor[s].id;
+        id[s] = engine->job->rotor.sensor[s].id;
     for (int i = 0; i < count && !status; i++) {
         status = look(engine, rival[i].fit->x, &rival[i]);
         any |= rival[i].nfault;
@@ -253,7 +253,7 @@ int faults_settle(struct engine *engine, struct round_result *result, int *chang
 {
     struct rival rival[MOST_RIVALS + 1];
     *changed = 0;
-    if (!job_fits_shapes(&engine->job))
+    if (!job_fits_shapes(engine->job))
         return ROTID_OK;
     int count = choose(engine, result, rival), status = settle(engine, count, rival, result, changed);
     for (int i = 0; i < count; i++)

@@ -21,39 +21,42 @@ static double *side(rotid_pair *pair, int is_after)
     return is_after ? &pair->after : &pair->before;
 }
 
-static int quality(struct engine *engine, const struct job *job, const struct identification *identified, int is_after)
+static int quality(struct engine *engine, const struct states *states, const struct identification *each,
+                   const rotid_fit_result *fit, int is_after)
 {
     rotid_gain *gain = &engine->out->result.gain;
-    const rotid_fit_result *fit = identified->fit;
     double unused, standardised, *nco_min = side(&gain->nco_min, is_after);
-    fitted_errors(job, engine->holdout, fit, 0, side(&gain->frequency_rms_percent, is_after),
+    fitted_errors(states, engine->holdout, fit, 0, side(&gain->frequency_rms_percent, is_after),
                   side(&gain->frequency_max_percent, is_after), side(&gain->shape_rms, is_after));
-    fitted_errors(job, engine->holdout, fit, 1, side(&gain->holdout_frequency_rms_percent, is_after), &unused,
+    fitted_errors(states, engine->holdout, fit, 1, side(&gain->holdout_frequency_rms_percent, is_after), &unused,
                   side(&gain->holdout_shape_rms, is_after));
     *side(&gain->chi2_per_dof, is_after) = fit->chi2_per_dof;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        if (isfinite(identified->compared.nco[k]))
-            *nco_min = fmin(isfinite(*nco_min) ? *nco_min : 2, identified->compared.nco[k]);
-    struct job started;
-    int status = job_started_at(engine->pool, job, fit->x, &started);
-    const struct job *models[1] = {&started};
+    for (int s = 0; s < states->nstate; s++)
+        for (int k = 0; k < states->state[s].job.measurement.nmode; k++)
+            if (isfinite(each[s].compared.nco[k]))
+                *nco_min = fmin(isfinite(*nco_min) ? *nco_min : 2, each[s].compared.nco[k]);
+    struct states started;
+    int status = states_started_at(engine->pool, states, fit->x, &started);
+    const struct states *models[1] = {&started};
     if (!status)
         status = modes_in_turn(engine, 1, models, side(&gain->mode_out_frequency_rms_percent, is_after),
                                side(&gain->mode_out_shape_rms, is_after));
-    return status
-               ? status
-               : sensor_out(engine->pool, job, engine->holdout, fit, &standardised, side(&gain->sensor_out_shape_rms, is_after));
+    return status ? status
+                  : sensor_out(engine->pool, states, engine->holdout, fit, &standardised,
+                               side(&gain->sensor_out_shape_rms, is_after));
 }
 
 /* Parameter p of the final fit, which belongs to the cause: its interval, unless the round found out that the fit's own says too
  * much; and a place that the fit gives no interval for has that of the scan. */
-static void settle_parameter(const struct job *job, rotid_fit_result *fit, int p, struct candidate *cause)
+static void settle_parameter(const struct state *state, rotid_fit_result *fit, int q, struct candidate *cause)
 {
-    int component = job->unknowns.parameter[p].component, from_round = isfinite(cause->ci_lower[component]);
+    const struct job *job = &state->job;
+    int component = job->unknowns.parameter[q].component, from_round = isfinite(cause->ci_lower[component]),
+        p = state_unknown(state, q);
     if (isfinite(fit->std[p]) && from_round) {
         cause->std[component] = fit->std[p];
-        cause->ci_lower[component] = fmax(fit->ci_lower[p], job->unknowns.bounds[p].lower);
-        cause->ci_upper[component] = fmin(fit->ci_upper[p], job->unknowns.bounds[p].upper);
+        cause->ci_lower[component] = fmax(fit->ci_lower[p], job->unknowns.bounds[q].lower);
+        cause->ci_upper[component] = fmin(fit->ci_upper[p], job->unknowns.bounds[q].upper);
     } else if (from_round) {
         fit->ci_lower[p] = cause->ci_lower[component];
         fit->ci_upper[p] = cause->ci_upper[component];
@@ -64,19 +67,20 @@ static void settle_parameter(const struct job *job, rotid_fit_result *fit, int p
 /* Values and intervals of the named causes in the final fit. */
 static void settle_causes(struct diagnosis *out)
 {
-    const struct job *job = &out->extended_job;
     rotid_fit_result *fit = out->extended.fit;
     for (int c = 0; c < out->ncause; c++) {
         struct candidate *cause = &out->cause[c];
+        const struct state *state = &out->extended_states.state[cause->home];
+        const struct job *job = &state->job;
         int e = 0;
         while (e < job->rotor.neffect && strcmp(job->rotor.effect[e].name, cause->effect.name) != 0)
             e++;
         if (e == job->rotor.neffect)
             continue;
-        effect_at(job, e, fit->x, &cause->effect);
-        for (int p = 0; p < fit->n; p++)
-            if (job->unknowns.parameter[p].kind == PARAMETER_EFFECT && job->unknowns.parameter[p].index == e)
-                settle_parameter(job, fit, p, cause);
+        effect_at(state, e, fit->x, &cause->effect);
+        for (int q = 0; q < job->unknowns.nparameter; q++)
+            if (job->unknowns.parameter[q].kind == PARAMETER_EFFECT && job->unknowns.parameter[q].index == e)
+                settle_parameter(state, fit, q, cause);
     }
 }
 
@@ -104,7 +108,8 @@ static const char *list(struct pool *pool, int count, const struct candidate *c)
     int shown = count < LISTED ? count : LISTED;
     for (int i = 0; i < shown && text; i++) {
         const char *one = describe(pool, &c[i]);
-        int paired = i && c[i].set && c[i].set == c[i - 1].set, ends = i + 1 == count || (c[i].set && c[i].set == c[count - 1].set);
+        int paired = i && c[i].set && c[i].set == c[i - 1].set,
+            ends = i + 1 == count || (c[i].set && c[i].set == c[count - 1].set);
         text = one ? pool_format(pool, "%s%s%s", text, !i ? "" : paired ? " with " : ends ? " and " : ", ", one) : NULL;
     }
     return text && count > shown ? pool_format(pool, "%s and %d more", text, count - shown) : text;
@@ -127,9 +132,9 @@ static const char *open_parameters(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
     const rotid_fit_result *fit = out->extended.fit ? out->extended.fit : out->base.fit;
-    const rotid_parameter *parameter = out->extended.fit ? out->extended_job.unknowns.bounds : out->job.unknowns.bounds;
+    const rotid_parameter *parameter = out->extended.fit ? out->extended_states.bounds : out->judged.bounds;
     const char *text = "";
-    for (int p = 0; p < fit->n && p < out->job.unknowns.nparameter && text; p++) {
+    for (int p = 0; p < fit->n && p < out->judged.nparameter && text; p++) {
         if (fit->at_bound[p] && out->base.fit->at_bound[p] && out->result.verdict.kind != ROTID_ADEQUATE)
             text = pool_format(engine->pool, "%s %s ends at its %s bound %.4g %s, which may be the cause itself: widen it.", text,
                                parameter[p].name, base_bound_side(engine, p), out->base.fit->x[p], parameter[p].unit);
@@ -146,6 +151,35 @@ static const char *open_parameters(struct engine *engine)
         out->result.verdict.undetermined_parameters++;
     }
     return text;
+}
+
+/* The same where the question is what changed: the parts of the sentence, and what it ends with. */
+static const char *change_sentence(const struct engine *engine, const char *causes, const char *others, const char *chance,
+                                   const char *end)
+{
+    const struct diagnosis *out = engine->out;
+    const rotid_verdict *verdict = &out->result.verdict;
+    struct pool *pool = engine->pool;
+    const char *from = engine->before, *to = engine->after;
+    switch (verdict->kind) {
+    case ROTID_ADEQUATE:
+        return pool_format(pool, "Nothing changed between %s and %s that these data show (%s).%s", from, to, chance, end);
+    case ROTID_NAMED:
+        return pool_format(pool, "Between %s and %s changed: %s; %s%s (%s before).%s", from, to, causes,
+                           verdict->adequate_after ? "with this the model explains the difference of the states within the noise"
+                           : out->nalternative     ? "the data cannot tell what causes the rest: "
+                                                   : "the rest still exceeds the noise",
+                           !verdict->adequate_after && out->nalternative ? others : "", chance, end);
+    case ROTID_AMBIGUOUS:
+        return pool_format(pool, "Something changed between %s and %s (%s); the data cannot tell which of %s it is%s.%s", from,
+                           to, chance, others, verdict->confident ? "" : ", nor with confidence that it is any of them", end);
+    default:
+        return pool_format(
+            pool,
+            "Something changed between %s and %s (%s), and no cause in the catalogue gains more than its parameters "
+            "cost.%s",
+            from, to, chance, end);
+    }
 }
 
 static const char *verdict_sentence(struct engine *engine)
@@ -175,6 +209,10 @@ static const char *verdict_sentence(struct engine *engine)
                              : "";
     if (!misfit || !causes || !others || !open || !faults || !chance)
         return NULL;
+    if (engine->before) {
+        const char *end = pool_format(pool, "%s%s%s", solid, faults, open);
+        return end ? change_sentence(engine, causes, others, chance, end) : NULL;
+    }
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
@@ -203,15 +241,16 @@ static const char *verdict_sentence(struct engine *engine)
 }
 
 /* A fit that was not ended is none of the results. */
-static int identify_whole(struct engine *engine, const struct job *job, struct identification *out)
+static int identify_whole(struct engine *engine, const struct states *states, struct identification **each,
+                          struct identification *first)
 {
     struct message_list quiet;
     message_open(&quiet, engine->pool);
-    int status = identify_run(engine->pool, job, 0, engine->environment, &quiet, out);
-    if (status || out->fit->status != ROTID_STOP_CANCELLED)
+    int status = base_identify(engine, states, &quiet, each, first);
+    if (status || first->fit->status != ROTID_STOP_CANCELLED)
         return status;
-    rotid_fit_free(out->fit);
-    out->fit = NULL;
+    rotid_fit_free(first->fit);
+    first->fit = NULL;
     return ROTID_STOP_CANCELLED;
 }
 
@@ -219,17 +258,23 @@ static int identify_whole(struct engine *engine, const struct job *job, struct i
 static int refine_base(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
-    int status = base_refine(engine, &out->job, &out->base.spectrum);
-    if (status || out->job.rotor.segment == engine->job.rotor.segment)
+    int status = ROTID_OK, finer_mesh = 0;
+    for (int s = 0, mode = 0; s < out->judged.nstate && !status; mode += out->judged.state[s].job.measurement.nmode, s++) {
+        struct job *job = &out->judged.state[s].job;
+        status = base_refine(engine->pool, job, engine->number + mode, &out->state_base[s].spectrum);
+        finer_mesh |= job->rotor.segment != engine->states.state[s].job.rotor.segment;
+    }
+    if (status || !finer_mesh)
         return status;
-    struct identification finer;
-    status = identify_whole(engine, &out->job, &finer);
+    struct identification finer, *each;
+    status = identify_whole(engine, &out->judged, &each, &finer);
     if (status)
         return status;
     if (engine->fit == out->base.fit)
         engine->fit = finer.fit;
     rotid_fit_free(out->base.fit);
     out->base = finer;
+    out->state_base = each;
     return ROTID_OK;
 }
 
@@ -252,6 +297,27 @@ static int keep_open_suspects(struct pool *pool, struct job *job)
     return ROTID_OK;
 }
 
+/* The model with what was named, fitted to the end. */
+static int fit_extended(struct engine *engine)
+{
+    struct diagnosis *out = engine->out;
+    struct states *states = &out->extended_states;
+    int status = states_copy(engine->pool, &engine->states, states);
+    for (int s = 0; s < states->nstate && !status; s++) {
+        states->state[s].job.rotor.segment = out->judged.state[s].job.rotor.segment;
+        status = keep_open_suspects(engine->pool, &states->state[s].job);
+    }
+    if (!status)
+        status = identify_whole(engine, states, &out->state_extended, &out->extended);
+    if (status)
+        return status;
+    settle_causes(out);
+    status = states_started_at(engine->pool, states, out->extended.fit->x, states);
+    if (!status)
+        status = states_at(engine->pool, states, out->extended.fit->x, states);
+    return status ? status : quality(engine, states, out->state_extended, out->extended.fit, 1);
+}
+
 int finalise(struct engine *engine, const struct round_result *last)
 {
     struct diagnosis *out = engine->out;
@@ -259,22 +325,9 @@ int finalise(struct engine *engine, const struct round_result *last)
     if (!status)
         status = refine_base(engine);
     if (!status)
-        status = quality(engine, &out->job, &out->base, 0);
-    if (!status && out->ncause) {
-        out->extended_job = engine->job;
-        out->extended_job.rotor.segment = out->job.rotor.segment;
-        status = keep_open_suspects(engine->pool, &out->extended_job);
-        if (!status)
-            status = identify_whole(engine, &out->extended_job, &out->extended);
-        if (!status) {
-            settle_causes(out);
-            status = job_started_at(engine->pool, &out->extended_job, out->extended.fit->x, &out->extended_job);
-        }
-        for (int e = 0; e < out->extended_job.rotor.neffect && !status; e++)
-            effect_at(&out->extended_job, e, out->extended.fit->x, &out->extended_job.rotor.effect[e]);
-        if (!status)
-            status = quality(engine, &out->extended_job, &out->extended, 1);
-    }
+        status = quality(engine, &out->judged, out->state_base, out->base.fit, 0);
+    if (!status && out->ncause)
+        status = fit_extended(engine);
     engine_step(engine, "gain");
     if (!status && last && last->scan.ncandidate)
         status = detectable_sizes(engine, last);

@@ -19,10 +19,10 @@ const char *candidate_variant(const struct candidate *candidate)
     return cause->variant_option && variant >= 0 && variant < words ? cause->variant[variant] : NULL;
 }
 
-int fitted_parameter(const struct job *job, const rotid_fit_result *fit, const char *name)
+int fitted_parameter(const rotid_parameter *unknown, const rotid_fit_result *fit, const char *name)
 {
     for (int p = 0; fit && p < fit->n; p++)
-        if (!strcmp(job->unknowns.bounds[p].name, name))
+        if (!strcmp(unknown[p].name, name))
             return p;
     return -1;
 }

@@ -10,7 +10,7 @@ const struct effect_parameter_name *candidate_parameter(const struct candidate *
 /* The word for its shape or mount, NULL where its cause has none. */
 const char *candidate_variant(const struct candidate *candidate);
 
-/* Index in the fit (may be NULL) of the parameter of that name, -1 where there is none. */
-int fitted_parameter(const struct job *job, const rotid_fit_result *fit, const char *name);
+/* Index in the fit (may be NULL) of the unknown [fit->n] of that name, -1 where there is none. */
+int fitted_parameter(const rotid_parameter *unknown, const rotid_fit_result *fit, const char *name);
 
 #endif

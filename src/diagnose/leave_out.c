@@ -22,37 +22,67 @@ double shape_difference(const struct job *job, int k, double mac)
     return count > 1 && largest > 0 && isfinite(mac) ? sqrt(fmax(0, 1 - mac) * sum / count) / largest : NAN;
 }
 
-int mode_out_fit(const struct job *job, const int *number, const int *holdout, int k, const rotid_environment *environment,
+/* The state of measured mode k of all; *own: its index there. */
+static const struct job *job_of_mode(const struct states *states, int k, int *own)
+{
+    int s = 0;
+    for (; k >= states->state[s].job.measurement.nmode; s++)
+        k -= states->state[s].job.measurement.nmode;
+    *own = k;
+    return &states->state[s].job;
+}
+
+static int any_shapes(const struct states *states)
+{
+    int any = 0;
+    for (int s = 0; s < states->nstate; s++)
+        any |= job_fits_shapes(&states->state[s].job);
+    return any;
+}
+
+int mode_out_fit(const struct states *states, const int *number, const int *holdout, int k, const rotid_environment *environment,
                  const rotid_allocator *allocator, double *error_percent, double *shape)
 {
     struct pool pool;
     rotid_fit_result *fit = NULL;
     pool_open(&pool, allocator);
     *error_percent = *shape = NAN;
-    int *without = POOL_ARRAY(&pool, int, job->measurement.nmode), left = 0, status = ROTID_ERROR_MEMORY;
+    int nmode = states_modes(states, states->nstate), own, *without = POOL_ARRAY(&pool, int, nmode), left = 0,
+        status = ROTID_ERROR_MEMORY;
+    const struct job *job = job_of_mode(states, k, &own);
     if (without) {
-        for (int m = 0; m < job->measurement.nmode; m++) {
+        for (int m = 0; m < nmode; m++) {
             without[m] = holdout[m] || m == k;
             left += !without[m];
         }
-        int enough = job_fits_shapes(job) ? left > 0 : left >= job->unknowns.nparameter;
-        status = left && enough ? refit_job(&pool, job, number, without, environment, &fit) : ROTID_ERROR_ARGUMENT;
+        int enough = any_shapes(states) ? left > 0 : left >= states->nparameter;
+        status = left && enough ? refit_states(&pool, states, number, without, environment, &fit) : ROTID_ERROR_ARGUMENT;
     }
     if (!status) {
-        *error_percent = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[k] - 1);
-        *shape = shape_difference(job, k, fit->mac[k]);
+        *error_percent = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[own] - 1);
+        *shape = shape_difference(job, own, fit->mac[k]);
     }
     rotid_fit_free(fit);
     pool_close(&pool);
     return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
 }
 
-/* Directions of the scales of the fitted modes into the first columns of the basis, of unit length: they lie in different rows.
- * Residual plus measured shape is the predicted one. Returns their number. */
-static int scale_directions(const struct job *job, const int *holdout, const rotid_fit_result *fit, int next, double *basis)
+static int count_fitted(const struct job *job, const int *holdout)
 {
-    int nsensor = job->rotor.nsensor, count = 0;
-    for (int k = 0; k < job->measurement.nmode; k++) {
+    int count = 0;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        count += !holdout[k];
+    return count;
+}
+
+/* Directions of the scales of the fitted modes of a state behind the `count` columns of the basis, of unit length: they lie in
+ * different rows. Residual plus measured shape is the predicted one. next: its first row of a shape. Returns their number then.
+ */
+static int scale_directions(const struct job *job, const int *holdout, const rotid_fit_result *fit, int next, int count,
+                            double *basis)
+{
+    int nsensor = job->rotor.nsensor;
+    for (int k = 0; k < job->measurement.nmode && job_fits_shapes(job); k++) {
         const double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor,
                      *std = job->measurement.shape_std + (ptrdiff_t)k * nsensor;
         double *q = basis + (ptrdiff_t)count * fit->nresidual, largest = 0, square = 0;
@@ -82,33 +112,30 @@ static int orthonormalise(int nrow, int n, const double *jacobian, int count, do
     return count;
 }
 
-int sensor_out(struct pool *pool, const struct job *job, const int *holdout, const rotid_fit_result *fit, double *standardised,
-               double *shape_rms)
+/* What sensors leave when they are not fitted. */
+struct left_out {
+    int count;
+    double sum, difference; /* of squares */
+};
+
+/* The sensors of one state, whose rows begin at `first`. basis [nresidual * rank] */
+static int sensors_of_state(struct pool *pool, const struct job *job, const int *holdout, const rotid_fit_result *fit, int first,
+                            int rank, const double *basis, struct left_out *out)
 {
-    int nsensor = job->rotor.nsensor, nrow = fit->nresidual, nfitted = 0, status;
-    *standardised = *shape_rms = NAN;
-    for (int k = 0; k < job->measurement.nmode; k++)
-        nfitted += !holdout[k];
-    if (!job_fits_shapes(job) || nrow <= nfitted || nfitted < 1)
-        return ROTID_OK;
+    int nsensor = job->rotor.nsensor, nrow = fit->nresidual, nfitted = count_fitted(job, holdout), next = first + nfitted;
     int *row = POOL_ARRAY(pool, int, (size_t)nfitted *(size_t)nsensor), *at = POOL_ARRAY(pool, int, nfitted);
-    double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + nfitted + 1)),
-           *right = POOL_ARRAY(pool, double, nfitted);
+    double *right = POOL_ARRAY(pool, double, nfitted);
     struct symmetric block;
-    if (!row || !at || !basis || !right)
+    if (!row || !at || !right)
         return ROTID_ERROR_MEMORY;
-    status = symmetric_new(pool, nfitted, &block);
+    int status = symmetric_new(pool, nfitted, &block);
     if (status)
         return status;
-    int rank = scale_directions(job, holdout, fit, nfitted, basis), next = nfitted;
-    rank = orthonormalise(nrow, fit->n, fit->jacobian, rank, basis);
     for (int k = 0, m = 0; k < job->measurement.nmode; k++) {
         for (int s = 0; s < nsensor && !holdout[k]; s++)
             row[m + (ptrdiff_t)s * nfitted] = isfinite(job->measurement.shape[s + (ptrdiff_t)k * nsensor]) ? next++ : -1;
         m += !holdout[k];
     }
-    double sum = 0, difference = 0;
-    int count = 0;
     for (int s = 0; s < nsensor; s++) {
         int rows = 0;
         for (int m = 0; m < nfitted; m++)
@@ -132,30 +159,60 @@ int sensor_out(struct pool *pool, const struct job *job, const int *holdout, con
             if (row[m++ + (ptrdiff_t)s * nfitted] < 0)
                 continue;
             double std = job->measurement.shape_std[s + (ptrdiff_t)k * nsensor];
-            sum += right[i] * right[i];
-            difference += right[i] * right[i] * std * std;
+            out->sum += right[i] * right[i];
+            out->difference += right[i] * right[i] * std * std;
             i++;
-            count++;
+            out->count++;
         }
-    }
-    if (count) {
-        *standardised = sqrt(sum / count);
-        *shape_rms = sqrt(difference / count);
     }
     return ROTID_OK;
 }
 
-void fitted_errors(const struct job *job, const int *holdout, const rotid_fit_result *fit, int held, double *rms_percent,
+int sensor_out(struct pool *pool, const struct states *states, const int *holdout, const rotid_fit_result *fit,
+               double *standardised, double *shape_rms)
+{
+    struct left_out out = {0};
+    int nrow = fit->nresidual, nfitted = 0, rank = 0, status = ROTID_OK;
+    *standardised = *shape_rms = NAN;
+    for (int s = 0, mode = 0; s < states->nstate; mode += states->state[s].job.measurement.nmode, s++)
+        nfitted += count_fitted(&states->state[s].job, holdout + mode);
+    if (!any_shapes(states) || nrow <= nfitted || nfitted < 1)
+        return ROTID_OK;
+    double *basis = POOL_ARRAY(pool, double, (size_t)nrow *(size_t)(fit->n + nfitted + 1));
+    if (!basis)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, mode = 0, row = 0; s < states->nstate; mode += states->state[s].job.measurement.nmode, s++) {
+        const struct job *job = &states->state[s].job;
+        rank = scale_directions(job, holdout + mode, fit, row + count_fitted(job, holdout + mode), rank, basis);
+        row += fit->state_nresidual[s];
+    }
+    rank = orthonormalise(nrow, fit->n, fit->jacobian, rank, basis);
+    for (int s = 0, mode = 0, row = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
+        const struct job *job = &states->state[s].job;
+        if (job_fits_shapes(job) && count_fitted(job, holdout + mode))
+            status = sensors_of_state(pool, job, holdout + mode, fit, row, rank, basis, &out);
+        row += fit->state_nresidual[s];
+    }
+    if (!status && out.count) {
+        *standardised = sqrt(out.sum / out.count);
+        *shape_rms = sqrt(out.difference / out.count);
+    }
+    return status;
+}
+
+void fitted_errors(const struct states *states, const int *holdout, const rotid_fit_result *fit, int held, double *rms_percent,
                    double *max_percent, double *shape_rms)
 {
     double sum = 0, shapes = 0;
     int count = 0, with_shape = 0;
     *max_percent = NAN;
-    for (int k = 0; k < job->measurement.nmode; k++) {
+    for (int k = 0; k < states_modes(states, states->nstate); k++) {
+        int own;
+        const struct job *job = job_of_mode(states, k, &own);
         if ((holdout[k] != 0) != held)
             continue;
-        double error = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[k] - 1),
-               shape = shape_difference(job, k, fit->mac[k]);
+        double error = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[own] - 1),
+               shape = shape_difference(job, own, fit->mac[k]);
         *max_percent = count++ ? fmax(*max_percent, fabs(error)) : fabs(error);
         sum += error * error;
         if (isfinite(shape)) {

@@ -30,9 +30,9 @@ int mesh_worth(const struct engine *engine, const struct job *finer, double *wor
 {
     struct pool *pool = engine->pool;
     struct columns here, there;
-    int parameters = engine->job.unknowns.nparameter, count = 0;
+    int parameters = engine->job->unknowns.nparameter, count = 0;
     *worth = 0;
-    int status = columns_open(pool, &engine->job, engine->number, engine->holdout, NULL, engine->fit->x, &here);
+    int status = columns_open(pool, engine->job, engine->number, engine->holdout, NULL, engine->fit->x, &here);
     if (!status)
         status = columns_prepare(&here);
     if (!status)

@@ -36,7 +36,7 @@ static int is_misstated(const struct engine *engine, const struct noise_estimate
     if (!noise->usable || !noise->misstated || chi2 > WHOLE * noise->factor * noise->factor)
         return 0;
     if (noise->factor < 1)
-        return noise->factor < MUCH_LESS && !engine->job.measurement.has_noise_floor && !allows_for_more(&engine->job.rotor);
+        return noise->factor < MUCH_LESS && !engine->job->measurement.has_noise_floor && !allows_for_more(&engine->job->rotor);
     return noise->factor < NOISIER;
 }
 
@@ -60,7 +60,7 @@ static int check_noise(struct engine *engine, const struct scan *scan, const dou
  * have the variance 2 sigma^2 (1 - rho), second ones (3 - rho) times that. rho NaN where there are too few. */
 static void neighbours(const struct engine *engine, const double *r, double *rho, double *sigma)
 {
-    const struct job *job = &engine->job;
+    const struct job *job = engine->job;
     double first = 0, second = 0;
     int nsensor = job->rotor.nsensor, row = 0, nfirst = 0, nsecond = 0;
     for (int k = 0; k < job->measurement.nmode; k++)
@@ -103,7 +103,7 @@ static double shared_noise(const struct engine *engine, const double *r, double 
 int noise_settle(struct engine *engine, const struct scan *scan, const double *r, int *changed)
 {
     struct noise_estimate noise;
-    const struct job *job = &engine->job;
+    const struct job *job = engine->job;
     *changed = 0;
     if (engine->coloured || !job_fits_shapes(job))
         return ROTID_OK;
@@ -126,12 +126,12 @@ int noise_settle(struct engine *engine, const struct scan *scan, const double *r
         factor);
     engine->coloured |= coloured;
     *changed = 1;
-    double *base =
-        engine->out->job.measurement.shape_std; /* another array where a cause has added its discrepancy to the judged one */
+    double *base = engine->out->judged.state->job.measurement
+                       .shape_std; /* another array where a cause has added its discrepancy to the judged one */
     for (ptrdiff_t i = 0; i < (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode && base != job->measurement.shape_std; i++)
         base[i] *= factor;
     status = data_correct_noise(engine, "SHAPE", factor, coloured ? NAN : noise.std, text);
-    engine->out->job.measurement.correction = job->measurement.correction;
-    engine->out->job.measurement.ncorrection = job->measurement.ncorrection;
+    engine->out->judged.state->job.measurement.correction = job->measurement.correction;
+    engine->out->judged.state->job.measurement.ncorrection = job->measurement.ncorrection;
     return status;
 }

@@ -15,7 +15,7 @@
 
 int pairing_drop(struct engine *engine, int k)
 {
-    struct job *job = &engine->job;
+    struct job *job = engine->job;
     int status = ROTID_OK;
     if (!engine->dropped) {
         struct job whole = *job;
@@ -37,7 +37,7 @@ int pairing_drop(struct engine *engine, int k)
 
 int pairing_note(struct engine *engine, const int *number)
 {
-    const struct job *job = &engine->job;
+    const struct job *job = engine->job;
     for (int k = 0; k < job->measurement.nmode; k++) {
         if (engine->number[k] == number[k])
             continue;
@@ -62,7 +62,7 @@ struct pairing { /* beside a refit */
 static int pair_beside(struct engine *engine, const struct refit *refit, const struct job_measurement *measured,
                        struct pairing *pairing)
 {
-    struct job job = refit->job;
+    struct job job = refit->states.state->job;
     struct spectrum spectrum;
     struct comparison compared;
     struct message_list quiet;
@@ -74,7 +74,7 @@ static int pair_beside(struct engine *engine, const struct refit *refit, const s
                                         refit->fit->x, ROTID_GUYAN, comparison_candidates(&job), SPECTRUM_REDUCED, &spectrum);
     if (!status)
         status = comparison_make(engine->pool, &job, &spectrum, &quiet, &compared);
-    int same = !status && measured->nmode == engine->job.measurement.nmode &&
+    int same = !status && measured->nmode == engine->job->measurement.nmode &&
                !memcmp(compared.number, engine->number, (size_t)measured->nmode * sizeof *compared.number);
     if (!status && !same)
         status = refit_job(engine->pool, &job, compared.number, measured->holdout, engine->environment, &fit);
@@ -99,14 +99,14 @@ static void take_back(struct engine *engine)
 
 static int adopt(struct engine *engine, const struct job_measurement *measured, int *number)
 {
-    struct job job = engine->job;
+    struct job job = *engine->job;
     job.measurement = *measured;
     int status = data_copy(engine->pool, &job);
     if (status)
         return status;
-    engine->job.measurement = job.measurement;
-    engine->job.measurement.number = engine->number = number;
-    engine->job.measurement.paired = 1;
+    engine->job->measurement = job.measurement;
+    engine->job->measurement.number = engine->number = number;
+    engine->job->measurement.paired = 1;
     engine->dropped = 0;
     take_back(engine);
     return pairing_note(engine, measured->number);
@@ -122,14 +122,14 @@ static int renumbered(const struct job_measurement *measured, int from, int shif
 /* The model without a cause beside the data with the numbering; *chi2 INFINITY where there is none. */
 static int fit_renumbered(struct engine *engine, int from, int shift, int *number, double *chi2)
 {
-    const struct job_measurement *measured = &engine->job.measurement;
+    const struct job_measurement *measured = &engine->job->measurement;
     struct job job;
     rotid_fit_result *fit = NULL;
     *chi2 = INFINITY;
     for (int k = 0; k < measured->nmode; k++)
         if (!(number[k] = renumbered(measured, from, shift, k)))
             return ROTID_OK;
-    int status = job_started_at(engine->pool, &engine->job, engine->deck_start, &job);
+    int status = job_started_at(engine->pool, engine->job, engine->deck_start, &job);
     if (!status)
         status = refit_job(engine->pool, &job, number, measured->holdout, engine->environment, &fit);
     if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
@@ -144,15 +144,15 @@ static int fit_renumbered(struct engine *engine, int from, int shift, int *numbe
  * where with it the model needs no cause, and none explains the data as well without. */
 static int renumber(struct engine *engine, const struct round_result *result, int *changed)
 {
-    const struct job_measurement now = engine->job.measurement;
+    const struct job_measurement now = engine->job->measurement;
     double best = INFINITY, rival = engine->fit->chi2, chi2;
     int from = 0, shift = 0, *number = POOL_ARRAY(engine->pool, int, now.nmode), status = number ? ROTID_OK : ROTID_ERROR_MEMORY;
     if (now.paired || engine->fit->dof < 1 || chi_square_tail(engine->fit->chi2, engine->fit->dof) > UNEXPLAINED)
         return status;
     for (int i = 0; i < result->nrefit; i++)
         if (result->refit[i].fit)
-            rival = fmin(rival,
-                         result->refit[i].chi2 + PARAMETER_PENALTY * (result->refit[i].fit->n - engine->job.unknowns.nparameter));
+            rival = fmin(rival, result->refit[i].chi2 +
+                                    PARAMETER_PENALTY * (result->refit[i].fit->n - engine->job->unknowns.nparameter));
     for (int k = 0; k < now.nmode && !status; k++)
         for (int s = k ? 1 : -MOST_SHIFT; s <= MOST_SHIFT && !status; s++) {
             status = s ? fit_renumbered(engine, k, s, number, &chi2) : ROTID_OK;
@@ -166,8 +166,8 @@ static int renumber(struct engine *engine, const struct round_result *result, in
         return status;
     for (int k = 0; k < now.nmode; k++)
         number[k] = renumbered(&now, from, shift, k);
-    engine->job.measurement.number = engine->number = number;
-    engine->job.measurement.paired = *changed = 1;
+    engine->job->measurement.number = engine->number = number;
+    engine->job->measurement.paired = *changed = 1;
     const char *text =
         from ? pool_format(
                    engine->pool,
@@ -185,7 +185,7 @@ static int renumber(struct engine *engine, const struct round_result *result, in
 
 int pairing_settle(struct engine *engine, const struct round_result *result, int *changed)
 {
-    const struct job_measurement now = engine->job.measurement, *measured = engine->dropped ? &engine->measured : &now;
+    const struct job_measurement now = engine->job->measurement, *measured = engine->dropped ? &engine->measured : &now;
     struct pairing best = {.rate = INFINITY};
     double rate = INFINITY, chi2 = INFINITY;
     *changed = 0;

@@ -101,7 +101,8 @@ static void enter(const struct scan *scan, const struct scan_set *pair, int most
         set[at] = *pair;
 }
 
-int pairs_choose(struct pool *pool, const struct job *job, const struct scan *scan, int most, struct scan_set *set, int *count)
+int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
+                 int *count)
 {
     double *gram = POOL_ARRAY(pool, double, (size_t)scan->nitem *(size_t)scan->nitem),
            *along = POOL_ARRAY(pool, double, scan->nitem);
@@ -117,8 +118,8 @@ int pairs_choose(struct pool *pool, const struct job *job, const struct scan *sc
         for (int b = a; b < scan->ncandidate; b++) {
             struct scan_set pair;
             int left = scan->dof - searched(&scan->candidate[a]) - searched(&scan->candidate[b]);
-            if (left >= LEAST_RESIDUALS && scan_allows(job, scan, a, b) &&
-                best_items(scan, gram, along, a, b, APART * rotor_length(&job->rotor), &pair) > 0)
+            if (left >= LEAST_RESIDUALS && scan_allows(states, scan, a, b) &&
+                best_items(scan, gram, along, a, b, APART * rotor_length(&states->state->job.rotor), &pair) > 0)
                 enter(scan, &pair, most, set, count);
         }
     return ROTID_OK;

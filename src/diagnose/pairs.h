@@ -9,6 +9,7 @@
  * drop together -2 b'u - u'Gu with G the products of their columns, b those with the residual, and the steps u within what
  * physics allows. Of the places of two candidates the best ones are taken, and no pair that would leave fewer than
  * LEAST_RESIDUALS. set [most] best first, *count of them. ROTID_OK or ROTID_ERROR_MEMORY. */
-int pairs_choose(struct pool *pool, const struct job *job, const struct scan *scan, int most, struct scan_set *set, int *count);
+int pairs_choose(struct pool *pool, const struct states *states, const struct scan *scan, int most, struct scan_set *set,
+                 int *count);
 
 #endif

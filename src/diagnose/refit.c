@@ -82,18 +82,100 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
     return ROTID_OK;
 }
 
-void effect_at(const struct job *job, int effect, const double *x, struct effect *out)
+/* The unknowns of all are those of the one state there is. */
+static void take_bounds(struct states *to)
 {
+    to->nparameter = to->state->job.unknowns.nparameter;
+    to->bounds = to->state->job.unknowns.bounds;
+}
+
+int states_started_at(struct pool *pool, const struct states *states, const double *x, struct states *to)
+{
+    const struct states from = *states; /* `to` may be the same */
+    int status = states_copy(pool, &from, to);
+    for (int s = 0; s < from.nstate && !status; s++) {
+        double *own = state_values(pool, &from.state[s], x);
+        status = own ? job_started_at(pool, &from.state[s].job, own, &to->state[s].job) : ROTID_ERROR_MEMORY;
+    }
+    if (status || from.nstate == 1) {
+        take_bounds(to);
+        return status;
+    }
+    to->bounds = POOL_ARRAY(pool, rotid_parameter, from.nparameter);
+    if (!to->bounds)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < from.nparameter; p++) {
+        to->bounds[p] = from.bounds[p];
+        set_start(&to->bounds[p], x[p]);
+    }
+    return ROTID_OK;
+}
+
+/* The last `added` unknowns of a state are the last ones of all. */
+static int map_unknowns(struct pool *pool, int added, int nparameter, struct state *state)
+{
+    int n = state->job.unknowns.nparameter, *unknown = POOL_ARRAY(pool, int, n);
+    if (!unknown)
+        return ROTID_ERROR_MEMORY;
+    for (int q = 0; q < n; q++)
+        unknown[q] = q < n - added ? state_unknown(state, q) : nparameter + q - (n - added);
+    state->unknown = unknown;
+    return ROTID_OK;
+}
+
+int states_with_effect(struct pool *pool, const struct states *from, const double *x, const struct effect *effect,
+                       const struct cause_kind *cause, const int *fixed, const int *in, struct states *to)
+{
+    const struct states states = *from; /* `to` may be the same */
+    const struct job *one = NULL;
+    int added = 0, status = x ? states_started_at(pool, &states, x, to) : states_copy(pool, &states, to);
+    for (int s = 0; s < states.nstate && !status; s++) {
+        struct job *job = &to->state[s].job;
+        int before = job->unknowns.nparameter;
+        if (in && !in[s] && !cause->solid)
+            continue;
+        status = job_with_effect(pool, job, NULL, effect, cause, fixed, job);
+        added = job->unknowns.nparameter - before;
+        one = job;
+        if (!status && states.nstate > 1)
+            status = map_unknowns(pool, added, states.nparameter, &to->state[s]);
+    }
+    if (status || states.nstate == 1) {
+        take_bounds(to);
+        return status;
+    }
+    to->nparameter = states.nparameter + added;
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, to->nparameter);
+    if (!bounds)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < to->nparameter; p++)
+        bounds[p] = p < states.nparameter ? to->bounds[p] : one->unknowns.bounds[p - to->nparameter + one->unknowns.nparameter];
+    to->bounds = bounds;
+    return ROTID_OK;
+}
+
+void effect_at(const struct state *state, int effect, const double *x, struct effect *out)
+{
+    const struct job *job = &state->job;
     *out = job->rotor.effect[effect];
     for (int p = 0; p < job->unknowns.nparameter; p++)
         if (job->unknowns.parameter[p].kind == PARAMETER_EFFECT && job->unknowns.parameter[p].index == effect)
-            out->value[job->unknowns.parameter[p].component] = x[p];
+            out->value[job->unknowns.parameter[p].component] = x[state_unknown(state, p)];
 }
 
-int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,
-              const rotid_environment *environment, rotid_fit_result **fit)
+int states_at(struct pool *pool, const struct states *states, const double *x, struct states *to)
 {
-    rotid_fit_options options = job->options.fit;
+    int status = states_copy(pool, states, to);
+    for (int s = 0; s < to->nstate && !status; s++)
+        for (int e = 0; e < to->state[s].job.rotor.neffect; e++)
+            effect_at(&to->state[s], e, x, &to->state[s].job.rotor.effect[e]);
+    return status;
+}
+
+int refit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                 const rotid_environment *environment, rotid_fit_result **fit)
+{
+    rotid_fit_options options = states->state->job.options.fit;
     const rotid_environment quiet = {.size = sizeof quiet,
                                      .cancelled = environment ? environment->cancelled : NULL,
                                      .context = environment ? environment->context : NULL,
@@ -105,7 +187,7 @@ int refit_job(struct pool *pool, const struct job *job, const int *number, const
     options.decrease_tolerance = REFIT_DECREASE;
     struct pool scratch; /* the model of a fit is not needed behind it */
     pool_open(&scratch, pool->allocator);
-    int status = identify_fit(&scratch, job, number, holdout, &options, &quiet, NULL, fit);
+    int status = identify_fit_states(&scratch, states, number, holdout, &options, &quiet, fit);
     pool_close(&scratch);
     if (!status && (*fit)->status == ROTID_STOP_CANCELLED) {
         rotid_fit_free(*fit);
@@ -113,6 +195,14 @@ int refit_job(struct pool *pool, const struct job *job, const int *number, const
         return ROTID_STOP_CANCELLED;
     }
     return status;
+}
+
+int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,
+              const rotid_environment *environment, rotid_fit_result **fit)
+{
+    struct state state;
+    const struct states states = states_of(job, &state);
+    return refit_states(pool, &states, number, holdout, environment, fit);
 }
 
 /* The items to start from: best first, each a distance away from those before. */
@@ -164,18 +254,19 @@ static int starting_effects(const struct scan *scan, const struct scan_set *set,
 }
 
 /* Another minimum at another place that is nearly as good means that the place is not known. */
-static void note_place(const struct job *extended, const struct cause_kind *cause, const rotid_fit_result *fit,
+static void note_place(const struct states *extended, const struct scan_candidate *c, const rotid_fit_result *fit,
                        struct refit *refit)
 {
     struct effect here;
-    int last = extended->rotor.neffect - 1, place = cause->place, width = cause->width;
+    const struct state *home = &extended->state[c->home];
+    int last = home->job.rotor.neffect - 1, place = c->cause->place, width = c->cause->width;
     if (place < 0)
         return;
-    effect_at(extended, last, fit->x, &here);
-    double near = fmax(SAME_PLACE * rotor_length(&extended->rotor), width < 0 ? 0 : here.value[width]);
+    effect_at(home, last, fit->x, &here);
+    double near = fmax(SAME_PLACE * rotor_length(&home->job.rotor), width < 0 ? 0 : here.value[width]);
     if (!refit->fit)
         return;
-    double there = refit->job.rotor.effect[last].value[place];
+    double there = refit->states.state[c->home].job.rotor.effect[last].value[place];
     if (fabs(here.value[place] - there) <= near)
         return;
     int better = fit->chi2 < refit->chi2; /* the one before becomes the other one */
@@ -194,20 +285,19 @@ int fit_at_bound(const rotid_fit_result *fit, int nown)
     return any;
 }
 
-int refit_again(struct pool *pool, const struct job *job, int nown, const double *own, const int *number, const int *holdout,
-                const rotid_environment *environment, rotid_fit_result **fit)
+int refit_again(struct pool *pool, const struct states *states, int nown, const double *own, const int *number,
+                const int *holdout, const rotid_environment *environment, rotid_fit_result **fit)
 {
-    struct job other = *job;
+    struct states other;
     rotid_fit_result *second = NULL;
-    other.unknowns.bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
-    if (!other.unknowns.bounds)
+    double *start = POOL_ARRAY(pool, double, states->nparameter);
+    if (!start)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < job->unknowns.nparameter; p++) {
-        other.unknowns.bounds[p] = job->unknowns.bounds[p];
-        if (p < nown)
-            set_start(&other.unknowns.bounds[p], own[p]);
-    }
-    int status = refit_job(pool, &other, number, holdout, environment, &second);
+    for (int p = 0; p < states->nparameter; p++)
+        start[p] = p < nown ? own[p] : states->bounds[p].start;
+    int status = states_started_at(pool, states, start, &other);
+    if (!status)
+        status = refit_states(pool, &other, number, holdout, environment, &second);
     if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
         return status;
     int better = !status && second->chi2 < (*fit)->chi2;
@@ -216,27 +306,51 @@ int refit_again(struct pool *pool, const struct job *job, int nown, const double
     return ROTID_OK;
 }
 
-int refit_beyond(struct pool *pool, const struct job *job, int nown, const rotid_fit_result *fit, const int *number,
+/* The bounds of an unknown of all for the states that have it. */
+static void share_bounds(struct states *states, int p)
+{
+    for (int s = 0; s < states->nstate; s++)
+        for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
+            if (state_unknown(&states->state[s], q) == p) {
+                rotid_parameter *own = &states->state[s].job.unknowns.bounds[q];
+                own->lower = states->bounds[p].lower;
+                own->upper = states->bounds[p].upper;
+                own->start = states->bounds[p].start;
+            }
+}
+
+/* Kind of the model's parameter that an unknown of all is. */
+static int kind_of(const struct states *states, int p)
+{
+    for (int s = 0; s < states->nstate; s++)
+        for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++)
+            if (state_unknown(&states->state[s], q) == p)
+                return (int)states->state[s].job.unknowns.parameter[q].kind;
+    return -1;
+}
+
+int refit_beyond(struct pool *pool, const struct states *states, int nown, const rotid_fit_result *fit, const int *number,
                  const int *holdout, const rotid_environment *environment, double *drop)
 {
-    struct job wider;
+    struct states wider;
     rotid_fit_result *beyond = NULL;
-    int widened = 0, status = job_started_at(pool, job, fit->x, &wider);
+    int widened = 0, status = states_started_at(pool, states, fit->x, &wider);
     *drop = 0;
     for (int p = 0; p < nown && !status; p++) {
-        rotid_parameter *bounds = &wider.unknowns.bounds[p];
-        if (!fit->at_bound[p] || job->unknowns.parameter[p].kind == PARAMETER_NU) /* whose bounds are physical */
+        rotid_parameter *bounds = &wider.bounds[p];
+        if (!fit->at_bound[p] || kind_of(states, p) == PARAMETER_NU) /* whose bounds are physical */
             continue;
         if (fit->x[p] - bounds->lower < bounds->upper - fit->x[p])
             bounds->lower = bounds->lower > 0 ? bounds->lower / WIDER : bounds->lower * WIDER;
         else
             bounds->upper = bounds->upper > 0 ? bounds->upper * WIDER : bounds->upper / WIDER;
         bounds->start = fit->x[p];
+        share_bounds(&wider, p);
         widened = 1;
     }
     if (status || !widened)
         return status;
-    status = refit_job(pool, &wider, number, holdout, environment, &beyond);
+    status = refit_states(pool, &wider, number, holdout, environment, &beyond);
     if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
         return status;
     if (!status)
@@ -245,55 +359,56 @@ int refit_beyond(struct pool *pool, const struct job *job, int nown, const rotid
     return ROTID_OK;
 }
 
-int refit_keep(struct pool *pool, const struct job *job, rotid_fit_result *fit, struct refit *refit)
+int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit)
 {
-    struct job started;
-    int status = job_started_at(pool, job, fit->x, &started);
+    struct states started;
+    int status = states_started_at(pool, states, fit->x, &started);
+    if (!status)
+        status = states_at(pool, &started, fit->x, &started);
     if (status) {
         rotid_fit_free(fit);
         return status;
     }
-    for (int e = 0; e < started.rotor.neffect; e++)
-        effect_at(job, e, fit->x, &started.rotor.effect[e]);
     rotid_fit_free(refit->fit);
-    refit->job = started;
+    refit->states = started;
     refit->fit = fit;
     refit->chi2 = fit->chi2;
     return ROTID_OK;
 }
 
-/* The job with the causes of a set from `effect`. */
-static int job_with_set(struct pool *pool, const struct job *job, const double *x, const struct scan *scan,
-                        const struct scan_set *set, const struct effect *effect, struct job *to)
+/* The states with the causes of a set from `effect`. */
+static int states_with_set(struct pool *pool, const struct states *states, const double *x, const struct scan *scan,
+                           const struct scan_set *set, const struct effect *effect, struct states *to)
 {
     int status = ROTID_OK;
     for (int m = 0; m < set->count && !status; m++) {
         const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
         struct effect named = effect[m];
-        if (m && !(named.name = c->suspect ? named.name : scan_free_name(pool, &to->rotor, c->cause->id)))
+        if (m && !(named.name = c->suspect ? named.name : states_free_name(pool, to, c->cause->id)))
             return ROTID_ERROR_MEMORY;
-        status = job_with_effect(pool, m ? to : job, m ? NULL : x, &named, c->cause, c->fixed, to);
+        status = states_with_effect(pool, m ? to : states, m ? NULL : x, &named, c->cause, c->fixed, c->in, to);
     }
     return status;
 }
 
-/* Fits from the scan's places with the job's own parameters at x; the best is kept. Statuses of memory and cancellation only. */
-static int fit_from(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+/* Fits from the scan's places with the own parameters at x; the best is kept. Statuses of memory and cancellation only. */
+static int fit_from(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
                     const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
                     struct refit *refit)
 {
     struct effect start[STARTS][2];
-    int count = starting_effects(scan, set, rotor_length(&job->rotor), start);
+    const struct scan_candidate *c = &scan->candidate[set->candidate[0]];
+    int count = starting_effects(scan, set, rotor_length(&states->state[c->home].job.rotor), start);
     for (int s = 0; s < count; s++) {
-        struct job extended;
+        struct states extended;
         rotid_fit_result *fit = NULL;
-        int status = job_with_set(pool, job, x, scan, set, start[s], &extended);
+        int status = states_with_set(pool, states, x, scan, set, start[s], &extended);
         if (!status)
-            status = refit_job(pool, &extended, number, holdout, environment, &fit);
+            status = refit_states(pool, &extended, number, holdout, environment, &fit);
         if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
             return status;
         if (!status && set->count == 1)
-            note_place(&extended, scan->candidate[set->candidate[0]].cause, fit, refit);
+            note_place(&extended, c, fit, refit);
         if (status || !(fit->chi2 < refit->chi2)) {
             rotid_fit_free(fit);
             continue;
@@ -305,7 +420,7 @@ static int fit_from(struct pool *pool, const struct job *job, const int *number,
     return ROTID_OK;
 }
 
-int refit_set(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+int refit_set(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
               const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
               struct refit *refit)
 {
@@ -316,10 +431,10 @@ int refit_set(struct pool *pool, const struct job *job, const int *number, const
         nested &= c->cause->effect->nparameter && !c->fixed[c->cause->size];
     }
     *refit = (struct refit){.chi2 = INFINITY, .other_chi2 = NAN, .other_place = NAN};
-    int status = fit_from(pool, job, number, holdout, x, scan, set, environment, refit);
+    int status = fit_from(pool, states, number, holdout, x, scan, set, environment, refit);
     if (!status && deck &&
-        (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, job->unknowns.nparameter)))
-        status = fit_from(pool, job, number, holdout, deck, scan, set, environment, refit);
+        (!refit->fit || refit->chi2 > scan->chi2 + REFIT_WORSE || fit_at_bound(refit->fit, states->nparameter)))
+        status = fit_from(pool, states, number, holdout, deck, scan, set, environment, refit);
     if (!status)
         status = refit_widen(pool, scan, set, number, holdout, environment, refit);
     if (status || !nested || !refit->fit || refit->chi2 <= scan->chi2 + REFIT_WORSE)

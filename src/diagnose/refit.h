@@ -1,4 +1,5 @@
-/* Fits of a job with one more cause in it, or two, from several starts, and the small bookkeeping of jobs that grow. */
+/* Fits of all states with one more cause in them, or two, from several starts, and the small bookkeeping of jobs that grow.
+ * number and holdout are those of all states, one behind the other, and x is that of the unknowns of all. */
 #ifndef ROTID_DIAGNOSE_REFIT_H
 #define ROTID_DIAGNOSE_REFIT_H
 
@@ -22,42 +23,55 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
  * and a parameter that a missing cause has pushed to its bound would stay. `to` may be the job itself. */
 int job_started_at(struct pool *pool, const struct job *job, const double *x, struct job *to);
 
+/* The same for the states with `in` [nstate] nonzero (NULL: all), which share the parameters of the effect: unknowns behind those
+ * of all. A solid they are all together. */
+int states_with_effect(struct pool *pool, const struct states *from, const double *x, const struct effect *effect,
+                       const struct cause_kind *cause, const int *fixed, const int *in, struct states *to);
+
+/* The same for the starts of all. */
+int states_started_at(struct pool *pool, const struct states *states, const double *x, struct states *to);
+
+/* *to := the states with the values that their effects have at x. */
+int states_at(struct pool *pool, const struct states *states, const double *x, struct states *to);
+
 struct refit {
-    struct job job;        /* with the effects of the set at the best values, which are also the starts */
+    struct states states;  /* with the effects of the set at the best values, which are also the starts */
     rotid_fit_result *fit; /* NULL where no start led anywhere */
     double chi2;
     double other_chi2,
         other_place; /* best fit that ended at another place, more than a width or 3 % of the length away; NaN: none */
 };
 
-/* Best of the fits from the most promising places of the set, the job's own parameters starting at x [nparameter], which is
+/* Best of the fits from the most promising places of the set, the states' own parameters starting at x [nparameter], which is
  * where the scan was made; and at `deck` [nparameter] (NULL: none) as well where none of those fits succeeded or one of these
  * parameters ends at a bound. Statuses of memory and cancellation only: where every fit fails, or ends above the model without
  * its causes, which it contains, fit is NULL. */
-int refit_set(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x,
+int refit_set(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
               const double *deck, const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
               struct refit *refit);
 
-/* The fit of the job, which is taken over, in the place of what *refit has. ROTID_OK or ROTID_ERROR_MEMORY. */
-int refit_keep(struct pool *pool, const struct job *job, rotid_fit_result *fit, struct refit *refit);
+/* The fit of the states, which is taken over, in the place of what *refit has. ROTID_OK or ROTID_ERROR_MEMORY. */
+int refit_keep(struct pool *pool, const struct states *states, rotid_fit_result *fit, struct refit *refit);
 
 /* Does one of the first nown parameters end at a bound? */
 int fit_at_bound(const rotid_fit_result *fit, int nown);
 
-/* Fits the job once more with its first nown parameters starting at `own`; *fit is replaced where that is better. */
-int refit_again(struct pool *pool, const struct job *job, int nown, const double *own, const int *number, const int *holdout,
-                const rotid_environment *environment, rotid_fit_result **fit);
+/* Fits once more with the first nown parameters starting at `own`; *fit is replaced where that is better. */
+int refit_again(struct pool *pool, const struct states *states, int nown, const double *own, const int *number,
+                const int *holdout, const rotid_environment *environment, rotid_fit_result **fit);
 
-/* *drop of chi2 that the job gains where the bounds at which the first nown parameters end in `fit` are ten times as far; 0 where
+/* *drop of chi2 that is gained where the bounds at which the first nown parameters end in `fit` are ten times as far; 0 where
  * none does, or where there is no such model. */
-int refit_beyond(struct pool *pool, const struct job *job, int nown, const rotid_fit_result *fit, const int *number,
+int refit_beyond(struct pool *pool, const struct states *states, int nown, const rotid_fit_result *fit, const int *number,
                  const int *holdout, const rotid_environment *environment, double *drop);
 
-/* One fit with the options of a diagnosis. */
+/* One fit with the options of a diagnosis; refit_job: of a job that is the only state. */
+int refit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                 const rotid_environment *environment, rotid_fit_result **fit);
 int refit_job(struct pool *pool, const struct job *job, const int *number, const int *holdout,
               const rotid_environment *environment, rotid_fit_result **fit);
 
-/* The effect's values at x [nparameter] of a job. */
-void effect_at(const struct job *job, int effect, const double *x, struct effect *out);
+/* The values of effect number `effect` of a state at x of the unknowns of all. */
+void effect_at(const struct state *state, int effect, const double *x, struct effect *out);
 
 #endif

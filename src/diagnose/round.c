@@ -3,8 +3,8 @@
 
 #include "base/parallel.h"
 #include "diagnose/as_solid.h"
-#include "diagnose/bootstrap.h"
 #include "diagnose/base.h"
+#include "diagnose/bootstrap.h"
 #include "diagnose/decide.h"
 #include "diagnose/evidence.h"
 #include "diagnose/faults.h"
@@ -36,7 +36,7 @@ static int refit_task(void *context, int index, int worker)
     const struct engine *e = refits->engine;
     (void)worker;
     int i = refits->first + index;
-    return refit_set(&refits->pool[index], &e->job, e->number, e->holdout, e->fit->x, refits->deck, &refits->result->scan,
+    return refit_set(&refits->pool[index], &e->states, e->number, e->holdout, e->fit->x, refits->deck, &refits->result->scan,
                      &refits->result->set[i], e->environment, &refits->result->refit[i]);
 }
 
@@ -72,11 +72,11 @@ static int choose(const struct scan *scan, double threshold, struct scan_set *se
 static int run_refits(struct engine *engine, struct round_result *result, int count)
 {
     struct pool *pool = engine->pool;
-    double *deck = POOL_ARRAY(pool, double, engine->job.unknowns.nparameter);
+    double *deck = POOL_ARRAY(pool, double, engine->states.nparameter);
     struct refits refits = {engine, result, deck, result->nrefit, POOL_ARRAY(pool, struct pool, count)};
     if (!deck || !refits.pool)
         return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < engine->job.unknowns.nparameter; p++)
+    for (int p = 0; p < engine->states.nparameter; p++)
         deck[p] = p < engine->nown ? engine->deck_start[p] : engine->fit->x[p];
     for (int i = 0; i < count; i++)
         pool_open(&refits.pool[i], pool->allocator);
@@ -92,7 +92,7 @@ static int run_refits(struct engine *engine, struct round_result *result, int co
 static int run_pairs(struct engine *engine, struct round_result *result)
 {
     const struct scan *scan = &result->scan;
-    int best = -1, count = 0, most = engine->job.options.solid ? MOST_PAIRS_OF_SOLID : MOST_PAIRS;
+    int best = -1, count = 0, most = engine->job->options.solid ? MOST_PAIRS_OF_SOLID : MOST_PAIRS;
     double least = INFINITY;
     for (int i = 0; i < result->nrefit; i++) {
         double score = result->refit[i].fit ? result->refit[i].chi2 + PARAMETER_PENALTY * result->refit[i].fit->n : INFINITY;
@@ -103,7 +103,7 @@ static int run_pairs(struct engine *engine, struct round_result *result)
     }
     if (best < 0 || scan->candidate[result->set[best].candidate[0]].cause->solid || fit_explains(scan, result->refit[best].fit))
         return ROTID_OK;
-    int status = pairs_choose(engine->pool, &engine->job, scan, most, result->set + result->nrefit, &count);
+    int status = pairs_choose(engine->pool, &engine->states, scan, most, result->set + result->nrefit, &count);
     return status ? status : run_refits(engine, result, count);
 }
 
@@ -113,7 +113,7 @@ static int fit_again(struct engine *engine)
     rotid_fit_result *fit = NULL;
     if (!engine->out->ncause)
         return base_again(engine);
-    int status = refit_job(engine->pool, &engine->job, engine->number, engine->holdout, engine->environment, &fit);
+    int status = refit_states(engine->pool, &engine->states, engine->number, engine->holdout, engine->environment, &fit);
     if (status)
         return status;
     if (engine->fit != engine->out->base.fit)
@@ -140,8 +140,8 @@ static int settle_data(struct engine *engine, struct round_result *result, int *
     return status || !*changed ? status : fit_again(engine);
 }
 
-/* doubt: of the data, once the refits are there; *again: they were at fault and are better now */
-static int run_once(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int doubt, int *again)
+/* The fits of a round. doubt: of the data, once they are there; *again: the data were at fault and are better now */
+static int fit_round(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int doubt, int *again)
 {
     struct pool *pool = engine->pool;
     *round = (struct diagnosis_round){0};
@@ -149,7 +149,7 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     *again = 0;
     int status = engine_stage(engine, "scan, round", engine->out->nround + 1);
     if (!status)
-        status = scan_run(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan);
+        status = scan_run(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan);
     engine_step(engine, "scan");
     const struct scan *scan = &result->scan;
     if (!status)
@@ -174,7 +174,7 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     if (!result->set || !result->refit)
         return ROTID_ERROR_MEMORY;
     if (!adequate) {
-        status = scan_solid(pool, &engine->job, engine->number, engine->holdout, engine->fit->x, &result->scan,
+        status = scan_solid(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan,
                             engine->out->nround ? NULL : engine->notes);
         engine_step(engine, "scan");
     }
@@ -193,13 +193,40 @@ static int run_once(struct engine *engine, struct diagnosis_round *round, struct
     engine_step(engine, "data");
     if (status || *again)
         return status;
+    round->result.kind = adequate ? ROTID_ADEQUATE : -1;
+    return ROTID_OK;
+}
+
+static int run_once(struct engine *engine, struct diagnosis_round *round, struct round_result *result, int doubt, int *again)
+{
+    int status = fit_round(engine, round, result, doubt, again);
+    if (status || *again)
+        return status;
+    int adequate = round->result.kind == ROTID_ADEQUATE;
     status = evidence_collect(engine, result, round);
     engine_step(engine, "held out");
-    if (status)
-        return status;
-    if (adequate)
+    if (!status && adequate)
         round->result.kind = ROTID_ADEQUATE;
-    return ROTID_OK;
+    return status;
+}
+
+int round_fit(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
+{
+    int again;
+    return fit_round(engine, round, result, 0, &again);
+}
+
+int round_settle(struct engine *engine)
+{
+    struct diagnosis_round round;
+    struct round_result result = {0};
+    int again = 1, status = ROTID_OK;
+    for (int pass = 1; again && pass < MOST_PASSES && !status; pass++) {
+        round_free(&result);
+        status = fit_round(engine, &round, &result, 1, &again);
+    }
+    round_free(&result);
+    return status;
 }
 
 int round_run(struct engine *engine, struct diagnosis_round *round, struct round_result *result)
@@ -207,7 +234,7 @@ int round_run(struct engine *engine, struct diagnosis_round *round, struct round
     int again = 1, status = ROTID_OK;
     for (int pass = 1; again && !status; pass++) {
         round_free(result);
-        status = run_once(engine, round, result, pass < MOST_PASSES, &again);
+        status = run_once(engine, round, result, engine->states.nstate == 1 && pass < MOST_PASSES, &again);
     }
     return status;
 }

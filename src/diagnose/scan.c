@@ -37,15 +37,24 @@ static int is_secant(const struct cause_kind *cause)
     return cause->secant || cause->effect->nparameter == 0;
 }
 
-static void list_items(const struct rotor *rotor, const struct rotor_model *model, struct scan *scan)
+/* The columns of a state, and where its rows stand. */
+struct part {
+    int open; /* a state that is held out has no rows */
+    int row;
+    const struct state *state;
+    struct columns columns;
+};
+
+static void list_items(const struct part *part, struct scan *scan)
 {
-    int stride = place_stride(model->naxis);
     for (int i = 0; i < scan->ncandidate; i++) {
         struct scan_candidate *c = &scan->candidate[i];
         const struct cause_kind *cause = c->cause;
-        int widths = searches(c, cause->width) ? WIDTHS : 1;
+        const struct rotor *rotor = &part[c->home].state->job.rotor;
+        const struct rotor_model *model = &part[c->home].columns.model;
+        int widths = searches(c, cause->width) ? WIDTHS : 1, stride = place_stride(model->naxis);
         c->first = scan->nitem;
-        c->count = item_count(c, model->naxis);
+        c->count = part[c->home].open ? item_count(c, model->naxis) : 0;
         double lower = 1, upper = 1;
         if (cause->width >= 0)
             cause->bounds(rotor, &c->effect, cause->width, &lower, &upper);
@@ -67,23 +76,35 @@ static void list_items(const struct rotor *rotor, const struct rotor_model *mode
     }
 }
 
-static int fill_columns(const struct job *job, struct columns *columns, struct scan *scan)
+/* Whether an item acts in a state, which may be shorter than the first. */
+static int acts_in(const struct scan *scan, const struct scan_item *item, int s, const struct part *part)
 {
-    int status = ROTID_OK, n = scan->nrow;
+    const struct scan_candidate *c = &scan->candidate[item->candidate];
+    int place = c->cause->place;
+    return part->open && c->in[s] &&
+           (place < 0 || s == c->home || item->effect.value[place] <= rotor_length(&part->state->job.rotor));
+}
+
+/* The rows of state s. */
+static int fill_columns(int s, struct part *part, struct scan *scan)
+{
+    struct columns *columns = &part->columns;
+    int status = ROTID_OK, n = columns->nrow;
     for (int i = 0; i < scan->nitem && !status; i++) {
         const struct scan_item *item = &scan->item[i];
         const struct cause_kind *cause = scan->candidate[item->candidate].cause;
-        if (is_secant(cause))
+        if (is_secant(cause) || !acts_in(scan, item, s, part))
             continue;
         status = columns_probe(columns, &item->effect);
         if (!status)
-            status = columns_parameter(columns, job->unknowns.nparameter + cause->size, scan->column + (ptrdiff_t)i * n);
+            status = columns_parameter(columns, part->state->job.unknowns.nparameter + cause->size,
+                                       scan->column + (ptrdiff_t)i * scan->nrow + part->row);
     }
     for (int i = 0; i < scan->nitem && !status; i++) { /* behind the others: they leave the point */
         struct effect effect = scan->item[i].effect;
         const struct cause_kind *cause = scan->candidate[scan->item[i].candidate].cause;
-        double *column = scan->column + (ptrdiff_t)i * n;
-        if (!is_secant(cause))
+        double *column = scan->column + (ptrdiff_t)i * scan->nrow + part->row;
+        if (!is_secant(cause) || !acts_in(scan, &scan->item[i], s, part))
             continue;
         effect.value[cause->size] = cause->parameter[cause->size].typical;
         status = columns_probe(columns, &effect);
@@ -96,11 +117,12 @@ static int fill_columns(const struct job *job, struct columns *columns, struct s
     return status;
 }
 
-static int make_basis(const struct job *job, struct columns *columns, struct scan *scan)
+/* The scales of the shapes of a state. */
+static void add_scales(const struct part *part, struct scan *scan)
 {
-    int n = scan->nrow, row = columns->nmode, status = ROTID_OK;
-    for (int m = 0; m < columns->nmode; m++) {
-        const struct columns_mode *mode = &columns->mode[m];
+    int n = scan->nrow, row = part->row + part->columns.nmode;
+    for (int m = 0; m < part->columns.nmode && part->open; m++) {
+        const struct columns_mode *mode = &part->columns.mode[m];
         double *column = scan->basis + (ptrdiff_t)scan->nbasis * n;
         memset(column, 0, (size_t)n * sizeof *column);
         if (mode->sensors)
@@ -109,13 +131,26 @@ static int make_basis(const struct job *job, struct columns *columns, struct sca
         if (mode->square > 0)
             scan->nbasis = basis_extend(n, scan->nbasis, INSEPARABLE, scan->basis);
     }
-    for (int p = 0; p < job->unknowns.nparameter && !status; p++) {
-        double *column = scan->basis + (ptrdiff_t)scan->nbasis * n;
-        status = columns_parameter(columns, p, column);
-        if (!status)
-            scan->nbasis = basis_extend(n, scan->nbasis, INSEPARABLE, scan->basis);
-    }
-    return status;
+}
+
+/* Unknown p of all, as the states have it. work [nrow] */
+static int add_unknown(const struct states *states, int p, struct part *part, double *work, struct scan *scan)
+{
+    int n = scan->nrow;
+    double *column = scan->basis + (ptrdiff_t)scan->nbasis * n;
+    memset(column, 0, (size_t)n * sizeof *column);
+    for (int s = 0; s < states->nstate; s++)
+        for (int q = 0; q < states->state[s].job.unknowns.nparameter && part[s].open; q++) {
+            if (state_unknown(&states->state[s], q) != p)
+                continue;
+            int status = columns_parameter(&part[s].columns, q, work);
+            if (status)
+                return status;
+            for (int i = 0; i < part[s].columns.nrow; i++)
+                column[part[s].row + i] += work[i];
+        }
+    scan->nbasis = basis_extend(n, scan->nbasis, INSEPARABLE, scan->basis);
+    return ROTID_OK;
 }
 
 /* takes the basis out of every column: C := C - Q (Q' C), twice, in blocks */
@@ -158,37 +193,91 @@ static void predict(const struct rotor *rotor, struct scan *scan, struct scan_it
     item->drop = -2 * step * along - step * step;
 }
 
-int scan_run(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x, struct scan *scan)
+/* The columns of every state that has modes to fit. */
+static int open_parts(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+                      struct part *part, struct scan *scan)
 {
-    struct effect none = {.kind = &nothing};
-    struct columns columns;
-    int status = scan_list(pool, job, scan);
+    const struct effect none = {.kind = &nothing};
+    int status = ROTID_OK;
+    for (int s = 0, mode = 0; s < states->nstate && !status; mode += states->state[s].job.measurement.nmode, s++) {
+        const struct state *state = &states->state[s];
+        double *own = state_values(pool, state, x);
+        part[s] = (struct part){.row = scan->nrow, .state = state};
+        for (int k = 0; k < state->job.measurement.nmode; k++)
+            part[s].open |= !holdout[mode + k];
+        if (!own)
+            return ROTID_ERROR_MEMORY;
+        if (!part[s].open)
+            continue;
+        status = columns_open(pool, &state->job, number + mode, holdout + mode, &none, own, &part[s].columns);
+        if (!status)
+            status = columns_prepare(&part[s].columns);
+        scan->nrow += part[s].columns.nrow;
+        scan->nfrequency += part[s].columns.nmode;
+    }
+    return status;
+}
+
+/* A state that is held out has no axis to look along: the next one that has the target lends its own. */
+static void move_homes(int nstate, const struct part *part, struct scan *scan)
+{
+    for (int i = 0; i < scan->ncandidate; i++) {
+        struct scan_candidate *c = &scan->candidate[i];
+        for (int s = c->home + 1; s < nstate && !part[c->home].open; s++)
+            c->home = c->in[s] && part[s].open ? s : c->home;
+    }
+}
+
+/* Residual and its chi2, which rows are frequencies, what is fitted anyway, and the columns. */
+static int fill(struct pool *pool, const struct states *states, struct part *part, struct scan *scan)
+{
+    int status = ROTID_OK;
+    double *work = POOL_ARRAY(pool, double, scan->nrow);
+    scan->basis = POOL_ARRAY(pool, double, (size_t)(states->nparameter + scan->nfrequency + 1) * (size_t)scan->nrow);
+    scan->r = POOL_ARRAY(pool, double, scan->nrow);
+    scan->is_frequency = POOL_ARRAY(pool, char, scan->nrow);
+    if (!work || !scan->basis || !scan->r || !scan->is_frequency)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < states->nstate; s++) {
+        const struct columns *columns = &part[s].columns;
+        if (!part[s].open)
+            continue;
+        memcpy(scan->r + part[s].row, columns->r, (size_t)columns->nrow * sizeof *scan->r);
+        memset(scan->is_frequency + part[s].row, 1, (size_t)columns->nmode);
+        scan->chi2_frequency += product_dot(columns->nmode, columns->r, columns->r);
+        add_scales(&part[s], scan);
+    }
+    scan->chi2 = product_dot(scan->nrow, scan->r, scan->r);
+    for (int p = 0; p < states->nparameter && !status; p++)
+        status = add_unknown(states, p, part, work, scan);
+    for (int s = 0; s < states->nstate && !status; s++)
+        if (part[s].open)
+            status = fill_columns(s, &part[s], scan);
+    return status;
+}
+
+int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+             struct scan *scan)
+{
+    struct part *part = POOL_ARRAY(pool, struct part, states->nstate);
+    int items = 0, n, status = part ? scan_list(pool, states, scan) : ROTID_ERROR_MEMORY;
     if (!status)
-        status = columns_open(pool, job, number, holdout, &none, x, &columns);
-    if (!status)
-        status = columns_prepare(&columns);
+        status = open_parts(pool, states, number, holdout, x, part, scan);
     if (status)
         return status;
-    const struct rotor_model *model = &columns.model;
-    int items = 0, n = scan->nrow = columns.nrow;
+    n = scan->nrow;
+    move_homes(states->nstate, part, scan);
     for (int i = 0; i < scan->ncandidate; i++)
-        items += item_count(&scan->candidate[i], model->naxis);
+        if (part[scan->candidate[i].home].open)
+            items += item_count(&scan->candidate[i], part[scan->candidate[i].home].columns.model.naxis);
     scan->item = POOL_ARRAY(pool, struct scan_item, items);
     scan->column = POOL_ARRAY(pool, double, (size_t)items *(size_t)n);
-    scan->basis = POOL_ARRAY(pool, double, (size_t)(job->unknowns.nparameter + columns.nmode + 1) * (size_t)n);
-    scan->r = POOL_ARRAY(pool, double, n);
     double *raw = POOL_ARRAY(pool, double, items);
-    if (!scan->item || !scan->column || !scan->basis || !scan->r || !raw)
+    if (!scan->item || !scan->column || !raw)
         return ROTID_ERROR_MEMORY;
-    list_items(&job->rotor, model, scan);
-    scan->nfrequency = columns.nmode;
-    scan->nfree = job->unknowns.nparameter;
-    memcpy(scan->r, columns.r, (size_t)n * sizeof *scan->r);
-    scan->chi2 = product_dot(n, scan->r, scan->r);
-    scan->chi2_frequency = product_dot(columns.nmode, scan->r, scan->r);
-    status = make_basis(job, &columns, scan);
-    if (!status)
-        status = fill_columns(job, &columns, scan);
+    list_items(part, scan);
+    scan->nfree = states->nparameter;
+    status = fill(pool, states, part, scan);
     if (!status)
         status = project(pool, scan, raw);
     if (status)
@@ -203,7 +292,7 @@ int scan_run(struct pool *pool, const struct job *job, const int *number, const 
     for (int i = 0; i < scan->nitem; i++) {
         struct scan_item *item = &scan->item[i];
         struct scan_candidate *c = &scan->candidate[item->candidate];
-        predict(&job->rotor, scan, item, raw[i], scan->column + (ptrdiff_t)i * n);
+        predict(&part[c->home].state->job.rotor, scan, item, raw[i], scan->column + (ptrdiff_t)i * n);
         if (item->usable && (c->best < 0 || item->drop > scan->item[c->best].drop))
             c->best = i;
         scan->largest = fmax(scan->largest, item->drop);

@@ -1,10 +1,12 @@
 /* The scan: every cause at every target and place as a column of sensitivities, whitened and taken orthogonal to what is fitted
- * anyway, and the drop of chi2 that it promises, (c'r)^2/(c'c). */
+ * anyway, and the drop of chi2 that it promises, (c'r)^2/(c'c). Of several states the rows stand one state behind the other; a
+ * cause acts in all states that have its target, or in one of them alone. */
 #ifndef ROTID_DIAGNOSE_SCAN_H
 #define ROTID_DIAGNOSE_SCAN_H
 
 #include "diagnose/causes/cause.h"
 #include "diagnose/columns.h"
+#include "run/states.h"
 
 struct scan_item { /* one column */
     int candidate;
@@ -17,7 +19,11 @@ struct scan_item { /* one column */
     double amplitude, drop;
 };
 
-struct scan_candidate { /* a cause at a target, with all its places */
+struct scan_candidate {     /* a cause at a target, with all its places */
+    int state;              /* in this one alone, though others have the target too; -1: in all that have it */
+    const char *state_name; /* of that one, or of the only one that has the target; NULL */
+    int home;               /* the first state in which it acts */
+    const int *in;          /* [nstate] nonzero: it acts there */
     const struct cause_kind *cause;
     struct effect effect; /* variant and target; a user's values where fixed */
     const char *target;
@@ -28,6 +34,7 @@ struct scan_candidate { /* a cause at a target, with all its places */
 };
 
 struct scan {
+    char *is_frequency;               /* [nrow] the row is that of a frequency: the first ones of each state */
     int nrow, nfrequency, nfree, dof; /* dof: rows less free parameters and scales */
     int nitem, ncandidate;
     struct scan_item *item;
@@ -46,18 +53,20 @@ struct scan_set { /* one cause, or two at once: what a round fits */
     double amplitude[2], drop;
 };
 
-/* The candidates of a job: every physical cause of the catalogue at every target where it applies and is not in the model yet,
- * and the user's suspects. names: for the effects to come. */
-int scan_list(struct pool *pool, const struct job *job, struct scan *scan);
+/* The candidates: every physical cause of the catalogue at every target where it applies and is not in the model yet, and the
+ * user's suspects; of several states then those of them in one state alone. */
+int scan_list(struct pool *pool, const struct states *states, struct scan *scan);
 
 /* A name for a CAUSE card that nothing in the rotor has: "joint", or "joint_2" where that is taken. NULL where memory is out. */
 const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id);
+const char *states_free_name(struct pool *pool, const struct states *states, const char *id); /* in none of these */
 
 /* Whether the candidates a and b may be there together: the same cause at the same target needs two places. */
-int scan_allows(const struct job *job, const struct scan *scan, int a, int b);
+int scan_allows(const struct states *states, const struct scan *scan, int a, int b);
 
-/* Columns and drops at the parameters x of the fitted job. Statuses of columns_open. */
-int scan_run(struct pool *pool, const struct job *job, const int *number, const int *holdout, const double *x, struct scan *scan);
+/* Columns and drops at the parameters x of the fitted states; number and holdout of all modes. Statuses of columns_open. */
+int scan_run(struct pool *pool, const struct states *states, const int *number, const int *holdout, const double *x,
+             struct scan *scan);
 
 /* Largest drop that a candidate promises, 0 where none of its columns is usable, or nobody asked. */
 double scan_best_drop(const struct scan *scan, int candidate);

@@ -19,7 +19,7 @@ static int effects_alike(const struct rotor *rotor, const struct cause_kind *cau
 {
     int count = 0;
     for (int i = 0; i < rotor->neffect; i++)
-        count += rotor->effect[i].kind == cause->effect && rotor->effect[i].target == target;
+        count += rotor->effect[i].kind == cause->effect && rotor->effect[i].target == target && !rotor->effect[i].stays;
     return count;
 }
 
@@ -75,39 +75,147 @@ static int name_is_taken(const struct rotor *rotor, const char *name)
     return taken;
 }
 
+static int name_is_taken_in_any(const struct states *states, const char *name)
+{
+    int taken = 0;
+    for (int s = 0; s < states->nstate; s++)
+        taken |= name_is_taken(&states->state[s].job.rotor, name);
+    return taken;
+}
+
 const char *scan_free_name(struct pool *pool, const struct rotor *rotor, const char *id)
 {
+    struct state state = {.job.rotor = *rotor};
+    const struct states states = {.nstate = 1, .state = &state};
+    return states_free_name(pool, &states, id);
+}
+
+const char *states_free_name(struct pool *pool, const struct states *states, const char *id)
+{
     const char *name = id;
-    for (int i = 2; name && name_is_taken(rotor, name); i++)
+    for (int i = 2; name && name_is_taken_in_any(states, name); i++)
         name = pool_format(pool, "%s_%d", id, i);
     return name;
 }
 
-static int add(struct pool *pool, const struct job *job, const struct cause_kind *cause, int target, struct scan *scan)
+/* The targets of a cause in one state. */
+struct listing {
+    struct pool *pool;
+    const struct states *states;
+    int **identified; /* [nstate] -> [ngroup] */
+    struct scan *scan;
+};
+
+static int add(struct listing *l, const struct cause_kind *cause, int home, int target)
 {
     int has_target = cause->target >= TARGET_GROUP && cause->target <= TARGET_TIEROD;
-    struct scan_candidate *c = &scan->candidate[scan->ncandidate];
-    *c = (struct scan_candidate){.cause = cause, .best = -1};
+    struct scan_candidate *c = &l->scan->candidate[l->scan->ncandidate];
+    int *in = POOL_ARRAY(l->pool, int, l->states->nstate);
+    *c = (struct scan_candidate){.cause = cause, .best = -1, .state = -1, .home = home, .in = in};
     c->effect = (struct effect){.kind = cause->effect, .target = has_target ? target : -1};
-    c->effect.name = scan_free_name(pool, &job->rotor, cause->id);
-    c->target = cause_target_name(pool, &job->rotor, cause, target);
+    c->effect.name = states_free_name(l->pool, l->states, cause->id);
+    c->target = cause_target_name(l->pool, &l->states->state[home].job.rotor, cause, target);
     for (int p = 0; p < EFFECT_MOST_PARAMETERS; p++)
         c->effect.value[p] = cause->parameter[p].neutral;
-    scan->ncandidate++;
-    return c->effect.name && c->target ? ROTID_OK : ROTID_ERROR_MEMORY;
+    l->scan->ncandidate++;
+    if (in)
+        in[home] = 1;
+    return in && c->effect.name && c->target ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static int add_suspect(struct pool *pool, const struct job *job, const struct suspect *suspect, struct scan *scan)
+/* Whether the cause stands in the list already for this target of a state. */
+static int is_listed(const struct scan *scan, const struct cause_kind *cause, int state, int target)
+{
+    for (int i = 0; i < scan->ncandidate; i++) {
+        const struct scan_candidate *c = &scan->candidate[i];
+        int has_target = cause->target >= TARGET_GROUP && cause->target <= TARGET_TIEROD;
+        if (c->cause == cause && !c->suspect && c->in[state] && (!has_target || c->effect.target == target))
+            return 1;
+    }
+    return 0;
+}
+
+static int applies_in(const struct listing *l, const struct cause_kind *cause, int state, int target)
+{
+    const struct job *job = &l->states->state[state].job;
+    return target < target_count(&job->rotor, cause->target) && is_of_this_model(job, cause) &&
+           !is_in_model(&job->rotor, cause, cause->target == TARGET_NONE || cause->target == TARGET_SENSOR ? -1 : target) &&
+           (!cause->applies || cause->applies(&job->rotor, target, l->identified[state]));
+}
+
+/* A cause at the targets that state `home` has and no state before it: the same target has one place in the list and one name. */
+static int add_cause(struct listing *l, const struct cause_kind *cause, int home)
+{
+    const struct states *states = l->states;
+    for (int t = 0; t < target_count(&states->state[home].job.rotor, cause->target); t++) {
+        if (!applies_in(l, cause, home, t) || (home && is_listed(l->scan, cause, home, t)))
+            continue;
+        int status = add(l, cause, home, t);
+        const struct scan_candidate *c = &l->scan->candidate[l->scan->ncandidate - 1];
+        for (int s = home + 1; s < states->nstate && !status; s++) {
+            if (!applies_in(l, cause, s, t))
+                continue;
+            const char *name = cause_target_name(l->pool, &states->state[s].job.rotor, cause, t);
+            if (!name)
+                return ROTID_ERROR_MEMORY;
+            ((int *)c->in)[s] = same_text(name, c->target);
+        }
+        if (status)
+            return status;
+    }
+    return ROTID_OK;
+}
+
+/* The candidates that could act in several states, in one of them alone. A rotor is a solid in all of them. */
+static int add_single(struct listing *l)
+{
+    struct scan *scan = l->scan;
+    int count = scan->ncandidate;
+    for (int i = 0; i < count; i++) {
+        const struct scan_candidate *common = &scan->candidate[i];
+        int several = 0;
+        for (int s = 0; s < l->states->nstate; s++)
+            several += common->in[s];
+        if (several == 1)
+            scan->candidate[i].state_name = l->states->state[common->home].name;
+        for (int s = 0; s < l->states->nstate && several > 1 && !common->suspect && !common->cause->solid; s++) {
+            struct scan_candidate *c = &scan->candidate[scan->ncandidate];
+            int *in = POOL_ARRAY(l->pool, int, l->states->nstate);
+            if (!in)
+                return ROTID_ERROR_MEMORY;
+            if (!common->in[s])
+                continue;
+            in[s] = 1;
+            *c = *common;
+            c->state = c->home = s;
+            c->state_name = l->states->state[s].name;
+            c->in = in;
+            scan->ncandidate++;
+        }
+    }
+    return ROTID_OK;
+}
+
+/* In every state that has the suspect, by its name. */
+static int add_suspect(struct listing *l, int home, const struct suspect *suspect)
 {
     const struct cause_kind *cause = catalogue_of(&suspect->effect);
+    const struct rotor *rotor = &l->states->state[home].job.rotor;
     int target = suspect->effect.target;
-    for (int i = 0; i < job->rotor.neffect; i++)
-        if (same_text(job->rotor.effect[i].name, suspect->effect.name))
+    for (int i = 0; i < rotor->neffect; i++)
+        if (same_text(rotor->effect[i].name, suspect->effect.name))
             return ROTID_OK; /* accepted in an earlier round */
-    if (cause->place < 0 && cause->target == TARGET_SENSOR && is_in_model(&job->rotor, cause, target))
+    if (cause->place < 0 && cause->target == TARGET_SENSOR && is_in_model(rotor, cause, target))
         return ROTID_OK; /* an accelerometer that was weighed already */
-    int status = add(pool, job, cause, target, scan);
-    struct scan_candidate *c = &scan->candidate[scan->ncandidate - 1];
+    for (int i = 0; i < l->scan->ncandidate && home; i++) {
+        const struct scan_candidate *c = &l->scan->candidate[i];
+        if (c->suspect && same_text(c->effect.name, suspect->effect.name)) {
+            ((int *)c->in)[home] = 1;
+            return ROTID_OK;
+        }
+    }
+    int status = add(l, cause, home, target);
+    struct scan_candidate *c = &l->scan->candidate[l->scan->ncandidate - 1];
     c->effect.name = suspect->effect.name;
     c->effect.variant = suspect->effect.variant;
     c->effect.target = target;
@@ -120,38 +228,47 @@ static int add_suspect(struct pool *pool, const struct job *job, const struct su
     return status;
 }
 
-int scan_allows(const struct job *job, const struct scan *scan, int a, int b)
+int scan_allows(const struct states *states, const struct scan *scan, int a, int b)
 {
     const struct scan_candidate *first = &scan->candidate[a], *second = &scan->candidate[b];
-    if (first->cause != second->cause || first->effect.target != second->effect.target)
+    if (first->state >= 0 || second->state >= 0) /* of what is in one state, one is named after the other */
+        return 0;
+    if (first->cause != second->cause || first->effect.target != second->effect.target || first->home != second->home)
         return a != b;
     int place = first->cause->place;
     return place >= 0 && !first->fixed[place] && !second->fixed[place] && !first->suspect && !second->suspect &&
-           !effects_alike(&job->rotor, first->cause, first->effect.target);
+           !effects_alike(&states->state[first->home].job.rotor, first->cause, first->effect.target);
 }
 
-int scan_list(struct pool *pool, const struct job *job, struct scan *scan)
+static int open_listing(struct listing *l)
 {
-    const struct rotor *rotor = &job->rotor;
-    int most = job->unknowns.nsuspect, status = ROTID_OK;
-    int *identified = POOL_ARRAY(pool, int, rotor->ngroup);
-    for (int i = 0; i < catalogue_count(); i++)
-        most += target_count(rotor, catalogue_item(i)->target);
-    *scan = (struct scan){0};
-    scan->candidate = POOL_ARRAY(pool, struct scan_candidate, most);
-    if (!identified || !scan->candidate)
-        return ROTID_ERROR_MEMORY;
-    for (int g = 0; g < rotor->ngroup; g++)
-        identified[g] = is_identified(job, g);
-    for (int i = 0; i < catalogue_count() && !status; i++) {
-        const struct cause_kind *cause = catalogue_item(i);
-        for (int t = 0; t < target_count(rotor, cause->target) && cause->class == CAUSE_PHYSICAL && !status; t++)
-            if (is_of_this_model(job, cause) &&
-                !is_in_model(rotor, cause, cause->target == TARGET_NONE || cause->target == TARGET_SENSOR ? -1 : t) &&
-                (!cause->applies || cause->applies(rotor, t, identified)))
-                status = add(pool, job, cause, t, scan);
+    int most = 0, count = l->states->nstate;
+    l->identified = POOL_ARRAY(l->pool, int *, count);
+    for (int s = 0; s < count && l->identified; s++) {
+        const struct job *job = &l->states->state[s].job;
+        int *identified = l->identified[s] = POOL_ARRAY(l->pool, int, job->rotor.ngroup);
+        most += job->unknowns.nsuspect;
+        for (int i = 0; i < catalogue_count(); i++)
+            most += target_count(&job->rotor, catalogue_item(i)->target);
+        for (int g = 0; g < job->rotor.ngroup && identified; g++)
+            identified[g] = is_identified(job, g);
+        if (!identified)
+            return ROTID_ERROR_MEMORY;
     }
-    for (int i = 0; i < job->unknowns.nsuspect && !status; i++)
-        status = add_suspect(pool, job, &job->unknowns.suspect[i], scan);
-    return status;
+    *l->scan = (struct scan){0};
+    l->scan->candidate = POOL_ARRAY(l->pool, struct scan_candidate, (size_t)most * (count > 1 ? 2 : 1));
+    return l->identified && l->scan->candidate ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+int scan_list(struct pool *pool, const struct states *states, struct scan *scan)
+{
+    struct listing listing = {.pool = pool, .states = states, .scan = scan};
+    int status = open_listing(&listing);
+    for (int i = 0; i < catalogue_count() && !status; i++)
+        for (int s = 0; s < states->nstate && catalogue_item(i)->class == CAUSE_PHYSICAL && !status; s++)
+            status = add_cause(&listing, catalogue_item(i), s);
+    for (int s = 0; s < states->nstate && !status; s++)
+        for (int i = 0; i < states->state[s].job.unknowns.nsuspect && !status; i++)
+            status = add_suspect(&listing, s, &states->state[s].job.unknowns.suspect[i]);
+    return status || states->nstate == 1 ? status : add_single(&listing);
 }

@@ -11,17 +11,13 @@
 
 #define MANY 3 /* causes that together still leave something imitate what none of them is */
 
-/* What a cause that is an approximation leaves, added to the noise of the job. */
-static int add_discrepancy(struct engine *engine, const struct cause_kind *cause, struct job *job)
+/* What a cause that is an approximation leaves, added to the noise of a job. */
+static int add_to_noise(struct engine *engine, const struct cause_kind *cause, struct job *job)
 {
     ptrdiff_t components = (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode;
     double *std = POOL_ARRAY(engine->pool, double, job->measurement.nmode);
     if (!std)
         return ROTID_ERROR_MEMORY;
-    message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
-                "%s is an approximation: %.2g %% of the frequencies and %.2g %% of the largest component of the shapes are added "
-                "to the noise behind it, in later rounds, in the extended model and its intervals",
-                cause->id, 100 * cause->discrepancy_frequency, 100 * cause->discrepancy_shape);
     for (int k = 0; k < job->measurement.nmode; k++)
         std[k] = hypot(job->measurement.frequency_std[k], cause->discrepancy_frequency);
     job->measurement.frequency_std = std;
@@ -36,13 +32,28 @@ static int add_discrepancy(struct engine *engine, const struct cause_kind *cause
     return ROTID_OK;
 }
 
+/* The same of the states in which it acts, and says so. */
+static int add_discrepancy(struct engine *engine, const struct candidate *c, struct states *states)
+{
+    const struct cause_kind *cause = c->cause;
+    int status = ROTID_OK;
+    message_add(engine->notes, SEVERITY_WARNING, NULL, 0, 0,
+                "%s is an approximation: %.2g %% of the frequencies and %.2g %% of the largest component of the shapes are added "
+                "to the noise behind it, in later rounds, in the extended model and its intervals",
+                cause->id, 100 * cause->discrepancy_frequency, 100 * cause->discrepancy_shape);
+    for (int s = 0; s < states->nstate && !status; s++)
+        if (c->in[s])
+            status = add_to_noise(engine, cause, &states->state[s].job);
+    return status;
+}
+
 /* A size that was found only where the bounds had been widened. */
 static void note_size(const struct engine *engine, const struct candidate *c)
 {
     double lower, upper, size = c->effect.value[c->cause->size];
     if (!(c->effect.bound[0] < c->effect.bound[1]))
         return;
-    c->cause->bounds(&engine->job.rotor, &c->effect, c->cause->size, &lower, &upper);
+    c->cause->bounds(&engine->states.state[c->home].job.rotor, &c->effect, c->cause->size, &lower, &upper);
     if (size < lower || size > upper)
         message_add(engine->notes, SEVERITY_NOTE, NULL, 0, 0,
                     "%s: %s %.3g lies outside the usual bounds, %.3g to %.3g; it was looked for from %.3g to %.3g", c->cause->id,
@@ -54,7 +65,7 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
 {
     struct diagnosis *out = engine->out;
     struct refit *refit = &result->refit[round->candidate[0].refit];
-    struct job job = refit->job;
+    struct states states = refit->states;
     int approximate = 0, status = ROTID_OK;
     if (engine->fit != out->base.fit)
         rotid_fit_free(engine->fit);
@@ -67,11 +78,11 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
         if (!(c->cause->discrepancy_frequency > 0 || c->cause->discrepancy_shape > 0))
             continue;
         approximate = 1;
-        status = add_discrepancy(engine, c->cause, &job);
+        status = add_discrepancy(engine, c, &states);
     }
     if (!status && approximate) {
         rotid_fit_result *fit = NULL;
-        status = refit_job(engine->pool, &job, engine->number, engine->holdout, engine->environment, &fit);
+        status = refit_states(engine->pool, &states, engine->number, engine->holdout, engine->environment, &fit);
         if (!status) {
             rotid_fit_free(engine->fit);
             engine->fit = fit;
@@ -79,8 +90,10 @@ int accept_cause(struct engine *engine, const struct diagnosis_round *round, str
     }
     if (status)
         return status;
-    engine->job = job;
-    return job_started_at(engine->pool, &job, engine->fit->x, &engine->job);
+    status = states_started_at(engine->pool, &states, engine->fit->x, &engine->states);
+    if (!status)
+        engine_look_at(engine, 0);
+    return status;
 }
 
 /* Excess of a chi2 over its expectation, where noise makes it that large less than once in a hundred times. */
@@ -154,21 +167,22 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
 
 static int same_cause(const struct candidate *a, const struct candidate *b)
 {
-    return a->cause == b->cause && a->effect.target == b->effect.target;
+    return a->cause == b->cause && a->effect.target == b->effect.target && a->state == b->state;
 }
 
-/* The job of the base with all named causes but one. */
-static int job_without(struct engine *engine, int left_out, struct job *job)
+/* The states of the base with all named causes but one, their data as they are now. */
+static int states_without(struct engine *engine, int left_out, struct states *states)
 {
     struct diagnosis *out = engine->out;
-    *job = out->job;
-    int status = job_started_at(engine->pool, job, out->base.fit->x, job);
+    int status = states_started_at(engine->pool, &out->judged, out->base.fit->x, states);
     for (int c = 0; c < out->ncause && !status; c++)
         if (c != left_out)
-            status =
-                job_with_effect(engine->pool, job, NULL, &out->cause[c].effect, out->cause[c].cause, out->cause[c].fixed, job);
-    job->measurement.frequency_std = engine->job.measurement.frequency_std;
-    job->measurement.shape_std = engine->job.measurement.shape_std;
+            status = states_with_effect(engine->pool, states, NULL, &out->cause[c].effect, out->cause[c].cause,
+                                        out->cause[c].fixed, out->cause[c].in, states);
+    for (int s = 0; s < states->nstate && !status; s++) {
+        states->state[s].job.measurement.frequency_std = engine->states.state[s].job.measurement.frequency_std;
+        states->state[s].job.measurement.shape_std = engine->states.state[s].job.measurement.shape_std;
+    }
     return status;
 }
 
@@ -186,24 +200,26 @@ static int confirm(struct engine *engine, struct diagnosis_round *round, struct 
     for (int c = 0; c < doubted && !status && *doubtful < 0; c++) {
         struct engine other = *engine;
         rotid_fit_result *fit = NULL;
-        status = job_without(engine, c, &other.job);
+        status = states_without(engine, c, &other.states);
+        other.job = &other.states.state->job;
         if (!status)
-            status = refit_job(engine->pool, &other.job, engine->number, engine->holdout, engine->environment, &fit);
+            status = refit_states(engine->pool, &other.states, engine->number, engine->holdout, engine->environment, &fit);
         if (!status && fit_at_bound(fit, engine->nown)) /* with all causes it may lie elsewhere */
-            status = refit_again(engine->pool, &other.job, engine->nown, engine->fit->x, engine->number, engine->holdout,
+            status = refit_again(engine->pool, &other.states, engine->nown, engine->fit->x, engine->number, engine->holdout,
                                  engine->environment, &fit);
         other.fit = fit;
         if (!status)
-            status = job_started_at(engine->pool, &other.job, fit->x, &other.job);
+            status = states_started_at(engine->pool, &other.states, fit->x, &other.states);
+        other.job = &other.states.state->job;
         round_free(result);
         if (!status)
             status = round_run(&other, round, result);
         rotid_fit_free(other.fit); /* the round may have put another one in its place */
         engine->clock = other.clock;
         engine->coloured = other.coloured;
-        engine->job.measurement.correction =
-            out->job.measurement.correction; /* noise that was raised there is raised here: the data are the same */
-        engine->job.measurement.ncorrection = out->job.measurement.ncorrection;
+        engine->job->measurement.correction =
+            out->judged.state->job.measurement.correction; /* noise that was raised there is raised here: the data are the same */
+        engine->job->measurement.ncorrection = out->judged.state->job.measurement.ncorrection;
         if (!status && !(round->result.kind == ROTID_NAMED && same_cause(&round->candidate[0], &out->cause[c])))
             *doubtful = c;
     }

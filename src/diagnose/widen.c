@@ -29,33 +29,68 @@ static int size_parameter(const struct job *job, int e, int size)
     return -1;
 }
 
-/* *wider := the job with sizes that end at a bound given `times` the usual room; *any: there is such a size. */
-static int widen(struct pool *pool, const struct scan *scan, const struct scan_set *set, const struct refit *refit, double times,
-                 struct job *wider, int *any)
+/* Effect m of a set in a state: the last ones of its rotor are those that act there. */
+static int effect_of_set(const struct scan *scan, const struct scan_set *set, int m, int s, const struct rotor *rotor)
 {
-    const struct job *job = &refit->job;
-    int first = job->rotor.neffect - set->count, status = job_started_at(pool, job, refit->fit->x, wider);
+    int behind = 0;
+    for (int other = m + 1; other < set->count; other++)
+        behind += scan->candidate[set->candidate[other]].in[s] != 0;
+    return rotor->neffect - 1 - behind;
+}
+
+/* The bounds of the effect in the states where it acts, and those of its size. */
+static void set_bounds(const struct scan *scan, const struct scan_set *set, int m, const struct effect *effect, double start,
+                       struct states *states)
+{
+    const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
+    for (int s = 0; s < states->nstate; s++) {
+        struct job *job = &states->state[s].job;
+        if (!c->in[s])
+            continue;
+        int e = effect_of_set(scan, set, m, s, &job->rotor), q = size_parameter(job, e, c->cause->size);
+        memcpy(job->rotor.effect[e].bound, effect->bound, sizeof effect->bound);
+        rotid_parameter *const bounds[] = {&job->unknowns.bounds[q], &states->bounds[state_unknown(&states->state[s], q)]};
+        for (int i = 0; i < 2; i++) {
+            bounds[i]->lower = effect->bound[0];
+            bounds[i]->upper = effect->bound[1];
+            bounds[i]->start = start;
+        }
+    }
+}
+
+/* *wider := the states with sizes that end at a bound given `times` the usual room; *any: there is such a size. */
+static int widen(struct pool *pool, const struct scan *scan, const struct scan_set *set, const struct refit *refit, double times,
+                 struct states *wider, int *any)
+{
+    int status = states_started_at(pool, &refit->states, refit->fit->x, wider);
     *any = 0;
-    wider->rotor.effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);
-    if (status || !wider->rotor.effect)
-        return ROTID_ERROR_MEMORY;
-    memcpy(wider->rotor.effect, job->rotor.effect, (size_t)job->rotor.neffect * sizeof *wider->rotor.effect);
-    for (int m = 0; m < set->count; m++) {
+    for (int s = 0; s < wider->nstate && !status; s++) {
+        struct rotor *rotor = &wider->state[s].job.rotor;
+        struct effect *effect = POOL_ARRAY(pool, struct effect, rotor->neffect);
+        if (!effect)
+            return ROTID_ERROR_MEMORY;
+        if (rotor->neffect)
+            memcpy(effect, rotor->effect, (size_t)rotor->neffect * sizeof *effect);
+        rotor->effect = effect;
+    }
+    for (int m = 0; m < set->count && !status; m++) {
         const struct scan_candidate *c = &scan->candidate[set->candidate[m]];
-        int size = c->cause->size, p = c->cause->solid ? -1 : size_parameter(job, first + m, size);
-        if (p < 0 || c->effect.bound[0] < c->effect.bound[1])
+        const struct state *home = &refit->states.state[c->home];
+        if (c->cause->solid || c->effect.bound[0] < c->effect.bound[1])
             continue;
-        rotid_parameter *bounds = &wider->unknowns.bounds[p];
-        struct effect *effect = &wider->rotor.effect[first + m];
-        if (!size_at_bound(bounds, c->cause->parameter[size].neutral, refit->fit->x[p]) ||
-            !cause_widen(c->cause, &job->rotor, times, effect))
+        int e = effect_of_set(scan, set, m, c->home, &home->job.rotor), size = c->cause->size,
+            q = size_parameter(&home->job, e, size);
+        if (q < 0)
             continue;
-        bounds->lower = effect->bound[0];
-        bounds->upper = effect->bound[1];
-        bounds->start = refit->fit->x[p];
+        double x = refit->fit->x[state_unknown(home, q)];
+        struct effect effect = wider->state[c->home].job.rotor.effect[e];
+        if (!size_at_bound(&wider->state[c->home].job.unknowns.bounds[q], c->cause->parameter[size].neutral, x) ||
+            !cause_widen(c->cause, &home->job.rotor, times, &effect))
+            continue;
+        set_bounds(scan, set, m, &effect, x, wider);
         *any = 1;
     }
-    return ROTID_OK;
+    return status;
 }
 
 int refit_widen(struct pool *pool, const struct scan *scan, const struct scan_set *set, const int *number, const int *holdout,
@@ -63,12 +98,12 @@ int refit_widen(struct pool *pool, const struct scan *scan, const struct scan_se
 {
     int any = refit->fit != NULL, better = 1;
     for (double times = STEP; any && better; times *= STEP) {
-        struct job wider;
+        struct states wider;
         rotid_fit_result *fit = NULL;
         int status = widen(pool, scan, set, refit, times, &wider, &any);
         if (status || !any)
             return status;
-        status = refit_job(pool, &wider, number, holdout, environment, &fit);
+        status = refit_states(pool, &wider, number, holdout, environment, &fit);
         if (status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED)
             return status;
         better = !status && fit->chi2 < refit->chi2;

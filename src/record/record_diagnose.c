@@ -20,6 +20,7 @@ static const struct field cause_fields[] = {
     TEXT(rotid_cause, name, MAY_BE_NULL),
     TEXT(rotid_cause, variant, MAY_BE_NULL | SINCE_LATER),
     STRUCTS(rotid_cause, parameters, 0, value_record),
+    TEXT(rotid_cause, state, MAY_BE_NULL | SINCE_LATER),
     {0},
 };
 static const struct record cause_record = RECORD(rotid_cause, cause_fields);
@@ -50,6 +51,7 @@ static const struct field data_finding_fields[] = {
     NUMBER(rotid_data_finding, std, MAY_BE_NULL),
     NUMBER(rotid_data_finding, chi2_drop, MAY_BE_NULL),
     TEXT(rotid_data_finding, text, MAY_BE_NULL),
+    TEXT(rotid_data_finding, state, MAY_BE_NULL | SINCE_LATER),
     {0},
 };
 static const struct record data_finding_record = RECORD(rotid_data_finding, data_finding_fields);
@@ -59,6 +61,7 @@ static const struct field numerical_finding_fields[] = {
     INTEGERS(rotid_numerical_finding, modes, 0),
     NUMBERS_BY(rotid_numerical_finding, error_percent, ELEMENTS_MAY_BE_NULL, nmodes, "modes"),
     TEXT(rotid_numerical_finding, text, MAY_BE_NULL),
+    TEXT(rotid_numerical_finding, state, MAY_BE_NULL | SINCE_LATER),
     {0},
 };
 static const struct record numerical_finding_record = RECORD(rotid_numerical_finding, numerical_finding_fields);
@@ -143,6 +146,7 @@ static const struct field sensor_residual_fields[] = {
     INTEGER(rotid_sensor_residual, id, 0),
     NUMBER(rotid_sensor_residual, z_m, 0),
     NUMBER(rotid_sensor_residual, rms, MAY_BE_NULL | FROM_0),
+    TEXT(rotid_sensor_residual, state, MAY_BE_NULL | SINCE_LATER),
     {0},
 };
 static const struct record sensor_residual_record = RECORD(rotid_sensor_residual, sensor_residual_fields);
@@ -176,6 +180,8 @@ static const struct record step_record = RECORD(rotid_step, step_fields);
 
 static const struct field diagnosis_fields[] = {
     FLAG(rotid_diagnosis, interrupted, 0),
+    TEXT(rotid_diagnosis, before, MAY_BE_NULL | SINCE_LATER),
+    TEXT(rotid_diagnosis, after, MAY_BE_NULL | SINCE_LATER),
     STRUCT(rotid_diagnosis, verdict, 0, verdict_record),
     STRUCTS(rotid_diagnosis, data_findings, 0, data_finding_record),
     STRUCTS(rotid_diagnosis, numerical_findings, 0, numerical_finding_record),

@@ -113,7 +113,7 @@ static void print_numerical(const struct diagnosis_view *view)
         const rotid_numerical_finding *finding = &d->numerical_findings[i];
         struct wrap wrap;
         wrap_open(&wrap, view->out, 4, view->width, "  ");
-        wrap_item(&wrap, "%s:", finding->id);
+        wrap_item(&wrap, "%s%s%s:", finding->id, finding->state ? " in state " : "", finding->state ? finding->state : "");
         if (finding->text)
             wrap_words(&wrap, finding->text);
         for (int k = 0, shown = 0; k < finding->nmodes; k++)
@@ -133,7 +133,7 @@ static void print_data(const struct diagnosis_view *view)
         const rotid_data_finding *finding = &d->data_findings[i];
         struct wrap wrap;
         wrap_open(&wrap, view->out, 4, view->width, "  ");
-        wrap_item(&wrap, "%s", finding->id);
+        wrap_item(&wrap, "%s%s%s", finding->id, finding->state ? " in state " : "", finding->state ? finding->state : "");
         for (int n = 0; n < finding->nsensors; n++)
             wrap_item(&wrap, "%s%d", n ? "and " : "sensor ", finding->sensors[n]);
         for (int k = 0; k < finding->nmodes; k++)

@@ -36,6 +36,8 @@ static void print_candidate(const struct diagnosis_view *view, const rotid_round
     wrap_open(&wrap, view->out, 8, view->width, "      ");
     if (in_set)
         wrap_item(&wrap, "%s%s", round->kind == ROTID_NAMED ? "NAMED" : "POSSIBLE", c->cause.nparameters ? ":" : "");
+    if (c->cause.state)
+        wrap_item(&wrap, "in state %s%s", c->cause.state, c->cause.nparameters ? "," : "");
     print_values(&wrap, &c->cause);
     if (c->with) {
         wrap_item(&wrap, "%swith %s%s%s%s", c->cause.nparameters ? "; " : "", c->with->id, *c->with->target ? " of " : "",

@@ -16,6 +16,15 @@ static double standardised(const rotid_diagnosis *d, int k)
     return k < d->nmodes_standardised ? d->modes_standardised[k] : NAN;
 }
 
+/* The state whose modes begin with mode k of all, NULL where none does. */
+static const char *state_at(const rotid_identification *fit, int k)
+{
+    for (int s = 0; s < fit->nstates; k -= fit->states[s++].nmodes)
+        if (!k)
+            return fit->states[s].name;
+    return NULL;
+}
+
 static void print_modes(const struct diagnosis_view *view)
 {
     const rotid_diagnosis *d = view->diagnosis;
@@ -27,6 +36,8 @@ static void print_modes(const struct diagnosis_view *view)
                   -scale, BAR_HALF, scale);
     for (int k = 0; k < d->base->nmodes; k++) {
         const rotid_compared_mode *mode = &d->base->modes[k];
+        if (state_at(d->base, k))
+            (void)fprintf(view->out, "  state %s\n", state_at(d->base, k));
         (void)fprintf(view->out, "  %4d", mode->mode);
         digits_cell(view->out, 15, 6, mode->measured_hz);
         digits_cell(view->out, 11, 6, mode->predicted_hz);
@@ -39,18 +50,30 @@ static void print_modes(const struct diagnosis_view *view)
     }
 }
 
+static int same_state(const rotid_sensor_residual *a, const rotid_sensor_residual *b)
+{
+    return a->state == b->state || (a->state && b->state && !strcmp(a->state, b->state));
+}
+
+/* A line for each state. */
 static int print_sensors(const struct diagnosis_view *view, int columns)
 {
     const rotid_diagnosis *d = view->diagnosis;
-    struct strip strip;
     int any = 0;
-    strip_open(&strip, d->geometry->length_m, columns);
-    for (int s = 0; s < d->nsensors; s++) {
-        strip_digits(&strip, 1, &d->sensors[s].z_m, &d->sensors[s].rms);
-        any |= isfinite(d->sensors[s].rms);
+    for (int s = 0, end; s < d->nsensors; s = end) {
+        struct strip strip;
+        char label[LABEL + 1];
+        int measured = 0;
+        strip_open(&strip, d->geometry->length_m, columns);
+        for (end = s; end < d->nsensors && same_state(&d->sensors[s], &d->sensors[end]); end++) {
+            strip_digits(&strip, 1, &d->sensors[end].z_m, &d->sensors[end].rms);
+            measured |= isfinite(d->sensors[end].rms);
+        }
+        (void)snprintf(label, sizeof label, "  %.11s", d->sensors[s].state ? d->sensors[s].state : "sensors");
+        if (measured)
+            strip_print(&strip, view->out, LABEL, label);
+        any |= measured;
     }
-    if (any)
-        strip_print(&strip, view->out, LABEL, "  sensors");
     return any;
 }
 
@@ -109,7 +132,11 @@ void table_misfit(const struct diagnosis_view *view)
     const rotid_identification *base = view->diagnosis->base;
     if (!base)
         return;
-    (void)fprintf(view->out, "\nWHAT IS WRONG  full model, likelihood");
+    if (view->diagnosis->before)
+        (void)fprintf(view->out, "\nWHAT CHANGED  %s beside the model that fits %s, less what that misses there",
+                      view->diagnosis->after, view->diagnosis->before);
+    else
+        (void)fprintf(view->out, "\nWHAT IS WRONG  full model, likelihood");
     if (isfinite(base->chi2))
         (void)fprintf(view->out, ", chi2 %.4g with %d degrees of freedom", base->chi2, base->dof);
     (void)fprintf(view->out, "%s\n",

@@ -74,6 +74,7 @@ struct effect {
     int target;  /* index of the group, tie rod, spring, disk or sensor; of the group left of an interface; -1: none */
     int variant; /* of the kind, such as the shape of a soft zone */
     double value[EFFECT_MOST_PARAMETERS];
+    int stays;       /* nonzero: it is no cause that was found, and another one of its kind at its target may come */
     double bound[2]; /* of its size, where a deck states them or they were widened; both 0: those of its cause */
 };
 

@@ -25,23 +25,6 @@ static int compute_spectrum(struct pool *pool, const struct job *job, const doub
                                   count, parts, spectrum);
 }
 
-/* One state for those that have a job. */
-static struct states only(const struct job *job, struct state *state)
-{
-    *state = (struct state){.job = *job};
-    return (struct states){.nstate = 1, .state = state, .nparameter = job->unknowns.nparameter, .bounds = job->unknowns.bounds};
-}
-
-/* The unknowns of a state among those of all. */
-static double *unknowns_of(struct pool *pool, const struct state *state, const double *x)
-{
-    int n = state->job.unknowns.nparameter;
-    double *own = POOL_ARRAY(pool, double, n);
-    for (int p = 0; p < n && own; p++)
-        own[p] = x[state->unknown ? state->unknown[p] : p];
-    return own;
-}
-
 /* What a state is fitted with: its pairing and what is left out. */
 struct paired {
     const int *number, *holdout;
@@ -88,7 +71,7 @@ static int fit_states(struct pool *pool, const struct states *states, const stru
     for (int s = 0; s < count && !status; s++) {
         if (!paired[s].mass)
             continue;
-        double *x = unknowns_of(pool, &states->state[s], (*fit)->x);
+        double *x = state_values(pool, &states->state[s], (*fit)->x);
         if (!x) {
             rotid_fit_free(*fit);
             *fit = NULL;
@@ -105,9 +88,20 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
                  rotid_fit_result **fit)
 {
     struct state state;
-    const struct states states = only(job, &state);
+    const struct states states = states_of(job, &state);
     const struct paired paired = {number, holdout, mass};
     return fit_states(pool, &states, &paired, options, environment, fit);
+}
+
+int identify_fit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                        const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit)
+{
+    struct paired *paired = POOL_ARRAY(pool, struct paired, states->nstate);
+    if (!paired)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, mode = 0; s < states->nstate; mode += states->state[s].job.measurement.nmode, s++)
+        paired[s] = (struct paired){number + mode, holdout + mode, NULL};
+    return fit_states(pool, states, paired, options, environment, fit);
 }
 
 /* Also while NLopt ran: the fit itself is complete then. */
@@ -140,7 +134,7 @@ static int predict_baseline(struct pool *pool, const struct state *state, struct
         status = prediction_new(pool, &model->equations, job->options.fit.reduction, ROTID_NELSON,
                                 model->equations.nrigid + highest, 0, &p);
     for (int i = 0; i < fit->nbaseline && status != ROTID_ERROR_MEMORY; i++) {
-        double *x = unknowns_of(pool, state, fit->baseline[i].x);
+        double *x = state_values(pool, state, fit->baseline[i].x);
         if (!x)
             return ROTID_ERROR_MEMORY;
         int lost = status ? status : prediction_compute(&p, x);
@@ -174,7 +168,7 @@ struct running {
 /* The spectrum at the unknowns x of all, and the pairs there. parts: beyond what pairing needs */
 static int pair_state(struct pool *pool, struct running *run, const double *x, int parts, struct comparison *pairs)
 {
-    double *own = unknowns_of(pool, run->state, x);
+    double *own = state_values(pool, run->state, x);
     message_open(&run->quiet, pool);
     if (!own)
         return ROTID_ERROR_MEMORY;
@@ -354,11 +348,11 @@ int identify_own_unknowns(struct pool *pool, const struct state *state, struct i
     if (!own || !flag)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < 4; i++)
-        if (!(value[i] = unknowns_of(pool, state, value[i])))
+        if (!(value[i] = state_values(pool, state, value[i])))
             return ROTID_ERROR_MEMORY;
     for (int p = 0; p < n; p++) {
-        flag[p] = out->fit->at_bound[state->unknown[p]];
-        flag[n + p] = out->fit->identifiable[state->unknown[p]];
+        flag[p] = out->fit->at_bound[state_unknown(state, p)];
+        flag[n + p] = out->fit->identifiable[state_unknown(state, p)];
     }
     *own = *out->fit;
     own->n = n;
@@ -379,7 +373,7 @@ static int identify_one(struct pool *pool, const struct job *job, int baseline, 
                         struct message_list *notes, struct identification *out)
 {
     struct state state;
-    const struct states states = only(job, &state);
+    const struct states states = states_of(job, &state);
     rotid_fit_result *fit;
     return identify(pool, &states, baseline, bare, environment, notes, out, &fit);
 }

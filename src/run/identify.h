@@ -20,6 +20,10 @@ int identify_fit(struct pool *pool, const struct job *job, const int *number, co
                  const rotid_fit_options *options, const rotid_environment *environment, struct mass_properties *mass,
                  rotid_fit_result **fit);
 
+/* The same of several states together, number and holdout of all one behind the other. */
+int identify_fit_states(struct pool *pool, const struct states *states, const int *number, const int *holdout,
+                        const rotid_fit_options *options, const rotid_environment *environment, rotid_fit_result **fit);
+
 /* With nothing to identify the model is compared as it stands. baseline: NLopt as well. Notes and reasons go to the list.
  * Statuses of rotid_fit and of comparison_make, ROTID_ERROR_ARGUMENT where nothing is measured (the list says so). */
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,

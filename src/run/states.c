@@ -3,6 +3,45 @@
 #include <stdio.h>
 #include <string.h>
 
+struct states states_of(const struct job *job, struct state *state)
+{
+    *state = (struct state){.job = *job};
+    return (struct states){.nstate = 1, .state = state, .nparameter = job->unknowns.nparameter, .bounds = job->unknowns.bounds};
+}
+
+int state_unknown(const struct state *state, int q)
+{
+    return state->unknown ? state->unknown[q] : q;
+}
+
+double *state_values(struct pool *pool, const struct state *state, const double *x)
+{
+    int n = state->job.unknowns.nparameter;
+    double *own = POOL_ARRAY(pool, double, n);
+    for (int q = 0; q < n && own; q++)
+        own[q] = x[state_unknown(state, q)];
+    return own;
+}
+
+int states_modes(const struct states *states, int count)
+{
+    int modes = 0;
+    for (int s = 0; s < count; s++)
+        modes += states->state[s].job.measurement.nmode;
+    return modes;
+}
+
+int states_copy(struct pool *pool, const struct states *from, struct states *to)
+{
+    const struct states copy = *from;
+    *to = copy;
+    to->state = POOL_ARRAY(pool, struct state, copy.nstate);
+    if (!to->state)
+        return ROTID_ERROR_MEMORY;
+    memcpy(to->state, copy.state, (size_t)copy.nstate * sizeof *copy.state);
+    return ROTID_OK;
+}
+
 void states_refuse(const struct states *states, const char *deck, struct message_list *notes)
 {
     char list[256] = "";

@@ -16,16 +16,18 @@ static const char usage[] =
     "  --seed S         of the run (from the clock)\n"
     "  --jobs N         cases at once (2)\n"
     "  --only KIND      of `hide --random`: none, an id, physical, data, outside, pair; in place of the mixture\n"
+    "  --changed        pairs of states with an error of the model in both: what changed between them\n"
     "  --log FILE       a line of JSON a case; goes on with what the file holds\n"
     "  --keep FOLDER    leaves there the deck of a case and its truth: case_N.inp, case_N.json\n"
     "Interrupted, it shows what is finished. Exit code: 0 all requirements hold, 1 one does not, 2 wrong usage, 3 a file or "
     "memory.\n";
 
-enum { CASES = 256, FIRST, SEED, JOBS, ONLY, LOG, KEEP, HELP };
+enum { CASES = 256, FIRST, SEED, JOBS, ONLY, CHANGED, LOG, KEEP, HELP };
 
 static const struct option long_options[] = {{"cases", 1, NULL, CASES}, {"first", 1, NULL, FIRST}, {"seed", 1, NULL, SEED},
-                                             {"jobs", 1, NULL, JOBS},   {"only", 1, NULL, ONLY},   {"log", 1, NULL, LOG},
-                                             {"keep", 1, NULL, KEEP},   {"help", 0, NULL, HELP},   {NULL, 0, NULL, 0}};
+                                             {"jobs", 1, NULL, JOBS},   {"only", 1, NULL, ONLY},   {"changed", 0, NULL, CHANGED},
+                                             {"log", 1, NULL, LOG},     {"keep", 1, NULL, KEEP},   {"help", 0, NULL, HELP},
+                                             {NULL, 0, NULL, 0}};
 
 static volatile sig_atomic_t interrupted;
 
@@ -63,6 +65,9 @@ static int take(int option, struct power_options *o)
     case ONLY:
         o->only = optarg;
         return 0;
+    case CHANGED:
+        o->changed = 1;
+        return 0;
     case LOG:
         o->log = optarg;
         return 0;
@@ -95,5 +100,5 @@ int main(int argc, char **argv)
     set_blas_threads(1);
     signal(SIGINT, interrupt);
     signal(SIGTERM, interrupt);
-    return power_run(&o, &interrupted, stdout);
+    return o.changed ? power_changed(&o, &interrupted, stdout) : power_run(&o, &interrupted, stdout);
 }

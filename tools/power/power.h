@@ -9,7 +9,7 @@
 #include "hidden.h"
 
 struct power_options {
-    int cases, first, jobs;
+    int cases, first, jobs, changed;
     uint64_t seed;
     const char *only; /* kind of effect of `hide --random`, or NULL: the mixture */
     const char *log;  /* a line of JSON a case; what it holds is not done again. NULL: none */
@@ -52,6 +52,13 @@ FILE *power_log(const struct power_options *options, struct power_result *result
 /* Runs the cases, shows the progress on a terminal, writes the report. Ends after the cases under way as soon as *interrupted is
  * set. 0 where all requirements hold, 1 where one does not, 3 a file or memory. */
 int power_run(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
+
+/* context: the sig_atomic_t */
+int power_interrupted(void *context);
+
+/* The same rotors measured before and after an effect came, with another one in both: what the diagnosis says of the change, a
+ * pair a paragraph, and how often it is right. 0 where it is in nine of ten, 1 where not, 3 memory or interrupted. */
+int power_changed(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
 
 /* Tables and requirements of what is done; 0 where all of these hold. */
 int power_report(FILE *out, int count, const struct power_result *result);

@@ -25,7 +25,7 @@ struct writing {
     const struct power_case *c;
 };
 
-static int is_interrupted(void *context)
+int power_interrupted(void *context)
 {
     return *(const volatile sig_atomic_t *)context;
 }
@@ -63,7 +63,7 @@ static int run_case(void *context, int index, int worker)
     struct run *run = context;
     struct power_result *result = &run->result[index];
     const rotid_environment environment = {
-        .size = sizeof environment, .cancelled = is_interrupted, .context = (void *)run->interrupted};
+        .size = sizeof environment, .cancelled = power_interrupted, .context = (void *)run->interrupted};
     struct power_case c;
     struct writing writing = {run, &c};
     (void)worker;

@@ -1,0 +1,291 @@
+#include "diagnose/changed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "diagnose/base.h"
+#include "diagnose/data.h"
+#include "diagnose/imitate.h"
+#include "diagnose/refit.h"
+
+#define SAME_PLACE 1e-6 /* of the length: two positions in two states of a deck that are one */
+
+static const struct state *find(const struct states *states, const char *name, struct message_list *notes)
+{
+    const char *list = "";
+    for (int s = 0; s < states->nstate; s++)
+        if (states->state[s].name && same_text(states->state[s].name, name))
+            return &states->state[s];
+    for (int s = 0; s < states->nstate && list; s++)
+        list = pool_format(notes->pool, "%s%s%s", list, s ? ", " : "", states->state[s].name ? states->state[s].name : "");
+    message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1,
+                states->nstate > 1 ? "state %s is not defined, expected one of %s"
+                                   : "state %s: the deck has no states, expected two *STATE%s",
+                name, list ? list : "");
+    return NULL;
+}
+
+/* Whether a state has what is needed: modes, and the noise of their frequencies. */
+static int suffices(const struct state *state, struct message_list *notes)
+{
+    const struct job *job = &state->job;
+    if (job->measurement.nmode && job_knows_frequency_noise(job))
+        return 1;
+    message_add(notes, SEVERITY_ERROR, job->deck, 1, 1,
+                job->measurement.nmode
+                    ? "state %s states no noise of its frequencies, expected *NOISE, FREQUENCY=: what changed is judged by it"
+                    : "the deck has no measured modes in state %s, expected *MODES or *MEASURED",
+                state->name);
+    return 0;
+}
+
+/* The unknowns of `before` as the likelihood of the full model has them, on a mesh without error: the shapes of the second state
+ * are judged on the same. */
+static int fit_before(struct pool *pool, const struct state *before, const struct diagnose_options *options,
+                      const rotid_environment *environment, struct message_list *notes, struct job *job,
+                      struct identification *found)
+{
+    struct message_list quiet;
+    message_open(&quiet, pool);
+    *job = before->job;
+    job->options.fit.functional = ROTID_LIKELIHOOD;
+    job->options.fit.reduction = ROTID_REDUCTION_NONE;
+    job->options.fit.derivative = ROTID_NELSON;
+    int status = imitate(pool, job, options, environment, job);
+    if (!status)
+        status = identify_run(pool, job, 0, environment, &quiet, found);
+    const struct segment *coarse = job->rotor.segment;
+    if (!status && found->fit->status != ROTID_STOP_CANCELLED)
+        status = base_refine(pool, job, found->compared.number, &found->spectrum);
+    if (!status && job->rotor.segment != coarse) {
+        rotid_fit_free(found->fit);
+        found->fit = NULL;
+        status = identify_run(pool, job, 0, environment, &quiet, found);
+    }
+    for (size_t i = 0; i < quiet.count && status; i++)
+        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, before->name);
+    if (!status && found->fit->status == ROTID_STOP_CANCELLED)
+        status = ROTID_STOP_CANCELLED;
+    return status;
+}
+
+/* The mesh of `fine` for a rotor with the elements of `coarse`. */
+static void refine_like(const struct rotor *fine, const struct rotor *coarse, struct rotor *rotor)
+{
+    for (int i = 0; i < rotor->nsegment && i < fine->nsegment; i++)
+        rotor->segment[i].elements *= fine->segment[i].elements / coarse->segment[i].elements;
+}
+
+/* The effects that imitate what `before` has, at their fitted values, in the rotor of the other state. */
+static int keep_effects(struct pool *pool, const struct job *before, const double *x, int first, struct rotor *rotor)
+{
+    struct state state;
+    (void)states_of(before, &state);
+    int more = before->rotor.neffect - first;
+    struct effect *effect = POOL_ARRAY(pool, struct effect, rotor->neffect + more);
+    if (!effect)
+        return ROTID_ERROR_MEMORY;
+    if (rotor->neffect)
+        memcpy(effect, rotor->effect, (size_t)rotor->neffect * sizeof *effect);
+    for (int e = first; e < before->rotor.neffect; e++) {
+        struct effect *kept = &effect[rotor->neffect++];
+        effect_at(&state, e, x, kept);
+        kept->stays = 1;
+        kept->name = pool_format(pool, "stays_%d", e - first + 1);
+        if (!kept->name)
+            return ROTID_ERROR_MEMORY;
+    }
+    rotor->effect = effect;
+    return ROTID_OK;
+}
+
+/* Holds the unknowns that `after` has of those of `before`; its own stay free. */
+static int hold(struct pool *pool, const struct state *before, const double *x, const struct state *after, struct job *job)
+{
+    int n = job->unknowns.nparameter, left = 0, status = rotor_copy(pool, &after->job.rotor, &job->rotor);
+    struct parameter *parameter = POOL_ARRAY(pool, struct parameter, n);
+    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, n);
+    if (status || !parameter || !bounds)
+        return ROTID_ERROR_MEMORY;
+    job->rotor.nspring = after->job.rotor.nspring; /* a copy has those of a sling, which the model adds by itself */
+    for (int q = 0; q < n; q++) {
+        int shared = 0;
+        for (int p = 0; p < before->job.unknowns.nparameter; p++)
+            if (state_unknown(before, p) == state_unknown(after, q)) {
+                *parameter_value(&job->rotor, job->unknowns.parameter[q]) = x[p];
+                shared = 1;
+            }
+        if (shared)
+            continue;
+        parameter[left] = job->unknowns.parameter[q];
+        bounds[left++] = job->unknowns.bounds[q];
+    }
+    job->unknowns.parameter = parameter;
+    job->unknowns.bounds = bounds;
+    job->unknowns.nparameter = left;
+    return ROTID_OK;
+}
+
+static double dot(int n, const double *a, const double *b) /* over what both have */
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += isfinite(a[i]) && isfinite(b[i]) ? a[i] * b[i] : 0;
+    return sum;
+}
+
+static double largest(int n, const double *a)
+{
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = isfinite(a[i]) ? fmax(most, fabs(a[i])) : most;
+    return most;
+}
+
+/* b, its noise and phi_b at the sensors of `after`, NaN where `before` has none of that id at that place. */
+static void gather(const struct job *before, const struct identification *found, int j, const struct rotor *after, double *b,
+                   double *std, double *phi)
+{
+    const struct spectrum *spectrum = &found->spectrum;
+    int nsensor = before->rotor.nsensor;
+    ptrdiff_t measured = (ptrdiff_t)j * nsensor, mode = (ptrdiff_t)(found->compared.number[j] - 1) * spectrum->nmaster;
+    double absolute = largest(nsensor, before->measurement.shape + measured);
+    for (int i = 0; i < after->nsensor; i++) {
+        b[i] = NAN;
+        for (int s = 0; s < nsensor; s++) {
+            const struct sensor *a = &after->sensor[i], *other = &before->rotor.sensor[s];
+            if (a->id != other->id || fabs(a->position - other->position) > SAME_PLACE * rotor_length(after))
+                continue;
+            b[i] = before->measurement.shape[measured + s];
+            std[i] = before->measurement.shape_std[measured + s] * absolute;
+            phi[i] = spectrum->shape[mode + s];
+        }
+    }
+}
+
+/* The part of a that is not along b, squared, over what noise makes of it; a share of a. std: of a, absolute */
+static double unlike(int n, const double *a, double std, const double *b, const double *b_std)
+{
+    double ab = dot(n, a, b), bb = dot(n, b, b), aa = 0, noise = 0;
+    for (int i = 0; i < n; i++)
+        if (isfinite(a[i]) && isfinite(b[i])) {
+            aa += a[i] * a[i];
+            noise += std * std + ab / bb * ab / bb * b_std[i] * b_std[i];
+        }
+    return fmax(0, aa - ab * ab / bb - noise) / aa;
+}
+
+/* The shape of mode k less what the model misses of it in `before`, where it is mode j; *other: d^2, to which the shape adds.
+ * work [3 * nsensor] */
+static void correct_shape(const struct job *before, const struct identification *found, int j, int k, double *work, double *other,
+                          struct job *job)
+{
+    int n = job->rotor.nsensor;
+    double *a = job->measurement.shape + (ptrdiff_t)k * n, *std = job->measurement.shape_std + (ptrdiff_t)k * n, *b = work,
+           *b_std = b + n, *phi = b_std + n, was = largest(n, a);
+    gather(before, found, j, &job->rotor, b, b_std, phi);
+    double g = dot(n, a, b) / dot(n, b, b), square = 0, along = 0;
+    *other += unlike(n, a, std[0] * was, b, b_std);
+    for (int i = 0; i < n; i++)
+        if (isfinite(a[i]) && isfinite(b[i])) {
+            square += phi[i] * phi[i];
+            along += phi[i] * b[i];
+        }
+    for (int i = 0; i < n; i++) {
+        double missed = g * (b[i] - along / square * phi[i]);
+        std[i] = hypot(hypot(std[i] * was, g * b_std[i]), *other > 0 && isfinite(missed) ? sqrt(*other) * missed : 0);
+        a[i] -= missed; /* NaN where it was not measured twice */
+    }
+    double is = largest(n, a);
+    for (int i = 0; i < n; i++)
+        std[i] /= is;
+}
+
+static int partner(const struct identification *found, int number)
+{
+    for (int j = 0; j < found->compared.nmode; j++)
+        if (found->compared.number[j] == number)
+            return j;
+    return -1;
+}
+
+/* The modes of `after` with the numbers that their shapes give them beside the model, those that `before` has as well, corrected.
+ */
+static int correct(struct pool *pool, const struct job *before, const struct identification *found, struct message_list *notes,
+                   const char *name, struct job *job)
+{
+    struct spectrum spectrum;
+    struct comparison compared;
+    struct message_list quiet;
+    int n = job->unknowns.nparameter, shapes = job_fits_shapes(before) && job_fits_shapes(job), left_out = 0;
+    double *x = POOL_ARRAY(pool, double, n), *work = POOL_ARRAY(pool, double, 3 * (size_t)job->rotor.nsensor);
+    if (!x || !work)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++)
+        x[p] = job->unknowns.bounds[p].start;
+    message_open(&quiet, pool);
+    int status = spectrum_compute_parts(pool, job->models, &job->rotor, n, job->unknowns.parameter, x, ROTID_GUYAN,
+                                        comparison_candidates(job), job->measurement.shape ? SPECTRUM_REDUCED : 0, &spectrum);
+    if (!status)
+        status = comparison_make(pool, job, &spectrum, &quiet, &compared);
+    for (size_t i = 0; i < quiet.count && status; i++)
+        message_add(notes, quiet.item[i].severity, NULL, 0, 0, "%s (state %s)", quiet.item[i].text, name);
+    if (status)
+        return status;
+    memcpy(job->measurement.number, compared.number, (size_t)job->measurement.nmode * sizeof(int));
+    job->measurement.paired = 1;
+    if (!shapes)
+        job->measurement.shape = NULL;
+    for (int k = 0; k < job->measurement.nmode; k++) {
+        int number = job->measurement.number[k], j = partner(found, number);
+        if (j < 0) {
+            data_remove_mode(job, k--);
+            left_out++;
+            continue;
+        }
+        double ratio = found->fit->predicted_hz[j] / before->measurement.frequency_hz[j],
+               moved = 2 * log(job->measurement.frequency_hz[k] / before->measurement.frequency_hz[j]), other = moved * moved;
+        if (shapes)
+            correct_shape(before, found, j, k, work, &other, job);
+        job->measurement.frequency_hz[k] *= ratio;
+        job->measurement.frequency_std[k] =
+            hypot(hypot(job->measurement.frequency_std[k], before->measurement.frequency_std[j]), sqrt(other) * log(ratio));
+    }
+    if (left_out)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "%d mode%s of state %s that the other state has not tell%s nothing of what changed and %s left out", left_out,
+                    left_out == 1 ? "" : "s", name, left_out == 1 ? "s" : "", left_out == 1 ? "is" : "are");
+    return ROTID_OK;
+}
+
+int changed_job(struct pool *pool, const struct states *states, const char *before, const char *after,
+                const struct diagnose_options *options, const rotid_environment *environment, struct message_list *notes,
+                struct job *out)
+{
+    const struct state *first = find(states, before, notes), *second = first ? find(states, after, notes) : NULL;
+    struct identification found = {0};
+    struct job job;
+    if (second == first && second)
+        message_add(notes, SEVERITY_ERROR, states->state->job.deck, 1, 1, "state %s is given twice, expected two states", before);
+    if (!second || second == first || !suffices(first, notes) || !suffices(second, notes))
+        return ROTID_ERROR_ARGUMENT;
+    *out = second->job;
+    out->measurement.has_noise_floor = 1; /* where a mode is another one it holds more than scatter */
+    out->measurement.raw = NULL;          /* the corrections of the deck are applied, and no deck is written of this */
+    out->measurement.ncorrection = 0;
+    out->measurement.point_frequency_hz = out->measurement.point_frequency_std = NULL; /* an accelerometer loads both states */
+    int status = data_copy(pool, out);
+    if (!status)
+        status = fit_before(pool, first, options, environment, notes, &job, &found);
+    if (!status)
+        status = hold(pool, first, found.fit->x, second, out);
+    if (!status)
+        status = keep_effects(pool, &job, found.fit->x, first->job.rotor.neffect, &out->rotor);
+    if (!status)
+        refine_like(&job.rotor, &first->job.rotor, &out->rotor);
+    if (!status)
+        status = correct(pool, &job, &found, notes, second->name, out);
+    rotid_fit_free(found.fit);
+    return status;
+}

@@ -1,0 +1,261 @@
+/* Diagnoses over several states of a deck, of effects that tools/hide has put into the data, and what changed between two. */
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hidden_states.h"
+
+#define ROTOR                                                                                                                    \
+    "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n"                                         \
+    "*SHAFT, NAME=left, MATERIAL=steel\n0.30, 0.06, 0, 12\n*SHAFT, NAME=core, MATERIAL=steel\n0.50, 0.10, 0, 16\n"               \
+    "*SHAFT, NAME=right, MATERIAL=steel\n0.25, 0.06, 0, 10\n*SPRING, NAME=front\nstart, 2e4\n*SPRING, NAME=rear\nend, 2e4\n"     \
+    "*IDENTIFY\ncore.E, 1e10, 1e12, 1.9e11\ncore.G, 1e9, 4e11, 7e10\n"
+#define DISC "*DISK, NAME=d\n0.45, 5\n"
+#define ZONE "stiffness_local:depth=0.3,z=0.5,width=0.03"
+
+static const char *const truths[] = {"core.E=2.1e11", "core.G=8e10"}, *const zone[] = {ZONE};
+
+static struct hide_request request(int modes, int sensors, unsigned seed)
+{
+    struct hide_request r = hide_request_default();
+    r.deck = ROTOR;
+    r.name = "rotor";
+    r.seed = seed;
+    r.modes = modes;
+    r.sensors = sensors;
+    r.no_shapes = !sensors;
+    r.truths = 2;
+    r.truth = truths;
+    r.shape_noise = 0.01;
+    return r;
+}
+
+static rotid_deck *read_text(const char *text, const char *set)
+{
+    rotid_deck *deck;
+    char failure[ROTID_FAILURE_LENGTH];
+    int status = rotid_deck_read_text(strlen(text), text, "states.inp", NULL, set != NULL, &set, NULL, failure, &deck);
+    if (status)
+        print_message("%s\n", failure);
+    assert_status(status, ROTID_OK);
+    return deck;
+}
+
+static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidden_state *state, const char *set,
+                                 const char *before, const char *after)
+{
+    const rotid_diagnose_options options = {
+        .size = sizeof options, .replicates = 200, .threads = 2, .before = before, .after = after};
+    char message[300], failure[ROTID_FAILURE_LENGTH], *text = hidden_states_deck(r, 2, state, NULL, message, sizeof message);
+    rotid_diagnosis *d;
+    if (!text)
+        print_message("%s\n", message);
+    assert_non_null(text);
+    rotid_deck *deck = read_text(text, set);
+    int status = rotid_diagnose(deck, &options, NULL, failure, &d);
+    if (status)
+        print_message("%s\n", failure);
+    assert_status(status, ROTID_OK);
+    print_message("%s\n", d->verdict.sentence);
+    rotid_deck_free(deck);
+    free(text);
+    return d;
+}
+
+static double value_of(const rotid_cause *cause, const char *name, double *lower, double *upper)
+{
+    for (int p = 0; p < cause->nparameters; p++)
+        if (!strcmp(cause->parameters[p].name, name)) {
+            *lower = cause->parameters[p].ci95[0];
+            *upper = cause->parameters[p].ci95[1];
+            return cause->parameters[p].value;
+        }
+    fail_msg("%s has no %s", cause->id, name);
+    return NAN;
+}
+
+/* One cause alone, in this state (NULL: in all), whose parameter is no farther from the truth than its interval is wide. */
+static void assert_named(const rotid_diagnosis *d, const char *id, const char *state, const char *name, double truth)
+{
+    double lower = NAN, upper = NAN;
+    assert_int_equal(d->verdict.kind, ROTID_NAMED);
+    assert_int_equal(d->verdict.ncauses, 1);
+    assert_true(d->verdict.adequate_after);
+    const rotid_cause *cause = &d->verdict.causes[0];
+    assert_string_equal(cause->id, id);
+    if (state) {
+        assert_non_null(cause->state);
+        assert_string_equal(cause->state, state);
+        assert_non_null(strstr(d->verdict.sentence, state));
+    } else {
+        assert_null(cause->state);
+    }
+    double value = value_of(cause, name, &lower, &upper);
+    assert_true(fabs(value - truth) < upper - lower);
+}
+
+static void a_cause_of_both_is_named_where_each_alone_is_ambiguous(void **state)
+{
+    (void)state;
+    static const struct hidden_state states[] = {{"bare", "", 1, zone}, {"disc", DISC, 1, zone}};
+    static const char *const sets[] = {"FIT.STATE=bare", "FIT.STATE=disc"};
+    const struct hide_request r = request(6, 0, 700);
+    for (int s = 0; s < 2; s++) {
+        rotid_diagnosis *alone = diagnose(&r, states, sets[s], NULL, NULL);
+        assert_int_equal(alone->verdict.kind, ROTID_AMBIGUOUS);
+        assert_int_equal(alone->base->nstates, 0);
+        rotid_diagnosis_free(alone);
+    }
+    rotid_diagnosis *both = diagnose(&r, states, NULL, NULL, NULL);
+    assert_named(both, "stiffness_local", NULL, "z", 0.5);
+    assert_int_equal(both->base->nstates, 2);
+    assert_int_equal(both->extended->nstates, 2);
+    assert_int_equal(both->nmodes_standardised, 12);
+    assert_null(both->before);
+    rotid_diagnosis_free(both);
+}
+
+static void a_cause_in_one_state_is_named_with_it(void **state)
+{
+    (void)state;
+    static const char *const mass[] = {"added_mass:mass=1,z=0.7"}, *const soft[] = {"stiffness_local:depth=0.4,z=0.5,width=0.03"};
+    static const struct hidden_state second[] = {{"bare", "", 0, NULL}, {"disc", DISC, 1, mass}},
+                                     first[] = {{"bare", "", 1, soft}, {"disc", DISC, 0, NULL}};
+    const struct hide_request r = request(4, 7, 100);
+    rotid_diagnosis *d = diagnose(&r, second, NULL, NULL, NULL);
+    assert_named(d, "added_mass", "disc", "mass", 1);
+    rotid_diagnosis_free(d);
+    d = diagnose(&r, first, NULL, NULL, NULL);
+    assert_named(d, "stiffness_local", "bare", "z", 0.5);
+    rotid_diagnosis_free(d);
+}
+
+static void nothing_hidden_is_adequate(void **state)
+{
+    (void)state;
+    static const struct hidden_state states[] = {{"bare", "", 0, NULL}, {"disc", DISC, 0, NULL}};
+    const struct hide_request r = request(4, 7, 300);
+    rotid_diagnosis *d = diagnose(&r, states, NULL, NULL, NULL);
+    assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+    assert_int_equal(d->ndata_findings, 0);
+    assert_int_equal(d->nsensors, 14);
+    assert_string_equal(d->sensors[13].state, "disc");
+    rotid_diagnosis_free(d);
+}
+
+/* A wrong gain in one state is found there, and the cause of both states beside it. */
+static void a_fault_of_a_channel_goes_with_its_state(void **state)
+{
+    (void)state;
+    static const char *const fault[] = {"density:group=right,factor=1.15", "sensor_gain:sensor=6,gain=1.4"};
+    static const struct hidden_state states[] = {{"bare", "", 1, fault}, {"disc", DISC, 2, fault}};
+    const struct hide_request r = request(4, 11, 500);
+    rotid_diagnosis *d = diagnose(&r, states, NULL, NULL, NULL);
+    assert_int_equal(d->ndata_findings, 1);
+    assert_string_equal(d->data_findings[0].id, "sensor_gain");
+    assert_string_equal(d->data_findings[0].state, "disc");
+    assert_int_equal(d->data_findings[0].sensors[0], 6);
+    assert_named(d, "density", NULL, "factor", 1.15);
+    rotid_diagnosis_free(d);
+}
+
+/* A state that is held out is predicted, and no cause is looked for in it. */
+static void a_state_held_out_is_evidence(void **state)
+{
+    (void)state;
+    static const char *const dense[] = {"density:group=right,factor=1.15"};
+    static const struct hidden_state states[] = {{"disc", DISC, 1, dense}, {"bare", "", 1, dense}};
+    const struct hide_request r = request(4, 7, 600);
+    rotid_diagnosis *d = diagnose(&r, states, "FIT.HOLDOUT=STATE:disc", NULL, NULL);
+    assert_named(d, "density", NULL, "factor", 1.15);
+    assert_true(d->gain.holdout_frequency_rms_percent.after < 0.2);
+    assert_true(d->gain.holdout_frequency_rms_percent.before > 2 * d->gain.holdout_frequency_rms_percent.after);
+    for (int i = 0; i < d->ncandidates; i++)
+        assert_true(!d->candidates[i].refitted || !d->candidates[i].cause.state || strcmp(d->candidates[i].cause.state, "disc"));
+    rotid_diagnosis_free(d);
+}
+
+/* An error that stays is not what changed. */
+static void what_changed_is_named_and_what_stays_is_not(void **state)
+{
+    (void)state;
+    static const char *const soft = "stiffness_local:depth=0.4,z=0.4,width=0.03", *const dense = "density:group=left,factor=1.1";
+    static const struct {
+        const char *effect[2]; /* that stays, that comes */
+        const char *id, *name;
+        double truth;
+    } pairs[] = {
+        {{soft, NULL}, NULL, NULL, 0},
+        {{soft, "added_mass:mass=1.5,z=0.7"}, "added_mass", "mass", 1.5},
+        {{soft, "stiffness_local:depth=0.3,z=0.62,width=0.03"}, "stiffness_local", "z", 0.62},
+        {{dense, "stiffness:group=right,factor=0.8"}, "stiffness", "factor", 0.8},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        const struct hidden_state states[] = {{"before", "", 1, pairs[i].effect},
+                                              {"after", "", pairs[i].id ? 2 : 1, pairs[i].effect}};
+        const struct hide_request r = request(6, 13, 1200 + 10 * (unsigned)i);
+        rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "AFTER");
+        assert_string_equal(d->before, "before");
+        if (pairs[i].id)
+            assert_named(d, pairs[i].id, NULL, pairs[i].name, pairs[i].truth);
+        else
+            assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+        assert_non_null(
+            strstr(d->verdict.sentence, pairs[i].id ? "Between before and AFTER changed" : "Nothing changed between"));
+        assert_null(d->extended_deck);
+        rotid_diagnosis_free(d);
+    }
+}
+
+/* What a disc adds that the deck states is no change. */
+static void what_the_deck_states_is_no_change(void **state)
+{
+    (void)state;
+    static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", DISC, 0, NULL}};
+    const struct hide_request r = request(4, 7, 900);
+    rotid_diagnosis *d = diagnose(&r, states, NULL, "before", "after");
+    assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
+    rotid_diagnosis_free(d);
+}
+
+static void wrong_states_are_refused(void **state)
+{
+    (void)state;
+    static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", DISC, 0, NULL}};
+    static const struct {
+        const char *before, *after, *text;
+    } cases[] = {{"before", "later", "state later is not defined, expected one of before, after"},
+                 {"now", "after", "state now is not defined, expected one of before, after"},
+                 {"after", "after", "state after is given twice, expected two states"},
+                 {"before", NULL, "options->after is NULL, expected the name of a state as well as in options->before"}};
+    const struct hide_request r = request(4, 7, 900);
+    char message[300], failure[ROTID_FAILURE_LENGTH], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
+    rotid_deck *deck = read_text(text, NULL);
+    rotid_diagnosis *d;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const rotid_diagnose_options options = {.size = sizeof options, .before = cases[i].before, .after = cases[i].after};
+        assert_status(rotid_diagnose(deck, &options, NULL, failure, &d), ROTID_ERROR_ARGUMENT);
+        assert_null(d);
+        if (!strstr(failure, cases[i].text))
+            fail_msg("%s, expected %s", failure, cases[i].text);
+    }
+    rotid_deck_free(deck);
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cause_of_both_is_named_where_each_alone_is_ambiguous),
+        cmocka_unit_test(a_cause_in_one_state_is_named_with_it),
+        cmocka_unit_test(nothing_hidden_is_adequate),
+        cmocka_unit_test(a_fault_of_a_channel_goes_with_its_state),
+        cmocka_unit_test(a_state_held_out_is_evidence),
+        cmocka_unit_test(what_changed_is_named_and_what_stays_is_not),
+        cmocka_unit_test(what_the_deck_states_is_no_change),
+        cmocka_unit_test(wrong_states_are_refused),
+    };
+    return cmocka_run_group_tests_name("diagnose_states", tests, NULL, NULL);
+}

@@ -1,0 +1,215 @@
+/* What changed between two states: random rotors with an error of the model that stays and an effect that comes, measured before
+ * and after. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "deck/deck.h"
+#include "hidden_states.h"
+#include "power.h"
+
+#define NOTHING 5    /* every fifth time nothing changes */
+#define DRAWS   8    /* until an effect is drawn that the rotor can have beside the first */
+#define VISIBLE 60.0 /* chi2 of the change, free of noise, with the noise of both states: below, a name may not result */
+#define ASKED   0.9
+
+struct pair {
+    enum hidden_outcome outcome;
+    double worth, seconds;
+    char stays[200], comes[200], said[600];
+};
+
+struct pairs {
+    const struct power_options *options;
+    const volatile sig_atomic_t *interrupted;
+    struct pair *pair;
+};
+
+/* SPEC of the first effect that hide has drawn; empty: none. */
+static void take_spec(const cJSON *truth, char *spec, size_t room)
+{
+    const char *text =
+        cJSON_GetStringValue(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(truth, "effects"), 0), "spec"));
+    (void)snprintf(spec, room, "%s", text ? text : "");
+}
+
+/* The truth of a rotor with these effects, or with one drawn where there are none; NULL where hide refuses. */
+static cJSON *hide(const struct hide_request *request, int effects, const char *const *effect, uint64_t seed)
+{
+    struct hide_request r = *request;
+    char message[300], *deck, *truth;
+    r.seed = seed;
+    r.random = effects ? NULL : "physical";
+    r.effects = effects;
+    r.effect = effect;
+    if (hide_case(&r, &deck, &truth, message, sizeof message))
+        return NULL;
+    cJSON *json = cJSON_Parse(truth);
+    free(deck);
+    free(truth);
+    return json;
+}
+
+static double at(const cJSON *json, const char *name, int i)
+{
+    return cJSON_GetNumberValue(cJSON_GetArrayItem(cJSON_GetObjectItem(json, name), i));
+}
+
+/* chi2 of what the effect makes of the data, with the noise of both states; shapes at their best scale. */
+static double worth(const struct hide_request *r, const cJSON *truth)
+{
+    const cJSON *with = cJSON_GetObjectItem(truth, "with"), *without = cJSON_GetObjectItem(truth, "without");
+    double chi2 = 0;
+    for (int k = 0; k < r->modes; k++) {
+        double d = (at(with, "frequency_hz", k) / at(without, "frequency_hz", k) - 1) / r->frequency_noise;
+        const cJSON *a = cJSON_GetArrayItem(cJSON_GetObjectItem(with, "shape"), k),
+                    *b = cJSON_GetArrayItem(cJSON_GetObjectItem(without, "shape"), k), *item;
+        double aa = 0, ab = 0, bb = 0;
+        int i = 0;
+        chi2 += d * d / 2;
+        cJSON_ArrayForEach(item, a)
+        {
+            double y = cJSON_GetNumberValue(cJSON_GetArrayItem(b, i++));
+            aa += item->valuedouble * item->valuedouble;
+            ab += item->valuedouble * y;
+            bb += y * y;
+        }
+        if (!r->no_shapes && bb > 0)
+            chi2 += fmax(0, aa - ab * ab / bb) / (2 * r->shape_noise * r->shape_noise);
+    }
+    return chi2;
+}
+
+static int diagnose(const char *text, const cJSON *truth, const rotid_environment *environment, struct pair *pair)
+{
+    const struct diagnose_options options = {.threads = 1, .seed = 1, .before = "before", .after = "after"};
+    const struct deck_memory memory = {"pair", strlen(text), text, NULL};
+    struct message_list messages;
+    struct hidden_score score = hidden_score_none();
+    struct states states;
+    struct diagnosis d;
+    struct pool pool;
+    pool_open(&pool, NULL);
+    message_open(&messages, &pool);
+    int status = deck_read_states(&pool, "pair", &memory, 0, NULL, &messages, &states);
+    double begin = clock_seconds();
+    if (!status)
+        status = diagnose_states(&pool, &states, &options, environment, &messages, &d);
+    pair->seconds = clock_seconds() - begin;
+    pair->outcome = HIDDEN_FAILED;
+    for (size_t i = 0; i < messages.count && status; i++)
+        if (messages.item[i].severity == SEVERITY_ERROR)
+            (void)snprintf(pair->said, sizeof pair->said, "%s", messages.item[i].text);
+    if (!status && d.result.interrupted)
+        status = ROTID_STOP_CANCELLED;
+    if (!status) {
+        status = hidden_score_make(&pool, &d, &d.given.state->job, truth, &score);
+        pair->outcome = score.outcome;
+        (void)snprintf(pair->said, sizeof pair->said, "%s", d.result.verdict.sentence);
+        diagnose_free(&d);
+    }
+    pool_close(&pool);
+    return status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
+static void keep(const struct power_options *options, int number, const char *text)
+{
+    char path[600];
+    (void)snprintf(path, sizeof path, "%s/pair_%d.inp", options->keep, number);
+    FILE *file = fopen(path, "w");
+    if (!file || fputs(text, file) < 0 || fclose(file))
+        fprintf(stderr, "power: cannot write %s\n", path);
+}
+
+static int run_pair(void *context, int index, int worker)
+{
+    struct pairs *pairs = context;
+    struct pair *pair = &pairs->pair[index];
+    const rotid_environment environment = {
+        .size = sizeof environment, .cancelled = power_interrupted, .context = (void *)pairs->interrupted};
+    struct power_options options = *pairs->options;
+    struct power_case c;
+    char message[300];
+    (void)worker;
+    options.only = "none";
+    if (*pairs->interrupted)
+        return ROTID_STOP_CANCELLED;
+    if (power_draw(&options, options.first + index, &c))
+        return ROTID_ERROR_MEMORY;
+    struct hide_request *r = &c.hidden.request;
+    const char *effect[2] = {pair->stays, pair->comes};
+    cJSON *first = hide(r, 0, NULL, r->seed), *second = NULL;
+    char *text = NULL;
+    int comes = (options.first + index) % NOTHING != 0, status = ROTID_OK;
+    r->random = NULL;
+    take_spec(first, pair->stays, sizeof pair->stays);
+    for (int draw = 1; draw <= DRAWS && first && !text; draw++) {
+        uint64_t seed = r->seed + 100000000u * (uint64_t)draw;
+        cJSON_Delete(second);
+        second = comes ? hide(r, 0, NULL, seed) : hide(r, 0, NULL, r->seed);
+        take_spec(second, pair->comes, sizeof pair->comes);
+        if (!comes)
+            pair->comes[0] = 0;
+        const struct hidden_state states[] = {{"before", "", 1, effect}, {"after", "", 1 + comes, effect}};
+        text = second ? hidden_states_deck(r, 2, states, NULL, message, sizeof message) : NULL;
+    }
+    if (text && options.keep)
+        keep(&options, options.first + index, text);
+    if (text) {
+        if (!comes) {
+            cJSON_DeleteItemFromObject(second, "effects");
+            cJSON_AddArrayToObject(second, "effects");
+        }
+        pair->worth = comes ? worth(r, second) : 0;
+        status = diagnose(text, second, &environment, pair);
+    } else {
+        pair->outcome = HIDDEN_FAILED;
+        (void)snprintf(pair->said, sizeof pair->said, "no such rotor: %s", message);
+    }
+    cJSON_Delete(first);
+    cJSON_Delete(second);
+    free(text);
+    free(c.deck);
+    return status;
+}
+
+static int report(FILE *out, int count, int first, const struct pair *pair)
+{
+    int visible = 0, named = 0, in_set = 0, nothing = 0, quiet = 0, wrong = 0, failed = 0;
+    double seconds = 0;
+    for (int i = 0; i < count; i++) {
+        const struct pair *p = &pair[i];
+        int comes = p->comes[0] != 0, shows = comes && p->worth >= VISIBLE;
+        fprintf(out, "%3d %-12s %9.3g %5.1f s  stays %s, comes %s\n    %s\n", first + i, hidden_outcome_name(p->outcome),
+                p->worth, p->seconds, p->stays, comes ? p->comes : "nothing", p->said);
+        failed += p->outcome == HIDDEN_FAILED;
+        wrong += p->outcome == HIDDEN_WRONG;
+        seconds += p->seconds;
+        if (p->outcome == HIDDEN_FAILED)
+            continue;
+        nothing += !comes;
+        quiet += !comes && p->outcome == HIDDEN_SILENT;
+        visible += shows;
+        named += shows && p->outcome == HIDDEN_RIGHT;
+        in_set += shows && p->outcome == HIDDEN_IN_SET;
+    }
+    int right = named + quiet, asked = visible + nothing;
+    fprintf(
+        out,
+        "%d pairs, %.2f s each: of %d changes worth %.0f of chi2 or more %d are named and %d in a set that cannot be told apart; "
+        "of %d without a change %d are quiet; %d wrong names in all, %d failed\nright: %d of %d, %.0f %%\n",
+        count, count ? seconds / count : 0, visible, VISIBLE, named, in_set, nothing, quiet, wrong, failed, right, asked,
+        asked ? 100.0 * right / asked : 0);
+    return !(right >= ASKED * asked);
+}
+
+int power_changed(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out)
+{
+    struct pairs pairs = {options, interrupted, calloc((size_t)options->cases, sizeof(struct pair))};
+    int status = pairs.pair ? parallel_for(options->jobs, options->cases, run_pair, &pairs) : ROTID_ERROR_MEMORY;
+    int code = status ? 3 : report(out, options->cases, options->first, pairs.pair);
+    free(pairs.pair);
+    return code;
+}
