@@ -18,10 +18,10 @@ static int unknown_of(const struct state *state, struct parameter parameter)
     return -1;
 }
 
-static int is_common_unknown(const struct state *state, struct parameter parameter)
+static int is_common_unknown(const struct written *s, struct parameter parameter)
 {
-    int p = unknown_of(state, parameter);
-    return p >= 0 && p < state->ncommon;
+    int p = unknown_of(s->state, parameter);
+    return p >= 0 && s->common[p];
 }
 
 static void put_set(struct written *s, const char *name, double value)
@@ -63,7 +63,7 @@ static int base_of(int nstate, const struct written *state, const char *name, en
     int base = -1;
     for (int s = nstate - 1; s >= 0; s--) {
         struct group *group = group_of(&state[s], name);
-        if (is_common_unknown(state[s].state, of_group(&state[s], group, kind)))
+        if (is_common_unknown(&state[s], of_group(&state[s], group, kind)))
             return s;
         base = base < 0 || !has_value(group, kind) || has_value(group_of(&state[base], name), kind) ? s : base;
     }
@@ -95,7 +95,7 @@ static int can_be_set(int nstate, const struct written *state, const char *name)
         for (int s = 0; s < nstate; s++) {
             const struct group *group = group_of(&state[s], name);
             if (differs(group, base, of_groups[k]) &&
-                (!has_value(group, of_groups[k]) || is_common_unknown(state[s].state, of_group(&state[s], group, of_groups[k]))))
+                (!has_value(group, of_groups[k]) || is_common_unknown(&state[s], of_group(&state[s], group, of_groups[k]))))
                 return 0;
         }
     }
@@ -177,7 +177,9 @@ static int was_set(const struct written *s, const char *name)
 static void set_what_is_known(int nstate, struct written *state)
 {
     for (int s = 0; s < nstate; s++)
-        for (int p = 0; p < state[s].state->ncommon; p++) {
+        for (int p = 0; p < state[s].state->job.unknowns.nparameter; p++) {
+            if (!state[s].common[p])
+                continue;
             const char *name = state[s].state->job.unknowns.bounds[p].name, *unit;
             for (int t = 0; t < nstate; t++) {
                 struct parameter parameter;

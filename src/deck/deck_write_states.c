@@ -130,15 +130,15 @@ static void put_unknown(struct deck_writer *out, const struct written *s, int p,
 }
 
 /* Whether unknown p of all is the next common one of every state that has it: none of those before it is still to be put. */
-static int is_next(const struct states *states, int p, const int *done, int *of, int *own)
+static int is_next(const struct states *states, const struct written *state, int p, const int *done, int *of, int *own)
 {
     *of = -1;
     for (int s = 0; s < states->nstate; s++)
-        for (int q = 0; q < states->state[s].ncommon; q++) {
-            if (states->state[s].unknown[q] != p)
+        for (int q = 0; q < states->state[s].job.unknowns.nparameter; q++) {
+            if (!state[s].common[q] || states->state[s].unknown[q] != p)
                 continue;
             for (int before = 0; before < q; before++)
-                if (!done[states->state[s].unknown[before]])
+                if (state[s].common[before] && !done[states->state[s].unknown[before]])
                     return 0;
             *of = s;
             *own = q;
@@ -154,7 +154,7 @@ static void put_common_unknowns(struct deck_writer *out, const struct states *st
         out->status = ROTID_ERROR_MEMORY;
     do {
         for (p = 0; !out->status && p < states->nparameter; p++)
-            if (!done[p] && is_next(states, p, done, &of, &own))
+            if (!done[p] && is_next(states, state, p, done, &of, &own))
                 break;
         if (out->status || p == states->nparameter)
             return;
@@ -170,6 +170,26 @@ static const char *own_name(const struct state *state, int p)
     const char *name = state->job.unknowns.bounds[p].name;
     size_t length = strlen(state->name);
     return !strncmp(name, state->name, length) && name[length] == ':' ? name + length + 1 : name;
+}
+
+/* Those that the common cards name, and causes that somebody has put into all states: into one of them alone they are its own. */
+static int find_common_unknowns(struct pool *pool, int nstate, struct written *state)
+{
+    for (int s = 0; s < nstate; s++) {
+        const struct job_unknowns *unknowns = &state[s].state->job.unknowns;
+        state[s].common = POOL_ARRAY(pool, int, unknowns->nparameter);
+        if (!state[s].common)
+            return ROTID_ERROR_MEMORY;
+        for (int p = 0; p < unknowns->nparameter; p++) {
+            const char *name = unknowns->bounds[p].name, *unit;
+            struct parameter parameter;
+            int all = own_name(state[s].state, p) == name;
+            for (int t = 0; t < nstate && p >= state[s].state->ncommon; t++)
+                all &= parameter_find(&state[t].w.rotor, name, &parameter, &unit) == 0;
+            state[s].common[p] = p < state[s].state->ncommon || all;
+        }
+    }
+    return ROTID_OK;
 }
 
 static int is_held_out(const struct job *job)
@@ -210,8 +230,10 @@ static void put_state(struct deck_writer *out, struct written *s)
     if (s->set.length)
         deck_put(out, "*SET\n%s", s->set.text);
     put_blocks(out, s, 0);
-    for (int p = s->state->ncommon; p < job->unknowns.nparameter; p++) {
-        deck_put(out, "%s", p == s->state->ncommon ? "*IDENTIFY\n" : "");
+    for (int p = 0, any = 0; p < job->unknowns.nparameter; p++) {
+        if (s->common[p])
+            continue;
+        deck_put(out, "%s", any++ ? "" : "*IDENTIFY\n");
         put_unknown(out, s, p, own_name(s->state, p));
     }
 }
@@ -234,6 +256,8 @@ static int write_states(struct pool *pool, const struct states *states, const st
     int nstate = states->nstate, status = ROTID_OK;
     for (int s = 0; s < nstate && !status; s++)
         status = open_state(pool, &states->state[s], options ? options->x : NULL, &state[s]);
+    if (!status)
+        status = find_common_unknowns(pool, nstate, state);
     if (!status)
         status = deck_put_sets(pool, nstate, state);
     for (int s = 0; s < nstate && !status; s++)

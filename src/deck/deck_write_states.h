@@ -16,6 +16,7 @@ struct block {
 
 struct written {
     const struct state *state;
+    int *common; /* [job.unknowns.nparameter] which of its unknowns are common to all */
     struct deck_writer w;
     struct deck_writer set; /* the lines of *SET */
     int nblock;
