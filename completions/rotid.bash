@@ -50,6 +50,7 @@ _rotid_options=(
     '--pretrigger:ema:value:'
     '--trigger-level:ema:value:'
     '--keep-double-hits:ema::'
+    '--state:frf export:value:'
     '-o --output:export:files:mtx|dmig|bdf|py'
     '--format:export:words:matrix-market dmig ross'
     '--start:export::'

@@ -61,6 +61,7 @@ complete -c rotid -n '__fish_seen_subcommand_from ema' -l block -x -d 'time reco
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l pretrigger -x -d 'time records: part of a block before the impact [s]'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l trigger-level -x -d 'time records: share of the largest force from which on a pulse is an impact (default: 0.1)'
 complete -c rotid -n '__fish_seen_subcommand_from ema' -l keep-double-hits -d 'time records: uses double hits too'
+complete -c rotid -n '__fish_seen_subcommand_from frf export' -l state -x -d 'that state of a deck with several, at values identified over all of them'
 complete -c rotid -n '__fish_seen_subcommand_from export' -s o -l output -r -F -d 'the model; of matrix-market the beginning of the names'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l format -x -a 'matrix-market dmig ross' -d 'for SciPy and others, for Nastran, for ROSS'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l start -d 'the model as the deck states it, not at identified parameters'

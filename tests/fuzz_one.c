@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "deck/deck.h"
+#include "deck/deck_write.h"
 #include "result/json_tree.h"
 #include "result/result.h"
 #include "study/plan.h"
@@ -141,12 +142,18 @@ void fuzz_one_deck(const uint8_t *bytes, size_t count)
     char path[32];
     struct pool pool;
     struct message_list messages;
-    struct job job;
+    struct states states;
+    char *text;
     int descriptor = hold(bytes, count, path);
     pool_open(&pool, NULL);
     message_open(&messages, &pool);
-    int status = deck_read(&pool, path, 0, NULL, &messages, &job);
+    int status = deck_read_states(&pool, path, NULL, 0, NULL, &messages, &states);
     require((status != ROTID_OK) == (messages.errors > 0));
+    if (!status) { /* what a deck cannot say is an argument that it refuses */
+        int written = deck_write_states(&pool, &states, NULL, &text);
+        require(written == ROTID_OK || written == ROTID_ERROR_ARGUMENT);
+        require((written == ROTID_OK) == (text != NULL));
+    }
     pool_close(&pool);
     (void)close(descriptor);
 }

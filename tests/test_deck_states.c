@@ -90,6 +90,14 @@ static void a_state_is_the_common_cards_and_its_own(void **state)
     assert_int_equal(s.state[1].unknown[1], 1);
 }
 
+/* A state may be called as a part of the rotor. */
+static void states_have_names_of_their_own(void **state)
+{
+    (void)state;
+    struct states s = good(BAR UNKNOWN "*STATE, NAME=bar\n*MODES\n1, 225\n*STATE, NAME=d\n*MODES\n1, 225\n", NULL);
+    assert_string_equal(s.state[1].name, "d");
+}
+
 static void one_state_can_be_chosen(void **state)
 {
     (void)state;
@@ -143,6 +151,22 @@ static void states_and_modes_are_held_out(void **state)
     static const int held[3][2] = {{0, 0}, {1, 1}, {1, 0}};
     for (int i = 0; i < 3; i++)
         assert_memory_equal(s.state[i].job.measurement.holdout, held[i], sizeof held[i]);
+}
+
+/* In a deck each item of the list begins with STATE:, on a command line the first does. */
+static void several_states_are_held_out(void **state)
+{
+    (void)state;
+    const char *three = "*STATE, NAME=b\n*MODES\n1, 225\n*STATE, NAME=c c\n*MODES\n1, 225\n";
+    struct states s =
+        good(pool_format(&test_pool, "%s*FIT, HOLDOUT=STATE:free,\n  state: C c\n%s%s", BAR UNKNOWN, FREE, three), NULL);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(s.state[i].job.measurement.holdout[0], i != 1);
+    s = good(pool_format(&test_pool, "%s%s%s", BAR UNKNOWN, FREE, three), "FIT.HOLDOUT=STATE:b,STATE:c c");
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(s.state[i].job.measurement.holdout[0], i != 0);
+    assert_refused(pool_format(&test_pool, "%s*FIT, HOLDOUT=STATE:b, STATE:d\n%s%s", BAR UNKNOWN, FREE, three), 17,
+                   "state d is not defined, expected one of free, b, c c");
 }
 
 /* Without *FIT all are weighed by their noise, or none. */
@@ -199,9 +223,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_deck_without_states_is_one, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_state_is_the_common_cards_and_its_own, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(states_have_names_of_their_own, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(one_state_can_be_chosen, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(set_and_identify_hold_for_their_state, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(states_and_modes_are_held_out, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(several_states_are_held_out, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(the_functional_is_that_of_all, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(what_is_wrong_has_its_place, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(states_have_a_limit, open_test_pool, close_test_pool),

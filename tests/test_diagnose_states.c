@@ -99,6 +99,24 @@ static void assert_named(const rotid_diagnosis *d, const char *id, const char *s
     assert_true(fabs(value - truth) < upper - lower);
 }
 
+/* The extended deck, with all states in it, is fitted as the diagnosis fitted it. */
+static void assert_extended(const rotid_diagnosis *d)
+{
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_deck *deck;
+    rotid_identification *again;
+    assert_non_null(d->extended_deck);
+    assert_status(rotid_deck_read_text(strlen(d->extended_deck), d->extended_deck, NULL, NULL, 0, NULL, NULL, failure, &deck),
+                  ROTID_OK);
+    assert_int_equal(deck->nstate, d->extended->nstates);
+    assert_status(rotid_identify(deck, 0, NULL, failure, &again), ROTID_OK);
+    assert_int_equal(again->nparameters, d->extended->nparameters);
+    assert_close(again->chi2, d->extended->chi2, 1e-6, 0);
+    assert_close(again->parameters[0].value, d->extended->parameters[0].value, 1e-5, 0);
+    rotid_identification_free(again);
+    rotid_deck_free(deck);
+}
+
 static void a_cause_of_both_is_named_where_each_alone_is_ambiguous(void **state)
 {
     (void)state;
@@ -113,6 +131,7 @@ static void a_cause_of_both_is_named_where_each_alone_is_ambiguous(void **state)
     }
     rotid_diagnosis *both = diagnose(&r, states, NULL, NULL, NULL);
     assert_named(both, "stiffness_local", NULL, "z", 0.5);
+    assert_extended(both);
     assert_int_equal(both->base->nstates, 2);
     assert_int_equal(both->extended->nstates, 2);
     assert_int_equal(both->nmodes_standardised, 12);
@@ -129,6 +148,7 @@ static void a_cause_in_one_state_is_named_with_it(void **state)
     const struct hide_request r = request(4, 7, 100);
     rotid_diagnosis *d = diagnose(&r, second, NULL, NULL, NULL);
     assert_named(d, "added_mass", "disc", "mass", 1);
+    assert_extended(d);
     rotid_diagnosis_free(d);
     d = diagnose(&r, first, NULL, NULL, NULL);
     assert_named(d, "stiffness_local", "bare", "z", 0.5);

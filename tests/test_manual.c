@@ -174,6 +174,7 @@ static const char *value_of(const char *command, const char *option)
                                             {"--pretrigger", "0.1"},
                                             {"--trigger-level", "0.1"},
                                             {"--shard", "1/2"},
+                                            {"--state", "a"},
                                             {"--timeout", "1"},
                                             {NULL, NULL}};
     const char *of_command = pool_format(&test_pool, "%s %s", command, option);

@@ -124,6 +124,56 @@ static void an_identification_is_plotted_as_it_is(void **state)
     close_bench();
 }
 
+/* Every state has figures of its own numbers, and all are in one. */
+static void states_are_plotted_each_as_it_is(void **state)
+{
+    (void)state;
+    static const struct expected identified[] =
+        {
+            {"frequencies", "errors", "error, Levenberg-Marquardt [%]", "modes[].error_percent", 1},
+            {"frequencies-2", "errors", "predicted [Hz]", "states[0].modes[].predicted_hz", 1},
+            {"frequencies-3", "errors", "predicted [Hz]", "states[1].modes[].predicted_hz", 1},
+            {"frequencies-3", "errors", "error, reference in the deck [%]", "states[1].modes[].mode", 0.5},
+            {"frequencies-4", "errors", "error, Levenberg-Marquardt [%]", "states[2].modes[].error_percent", 1},
+            {"rotor", "nodes", "z [m]", "states[0].geometry.nodes_z_m[]", 1},
+            {"rotor-2", "nodes", "z [m]", "states[1].geometry.nodes_z_m[]", 1},
+            {"shapes-2", "model1", "deflection [1]", "states[1].shapes.modes[0].predicted_axis[]", 1},
+            {"shapes-2", "measured1", "deflection [1]", "states[1].shapes.modes[0].measured[]", 1},
+            {"correlation-of-shapes", "matrix2", "1 [1]", "states[1].mac_matrix[][0]", 1},
+            {"convergence", "iterations", "objective [1]", "history[].objective", 1},
+        },
+                                 modes[] = {
+                                     {"modes", "model1", "deflection [1]", "states[0].modes[0].shape[]", 1},
+                                     {"modes-2", "model1", "deflection [1]", "states[1].modes[0].shape[]", 1},
+                                     {"rotor-3", "nodes", "z [m]", "states[2].geometry.nodes_z_m[]", 1},
+                                 };
+    page_write_file(
+        "states.inp",
+        "*HEADING\nstrip\npaper error_percent = 9, 9, 0.5, 1, 9\n"
+        "*MATERIAL, NAME=alu\n*ELASTIC\n70e9, 0.33\n*DENSITY\n2700\n*BEAM, NAME=strip, MATERIAL=alu\n"
+        "0.30, 0.002, 0.050, 12\n*SPRING, NAME=clamp\nstart, 1e9, 1e7\n*SENSORS\n1, 0.15\n2, end\n"
+        "*NOISE, FREQUENCY=0.02, SHAPE=0.05\n*IDENTIFY\nstrip.E, 2e10, 2e11, 7e10\n*FIT, HOLDOUT=STATE:last\n"
+        "*STATE, NAME=short\n*NOISE, FREQUENCY=0.02\n*MODES\n1, 16.49333\n2, 107.6\n*STATE, NAME=long\n*SET\nstrip.length, 0.4\n"
+        "*MODES\n1, 9.383333\n2, 61.53667\n*SHAPE, MODE=1\n1, 0.34\n2, 1\n*STATE, NAME=last\n"
+        "*SET\nstrip.length, 0.5\n*NOISE, FREQUENCY=0.02\n*MODES\n1, 6.02\n");
+    assert_int_equal(page_run("cd %s; for c in identify modes; do %s $c states.inp --quiet --json states_$c.json; done",
+                              page_path(""), ROTID_PROGRAM),
+                     0);
+    open_result("states_identify.json", "states_identify.json");
+    compare(sizeof identified / sizeof *identified, identified);
+    static double is[PLOTTED_MOST], x[PLOTTED_MOST], hz[PLOTTED_MOST]; /* of the second state: modes 2 and 3 of all */
+    assert_int_equal(plotted(script_of("frequencies-3"), "errors", "error, NLopt LN_SBPLX [%]", is), 2);
+    assert_int_equal(numbers_at(bench.json, "baseline[0].predicted_hz[]", x), 5);
+    assert_int_equal(numbers_at(bench.json, "modes[].measured_hz", hz), 5);
+    assert_string_equal(get(cJSON_GetArrayItem(get(bench.json, "baseline"), 0), "algorithm")->valuestring, "LN_SBPLX");
+    for (int k = 0; k < 2; k++)
+        assert_close(is[k], 100 * (x[k + 2] / hz[k + 2] - 1), 1e-5, 1e-9);
+    close_bench();
+    open_result("states_modes.json", "states_modes.json");
+    compare(sizeof modes / sizeof *modes, modes);
+    close_bench();
+}
+
 /* A ring is drawn on both sides of what lies within, and its bore is no hole in that. */
 static void layers_are_drawn_as_rings(void **state)
 {
@@ -451,6 +501,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_identification_is_plotted_as_it_is),
+        cmocka_unit_test(states_are_plotted_each_as_it_is),
         cmocka_unit_test(layers_are_drawn_as_rings),
         cmocka_unit_test(what_is_computed_for_a_plot_is_that_of_its_definition),
         cmocka_unit_test(a_solid_is_plotted_as_it_is),

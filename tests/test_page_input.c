@@ -11,6 +11,7 @@
 
 #define PAPER ROTID_SOURCE_DIR "/input/paper_rotor.inp"
 #define SOLID ROTID_SOURCE_DIR "/input/solid_rotor.inp"
+#define STRIP ROTID_SOURCE_DIR "/input/strip_states.inp"
 #define LAP   ROTID_SOURCE_DIR "/input/brake_reuss_lap.inp"
 
 static void make_results(void)
@@ -20,10 +21,11 @@ static void make_results(void)
     assert_int_equal(
         page_run("cd %s; %s identify %s --quiet --json identify.json && %s sensitivity %s --quiet --json sensitivity.json && "
                  "%s frf %s --quiet --set FRF.LINES=40 --json frf.json && %s modes %s --quiet --json modes.json && "
+                 "%s identify %s --quiet --json states.json && %s modes %s --quiet --json states_modes.json && "
                  "%s diagnose %s --quiet --replicates 100 --json diagnose.json && %s study %s %s -o runs.jsonl --quiet --json "
                  "study.json",
                  page_path(""), ROTID_PROGRAM, SOLID, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER, ROTID_PROGRAM, PAPER,
-                 ROTID_PROGRAM, LAP, ROTID_PROGRAM, SOLID, PAPER),
+                 ROTID_PROGRAM, STRIP, ROTID_PROGRAM, STRIP, ROTID_PROGRAM, LAP, ROTID_PROGRAM, SOLID, PAPER),
         0);
 }
 
@@ -208,8 +210,8 @@ static void shorten(cJSON *at)
 static void every_value_that_is_wrong_is_refused_or_does_no_harm(void **state)
 {
     (void)state;
-    static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json",
-                                        "modes.json",    "diagnose.json",    "study.json"};
+    static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json",    "modes.json",
+                                        "diagnose.json", "study.json",       "states.json", "states_modes.json"};
     make_results();
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         cJSON *json = cJSON_Parse(page_read(names[i]));
@@ -348,8 +350,8 @@ static void memory_that_runs_out_is_survived(void **state)
 {
     (void)state;
     make_results();
-    static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json",
-                                        "modes.json",    "diagnose.json",    "study.json"};
+    static const char *const names[] = {"identify.json", "sensitivity.json", "frf.json",    "modes.json",
+                                        "diagnose.json", "study.json",       "states.json", "states_modes.json"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         long served = 0;
         for (long n = 0; n == 0 || n <= served; n += 1 + n / 9) { /* 0: counts */

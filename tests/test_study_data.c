@@ -99,15 +99,15 @@ static void hidden_effects_do_what_exact_dynamics_says(void **state)
         const int data = table[i].spec && strstr(table[i].spec, "sensor_") == table[i].spec,
                   twice = table[i].spec && strstr(table[i].spec, "duplicate") == table[i].spec;
         double sum = 0;
-        for (int k = 0; k < e.job.measurement.nmode; k++) {
+        for (int k = 0; k < e.job->measurement.nmode; k++) {
             double hz = cJSON_GetArrayItem(get(with, "frequency_hz"), k)->valuedouble, across = 0;
             const cJSON *shape = cJSON_GetArrayItem(get(with, "shape"), k);
-            const double *mine = e.job.measurement.shape + (ptrdiff_t)k * e.job.rotor.nsensor;
-            assert_close(e.job.measurement.frequency_hz[k], hz, 6e-4, 0); /* the mesh of the deck: 0.043 % of mode 6 */
-            for (int s = 0; s < e.job.rotor.nsensor; s++)
+            const double *mine = e.job->measurement.shape + (ptrdiff_t)k * e.job->rotor.nsensor;
+            assert_close(e.job->measurement.frequency_hz[k], hz, 6e-4, 0); /* the mesh of the deck: 0.043 % of mode 6 */
+            for (int s = 0; s < e.job->rotor.nsensor; s++)
                 across += mine[s] * cJSON_GetArrayItem(shape, s)->valuedouble;
             /* faults of the data are not in the truth of tools/hide, but in its deck: they are seen below */
-            for (int s = 0; s < e.job.rotor.nsensor && !data && !twice; s++) {
+            for (int s = 0; s < e.job->rotor.nsensor && !data && !twice; s++) {
                 double difference = fabs(copysign(1, across) * mine[s] - cJSON_GetArrayItem(shape, s)->valuedouble);
                 sum = fmax(sum, difference);
             }
@@ -120,13 +120,14 @@ static void hidden_effects_do_what_exact_dynamics_says(void **state)
             (void)bench_write("hidden.inp", made);
             assert_status(bench_study(&test_pool, "*STUDY\n*DECKS\nhidden.inp\n", &messages, &other), ROTID_OK);
             struct jobs others;
-            const struct job *job;
+            const struct states *states;
             jobs_open(&other, &others);
             const struct study_point point = study_locate(&other, 0);
-            assert_status(jobs_fitted(&others, &point.cell, &job), ROTID_OK);
+            assert_status(jobs_fitted(&others, &point.cell, &states), ROTID_OK);
+            const struct job *job = &states->state[0].job;
             for (int k = 0; k < job->measurement.nmode; k++) {
                 double across = 0, square = 0;
-                const double *a = e.job.measurement.shape + (ptrdiff_t)k * job->rotor.nsensor,
+                const double *a = e.job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor,
                              *b = job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor;
                 for (int s = 0; s < job->rotor.nsensor; s++) {
                     across += a[s] * b[s];
@@ -156,11 +157,11 @@ static void cells_see_the_same_noise(void **state)
     for (long c = 1; c < study.runs / cell; c++) {
         struct experiment e = make(c * cell + 7), other = make(c * cell + 8);
         for (int k = 0; k < 6; k++) {
-            assert_true(e.job.measurement.frequency_hz[k] == first.job.measurement.frequency_hz[k]);
-            assert_true(other.job.measurement.frequency_hz[k] != first.job.measurement.frequency_hz[k]);
+            assert_true(e.job->measurement.frequency_hz[k] == first.job->measurement.frequency_hz[k]);
+            assert_true(other.job->measurement.frequency_hz[k] != first.job->measurement.frequency_hz[k]);
             for (int s = 0; s < 12; s++) /* EVERY rescales, which costs a bit */
-                assert_close(e.job.measurement.shape[s + 12 * k] / e.job.measurement.shape[12 * k],
-                             first.job.measurement.shape[s + 12 * k] / first.job.measurement.shape[12 * k], 1e-12, 1e-12);
+                assert_close(e.job->measurement.shape[s + 12 * k] / e.job->measurement.shape[12 * k],
+                             first.job->measurement.shape[s + 12 * k] / first.job->measurement.shape[12 * k], 1e-12, 1e-12);
         }
     }
     jobs_close(&jobs);
@@ -175,15 +176,15 @@ static void noise_is_what_it_is_said_to_be(void **state)
     double f1 = 0, f2 = 0, f12 = 0, s1 = 0, s2 = 0;
     for (long run = 0; run < 2000; run++) {
         struct experiment e = make(run);
-        double a = (e.job.measurement.frequency_hz[0] / clean.job.measurement.frequency_hz[0] - 1) / 0.002,
-               b = (e.job.measurement.frequency_hz[5] / clean.job.measurement.frequency_hz[5] - 1) / 0.002,
-               c = (e.job.measurement.shape[4] - clean.job.measurement.shape[4]) / 0.03;
+        double a = (e.job->measurement.frequency_hz[0] / clean.job->measurement.frequency_hz[0] - 1) / 0.002,
+               b = (e.job->measurement.frequency_hz[5] / clean.job->measurement.frequency_hz[5] - 1) / 0.002,
+               c = (e.job->measurement.shape[4] - clean.job->measurement.shape[4]) / 0.03;
         f1 += a;
         f2 += a * a;
         f12 += a * b;
         s1 += c;
         s2 += c * c;
-        assert_true(e.job.measurement.frequency_std[3] == 0.002 && e.job.measurement.shape_std[17] == 0.03);
+        assert_true(e.job->measurement.frequency_std[3] == 0.002 && e.job->measurement.shape_std[17] == 0.03);
     }
     /* of 2000: means within 4/sqrt(2000), variances within 4 sqrt(2/2000) */
     assert_close(f1 / 2000, 0, 0, 0.09);
@@ -200,18 +201,18 @@ static void noise_adds_to_that_of_measured_data(void **state)
     (void)bench_write("noisy.inp", BENCH_DECK "*NOISE, FREQUENCY=0.003\n");
     open_study("*STUDY, REPLICATES=3\n*DECKS\nnoisy.inp\n*NOISE\n0.004\n");
     struct experiment e = make(1);
-    assert_close(e.job.measurement.frequency_std[0], 0.005, 1e-12, 0);
-    assert_true(fabs(e.job.measurement.frequency_hz[0] / 398.9 - 1) < 0.02 && e.job.measurement.frequency_hz[0] != 398.9 &&
+    assert_close(e.job->measurement.frequency_std[0], 0.005, 1e-12, 0);
+    assert_true(fabs(e.job->measurement.frequency_hz[0] / 398.9 - 1) < 0.02 && e.job->measurement.frequency_hz[0] != 398.9 &&
                 !e.truth);
     jobs_close(&jobs);
     open_study("*STUDY\n*DECKS\ndeck.inp\n*NOISE\n0.004\n"); /* a deck without noise: known now, and so a likelihood */
     e = make(0);
-    assert_close(e.job.measurement.frequency_std[0], 0.004, 1e-12, 0);
-    assert_int_equal(e.job.options.fit.functional, ROTID_LIKELIHOOD);
+    assert_close(e.job->measurement.frequency_std[0], 0.004, 1e-12, 0);
+    assert_int_equal(e.job->options.fit.functional, ROTID_LIKELIHOOD);
     jobs_close(&jobs);
     open_study("*STUDY\n*DECKS\ndeck.inp\n");
     e = make(0);
-    assert_true(e.job.measurement.frequency_hz[0] == 398.9 && e.job.options.fit.functional == ROTID_HYBRID);
+    assert_true(e.job->measurement.frequency_hz[0] == 398.9 && e.job->options.fit.functional == ROTID_HYBRID);
     jobs_close(&jobs);
 }
 
@@ -229,21 +230,21 @@ static void sensors_are_drawn_from_all(void **state)
     int seen[13] = {0}, differ = 0;
     for (long r = 0; r < 40; r++) {
         struct experiment three = make(r), six = make(40 + r), nine = make(80 + r), fifth = make(120 + r);
-        assert_true(three.job.rotor.nsensor == 3 && six.job.rotor.nsensor == 6 && nine.job.rotor.nsensor == 9);
-        assert_true(fifth.job.rotor.nsensor == 3 && has(&fifth.job, 1) && has(&fifth.job, 6) && has(&fifth.job, 11));
+        assert_true(three.job->rotor.nsensor == 3 && six.job->rotor.nsensor == 6 && nine.job->rotor.nsensor == 9);
+        assert_true(fifth.job->rotor.nsensor == 3 && has(fifth.job, 1) && has(fifth.job, 6) && has(fifth.job, 11));
         for (int s = 0; s < 9; s++) {
-            int id = nine.job.rotor.sensor[s].id;
-            assert_true(!has(&three.job, id) || has(&six.job, id));
-            seen[id] += has(&three.job, id);
-            assert_true(s == 0 || nine.job.rotor.sensor[s].position > nine.job.rotor.sensor[s - 1].position);
+            int id = nine.job->rotor.sensor[s].id;
+            assert_true(!has(three.job, id) || has(six.job, id));
+            seen[id] += has(three.job, id);
+            assert_true(s == 0 || nine.job->rotor.sensor[s].position > nine.job->rotor.sensor[s - 1].position);
         }
         for (int s = 0; s < 6; s++)
-            assert_true(has(&nine.job, six.job.rotor.sensor[s].id));
-        differ += !has(&three.job, make(0).job.rotor.sensor[0].id);
+            assert_true(has(nine.job, six.job->rotor.sensor[s].id));
+        differ += !has(three.job, make(0).job->rotor.sensor[0].id);
         /* the noise stays what it is in absolute terms, also where the largest component went */
-        int s = sensor_find(&nine.job, three.job.rotor.sensor[0].id);
-        assert_close(three.job.measurement.shape_std[0] / three.job.measurement.shape[0],
-                     nine.job.measurement.shape_std[s] / nine.job.measurement.shape[s], 1e-10, 0);
+        int s = sensor_find(nine.job, three.job->rotor.sensor[0].id);
+        assert_close(three.job->measurement.shape_std[0] / three.job->measurement.shape[0],
+                     nine.job->measurement.shape_std[s] / nine.job->measurement.shape[s], 1e-10, 0);
     }
     assert_true(differ > 10);
     for (int id = 1; id <= 12; id++) /* 10 on average */
@@ -252,7 +253,7 @@ static void sensors_are_drawn_from_all(void **state)
     open_study(MODEL "*SENSORS\n2\n*NOISE\n0.001, 0.01\n*HIDE, TYPE=sensor_swap, SENSOR=4,9\n");
     for (long r = 0; r < 40; r++) {
         struct experiment e = make(r);
-        assert_true(e.job.rotor.nsensor == 2 && has(&e.job, 4) && has(&e.job, 9));
+        assert_true(e.job->rotor.nsensor == 2 && has(e.job, 4) && has(e.job, 9));
     }
     jobs_close(&jobs);
 }
@@ -294,19 +295,19 @@ static void starts_lie_around_that_of_the_deck(void **state)
     assert_int_equal(study.runs, 25);
     for (long run = 0; run < 25; run++) {
         struct experiment e = make(run);
-        assert_close(e.job.unknowns.bounds[0].start, 1.5e11 + 1.5e11 * (double)(run % 5) / 4, 1e-5, 0); /* up to the bound */
-        assert_close(e.job.unknowns.bounds[1].start, 1e11 + 2e11 * (double)(run / 5) / 4, 1e-5, 0);
-        assert_true(e.job.unknowns.bounds[0].start > e.job.unknowns.bounds[0].lower);
+        assert_close(e.job->unknowns.bounds[0].start, 1.5e11 + 1.5e11 * (double)(run % 5) / 4, 1e-5, 0); /* up to the bound */
+        assert_close(e.job->unknowns.bounds[1].start, 1e11 + 2e11 * (double)(run / 5) / 4, 1e-5, 0);
+        assert_true(e.job->unknowns.bounds[0].start > e.job->unknowns.bounds[0].lower);
     }
     jobs_close(&jobs);
     open_study("*STUDY, REPLICATES=2\n*DECKS\nbounded.inp\n*STARTS, SPREAD=0.5, COUNT=500\n");
     double least = INFINITY, most = 0, sum = 0;
     for (long run = 0; run < 500; run++) {
-        double start = make(run).job.unknowns.bounds[1].start;
+        double start = make(run).job->unknowns.bounds[1].start;
         least = fmin(least, start);
         most = fmax(most, start);
         sum += start;
-        assert_true(start != make(run + 500).job.unknowns.bounds[1].start);
+        assert_true(start != make(run + 500).job->unknowns.bounds[1].start);
     }
     assert_true(least > 1e11 && least < 1.02e11 && most < 3e11 && most > 2.98e11);
     assert_close(sum / 500, 2e11, 0, 4 * 2e11 / sqrt(12 * 500));

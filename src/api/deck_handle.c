@@ -200,10 +200,16 @@ void rotid_deck_free(rotid_deck *deck)
         pool_free(((struct deck_handle *)deck->memory)->own);
 }
 
-const struct job *deck_job_of(const rotid_deck *deck)
+const struct states *deck_states_of(const rotid_deck *deck)
 {
     const struct deck_handle *handle = deck ? deck->memory : NULL;
-    return handle && handle->usable ? &handle->states.state[0].job : NULL;
+    return handle && handle->usable ? &handle->states : NULL;
+}
+
+const struct job *deck_job_of(const rotid_deck *deck)
+{
+    const struct states *states = deck_states_of(deck);
+    return states ? &states->state[0].job : NULL;
 }
 
 const struct job *deck_job(const rotid_deck *deck, struct call *call)
@@ -218,8 +224,9 @@ const struct job *deck_job(const rotid_deck *deck, struct call *call)
 const struct states *deck_states(const rotid_deck *deck, struct call *call)
 {
     const struct deck_handle *handle = deck ? deck->memory : NULL;
-    if (handle && handle->usable)
-        return &handle->states;
+    const struct states *states = deck_states_of(deck);
+    if (states)
+        return states;
     for (int i = 0; handle && i < deck->nmessage; i++)
         if (deck->message[i].severity == ROTID_ERROR) {
             const rotid_message *m = &deck->message[i];

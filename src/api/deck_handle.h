@@ -12,7 +12,8 @@ const struct states *deck_states(const rotid_deck *deck, struct call *call);
 /* The job of a deck of one state; NULL also where it has several. */
 const struct job *deck_job(const rotid_deck *deck, struct call *call);
 
-/* That of the first state, without a call that has to be explained. */
+/* All states, and the job of the first one, without a call that has to be explained; NULL of a deck with errors. */
+const struct states *deck_states_of(const rotid_deck *deck);
 const struct job *deck_job_of(const rotid_deck *deck);
 
 #endif

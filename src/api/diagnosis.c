@@ -11,7 +11,7 @@ static rotid_diagnosis *make_result(struct call *call, const struct states *stat
 {
     struct pool *pool = &call->entry.scratch;
     char *text = NULL;
-    if (d->result.verdict.sentence && d->base.fit && d->judged.nstate == 1 && !d->result.before)
+    if (d->result.verdict.sentence && d->base.fit && !d->result.before)
         (void)deck_write_extended(pool, d, path, &text);
     rotid_diagnosis *made = result_diagnosis(pool, d->given.nstate ? &d->given : states, d);
     made->extended_deck = text;

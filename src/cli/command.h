@@ -32,7 +32,7 @@ struct given_option {
 
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
-    const char *name, *deck, *json, *at, *extended, *changed, *output;
+    const char *name, *deck, *json, *at, *extended, *changed, *output, *state;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
     int quiet, verbose, threads, no_baseline, compare, points, replicates, start, condensed;
@@ -49,7 +49,7 @@ struct command {
     struct message_list messages;
     size_t printed;          /* of the messages */
     rotid_deck *read;        /* NULL of commands that read none */
-    const struct job *job;   /* of it */
+    const struct job *job;   /* of it, of several states the first one's */
     struct result_head head; /* of its result */
 };
 
@@ -59,8 +59,15 @@ int command_read_deck(struct command *command);
 /* Prints the messages that are new on standard error: errors always, the rest unless quiet. */
 void command_print_messages(struct command *command);
 
-/* The messages of a call of the library go to those of the command. */
-void command_take_messages(struct command *command, int count, const rotid_message *message);
+/* The messages of a call of the library go to those of the command; with the state that they are of, NULL where all are one. */
+void command_take_messages(struct command *command, const char *state, int count, const rotid_message *message);
+
+/* What to work on one after the other: the states of the deck, or the deck itself where it is one. How many, the deck i of them,
+ * and its name, NULL of a deck that is one. */
+int command_state_count(const struct command *command);
+const rotid_deck *command_state(const struct command *command, int i, const char **name);
+/* The states of a result with their names, for what the command finds of each; none of a deck that is one. 0, or an exit code. */
+int command_begin_states(struct command *command, struct result *result);
 
 /* Head of the result, from the arguments alone; command_read_deck completes it with the deck. */
 void command_begin_head(struct command *command);
@@ -79,9 +86,25 @@ int command_write_result(struct command *command, struct result *result, int cod
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);
 
-/* Warns of an identification (may be NULL) at whose values the model is `done`, where it did not end well or its reduction is
- * coarse. An exit code, EXIT_DONE or EXIT_DOUBTFUL. */
-int command_judge_fit(struct command *command, const struct identification *identified, const char *done);
+/* A state to work on at identified values, or the deck that is one. */
+struct fitted_state {
+    const char *name; /* NULL of a deck that is one state */
+    const struct job *job;
+    struct identification identified; /* by all states, with its own unknowns; fit NULL: nothing was fitted */
+};
+struct command_fit {
+    int count; /* all states, or that of --state */
+    struct fitted_state *state;
+    rotid_fit_result *fit; /* to be freed with rotid_fit_free, or NULL */
+};
+
+/* Fits the deck, where `wanted` and a mode is measured, over all of its states. Without a mode and with unknowns a warning. An
+ * exit code, EXIT_DONE to go on. */
+int command_fit_deck(struct command *command, int wanted, struct command_fit *fit);
+
+/* Warns of identifications at whose values the models are `done`, where they did not end well or their reduction is coarse. An
+ * exit code, EXIT_DONE or EXIT_DOUBTFUL. */
+int command_judge_fit(struct command *command, const struct command_fit *fit, const char *done);
 
 /* Whether somebody would see a line of progress. */
 int command_wants_progress(const struct command *command);

@@ -1,24 +1,46 @@
+#include "api/deck_handle.h"
 #include "cli/command.h"
 #include "report/table.h"
 
-static int show(struct command *command, rotid_check *check)
+static void free_all(const struct result *result)
 {
-    struct result result = {.head = command->head, .check = check};
-    if (command_wants_table(command)) {
-        table_check(terminal_out(), &result, command->job);
-        table_notes(terminal_out(), &command->messages);
+    for (int s = 0; s < result->nstates; s++)
+        rotid_check_free(result->states[s].check);
+    if (!result->nstates)
+        rotid_check_free(result->check);
+}
+
+/* Of each state, or of the deck that is one, with the job that it is read as. */
+static int look(struct command *command, struct result *result, const struct job **job)
+{
+    for (int s = 0; s < command_state_count(command); s++) {
+        char failure[ROTID_FAILURE_LENGTH];
+        const char *name;
+        const rotid_deck *deck = command_state(command, s, &name);
+        rotid_check **check = name ? &result->states[s].check : &result->check;
+        int status = rotid_deck_check(deck, NULL, failure, check);
+        if (status)
+            return command_fail_with(command, status, failure);
+        job[s] = deck_job_of(deck);
+        if (!s)
+            result->check = *check;
     }
-    return command_write_result(command, &result, EXIT_DONE);
+    return EXIT_DONE;
 }
 
 int command_check(struct command *command)
 {
-    char failure[ROTID_FAILURE_LENGTH];
-    rotid_check *check;
-    int status = rotid_deck_check(command->read, NULL, failure, &check);
-    if (status)
-        return command_fail_with(command, status, failure);
-    int code = show(command, check);
-    rotid_check_free(check);
+    struct result result = {.head = command->head};
+    const struct job **job = POOL_ARRAY(&command->pool, const struct job *, command_state_count(command));
+    int code = job ? command_begin_states(command, &result) : command_fail(command, ROTID_ERROR_MEMORY);
+    if (!code)
+        code = look(command, &result, job);
+    if (!code && command_wants_table(command)) {
+        table_check(terminal_out(), &result, job);
+        table_notes(terminal_out(), &command->messages);
+    }
+    if (!code)
+        code = command_write_result(command, &result, EXIT_DONE);
+    free_all(&result);
     return code;
 }

@@ -13,11 +13,31 @@ static const char *place_of(const struct command *command, const char *file)
     return file;
 }
 
-void command_take_messages(struct command *command, int count, const rotid_message *message)
+void command_take_messages(struct command *command, const char *state, int count, const rotid_message *message)
 {
     for (int i = 0; i < count; i++)
         message_add(&command->messages, (enum severity)message[i].severity, place_of(command, message[i].file), message[i].line,
-                    message[i].column, "%s", message[i].text);
+                    message[i].column, state ? "%s (state %s)" : "%s", message[i].text, state);
+}
+
+int command_state_count(const struct command *command)
+{
+    return command->read->nstate ? command->read->nstate : 1;
+}
+
+const rotid_deck *command_state(const struct command *command, int i, const char **name)
+{
+    *name = command->read->nstate ? command->read->state_name[i] : NULL;
+    return command->read->nstate ? command->read->state[i] : command->read;
+}
+
+int command_begin_states(struct command *command, struct result *result)
+{
+    result->nstates = command->read->nstate;
+    result->states = POOL_ARRAY(&command->pool, struct result_state, result->nstates);
+    for (int i = 0; i < result->nstates && result->states; i++)
+        result->states[i].name = command->read->state_name[i];
+    return result->states ? EXIT_DONE : command_fail(command, ROTID_ERROR_MEMORY);
 }
 
 int command_read_deck(struct command *command)
@@ -30,7 +50,7 @@ int command_read_deck(struct command *command)
         override[i] = command->override[i].given;
     int status = rotid_deck_read(command->deck, command->noverride, override, NULL, failure, &command->read);
     if (command->read) {
-        command_take_messages(command, command->read->nmessage, command->read->message);
+        command_take_messages(command, NULL, command->read->nmessage, command->read->message);
         command->messages.errors = command->read->nerror;
     }
     if (!command->read || (status && !command->read->nerror)) /* no message says why */
@@ -43,7 +63,9 @@ int command_read_deck(struct command *command)
     command->head.heading = command->read->heading;
     command->head.nreferences = command->read->nreferences;
     command->head.references = command->read->references;
-    int refused = arguments_refuse_read(command, command->job->nfile, command->job->file);
+    const struct states *states = deck_states_of(command->read);
+    const struct job *last = &states->state[states->nstate - 1].job; /* the files of a state go on where the one before ends */
+    int refused = arguments_refuse_read(command, last->nfile, last->file);
     if (refused >= 0)
         return refused;
     command_print_messages(command);
@@ -55,15 +77,71 @@ int command_read_deck(struct command *command)
     return EXIT_DONE;
 }
 
-int command_judge_fit(struct command *command, const struct identification *identified, const char *done)
+/* Which states are to be worked on: the index of that of --state, -1 for all, -2 after an error. */
+static int chosen_state(struct command *command)
 {
-    const rotid_fit_result *fit = identified ? identified->fit : NULL;
-    if (!fit)
+    if (!command->state)
+        return -1;
+    for (int s = 0; s < command->read->nstate; s++)
+        if (same_text(command->read->state_name[s], command->state))
+            return s;
+    const char *list = "";
+    for (int s = 0; s < command->read->nstate && list; s++)
+        list = pool_format(&command->pool, "%s%s%s", list, s ? ", " : "", command->read->state_name[s]);
+    message_add(&command->messages, SEVERITY_ERROR, "--state", 1, 1,
+                *(list ? list : "") ? "state %s is not defined, expected one of %s" : "state %s: the deck has no states%s",
+                command->state, list ? list : "");
+    return -2;
+}
+
+static int fit_all(struct command *command, const struct states *states, struct identification *found, struct command_fit *fit)
+{
+    double last = 0;
+    const rotid_environment environment = command_environment(command, &last);
+    int status = identify_states(&command->pool, states, 0, &environment, &command->messages, found, &fit->fit);
+    for (int s = 0; s < states->nstate && !status && states->nstate > 1; s++)
+        status = identify_own_unknowns(&command->pool, &states->state[s], &found[s]);
+    if (environment.progress)
+        terminal_progress_end();
+    return status;
+}
+
+int command_fit_deck(struct command *command, int wanted, struct command_fit *fit)
+{
+    const struct states *states = deck_states_of(command->read);
+    struct identification *found = POOL_ARRAY(&command->pool, struct identification, states->nstate);
+    int measured = 0, chosen = chosen_state(command), status = ROTID_OK;
+    *fit = (struct command_fit){.count = chosen < 0 ? states->nstate : 1,
+                                .state = POOL_ARRAY(&command->pool, struct fitted_state, states->nstate)};
+    if (!found || !fit->state)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    if (chosen == -2)
+        return command_fail(command, ROTID_ERROR_ARGUMENT);
+    for (int s = 0; s < states->nstate; s++)
+        measured += states->state[s].job.measurement.nmode;
+    if (wanted && measured)
+        status = fit_all(command, states, found, fit);
+    else if (wanted && states->nparameter)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "no mode was measured: the model is taken as the deck states it, not at identified parameters");
+    if (status)
+        return command_fail(command, status);
+    for (int i = 0; i < fit->count; i++) {
+        const struct state *state = &states->state[chosen < 0 ? i : chosen];
+        fit->state[i] = (struct fitted_state){state->name, &state->job, found[chosen < 0 ? i : chosen]};
+    }
+    return EXIT_DONE;
+}
+
+int command_judge_fit(struct command *command, const struct command_fit *fit, const char *done)
+{
+    if (!fit->fit)
         return EXIT_DONE;
-    int doubtful = fit->n && (!fit->converged || fit->any_at_bound || fit->any_undetermined);
+    int doubtful = fit->fit->n && (!fit->fit->converged || fit->fit->any_at_bound || fit->fit->any_undetermined);
     if (doubtful)
         message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
                     "the identification did not end well (not converged, at a bound or undetermined): see rotid identify");
-    identify_warn_of_reduction(command->job, identified, done, &command->messages);
+    for (int i = 0; i < fit->count; i++)
+        identify_warn_of_reduction(fit->state[i].job, &fit->state[i].identified, done, &command->messages);
     return doubtful ? EXIT_DOUBTFUL : EXIT_DONE;
 }

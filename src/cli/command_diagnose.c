@@ -26,7 +26,7 @@ static int show(struct command *command, rotid_diagnosis *diagnosis)
 {
     struct result result = {.head = command->head, .diagnose = diagnosis};
     int code = EXIT_DONE, written;
-    command_take_messages(command, diagnosis->nmessage, diagnosis->message);
+    command_take_messages(command, NULL, diagnosis->nmessage, diagnosis->message);
     if (command_wants_table(command)) {
         const struct diagnosis_view view = {terminal_out(), &result.head, diagnosis, command->verbose, WIDTH};
         table_diagnose(&view);

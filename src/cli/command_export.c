@@ -1,6 +1,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "api/deck_handle.h"
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "export/dmig.h"
@@ -11,31 +12,13 @@
 
 #define REDUCTION_DOUBTFUL 1 /* % of a frequency */
 
-/* The fit, where there is something to fit and to fit it to. identified->fit stays NULL where the model is taken as it stands. */
-static int identify(struct command *command, struct identification *identified)
-{
-    const struct job *job = command->job;
-    double last = 0;
-    const rotid_environment environment = command_environment(command, &last);
-    if (!job->unknowns.nparameter || command->start)
-        return ROTID_OK;
-    if (!job->measurement.nmode) {
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "no mode was measured: the model is taken as the deck states it, not at identified parameters");
-        return ROTID_OK;
-    }
-    int status = identify_run(&command->pool, job, 0, &environment, &command->messages, identified);
-    if (environment.progress)
-        terminal_progress_end();
-    return status;
-}
-
 /* What the condensed matrices are worth, where they are wanted. Nonzero after saying why they cannot be written alone. */
-static int judge_condensed(struct command *command, const struct export_model *model, enum export_format format)
+static int judge_condensed(struct command *command, const struct job *job, const struct export_model *model,
+                           enum export_format format)
 {
     const struct export_condensed *c = &model->condensed;
     const struct spectrum *s = &model->spectrum;
-    int alone = format == EXPORT_DMIG, highest = comparison_highest(command->job), worst = -1;
+    int alone = format == EXPORT_DMIG, highest = comparison_highest(job), worst = -1;
     if (c->impossible) {
         message_add(&command->messages, alone ? SEVERITY_ERROR : SEVERITY_WARNING, NULL, 0, 0, "no condensed matrices: %s",
                     c->impossible);
@@ -63,7 +46,8 @@ static int judge_condensed(struct command *command, const struct export_model *m
 /* 0, or an exit code after saying which file would be lost. */
 static int refuse_files(const struct command *command, const struct export_files *files)
 {
-    const struct job *job = command->job;
+    const struct states *states = deck_states_of(command->read);
+    const struct job *job = &states->state[states->nstate - 1].job;
     for (int i = 0; i < files->count; i++) {
         if (command->json && arguments_same_file(command->json, files->path[i]))
             return arguments_wrong("--output would write %s, the file of --json, expected another name", files->path[i]);
@@ -94,15 +78,16 @@ static int write_files(struct command *command, const struct export_files *files
     return command_write_result(command, &result, code);
 }
 
-static int export(struct command *command, const struct identification *identified, int code)
+static int export(struct command *command, const struct fitted_state *state, int code)
 {
     struct export_model model;
     struct export_files files;
     struct ross_model ross;
     enum export_format format = (enum export_format)command->format;
     int wants_condensed = format == EXPORT_MATRIX_MARKET || command->condensed, is_ross = format == EXPORT_ROSS;
-    int status = export_model_open(&command->pool, command->job, identified, command->head.rotid, wants_condensed, &model);
-    if (!status && wants_condensed && judge_condensed(command, &model, format))
+    const struct identification *identified = state->identified.fit ? &state->identified : NULL;
+    int status = export_model_open(&command->pool, state->job, identified, command->head.rotid, wants_condensed, &model);
+    if (!status && wants_condensed && judge_condensed(command, state->job, &model, format))
         status = ROTID_ERROR_ARGUMENT;
     if (!status)
         status = export_files_name(&command->pool, format, command->condensed, command->output, &model, &files);
@@ -114,34 +99,37 @@ static int export(struct command *command, const struct identification *identifi
     return refused ? refused : write_files(command, &files, &model, is_ross ? &ross : NULL, code);
 }
 
-/* 0, or an exit code after saying why a solid has no such form. */
-static int refuse_solid(struct command *command)
+/* 0, or an exit code after saying why there is no one model, or no such form of a solid. */
+static int refuse_model(struct command *command)
 {
     enum export_format format = (enum export_format)command->format;
-    if (!command->job->options.solid || format == EXPORT_MATRIX_MARKET || (format == EXPORT_DMIG && command->condensed))
+    const char *deck = command->job->deck;
+    if (command->read->nstate && !command->state)
+        message_add(&command->messages, SEVERITY_ERROR, deck, 1, 1,
+                    "the deck has %d states and a file holds the model of one, expected --state %s or another one",
+                    command->read->nstate, command->read->state_name[0]);
+    else if (command->job->options.solid && format != EXPORT_MATRIX_MARKET && !(format == EXPORT_DMIG && command->condensed))
+        message_add(&command->messages, SEVERITY_ERROR, deck, 1, 1,
+                    "%s has beam elements and this rotor is a solid, expected --format matrix-market%s, or --set FIT.MODEL=BEAM",
+                    format == EXPORT_ROSS ? "a ROSS script" : "a Nastran deck of rotid",
+                    format == EXPORT_DMIG ? ", --condensed (onto the sensors)" : "");
+    else
         return 0;
-    message_add(&command->messages, SEVERITY_ERROR, command->job->deck, 1, 1,
-                "%s has beam elements and this rotor is a solid, expected --format matrix-market%s, or --set FIT.MODEL=BEAM",
-                format == EXPORT_ROSS ? "a ROSS script" : "a Nastran deck of rotid",
-                format == EXPORT_DMIG ? ", --condensed (onto the sensors)" : "");
     return command_fail(command, ROTID_ERROR_ARGUMENT);
 }
 
 int command_export(struct command *command)
 {
-    struct identification identified = {0};
-    int refused = refuse_solid(command);
-    if (refused)
-        return refused;
-    int status = identify(command, &identified);
-    if (status)
-        return command_fail(command, status);
-    if (command_cancelled(NULL)) {
+    struct command_fit fit = {0};
+    int code = refuse_model(command);
+    if (!code)
+        code = command_fit_deck(command, command->read->nparameter && !command->start, &fit);
+    if (!code && command_cancelled(NULL)) {
         terminal_say("rotid: interrupted, nothing was written\n");
-        rotid_fit_free(identified.fit);
-        return EXIT_DOUBTFUL;
+        code = EXIT_DOUBTFUL;
+    } else if (!code) {
+        code = export(command, fit.state, command_judge_fit(command, &fit, "written"));
     }
-    int code = export(command, identified.fit ? &identified : NULL, command_judge_fit(command, &identified, "written"));
-    rotid_fit_free(identified.fit);
+    rotid_fit_free(fit.fit);
     return code;
 }

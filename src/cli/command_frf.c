@@ -8,9 +8,10 @@
 #include "report/table.h"
 
 /* The measured functions of *FRF, FILE. */
-static int read_measured(struct command *command, struct measurement *measurement, struct frf_measured *measured)
+static int read_measured(struct command *command, const struct job *job, struct measurement *measurement,
+                         struct frf_measured *measured)
 {
-    const struct frf_request *request = &command->job->options.frf;
+    const struct frf_request *request = &job->options.frf;
     const struct measurement_options options = {
         .low_hz = request->low_hz, .high_hz = request->high_hz, .threads = command->threads};
     int status = measurement_read(&command->pool, request->file, &options, &command->messages, measurement);
@@ -42,64 +43,107 @@ static int write_output(struct command *command, const struct frf_view *view, in
     return EXIT_INTERNAL;
 }
 
-static int report(struct command *command, const struct frf_view *view, int code)
+/* count: of the views, one for each state */
+static int report(struct command *command, int count, const struct frf_view *view, struct result *result, int code)
 {
-    int status = ROTID_OK;
-    if (command->json && (double)view->result->nline * view->result->ndone > JSON_FRF_MOST_LINES)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
-                    view->result->ndone, view->result->nline, JSON_FRF_MOST_LINES);
+    int status = ROTID_OK, told = 0;
+    for (int i = 0; i < count && command->json; i++) {
+        const struct frf_result *r = view[i].result;
+        if ((double)r->nline * r->ndone > JSON_FRF_MOST_LINES && !told++)
+            message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                        "the JSON has no curves: %d functions of %d lines are more than %d values, expected --output for so many",
+                        r->ndone, r->nline, JSON_FRF_MOST_LINES);
+    }
     if (command_wants_table(command)) {
-        status = table_frf(terminal_out(), &command->head, view);
+        table_heading(terminal_out(), &command->head);
+        for (int i = 0; i < count && !status; i++) {
+            if (view[i].state)
+                table_state(terminal_out(), i, view[i].state);
+            status = table_frf(terminal_out(), &view[i]);
+        }
         table_notes(terminal_out(), &command->messages);
     }
     if (status)
         return command_fail(command, status);
-    struct result result = {.head = command->head, .frf = command->json ? frf_result_of(view) : NULL};
-    int written = command_write_result(command, &result, code);
+    for (int i = 0; i < count && command->json; i++) {
+        const struct transfer_result *made = frf_result_of(&view[i]);
+        if (!made)
+            return command_fail(command, ROTID_ERROR_MEMORY);
+        result->frf = i ? result->frf : made;
+        if (result->nstates) {
+            result->states[i].name = view[i].state;
+            result->states[i].frf = made;
+        }
+    }
+    int written = command_write_result(command, result, code);
     code = write_output(command, view, written);
     return code > written ? code : written;
 }
 
-int command_frf(struct command *command)
+/* The functions of a state. */
+static int synthesise(struct command *command, const struct fitted_state *state, const rotid_environment *environment,
+                      struct frf_view *view)
 {
-    const struct job *job = command->job;
-    double last = 0;
-    int status = ROTID_OK, code = EXIT_DONE;
-    const rotid_environment environment = command_environment(command, &last);
-    struct identification identified = {0};
-    struct measurement measurement;
+    struct measurement *measurement = POOL_NEW(&command->pool, struct measurement);
     struct frf_measured measured;
-    struct frf_result result;
-    if (job->options.frf.file)
-        status = read_measured(command, &measurement, &measured);
-    if (!status && job->measurement.nmode)
-        status = identify_run(&command->pool, job, 0, &environment, &command->messages, &identified);
-    else if (!status && job->unknowns.nparameter)
-        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
-                    "no mode was measured: the model is taken as the deck states it, not at identified parameters");
-    const rotid_fit_result *fit = identified.fit;
+    struct frf_result *result = POOL_NEW(&command->pool, struct frf_result);
+    const struct identification *identified = state->identified.fit ? &state->identified : NULL;
+    int with_file = state->job->options.frf.file != NULL, status = measurement && result ? ROTID_OK : ROTID_ERROR_MEMORY;
+    if (!status && with_file)
+        status = read_measured(command, state->job, measurement, &measured);
     if (!status)
-        status = frf_run(&command->pool, job, fit ? &identified : NULL, job->options.frf.file ? &measured : NULL, &environment,
-                         &command->messages, &result);
+        status = frf_run(&command->pool, state->job, identified, with_file ? &measured : NULL, environment, &command->messages,
+                         result);
+    *view = (struct frf_view){.pool = &command->pool,
+                              .state = state->name,
+                              .job = state->job,
+                              .identified = identified,
+                              .set = with_file && !status ? &measurement->set : NULL,
+                              .result = result,
+                              .verbose = command->verbose};
+    return status;
+}
+
+static int synthesise_all(struct command *command, const struct command_fit *fit, struct result *result)
+{
+    double last = 0;
+    const rotid_environment environment = command_environment(command, &last);
+    struct frf_view *view = POOL_ARRAY(&command->pool, struct frf_view, fit->count);
+    int status = view ? ROTID_OK : ROTID_ERROR_MEMORY, code, done = 0, all = 0;
+    for (int i = 0; i < fit->count && !status; i++) {
+        status = synthesise(command, &fit->state[i], &environment, &view[i]);
+        done += status ? 0 : view[i].result->ndone;
+        all += status ? 0 : view[i].result->nrow;
+    }
     if (environment.progress)
         terminal_progress_end();
-    if (status) {
-        rotid_fit_free(identified.fit);
+    if (status)
         return command_fail(command, status);
-    }
-    code = command_judge_fit(command, &identified, "synthesised");
-    if (result.ndone < result.nrow || command_cancelled(NULL)) {
-        terminal_say("rotid: interrupted; %d of %d transfer functions were finished\n", result.ndone, result.nrow);
+    code = command_judge_fit(command, fit, "synthesised");
+    if (done < all || command_cancelled(NULL)) {
+        terminal_say("rotid: interrupted; %d of %d transfer functions were finished\n", done, all);
         code = EXIT_DOUBTFUL;
     }
-    const struct frf_view view = {.pool = &command->pool,
-                                  .job = job,
-                                  .identified = fit ? &identified : NULL,
-                                  .set = job->options.frf.file ? &measurement.set : NULL,
-                                  .result = &result,
-                                  .verbose = command->verbose};
-    code = report(command, &view, code);
-    rotid_fit_free(identified.fit);
+    return report(command, fit->count, view, result, code);
+}
+
+int command_frf(struct command *command)
+{
+    struct result result = {.head = command->head};
+    struct command_fit fit = {0};
+    int code;
+    if (command->output && command->read->nstate && !command->state) {
+        message_add(&command->messages, SEVERITY_ERROR, "--output", 1, 1,
+                    "a universal file says nothing of states and the deck has %d, expected --state %s or another one beside it",
+                    command->read->nstate, command->read->state_name[0]);
+        return command_fail(command, ROTID_ERROR_ARGUMENT);
+    }
+    code = command_begin_states(command, &result);
+    if (!code)
+        code = command_fit_deck(command, 1, &fit);
+    result.nstates = result.nstates ? fit.count : 0;
+    if (!code)
+        code = synthesise_all(command, &fit, &result);
+    rotid_fit_free(fit.fit);
     return code;
 }

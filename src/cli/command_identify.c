@@ -6,7 +6,7 @@ static int show(struct command *command, rotid_identification *found)
     struct result result = {.head = command->head, .identify = found};
     const rotid_fit_result *fit = found->fit;
     int code = fit->converged && !fit->any_at_bound && !fit->any_undetermined ? EXIT_DONE : EXIT_DOUBTFUL;
-    command_take_messages(command, found->nmessage, found->message);
+    command_take_messages(command, NULL, found->nmessage, found->message);
     if (command_wants_table(command)) {
         table_identify(terminal_out(), &result, !command->no_baseline, command->verbose);
         table_notes(terminal_out(), &command->messages);
@@ -26,7 +26,7 @@ int command_identify(struct command *command)
     double last = 0;
     const rotid_environment environment = command_environment(command, &last);
     rotid_identification *found;
-    if (!command->job->unknowns.nparameter) {
+    if (!command->read->nparameter) {
         message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
                     "the deck names nothing to identify, expected a card *IDENTIFY");
         return command_fail(command, ROTID_ERROR_ARGUMENT);

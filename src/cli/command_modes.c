@@ -1,29 +1,47 @@
 #include "cli/command.h"
 #include "report/table.h"
 
-static int show(struct command *command, rotid_spectrum *spectrum)
+static void free_all(const struct result *result)
 {
-    struct result result = {.head = command->head, .modes = spectrum};
-    command_take_messages(command, spectrum->nmessage, spectrum->message);
-    if (command->messages.errors) /* no pairing */
-        return command_fail(command, ROTID_ERROR_UNPAIRED);
-    if (command_wants_table(command)) {
-        table_modes(terminal_out(), &result, command->verbose);
-        table_notes(terminal_out(), &command->messages);
+    for (int s = 0; s < result->nstates; s++)
+        rotid_spectrum_free(result->states[s].modes);
+    if (!result->nstates)
+        rotid_spectrum_free(result->modes);
+}
+
+/* Of each state, or of the deck that is one. An exit code, EXIT_DONE to go on. */
+static int compute(struct command *command, struct result *result)
+{
+    for (int s = 0; s < command_state_count(command); s++) {
+        char failure[ROTID_FAILURE_LENGTH];
+        const char *name;
+        const rotid_deck *deck = command_state(command, s, &name);
+        rotid_spectrum **spectrum = name ? &result->states[s].modes : &result->modes;
+        int status = command->compare ? rotid_spectrum_beside(deck, deck->stated, 0, NULL, failure, spectrum)
+                                      : rotid_spectrum_compute(deck, deck->stated, 0, NULL, failure, spectrum);
+        if (status)
+            return command_fail_with(command, status, failure);
+        command_take_messages(command, name, (*spectrum)->nmessage, (*spectrum)->message);
+        if (command->messages.errors) /* no pairing */
+            return command_fail(command, ROTID_ERROR_UNPAIRED);
+        if (!s)
+            result->modes = *spectrum;
     }
-    return command_write_result(command, &result, EXIT_DONE);
+    return EXIT_DONE;
 }
 
 int command_modes(struct command *command)
 {
-    char failure[ROTID_FAILURE_LENGTH];
-    rotid_spectrum *spectrum;
-    const double *x = command->read->stated;
-    int status = command->compare ? rotid_spectrum_beside(command->read, x, 0, NULL, failure, &spectrum)
-                                  : rotid_spectrum_compute(command->read, x, 0, NULL, failure, &spectrum);
-    if (status)
-        return command_fail_with(command, status, failure);
-    int code = show(command, spectrum);
-    rotid_spectrum_free(spectrum);
+    struct result result = {.head = command->head};
+    int code = command_begin_states(command, &result);
+    if (!code)
+        code = compute(command, &result);
+    if (!code && command_wants_table(command)) {
+        table_modes(terminal_out(), &result, command->verbose);
+        table_notes(terminal_out(), &command->messages);
+    }
+    if (!code)
+        code = command_write_result(command, &result, EXIT_DONE);
+    free_all(&result);
     return code;
 }

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/deck_handle.h"
 #include "cli/command.h"
 #include "report/table.h"
 #include "run/sensitivity.h"
@@ -16,9 +17,9 @@ struct selection {
 };
 
 /* "core.E=8e10,core.nu": names with or without a reference value; without, the model's own. */
-static int select_listed(struct command *command, struct selection *s)
+static int select_listed(struct command *command, const struct job *job, struct selection *s)
 {
-    const struct rotor *rotor = &command->job->rotor;
+    const struct rotor *rotor = &job->rotor;
     char *list = pool_copy_text(&command->pool, command->at), *rest = NULL;
     for (char *item = list ? strtok_r(list, ",", &rest) : NULL; item; item = strtok_r(NULL, ",", &rest)) {
         char *equals = strchr(item, '='), *end;
@@ -52,9 +53,8 @@ static int select_listed(struct command *command, struct selection *s)
     return list ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static int select_parameters(struct command *command, struct selection *s)
+static int select_parameters(struct command *command, const struct job *job, struct selection *s)
 {
-    const struct job *job = command->job;
     size_t room = (size_t)job->unknowns.nparameter + 1;
     for (const char *c = command->at; c && *c; c++)
         room += *c == ',';
@@ -63,7 +63,7 @@ static int select_parameters(struct command *command, struct selection *s)
     if (!s->parameter || !s->named || !s->x)
         return ROTID_ERROR_MEMORY;
     if (command->at)
-        return select_listed(command, s);
+        return select_listed(command, job, s);
     for (int p = 0; p < job->unknowns.nparameter; p++) {
         s->parameter[p] = job->unknowns.parameter[p];
         s->named[p] = job->unknowns.bounds[p];
@@ -78,12 +78,11 @@ static int select_parameters(struct command *command, struct selection *s)
     return ROTID_OK;
 }
 
-int command_sensitivity(struct command *command)
+/* Of a state, or of a deck that is one. */
+static int run(struct command *command, const rotid_deck *deck, const char *state, struct sensitivity *found)
 {
-    const struct job *job = command->job;
+    const struct job *job = deck_job_of(deck);
     struct selection selection;
-    struct sensitivity found;
-    struct result result = {.head = command->head, .sensitivity = &found};
     struct sensitivity_options options = {.step = command->step,
                                           .range = command->range,
                                           .points = command->points,
@@ -93,12 +92,33 @@ int command_sensitivity(struct command *command)
         options.modes = job->measurement.number[k] > options.modes ? job->measurement.number[k] : options.modes;
     if (!options.modes)
         options.modes = MODES_WITHOUT_DATA;
-    int status = select_parameters(command, &selection);
-    if (!status)
-        status = sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.named, selection.x, &options,
-                                 &found);
-    if (status)
-        return command_fail(command, status);
+    int status = select_parameters(command, job, &selection);
+    if (status == ROTID_ERROR_SYNTAX && state)
+        message_add(&command->messages, SEVERITY_ERROR, job->deck, 1, 1,
+                    "this is of state %s, expected parameters that it has too, or one state as in --set FIT.STATE=%s", state,
+                    state);
+    return status ? status
+                  : sensitivity_run(&command->pool, job, selection.n, selection.parameter, selection.named, selection.x, &options,
+                                    found);
+}
+
+int command_sensitivity(struct command *command)
+{
+    struct result result = {.head = command->head};
+    int count = command_state_count(command), code = command_begin_states(command, &result), status = ROTID_OK;
+    struct sensitivity *found = POOL_ARRAY(&command->pool, struct sensitivity, count);
+    if (code)
+        return code;
+    for (int s = 0; s < count && found && !status; s++) {
+        const char *name;
+        const rotid_deck *deck = command_state(command, s, &name);
+        status = run(command, deck, name, &found[s]);
+        if (name)
+            result.states[s].sensitivity = &found[s];
+    }
+    if (status || !found)
+        return command_fail(command, found ? status : ROTID_ERROR_MEMORY);
+    result.sensitivity = found;
     if (command_wants_table(command))
         table_sensitivity(terminal_out(), &result);
     return command_write_result(command, &result, EXIT_DONE);

@@ -94,6 +94,10 @@ const struct option_row option_table[] = {
     {.name = "keep-double-hits", .commands = "ema", .kind = OPTION_SWITCH, AT(ema.measurement.transfer.double_hits),
      .help = "time records: uses double hits too"},
 
+    {.name = "state", .commands = "frf export", .kind = OPTION_TEXT, AT(state), .value = "NAME",
+     .help = "that state of a deck with several, at values identified over all of them",
+     .more = "With --set FIT.STATE=NAME its own modes alone are fitted. A file, but for JSON, holds one state."},
+
     {OUTPUT(.commands = "export", .value = "FILE", .files = "mtx|dmig|bdf|py",
             .help = "the model; of matrix-market the beginning of the names")},
     {.name = "format", .commands = "export", .kind = OPTION_WORD, AT(format), .words = export_format_words,

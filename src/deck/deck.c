@@ -51,18 +51,24 @@ static int makes_group(const struct card *card)
     return !strcmp(card->name, "SHAFT") || !strcmp(card->name, "BEAM") || !strcmp(card->name, "LAYER");
 }
 
+/* Materials and states have names of their own. */
+static int shares_names(const struct card *card)
+{
+    return strcmp(card->name, "MATERIAL") != 0 && strcmp(card->name, "STATE") != 0;
+}
+
 /* Parameters are addressed by name, so groups, rods, springs, disks and causes share one set of names. */
 static void check_unique(struct deck_reader *reader)
 {
     for (int c = 0; c < reader->text.ncard; c++) {
         const struct card *card = &reader->text.card[c];
         const struct card_option *option = card_option(card, "NAME");
-        if (!option || !strcmp(card->name, "MATERIAL"))
+        if (!option || !shares_names(card))
             continue;
         for (int d = 0; d < c; d++) {
             const struct card_option *other = card_option(&reader->text.card[d], "NAME");
             int groups = makes_group(card) && makes_group(&reader->text.card[d]); /* which compare their own */
-            if (other && strcmp(reader->text.card[d].name, "MATERIAL") && !groups && same_text(option->value, other->value))
+            if (other && shares_names(&reader->text.card[d]) && !groups && same_text(option->value, other->value))
                 deck_error(reader, option->value_place, "the name %s is given twice, expected a new one", option->value);
         }
     }
@@ -327,20 +333,20 @@ int deck_read_states(struct pool *pool, const char *path, const struct deck_memo
 }
 
 int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
-                   const struct card *card, struct message_list *messages, struct job *job)
+                   const struct card *card, struct message_list *messages, struct states *states)
+{
+    return read_deck(pool, path, NULL, noverride, override, ncard, card, messages, states);
+}
+
+int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
+              struct job *job)
 {
     struct states states;
-    int status = read_deck(pool, path, NULL, noverride, override, ncard, card, messages, &states);
+    int status = read_deck(pool, path, NULL, noverride, override, 0, NULL, messages, &states);
     *job = states.nstate ? states.state[0].job : (struct job){.deck = path};
     if (!status && states.nstate > 1) {
         states_refuse(&states, path, messages);
         status = ROTID_ERROR_SYNTAX;
     }
     return status;
-}
-
-int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
-              struct job *job)
-{
-    return deck_read_with(pool, path, noverride, override, 0, NULL, messages, job);
 }

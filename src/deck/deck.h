@@ -15,8 +15,9 @@ int deck_read_states(struct pool *pool, const char *path, const struct deck_memo
 int deck_read(struct pool *pool, const char *path, int noverride, const struct override *override, struct message_list *messages,
               struct job *job);
 
-/* The same with cards [ncard] of somebody else behind those of the deck. They keep their own places, which errors name. */
+/* All states with cards [ncard] of somebody else behind those of the deck, common to all. They keep their own places, which
+ * errors name. */
 int deck_read_with(struct pool *pool, const char *path, int noverride, const struct override *override, int ncard,
-                   const struct card *card, struct message_list *messages, struct job *job);
+                   const struct card *card, struct message_list *messages, struct states *states);
 
 #endif

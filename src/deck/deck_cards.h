@@ -26,14 +26,14 @@ struct deck_reader {
     double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
-    const char *tie;     /* FIT, TIE=E:G */
-    int *mean_kept;      /* [nmode] FREQUENCIES, MEAN=NO */
-    const char *state;   /* that the cards are of, NULL in a deck without *STATE */
-    int ncommon;         /* the first cards of the text are common to all states; the others are of this one */
-    int ncommon_unknown; /* the first unknowns come from those */
-    int alone;           /* no other state is read beside it */
-    int held_out;        /* HOLDOUT=STATE: all its modes are */
-    int no_section;      /* the one error is that of a section that cannot be */
+    const char *tie;           /* FIT, TIE=E:G */
+    int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */
+    const char *state;         /* that the cards are of, NULL in a deck without *STATE */
+    int ncommon;               /* the first cards of the text are common to all states; the others are of this one */
+    int ncommon_unknown;       /* the first unknowns come from those */
+    int alone;                 /* no other state is read beside it */
+    int held_out;              /* HOLDOUT=STATE: all its modes are */
+    int no_section;            /* the one error is that of a section that cannot be */
     int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
     unsigned doubted;          /* kinds of numbers that a warning was given for */
     int out_of_memory;
@@ -138,8 +138,9 @@ void deck_read_cards(struct deck_reader *reader);
 void deck_drop_unknown(struct deck_reader *reader, int p);
 /* MODES and HOLDOUT of a card. */
 void deck_choose_modes(struct deck_reader *reader, const struct card *card);
-/* NAME of HOLDOUT=STATE:NAME, else NULL. */
-const char *deck_whole_state(const char *holdout);
+/* The names of HOLDOUT=STATE:a,STATE:b one after the other: that at *rest, which goes on behind it; NULL behind the last one and
+ * where the value is a list of modes. */
+const char *deck_whole_state(struct deck_reader *reader, const char **rest);
 
 void deck_identify(struct deck_reader *reader, const struct card *card);
 void deck_fit(struct deck_reader *reader, const struct card *card);

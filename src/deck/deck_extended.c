@@ -2,13 +2,13 @@
 
 #include "deck/deck_write.h"
 
-/* The job to write and the values of its parameters: the base model where nothing was named. */
-static const struct job *extended_job(const struct diagnosis *d, const double **x)
+/* The states to write and the values of their unknowns: the base model where nothing was named. */
+static const struct states *extended_states(const struct diagnosis *d, const double **x)
 {
-    const struct job *job = d->extended_job.deck ? &d->extended_job : &d->job;
+    const struct states *states = d->extended_states.nstate ? &d->extended_states : &d->judged;
     const rotid_fit_result *fit = d->extended.fit ? d->extended.fit : d->base.fit;
-    *x = fit && fit->n == job->unknowns.nparameter ? fit->x : NULL;
-    return job;
+    *x = fit && fit->n == states->nparameter ? fit->x : NULL;
+    return states;
 }
 
 int deck_write_extended(struct pool *pool, const struct diagnosis *d, const char *from, char **text)
@@ -30,6 +30,6 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *d, const char
         if (!extra[i])
             return ROTID_ERROR_MEMORY;
     struct deck_write_options options = {.nextra = lines, .extra = extra};
-    const struct job *job = extended_job(d, &options.x);
-    return deck_write(pool, job, &options, text);
+    const struct states *states = extended_states(d, &options.x);
+    return deck_write_states(pool, states, &options, text);
 }

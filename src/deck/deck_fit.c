@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "deck/deck_row.h"
 #include "diagnose/causes/catalogue.h"
@@ -141,11 +142,21 @@ static int mark_modes(struct deck_reader *reader, const struct card_option *opti
     return missing;
 }
 
-const char *deck_whole_state(const char *holdout)
+const char *deck_whole_state(struct deck_reader *reader, const char **rest)
 {
-    char head[7];
-    (void)snprintf(head, sizeof head, "%s", holdout);
-    return same_text(head, "STATE:") ? holdout + 6 + strspn(holdout + 6, " ") : NULL;
+    static const char head[] = "STATE:";
+    const char *begin = *rest + strspn(*rest, " ");
+    if (strncasecmp(begin, head, strlen(head)) != 0)
+        return NULL;
+    begin += strlen(head);
+    begin += strspn(begin, " ");
+    size_t length = strcspn(begin, ",");
+    *rest = begin + length + (begin[length] == ',');
+    while (length && begin[length - 1] == ' ')
+        length--;
+    char *name = pool_format(reader->pool, "%.*s", (int)length, begin);
+    reader->out_of_memory |= !name;
+    return name;
 }
 
 void deck_choose_modes(struct deck_reader *reader, const struct card *card)
@@ -157,14 +168,17 @@ void deck_choose_modes(struct deck_reader *reader, const struct card *card)
         reader->out_of_memory = 1;
         return;
     }
-    const char *state = holdout ? deck_whole_state(holdout->value) : NULL;
+    const char *rest = holdout ? holdout->value : "", *state;
     int bad = modes && mark_modes(reader, modes, fitted);
-    bad |= holdout && !state && mark_modes(reader, holdout, job->measurement.holdout);
+    while ((state = deck_whole_state(reader, &rest)))
+        reader->held_out |= reader->state && !reader->alone && same_text(state, reader->state);
+    if (holdout && (*rest || rest == holdout->value)) /* not of states, or not to its end */
+        bad |= mark_modes(reader, &(struct card_option){.name = "HOLDOUT", .value = rest, .value_place = holdout->value_place},
+                          job->measurement.holdout);
     for (int k = 0; k < job->measurement.nmode; k++) {
         job->measurement.holdout[k] |= modes && !fitted[k];
         left += !job->measurement.holdout[k];
     }
-    reader->held_out |= state && reader->state && !reader->alone && same_text(state, reader->state);
     for (int k = 0; k < job->measurement.nmode && reader->held_out; k++)
         job->measurement.holdout[k] = 1;
     if (job->measurement.nmode && !left && !bad && !reader->held_out)

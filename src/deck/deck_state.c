@@ -71,12 +71,12 @@ static void find_states(struct deck_reader *reader, int nread, struct division *
     for (int c = 0; c < text->ncard; c++) {
         const struct card_option *option = card_option(&text->card[c], "STATE"),
                                  *holdout = card_option(&text->card[c], "HOLDOUT");
-        const char *held = holdout ? deck_whole_state(holdout->value) : NULL;
+        const char *rest = holdout ? holdout->value : "", *held;
         if (strcmp(text->card[c].name, "FIT") != 0)
             continue;
         if (option)
             check_option(reader, d, option, option->value);
-        if (held)
+        while ((held = deck_whole_state(reader, &rest)))
             check_option(reader, d, holdout, held);
         d->chosen = option ? option->value : d->chosen;
     }

@@ -3,6 +3,7 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/host.h"
 #include "file/open.h"
@@ -72,7 +73,16 @@ static struct place at(const struct reader *reader, const char *line_begin, cons
     return (struct place){reader->open_file[reader->depth], line, (int)(here - line_begin) + 1};
 }
 
-/* One piece of a keyword line: NAME=VALUE, NAME, or, behind a list such as MODES=1,2, the next item of the list. */
+/* Whether a piece goes on with a list: of numbers, or of states. */
+static int is_next_item(const char *list, const char *begin, const char *end)
+{
+    int state = end - begin > 6 && !strncasecmp(begin, "STATE:", 6) && !strncasecmp(list, "STATE:", 6);
+    return state ||
+           (!memchr(begin, '=', (size_t)(end - begin)) && isdigit((unsigned char)*begin) && isdigit((unsigned char)*list));
+}
+
+/* One piece of a keyword line: NAME=VALUE, NAME, or, behind a list such as MODES=1,2 or HOLDOUT=STATE:a, the next item of the
+ * list. */
 static void read_option(struct reader *reader, struct card *card, const char *line_begin, const char *begin, const char *end,
                         int line)
 {
@@ -81,7 +91,7 @@ static void read_option(struct reader *reader, struct card *card, const char *li
         return;
     const char *equals = memchr(begin, '=', (size_t)(end - begin));
     struct card_option *list = card->noption ? &card->option[card->noption - 1] : NULL;
-    if (!equals && list && isdigit((unsigned char)*begin) && isdigit((unsigned char)*list->value)) {
+    if (list && is_next_item(list->value, begin, end)) {
         char *item = copy_span(reader, begin, end), *longer = item ? pool_format(reader->pool, "%s,%s", list->value, item) : NULL;
         if (longer)
             list->value = longer;

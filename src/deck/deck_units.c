@@ -99,7 +99,8 @@ void deck_doubt(struct deck_reader *reader, struct place place, const char *what
     size_t i = 0, count = sizeof usual / sizeof *usual;
     while (i < count && !strstr(what, usual[i].what))
         i++;
-    if (i == count || value <= 0 || (value >= usual[i].least && value <= usual[i].most) || reader->doubted & 1U << i)
+    if (i == count || strstr(what, "deviation") || /* which says nothing of the unit: any size is usual */
+        value <= 0 || (value >= usual[i].least && value <= usual[i].most) || reader->doubted & 1U << i)
         return;
     reader->doubted |= 1U << i; /* once of a kind */
     if (usual[i].share) {

@@ -31,7 +31,7 @@ static void put_text(struct deck_writer *w, const char *text)
         deck_put(w, "%s\n", line);
 }
 
-static void write_heading(struct deck_writer *w, const struct deck_write_options *options)
+void deck_write_heading(struct deck_writer *w, const struct deck_write_options *options)
 {
     const struct job *job = w->job;
     int extra = options ? options->nextra : 0;
@@ -67,7 +67,6 @@ static void *copy(struct deck_writer *w, const void *source, int count, size_t s
 static void set_parameters(struct deck_writer *w)
 {
     struct rotor *rotor = &w->rotor;
-    rotor->group = copy(w, rotor->group, rotor->ngroup, sizeof *rotor->group);
     rotor->tierod = copy(w, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod);
     rotor->effect = copy(w, rotor->effect, rotor->neffect, sizeof *rotor->effect);
     for (int p = 0; p < w->job->unknowns.nparameter && !w->status; p++)
@@ -90,6 +89,21 @@ static void name_targets(struct deck_writer *w, int count, const struct effect *
     }
 }
 
+int deck_writer_open(struct deck_writer *w, struct pool *pool, const struct job *job, const double *x)
+{
+    *w = (struct deck_writer){.pool = pool, .job = job, .rotor = job->rotor, .x = x};
+    w->rotor.disk = copy(w, w->rotor.disk, w->rotor.ndisk, sizeof *w->rotor.disk);
+    w->rotor.spring = copy(w, w->rotor.spring, w->rotor.nspring, sizeof *w->rotor.spring);
+    w->rotor.group = copy(w, w->rotor.group, w->rotor.ngroup, sizeof *w->rotor.group);
+    if (w->x && !w->status)
+        set_parameters(w);
+    if (!w->status)
+        name_targets(w, w->rotor.neffect, w->rotor.effect);
+    for (int i = 0; i < job->unknowns.nsuspect && !w->status; i++)
+        name_targets(w, 1, &job->unknowns.suspect[i].effect);
+    return w->status;
+}
+
 /* Lines and cards within the limits of a reader. */
 static int is_readable(const char *text, size_t length)
 {
@@ -105,30 +119,33 @@ static int is_readable(const char *text, size_t length)
     return cards <= DECK_MOST_CARDS && (long)length <= DECK_MOST_BYTES;
 }
 
+int deck_writer_end(struct deck_writer *w, char **text)
+{
+    *text = NULL;
+    if (w->status)
+        return w->status;
+    if (!is_readable(w->text, w->length))
+        return ROTID_ERROR_ARGUMENT;
+    *text = w->text;
+    return ROTID_OK;
+}
+
 int deck_write(struct pool *pool, const struct job *job, const struct deck_write_options *options, char **text)
 {
-    struct deck_writer w = {.pool = pool, .job = job, .rotor = job->rotor, .x = options ? options->x : NULL};
+    struct deck_writer w;
     *text = NULL;
-    w.rotor.disk = copy(&w, w.rotor.disk, w.rotor.ndisk, sizeof *w.rotor.disk);
-    w.rotor.spring = copy(&w, w.rotor.spring, w.rotor.nspring, sizeof *w.rotor.spring);
-    if (w.x && !w.status)
-        set_parameters(&w);
-    if (!w.status)
-        name_targets(&w, w.rotor.neffect, w.rotor.effect);
-    for (int i = 0; i < job->unknowns.nsuspect && !w.status; i++)
-        name_targets(&w, 1, &job->unknowns.suspect[i].effect);
-    if (w.status)
+    if (deck_writer_open(&w, pool, job, options ? options->x : NULL))
         return w.status;
-    write_heading(&w, options);
+    deck_write_heading(&w, options);
     deck_write_model(&w);
     deck_write_measured(&w);
+    deck_write_corrections(&w);
     deck_write_causes(&w);
-    deck_write_identify(&w);
+    if (job->unknowns.nparameter)
+        deck_put(&w, "*IDENTIFY\n");
+    for (int p = 0; p < job->unknowns.nparameter; p++)
+        deck_write_unknown(&w, p, job->unknowns.bounds[p].name);
+    deck_write_fit(&w, 1);
     deck_write_frf(&w);
-    if (w.status)
-        return w.status;
-    if (!is_readable(w.text, w.length))
-        return ROTID_ERROR_ARGUMENT;
-    *text = w.text;
-    return ROTID_OK;
+    return deck_writer_end(&w, text);
 }

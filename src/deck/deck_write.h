@@ -3,7 +3,7 @@
 #define ROTID_DECK_DECK_WRITE_H
 
 #include "base/pool.h"
-#include "run/job.h"
+#include "run/states.h"
 
 struct deck_write_options {
     int nextra;
@@ -19,5 +19,10 @@ struct deck_write_options {
  * name with a comma or too long for a line, a cause without a name, a sensor id or mode number beyond those of a deck, too many
  * cards. */
 int deck_write(struct pool *pool, const struct job *job, const struct deck_write_options *options, char **text);
+
+/* The deck of all states; x of the options: of the unknowns of all [states->nparameter]. Common are the cards that all states
+ * begin with; moduli, densities and lengths of groups that differ stand in *SET. Reading it gives each state as deck_write would,
+ * but for lengths that *SET states, and positions on them, within 1e-12. Statuses as of deck_write. */
+int deck_write_states(struct pool *pool, const struct states *states, const struct deck_write_options *options, char **text);
 
 #endif

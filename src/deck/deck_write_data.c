@@ -176,7 +176,7 @@ static void write_interface(struct deck_writer *w, int left)
 {
     const struct group *group = &w->rotor.group[left];
     double from, to;
-    rotor_group_span(&w->rotor, left, &from, &to);
+    rotor_group_span(&w->job->rotor, left, &from, &to); /* with the lengths of its state */
     if (is_list_item(group[1].name)) {
         deck_put_option(w, "BETWEEN", group[0].name);
         deck_put(w, ",%s", group[1].name);
@@ -283,10 +283,14 @@ static void write_correction(struct deck_writer *w, const struct correction *cor
     }
 }
 
-void deck_write_causes(struct deck_writer *w)
+void deck_write_corrections(struct deck_writer *w)
 {
     for (int i = 0; i < w->job->measurement.ncorrection; i++)
         write_correction(w, &w->job->measurement.correction[i]);
+}
+
+void deck_write_causes(struct deck_writer *w)
+{
     for (int i = 0; i < w->rotor.neffect; i++)
         write_effect(w, &w->rotor.effect[i], NULL);
     for (int i = 0; i < w->job->unknowns.nsuspect; i++)
@@ -306,49 +310,54 @@ static double start_of(const rotid_parameter *bounds, double x)
     return x != 0 ? x : bounds->start;
 }
 
-static void write_holdout(struct deck_writer *w)
+static int holds_out(const struct job *job)
+{
+    int any = 0;
+    for (int k = 0; k < job->measurement.nmode && job->measurement.holdout; k++)
+        any |= job->measurement.holdout[k];
+    return any;
+}
+
+void deck_write_holdout(struct deck_writer *w)
 {
     const char *separator = ", HOLDOUT=";
-    for (int k = 0, count = 0; k < w->job->measurement.nmode; k++)
+    for (int k = 0, count = 0; k < w->job->measurement.nmode && w->job->measurement.holdout; k++)
         if (w->job->measurement.holdout[k]) {
             deck_put(w, "%s%d", separator, w->job->measurement.number[k]);
             separator = ++count % 20 ? "," : ",\n    ";
         }
 }
 
-void deck_write_identify(struct deck_writer *w)
+void deck_write_unknown(struct deck_writer *w, int p, const char *name)
 {
-    const struct job *job = w->job;
-    int any_held_out = 0;
-    for (int k = 0; k < job->measurement.nmode && job->measurement.holdout; k++)
-        any_held_out |= job->measurement.holdout[k];
-    if (job->unknowns.nparameter)
-        deck_put(w, "*IDENTIFY\n");
-    for (int p = 0; p < job->unknowns.nparameter; p++) {
-        rotid_parameter bounds = job->unknowns.bounds[p];
-        struct parameter parameter = job->unknowns.parameter[p];
-        if (!bounds.name || *bounds.name == '*' || strchr(bounds.name, ','))
-            refuse(w);
-        if (parameter.kind == PARAMETER_EFFECT) {
-            const struct effect *effect = &w->rotor.effect[parameter.index];
-            bounds.lower = inside_physical(w, effect, parameter.component, bounds.lower);
-            bounds.upper = inside_physical(w, effect, parameter.component, bounds.upper);
-        }
-        deck_put(w, "%s", bounds.name ? bounds.name : "");
-        deck_put_number(w, ", ", bounds.lower);
-        deck_put_number(w, ", ", bounds.upper);
-        deck_put_number(w, ", ", start_of(&bounds, w->x ? w->x[p] : bounds.start));
-        deck_put(w, "\n");
+    rotid_parameter bounds = w->job->unknowns.bounds[p];
+    struct parameter parameter = w->job->unknowns.parameter[p];
+    if (!name || !*name || *name == '*' || strchr(name, ','))
+        refuse(w);
+    if (parameter.kind == PARAMETER_EFFECT) {
+        const struct effect *effect = &w->rotor.effect[parameter.index];
+        bounds.lower = inside_physical(w, effect, parameter.component, bounds.lower);
+        bounds.upper = inside_physical(w, effect, parameter.component, bounds.upper);
     }
-    if (!job->options.has_fit && !any_held_out && !job->options.solid && job->options.fit.reduction == ROTID_REDUCTION_NONE &&
-        job->options.fit.derivative == ROTID_NELSON)
+    deck_put(w, "%s", name ? name : "");
+    deck_put_number(w, ", ", bounds.lower);
+    deck_put_number(w, ", ", bounds.upper);
+    deck_put_number(w, ", ", start_of(&bounds, w->x ? w->x[p] : bounds.start));
+    deck_put(w, "\n");
+}
+
+void deck_write_fit(struct deck_writer *w, int with_holdout)
+{
+    const struct job_options *options = &w->job->options;
+    int holdout = with_holdout && holds_out(w->job);
+    if (!options->has_fit && !holdout && !options->solid && options->fit.reduction == ROTID_REDUCTION_NONE &&
+        options->fit.derivative == ROTID_NELSON)
         return;
     deck_put_card(w, "FIT");
-    deck_write_options(w, job->options.has_fit ? deck_fit_rows : deck_fit_rows + 1,
-                       &job->options.fit); /* the first one: FUNCTIONAL */
-    if (job->options.solid)
+    deck_write_options(w, options->has_fit ? deck_fit_rows : deck_fit_rows + 1, &options->fit); /* the first one: FUNCTIONAL */
+    if (options->solid)
         deck_put_option(w, "MODEL", "SOLID");
-    if (any_held_out)
-        write_holdout(w);
+    if (holdout)
+        deck_write_holdout(w);
     deck_put(w, "\n");
 }

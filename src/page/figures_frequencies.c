@@ -121,12 +121,31 @@ static const char *compared(struct pool *pool, const rotid_identification *fit, 
     return text ? text : "";
 }
 
+/* The mode with the largest error, of a state that is held out too; -1: none has an error. */
+static int worst_of(const rotid_identification *fit)
+{
+    int worst = fit_worst_mode(fit);
+    for (int k = 0; k < fit->nmodes && (worst < 0 || fit->modes[worst].holdout); k++)
+        if (isfinite(fit->modes[k].error_percent) &&
+            (worst < 0 || fabs(fit->modes[k].error_percent) > fabs(fit->modes[worst].error_percent)))
+            worst = k;
+    return worst;
+}
+
+/* "mode 3 of state free" */
+static const char *mode_text(struct pool *pool, const rotid_identification *fit, int k)
+{
+    const char *state = fit_state_of_mode(fit, k),
+               *text = pool_format(pool, "mode %d%s%s", fit->modes[k].mode, state ? " of state " : "", state ? state : "");
+    return text ? text : "";
+}
+
 void figure_frequencies(struct document *document, const struct result *result, const rotid_identification *fit)
 {
     struct pool *pool = document->pool;
     struct errors errors;
     struct plot plot;
-    int worst = fit_worst_mode(fit), held = 0;
+    int worst = worst_of(fit), held = 0, predicted_alone = worst >= 0 && fit->modes[worst].holdout;
     if (worst < 0)
         return;
     struct figure *figure = document_figure(document, "frequencies", "Errors of the predicted frequencies");
@@ -135,13 +154,15 @@ void figure_frequencies(struct document *document, const struct result *result, 
         return;
     for (int k = 0; k < fit->nmodes; k++)
         held += fit->modes[k].holdout;
-    const char *left = held ? pool_format(pool, "; modes with a star were held out of the fit (rms %s\xc2\xa0%%)",
-                                          human_digits(pool, fit_rms_percent(fit, 1), 2))
-                            : "";
+    const char *left = held && !predicted_alone
+                           ? pool_format(pool, "; modes with a star were held out of the fit (rms %s\xc2\xa0%%)",
+                                         human_digits(pool, fit_rms_percent(fit, 1), 2))
+                           : "";
     figure->caption =
-        pool_format(pool, "Predicted over measured frequency, less one: %s\xc2\xa0%% rms, largest %s\xc2\xa0%% in mode %d%s.%s",
-                    human_digits(pool, fit_rms_percent(fit, 0), 2), human_signed(pool, fit->modes[worst].error_percent, 2),
-                    fit->modes[worst].mode, left ? left : "", compared(pool, fit, &errors));
+        pool_format(pool, "Predicted over measured frequency, less one: %s\xc2\xa0%% rms, largest %s\xc2\xa0%% in %s%s.%s%s",
+                    human_digits(pool, fit_rms_percent(fit, predicted_alone), 2),
+                    human_signed(pool, fit->modes[worst].error_percent, 2), mode_text(pool, fit, worst), left ? left : "",
+                    predicted_alone ? " No mode of this state is in the fit." : "", compared(pool, fit, &errors));
     struct plot_range range = plot_range_of(fit->nmodes, series_values(errors.series, ERRORS), 0);
     figure->alt = pool_format(pool, "For each of %d modes its error in per cent, from %s to %s.", fit->nmodes,
                               human_signed(pool, range.from, 2), human_signed(pool, range.to, 2));

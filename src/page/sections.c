@@ -12,7 +12,7 @@ void section_rotor(struct document *document, const struct result *result, const
     figure_rotor(document, result, geometry_of_result(result), fit);
 }
 
-void section_identify(struct document *document, const struct result *result)
+void section_agreement(struct document *document, const struct result *result)
 {
     const rotid_identification *fit = result->identify;
     document_section(document, "agreement", "Model and measurement");
@@ -21,6 +21,20 @@ void section_identify(struct document *document, const struct result *result)
     figure_matrices(document, result, fit);
     document_table(document, "Modes: errors are predicted over measured frequency, less one",
                    tables_fitted_modes(document->pool, result, fit));
+}
+
+void section_states(struct document *document, const struct result *result)
+{
+    const rotid_identification *fit = result->identify;
+    document_section(document, "states", "All states together");
+    figure_frequencies(document, result, fit);
+    document_table(document, "States: one set of parameters for all, each with its own model and modes",
+                   tables_states(document->pool, fit));
+}
+
+void section_fit(struct document *document, const struct result *result)
+{
+    const rotid_identification *fit = result->identify;
     document_section(document, "parameters", "What was identified");
     figure_intervals(document, result, fit);
     figure_correlation(document, result, fit);

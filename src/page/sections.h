@@ -19,7 +19,11 @@ void answer_plain(struct document *document, const struct result *result);
 void section_rests_on(struct document *document, int count, const struct result *result);
 
 void section_rotor(struct document *document, const struct result *result, const rotid_identification *fit);
-void section_identify(struct document *document, const struct result *result);
+/* How well model and measurement agree, of a deck that is one state or of one of its states; of all states together; what was
+ * identified and how the fit got there, of all states at once. */
+void section_agreement(struct document *document, const struct result *result);
+void section_states(struct document *document, const struct result *result);
+void section_fit(struct document *document, const struct result *result);
 void section_diagnose(struct document *document, const struct result *result);
 void section_study(struct document *document, const struct result *result);
 void section_modes(struct document *document, const struct result *result);

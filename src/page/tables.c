@@ -67,6 +67,27 @@ struct number_table *tables_fitted_modes(struct pool *pool, const struct result 
     return table;
 }
 
+struct number_table *tables_states(struct pool *pool, const rotid_identification *fit)
+{
+    static const char *const head[] = {"state",        "modes",           "residuals in the fit", "rms error, fitted [%]",
+                                       "held out [%]", "chi-squared [1]", "length [m]",           "mass [kg]"};
+    struct number_table *table = table_new(pool, fit->nstates, 8);
+    for (int j = 0; j < 8; j++)
+        table_head(table, j, head[j]);
+    for (int s = 0; s < fit->nstates; s++) {
+        const rotid_identification own = fit_of_state(fit, s);
+        table_cell(table, s, 0, fit->states[s].name);
+        table_cell(table, s, 1, human_fixed(pool, own.nmodes, 0));
+        table_cell(table, s, 2, human_fixed(pool, fit->states[s].fitted_residuals, 0));
+        table_cell(table, s, 3, human_fixed(pool, fit_rms_percent(&own, 0), 3));
+        table_cell(table, s, 4, human_fixed(pool, fit_rms_percent(&own, 1), 3));
+        table_cell(table, s, 5, human_digits(pool, own.chi2, 3));
+        table_cell(table, s, 6, human_trimmed(pool, own.geometry ? own.geometry->length_m : (double)NAN, 5));
+        table_cell(table, s, 7, human_trimmed(pool, own.mass_kg, 5));
+    }
+    return table;
+}
+
 struct number_table *tables_minimisers(struct pool *pool, const rotid_identification *fit)
 {
     struct number_table *table = table_new(pool, fit->nbaseline + 1, 6 + fit->nparameters);

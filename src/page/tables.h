@@ -8,6 +8,8 @@
 struct number_table *tables_parameters(struct pool *pool, const rotid_identification *fit);
 /* Measured and predicted frequencies with all that is known of each mode. */
 struct number_table *tables_fitted_modes(struct pool *pool, const struct result *result, const rotid_identification *fit);
+/* What each state has of the fit. */
+struct number_table *tables_states(struct pool *pool, const rotid_identification *fit);
 /* Levenberg-Marquardt and NLopt side by side. */
 struct number_table *tables_minimisers(struct pool *pool, const rotid_identification *fit);
 struct number_table *tables_modes(struct pool *pool, const rotid_spectrum *modes);

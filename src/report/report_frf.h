@@ -11,6 +11,7 @@
 
 struct frf_view {
     struct pool *pool; /* for curves, row by row */
+    const char *state; /* NULL of a deck that is one */
     const struct job *job;
     const struct identification *identified; /* NULL: the model as the deck states it */
     const struct frf_set *set;               /* NULL: nothing measured beside */
@@ -18,8 +19,8 @@ struct frf_view {
     int verbose; /* every function a row */
 };
 
-/* ROTID_OK or ROTID_ERROR_MEMORY. */
-int table_frf(FILE *out, const struct result_head *head, const struct frf_view *view);
+/* Behind a heading. ROTID_OK or ROTID_ERROR_MEMORY. */
+int table_frf(FILE *out, const struct frf_view *view);
 
 /* The functions of JSON carry their curves up to this many lines of all of them together; more belong in a universal file. */
 #define JSON_FRF_MOST_LINES 250000

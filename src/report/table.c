@@ -9,6 +9,11 @@ void table_heading(FILE *out, const struct result_head *head)
     (void)fputc('\n', out);
 }
 
+void table_state(FILE *out, int i, const char *name)
+{
+    (void)fprintf(out, "%sstate %s\n", i ? "\n" : "", name);
+}
+
 void table_notes(FILE *out, const struct message_list *notes)
 {
     int any = 0;

@@ -63,10 +63,8 @@ static void print_solid(FILE *out, const rotid_solid_mesh *solid)
     (void)fprintf(out, "largest element %12.6f m\n", solid->largest_m);
 }
 
-void table_check(FILE *out, const struct result *result, const struct job *job)
+static void print_check(FILE *out, const rotid_check *check, const struct job *job)
 {
-    const rotid_check *check = result->check;
-    table_heading(out, &result->head);
     (void)fprintf(out, "length          %12.6f m\n", check->length_m);
     (void)fprintf(out, "mass            %12.4f kg\n", check->mass_kg);
     (void)fprintf(out, "centre of mass  %12.6f m from the left end\n", check->center_of_mass_m);
@@ -92,4 +90,15 @@ void table_check(FILE *out, const struct result *result, const struct job *job)
                       group->layer_of ? group->layer_of : "");
     }
     print_causes(out, job);
+}
+
+void table_check(FILE *out, const struct result *result, const struct job *const *job)
+{
+    table_heading(out, &result->head);
+    if (!result->nstates)
+        print_check(out, result->check, job[0]);
+    for (int s = 0; s < result->nstates; s++) {
+        table_state(out, s, result->states[s].name);
+        print_check(out, result->states[s].check, job[s]);
+    }
 }

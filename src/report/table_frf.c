@@ -204,9 +204,8 @@ static int print_first(FILE *out, const struct frf_view *view)
     return ROTID_OK;
 }
 
-int table_frf(FILE *out, const struct result_head *head, const struct frf_view *view)
+int table_frf(FILE *out, const struct frf_view *view)
 {
-    table_heading(out, head);
     print_model(out, view);
     print_modes(out, view);
     int status = print_rows(out, view);

@@ -45,10 +45,8 @@ static void print_beside(FILE *out, const rotid_beam_beside_solid *beside)
         (void)fprintf(out, "\n%s\n", beside->sentence);
 }
 
-void table_modes(FILE *out, const struct result *result, int shapes)
+static void print_modes(FILE *out, const rotid_spectrum *s, int shapes)
 {
-    const rotid_spectrum *s = result->modes;
-    table_heading(out, &result->head);
     for (int i = 0; i < s->nrigid_hz; i++)
         (void)fprintf(out, "rotor on its supports: %.4f Hz\n", s->rigid_hz[i]);
     (void)fprintf(out, "%smode   full model   %-6s [Hz]  reduction   mesh      measured    error     NCO\n",
@@ -71,4 +69,15 @@ void table_modes(FILE *out, const struct result *result, int shapes)
         print_beside(out, s->beside);
     if (shapes)
         print_shapes(out, s);
+}
+
+void table_modes(FILE *out, const struct result *result, int shapes)
+{
+    table_heading(out, &result->head);
+    if (!result->nstates)
+        print_modes(out, result->modes, shapes);
+    for (int s = 0; s < result->nstates; s++) {
+        table_state(out, s, result->states[s].name);
+        print_modes(out, result->states[s].modes, shapes);
+    }
 }

@@ -15,10 +15,8 @@ static void signed_power(FILE *out, double value)
         (void)fprintf(out, "%11s", "-");
 }
 
-void table_sensitivity(FILE *out, const struct result *result)
+static void print_sensitivity(FILE *out, const struct result_head *head, const struct sensitivity *r)
 {
-    const struct sensitivity *r = result->sensitivity;
-    table_heading(out, &result->head);
     (void)fprintf(out,
                   "sensitivity of E_k = 1 - R*_k/w_k^2 to the relative value of each parameter, %g %% steps, reduction %s\n\n",
                   100 * r->step, r->reduction);
@@ -26,7 +24,7 @@ void table_sensitivity(FILE *out, const struct result *result)
         const struct sensitivity_parameter *one = &r->parameters[p];
         char quantity[128];
         (void)snprintf(quantity, sizeof quantity, "sensitivity %s", one->name);
-        const rotid_reference *paper = head_reference(&result->head, quantity);
+        const rotid_reference *paper = head_reference(head, quantity);
         (void)fprintf(out, "%s at %.6g %s\n", one->name, one->reference, strcmp(one->unit, "1") ? one->unit : "");
         (void)fprintf(out, "mode   frequency [Hz]   step        limit       %s\n", paper ? "paper (magnitude)" : "");
         for (int k = 0; k < r->nfrequency_hz; k++) {
@@ -51,5 +49,16 @@ void table_sensitivity(FILE *out, const struct result *result)
             (void)fputc('\n', out);
         }
         (void)fputc('\n', out);
+    }
+}
+
+void table_sensitivity(FILE *out, const struct result *result)
+{
+    table_heading(out, &result->head);
+    if (!result->nstates)
+        print_sensitivity(out, &result->head, result->sensitivity);
+    for (int s = 0; s < result->nstates; s++) {
+        table_state(out, 0, result->states[s].name); /* a table ends in a line of its own */
+        print_sensitivity(out, &result->head, result->states[s].sensitivity);
     }
 }

@@ -22,6 +22,7 @@ static const struct field parameter_fields[] = {
 static const struct record parameter_record = RECORD(struct run_parameter, parameter_fields);
 
 static const struct field mode_fields[] = {
+    TEXT(struct run_mode, state, IF_KNOWN),
     INTEGER(struct run_mode, mode, FROM_1),
     NUMBER(struct run_mode, measured_hz, ABOVE_0),
     NUMBER(struct run_mode, predicted_hz, MAY_BE_NULL | FROM_0),

@@ -11,13 +11,25 @@
 #define WARNINGS   TEXTS(struct result, warnings, SINCE_LATER)
 #define OWN(M, R)  INLINE(struct result, M, BEHIND_POINTER, R)
 
-static const struct field check_fields[] = {HEAD, OWN(check, check_record), WARNINGS, {0}};
-static const struct field modes_fields[] = {HEAD, OWN(modes, spectrum_record), WARNINGS, {0}};
+/* The same of each state. */
+#define STATE(M, R)                                                                                                              \
+    static const struct field M##_state_fields[] = {                                                                             \
+        TEXT(struct result_state, name, 0), INLINE(struct result_state, M, BEHIND_POINTER, R), {0}};                             \
+    static const struct record M##_state_record = RECORD(struct result_state, M##_state_fields)
+#define STATES(M) STRUCTS(struct result, states, IF_KNOWN, M##_state_record)
+
+STATE(check, check_record);
+STATE(modes, spectrum_record);
+STATE(sensitivity, sensitivity_record);
+STATE(frf, transfer_record);
+
+static const struct field check_fields[] = {HEAD, OWN(check, check_record), STATES(check), WARNINGS, {0}};
+static const struct field modes_fields[] = {HEAD, OWN(modes, spectrum_record), STATES(modes), WARNINGS, {0}};
 static const struct field identify_fields[] = {
     HEAD, OWN(identify, identification_record), OWN(identify, identification_alone_record), WARNINGS, {0}};
 static const struct field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
-static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), {0}};
-static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), WARNINGS, {0}};
+static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity), {0}};
+static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), STATES(frf), WARNINGS, {0}};
 static const struct field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
 static const struct field uff_fields[] = {PROVENANCE, OWN(uff, uff_record), {0}};
 static const struct field export_fields[] = {HEAD, OWN(export, export_record), WARNINGS, {0}};

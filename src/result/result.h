@@ -13,9 +13,19 @@ struct lacking {
 };
 #define LACKING_MOST 4
 
+/* What a command found of one of several states. */
+struct result_state {
+    const char *name; /* of the *STATE */
+    /* of the command; the others are NULL */
+    rotid_check *check;
+    rotid_spectrum *modes;
+    const struct sensitivity *sensitivity;
+    const struct transfer_result *frf;
+};
+
 struct result {
     struct result_head head;
-    /* of the command that head.command names; the others are NULL */
+    /* of the command that head.command names, of several states the first one's; the others are NULL */
     rotid_check *check;
     rotid_spectrum *modes;
     rotid_identification *identify;
@@ -26,6 +36,9 @@ struct result {
     const struct uff_result *uff;
     const struct export_result *export;
     const struct study_result *study;
+    int nstates;
+    struct result_state *states; /* of a deck with several *STATE what each has, in its order; none of a deck that is one state.
+                                    What stands beside it is of the first */
     int nwarnings;
     const char **warnings; /* what the reader of the deck, the pairing and the fit have to say; empty where there is nothing */
     /* of a result that was read from a file */

@@ -131,6 +131,20 @@ static void check_diagnosis(const struct json_place *root, const rotid_diagnosis
         expect(root, "modes_standardised", d->nmodes_standardised, d->base->nmodes, "base.modes");
 }
 
+/* What a command found of each state, as if it stood alone. */
+static void check_each_state(const struct json_place *root, const struct result *result)
+{
+    for (int s = 0; s < result->nstates; s++) {
+        struct result own = *result;
+        own.nstates = 0;
+        own.check = result->states[s].check;
+        own.modes = result->states[s].modes;
+        own.sensitivity = result->states[s].sensitivity;
+        own.frf = result->states[s].frf;
+        result_check(root, &own);
+    }
+}
+
 void result_check(const struct json_place *root, const struct result *result)
 {
     const rotid_geometry *geometry = geometry_of_result(result);
@@ -148,4 +162,5 @@ void result_check(const struct json_place *root, const struct result *result)
         expect(root, "modes[].shape", result->modes->modes[k].nshape, result->modes->nsensor_z_m, "sensor_z_m");
     if (result->modes)
         check_meridian(root, result->modes);
+    check_each_state(root, result);
 }

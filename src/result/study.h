@@ -58,6 +58,7 @@ struct run_parameter {
 
 /* a measured mode */
 struct run_mode {
+    const char *state;    /* of a deck with several *STATE, which one; else without this key */
     int mode;             /* of the model that it is paired with, from 1 */
     double measured_hz;   /* of the data of this run [Hz] */
     double predicted_hz;  /* of the fitted model [Hz] */

@@ -339,6 +339,36 @@ static int identify(struct pool *pool, const struct states *given, int baseline,
     return status;
 }
 
+int identify_own_unknowns(struct pool *pool, const struct state *state, struct identification *out)
+{
+    int n = state->job.unknowns.nparameter;
+    rotid_fit_result *own = POOL_NEW(pool, rotid_fit_result);
+    int *flag = POOL_ARRAY(pool, int, 2 * n);
+    double *value[4] = {out->fit->x, out->fit->std, out->fit->ci_lower, out->fit->ci_upper};
+    if (!own || !flag)
+        return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < 4; i++)
+        if (!(value[i] = state_values(pool, state, value[i])))
+            return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < n; p++) {
+        flag[p] = out->fit->at_bound[state_unknown(state, p)];
+        flag[n + p] = out->fit->identifiable[state_unknown(state, p)];
+    }
+    *own = *out->fit;
+    own->n = n;
+    own->x = value[0];
+    own->std = value[1];
+    own->ci_lower = value[2];
+    own->ci_upper = value[3];
+    own->at_bound = flag;
+    own->identifiable = flag + n;
+    own->covariance = own->correlation = own->singular_value = own->direction = own->history_x = NULL;
+    own->direction_undetermined = NULL;
+    own->nhistory = own->nbaseline = 0;
+    out->fit = own;
+    return ROTID_OK;
+}
+
 static int identify_one(struct pool *pool, const struct job *job, int baseline, int bare, const rotid_environment *environment,
                         struct message_list *notes, struct identification *out)
 {
@@ -352,6 +382,12 @@ int identify_states(struct pool *pool, const struct states *states, int baseline
                     struct message_list *notes, struct identification *out, rotid_fit_result **fit)
 {
     return identify(pool, states, baseline, 0, environment, notes, out, fit);
+}
+
+int identify_states_bare(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
+                         struct message_list *notes, struct identification *out, rotid_fit_result **fit)
+{
+    return identify(pool, states, baseline, 1, environment, notes, out, fit);
 }
 
 int identify_run(struct pool *pool, const struct job *job, int baseline, const rotid_environment *environment,

@@ -39,6 +39,15 @@ int identify_run_bare(struct pool *pool, const struct job *job, int baseline, co
 int identify_states(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
                     struct message_list *notes, struct identification *out, rotid_fit_result **fit);
 
+/* The same with as little as identify_run_bare. */
+int identify_states_bare(struct pool *pool, const struct states *states, int baseline, const rotid_environment *environment,
+                         struct message_list *notes, struct identification *out, rotid_fit_result **fit);
+
+/* The fit that identify_states left in `out` of a state, for those that work on its job: of its own unknowns alone, n, x, std,
+ * limits, at_bound and identifiable in the order of the job; without what goes over pairs of them. ROTID_OK or
+ * ROTID_ERROR_MEMORY. */
+int identify_own_unknowns(struct pool *pool, const struct state *state, struct identification *out);
+
 /* Warns where the condensed model that was fitted has other frequencies than the full one, of which `what` is said: "written". */
 void identify_warn_of_reduction(const struct job *job, const struct identification *result, const char *what,
                                 struct message_list *notes);

@@ -88,7 +88,7 @@ static int give_up(struct checker *c, int d, const struct message_list *found)
 }
 
 /* The deck as it stands. Status of the reader. */
-static int read_plain(struct checker *c, int d, struct message_list *found, struct job *job)
+static int read_plain(struct checker *c, int d, struct message_list *found, struct states *states)
 {
     struct plan_variant variant = {0};
     struct plan_modes modes = {0};
@@ -99,13 +99,14 @@ static int read_plain(struct checker *c, int d, struct message_list *found, stru
     plain.modes = &modes;
     study.plan = &plain;
     message_open(found, &c->scratch);
-    return jobs_read_fitted(&c->scratch, &study, &cell, found, job);
+    return jobs_read_fitted(&c->scratch, &study, &cell, found, states);
 }
 
-/* The files of a deck, those that no deck before it has. */
-static int keep_files(struct checker *c, const struct job *job)
+/* The files of a deck, those that no deck before it has; of several states the last one has all. */
+static int keep_files(struct checker *c, const struct states *states)
 {
     struct study *study = c->study;
+    const struct job *job = &states->state[states->nstate - 1].job;
     for (int i = 0; i < job->nfile; i++) {
         int known = 0;
         while (known < study->nfile && strcmp(study->file[known], job->file[i]) != 0)
@@ -150,7 +151,8 @@ static void check_sensors(struct checker *c, const struct study_cell *cell, cons
     }
 }
 
-static void check_truth(struct checker *c, int d, const struct job *job)
+/* In one of the states at least. */
+static void check_truth(struct checker *c, int d, const struct states *states)
 {
     const struct plan *plan = c->study->plan;
     for (int t = 0; t < plan->ntruth; t++) {
@@ -159,7 +161,10 @@ static void check_truth(struct checker *c, int d, const struct job *job)
         char text[512];
         (void)snprintf(text, sizeof text, "%s is no parameter of deck %s, expected one such as NAME.E", plan->truth[t].name,
                        plan->deck[d].name);
-        if (parameter_find(&job->rotor, plan->truth[t].name, &parameter, &unit))
+        int found = 0;
+        for (int s = 0; s < states->nstate; s++)
+            found |= !parameter_find(&states->state[s].job.rotor, plan->truth[t].name, &parameter, &unit);
+        if (!found)
             report(c, plan->truth[t].place, text);
     }
 }
@@ -170,7 +175,7 @@ static int check_hidden(struct checker *c, int d)
     int status = ROTID_OK;
     for (int h = 0; h < plan->nhide && status != ROTID_ERROR_MEMORY; h++) {
         struct message_list found;
-        struct truth truth;
+        struct truth *truth;
         message_open(&found, &c->scratch);
         if (plan->hide[h].lower)
             status = jobs_read_truth(&c->scratch, c->study, d, h, &found, &truth);
@@ -188,32 +193,39 @@ static int check_variants(struct checker *c, int d)
     for (cell.variant = 0; cell.variant < plan->nvariant; cell.variant++)
         for (cell.modes = 0; cell.modes < plan->nmodes; cell.modes++) {
             struct message_list found;
-            struct job job;
+            struct states states;
             message_open(&found, &c->scratch);
-            int status = jobs_read_fitted(&c->scratch, c->study, &cell, &found, &job);
+            int status = jobs_read_fitted(&c->scratch, c->study, &cell, &found, &states);
             if (status == ROTID_ERROR_MEMORY)
                 return status;
             if (status) {
                 blame_plan(c, &cell, &found);
                 continue;
             }
-            if (keep_files(c, &job))
+            if (keep_files(c, &states))
                 return ROTID_ERROR_MEMORY;
-            check_sensors(c, &cell, &job);
-            c->check->nparameter[cell.variant + (ptrdiff_t)d * plan->nvariant] = job.unknowns.nparameter;
-            if (!cell.modes)
-                digest_measured(&c->check->data, &job);
+            for (int s = 0; s < states.nstate; s++) {
+                check_sensors(c, &cell, &states.state[s].job);
+                if (!cell.modes)
+                    digest_measured(&c->check->data, &states.state[s].job);
+            }
+            c->check->nparameter[cell.variant + (ptrdiff_t)d * plan->nvariant] = states.nparameter;
         }
     return ROTID_OK;
 }
 
 /* What a run cannot do without. */
-static void check_job(const struct plan *plan, const struct job *job, struct message_list *found)
+static void check_states(const struct plan *plan, const struct states *states, struct message_list *found)
 {
-    if (!job->measurement.nmode)
-        message_add(found, SEVERITY_ERROR, job->deck, 1, 1, "the deck has no measured modes, expected *MODES or *MEASURED");
-    if (!job->unknowns.nparameter && plan->command == PLAN_IDENTIFY)
-        message_add(found, SEVERITY_ERROR, job->deck, 1, 1, "the deck names nothing to identify, expected a card *IDENTIFY");
+    const char *deck = states->state[0].job.deck;
+    for (int s = 0; s < states->nstate; s++)
+        if (!states->state[s].job.measurement.nmode)
+            message_add(found, SEVERITY_ERROR, deck, 1, 1, "the deck has no measured modes%s%s, expected *MODES or *MEASURED",
+                        states->nstate > 1 ? " in state " : "", states->nstate > 1 ? states->state[s].name : "");
+    if (!states->nparameter && plan->command == PLAN_IDENTIFY)
+        message_add(found, SEVERITY_ERROR, deck, 1, 1, "the deck names nothing to identify, expected a card *IDENTIFY");
+    if (states->nstate > 1 && plan->command == PLAN_DIAGNOSE)
+        states_refuse(states, deck, found);
 }
 
 static int check_deck(struct checker *c, int d)
@@ -221,23 +233,23 @@ static int check_deck(struct checker *c, int d)
     const struct plan *plan = c->study->plan;
     struct message_list found;
     struct deck_text text;
-    struct job job;
+    struct states states;
     message_open(&found, &c->scratch);
     digest_text(&c->check->decks, plan->deck[d].name);
     int status = deck_text_read(&c->scratch, plan->deck[d].path, &found, &text); /* what is wrong with it deck_read says again */
     if (status == ROTID_ERROR_MEMORY)
         return status;
     digest_cards(&c->check->decks, &text);
-    status = read_plain(c, d, &found, &job);
+    status = read_plain(c, d, &found, &states);
     if (!status)
-        status = keep_files(c, &job);
+        status = keep_files(c, &states);
     if (status == ROTID_ERROR_MEMORY)
         return status;
     if (!status)
-        check_job(plan, &job, &found);
+        check_states(plan, &states, &found);
     if (status || found.errors)
         return give_up(c, d, &found);
-    check_truth(c, d, &job);
+    check_truth(c, d, &states);
     status = check_hidden(c, d);
     return status ? status : check_variants(c, d);
 }

@@ -40,9 +40,12 @@ static double factor(const struct truth *truth, const char *block)
     return is_fault(truth, "noise_level") && truth->fault.block && !strcmp(truth->fault.block, block) ? truth->fault.value : 1;
 }
 
-static double normal(const struct study *study, enum draw_purpose purpose, long replicate, int mode, int sensor)
+#define STATE_NOISE 1000003u /* more than modes have numbers */
+
+static double normal(const struct study *study, enum draw_purpose purpose, long replicate, int s, int mode, int sensor)
 {
-    struct random_stream stream = draw_stream(study->seed, purpose, replicate, (uint64_t)mode, (uint64_t)sensor);
+    struct random_stream stream =
+        draw_stream(study->seed, purpose, replicate, (uint64_t)mode + STATE_NOISE * (uint64_t)s, (uint64_t)sensor);
     return random_normal(&stream);
 }
 
@@ -52,7 +55,8 @@ static double stated(int from_model, double std, double level)
     return from_model || !isfinite(std) ? level : hypot(std, level);
 }
 
-void experiment_noise(const struct study *study, const struct study_point *point, const struct truth *truth, struct job *job)
+void experiment_noise(const struct study *study, const struct study_point *point, const struct truth *truth, int s,
+                      struct job *job)
 {
     const struct plan_noise *noise = &study->plan->noise[point->cell.noise];
     int from_model = truth != NULL, nsensor = job->rotor.nsensor;
@@ -61,21 +65,21 @@ void experiment_noise(const struct study *study, const struct study_point *point
     for (int k = 0; k < job->measurement.nmode && noise->frequency > 0; k++) {
         double level = noise->frequency * factor(truth, "FREQUENCY");
         job->measurement.frequency_hz[k] *=
-            1 + level * normal(study, DRAW_FREQUENCY, point->replicate, job->measurement.number[k], 0);
+            1 + level * normal(study, DRAW_FREQUENCY, point->replicate, s, job->measurement.number[k], 0);
         job->measurement.frequency_std[k] = stated(from_model, job->measurement.frequency_std[k], noise->frequency);
     }
     for (int k = 0; k < job->measurement.nmode && job->measurement.shape && noise->shape > 0; k++) {
         double *shape = job->measurement.shape + (ptrdiff_t)k * nsensor,
                *std = job->measurement.shape_std + (ptrdiff_t)k * nsensor, largest = 0;
         double level = noise->shape * factor(truth, "SHAPE");
-        for (int s = 0; s < nsensor; s++)
-            largest = isfinite(shape[s]) ? fmax(largest, fabs(shape[s])) : largest;
-        for (int s = 0; s < nsensor; s++) {
-            if (!isfinite(shape[s]))
+        for (int i = 0; i < nsensor; i++)
+            largest = isfinite(shape[i]) ? fmax(largest, fabs(shape[i])) : largest;
+        for (int i = 0; i < nsensor; i++) {
+            if (!isfinite(shape[i]))
                 continue;
-            shape[s] += level * largest *
-                        normal(study, DRAW_SHAPE, point->replicate, job->measurement.number[k], job->rotor.sensor[s].id);
-            std[s] = stated(from_model, std[s], noise->shape);
+            shape[i] += level * largest *
+                        normal(study, DRAW_SHAPE, point->replicate, s, job->measurement.number[k], job->rotor.sensor[i].id);
+            std[i] = stated(from_model, std[i], noise->shape);
         }
     }
     if (truth)

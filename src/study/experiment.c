@@ -36,19 +36,38 @@ static int add_shapes(struct pool *pool, const struct plan_noise *noise, struct 
 static int own_data(struct pool *pool, const struct plan *plan, struct job *job)
 {
     int status = data_copy(pool, job);
-    rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
-    if (status || !bounds)
-        return status ? status : ROTID_ERROR_MEMORY;
-    if (job->unknowns.nparameter)
-        memcpy(bounds, job->unknowns.bounds, (size_t)job->unknowns.nparameter * sizeof *bounds);
-    job->unknowns.bounds = bounds;
-    if (plan->no_shapes) {
+    if (!status && plan->no_shapes) {
         job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
             job->measurement.point_frequency_std = NULL;
         job->measurement.ncorrection = 0;
         job->measurement.raw = NULL;
     }
-    return ROTID_OK;
+    return status;
+}
+
+/* States and unknowns of this run alone. */
+static int own_states(struct pool *pool, const struct plan *plan, const struct states *fitted, struct states *out)
+{
+    int status = ROTID_OK;
+    *out = *fitted;
+    out->state = POOL_ARRAY(pool, struct state, fitted->nstate);
+    out->bounds = POOL_ARRAY(pool, rotid_parameter, fitted->nparameter);
+    if (!out->state || !out->bounds)
+        return ROTID_ERROR_MEMORY;
+    if (fitted->nparameter)
+        memcpy(out->bounds, fitted->bounds, (size_t)fitted->nparameter * sizeof *out->bounds);
+    for (int s = 0; s < fitted->nstate && !status; s++) {
+        struct job *job = &out->state[s].job;
+        out->state[s] = fitted->state[s];
+        status = own_data(pool, plan, job);
+        rotid_parameter *bounds = POOL_ARRAY(pool, rotid_parameter, job->unknowns.nparameter);
+        if (!bounds)
+            return ROTID_ERROR_MEMORY;
+        if (job->unknowns.nparameter)
+            memcpy(bounds, job->unknowns.bounds, (size_t)job->unknowns.nparameter * sizeof *bounds);
+        job->unknowns.bounds = bounds;
+    }
+    return status;
 }
 
 static int from_model(struct pool *pool, struct jobs *jobs, const struct study_point *point, struct message_list *messages,
@@ -62,26 +81,34 @@ static int from_model(struct pool *pool, struct jobs *jobs, const struct study_p
             message_add(messages, jobs->truth_messages.item[i].severity, NULL, 0, 0, "%s", jobs->truth_messages.item[i].text);
         return status;
     }
-    if (!plan->no_shapes)
-        status = add_shapes(pool, &plan->noise[point->cell.noise], &out->job);
-    if (!status)
-        status = experiment_model(pool, jobs->study, point->replicate, truth, messages, &out->job);
     out->made_by = truth;
-    out->truth = POOL_ARRAY(pool, double, out->job.unknowns.nparameter);
-    if (!status && !out->truth)
-        status = ROTID_ERROR_MEMORY;
-    for (int p = 0; p < out->job.unknowns.nparameter && !status; p++)
-        out->truth[p] = true_value(&truth->job.rotor, out->job.unknowns.bounds[p].name);
+    out->truth = POOL_ARRAY(pool, double, out->states.nparameter);
+    if (!out->truth)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0; s < out->states.nstate && !status; s++) {
+        const struct state *state = &out->states.state[s];
+        struct job *job = &out->states.state[s].job;
+        if (!plan->no_shapes)
+            status = add_shapes(pool, &plan->noise[point->cell.noise], job);
+        if (!status)
+            status = experiment_model(pool, jobs->study, point->replicate, &truth[s], messages, job);
+        for (int p = 0; p < job->unknowns.nparameter && !status; p++) {
+            const char *name = job->unknowns.bounds[p].name;
+            size_t length = state->name ? strlen(state->name) : 0;
+            int own = p >= state->ncommon && length && !strncmp(name, state->name, length) && name[length] == ':';
+            out->truth[state->unknown[p]] = true_value(&truth[s].job.rotor, own ? name + length + 1 : name);
+        }
+    }
     return status;
 }
 
 /* The start of this run; bounds are the job's own. */
-static void experiment_starts(const struct study *study, const struct study_point *point, struct job *job)
+static void experiment_starts(const struct study *study, const struct study_point *point, struct states *states)
 {
     const struct plan *plan = study->plan;
     long digits = point->start;
-    for (int p = 0; p < job->unknowns.nparameter && plan->spread > 0; p++) {
-        rotid_parameter *bounds = &job->unknowns.bounds[p];
+    for (int p = 0; p < states->nparameter && plan->spread > 0; p++) {
+        rotid_parameter *bounds = &states->bounds[p];
         double inside = 1e-6 * (bounds->upper - bounds->lower), reach = plan->spread * fabs(bounds->start);
         double lower = fmax(bounds->start - reach, bounds->lower + inside),
                upper = fmin(bounds->start + reach, bounds->upper - inside);
@@ -103,7 +130,7 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
                     struct experiment *out)
 {
     const struct study *study = jobs->study;
-    const struct job *fitted;
+    const struct states *fitted;
     *out = (struct experiment){0};
     int status = jobs_fitted(jobs, &point->cell, &fitted);
     if (status) {
@@ -111,16 +138,23 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
             message_add(messages, jobs->fitted_messages.item[i].severity, NULL, 0, 0, "%s", jobs->fitted_messages.item[i].text);
         return status;
     }
-    out->job = *fitted;
-    out->length = rotor_length(&fitted->rotor);
-    status = own_data(pool, study->plan, &out->job);
+    status = own_states(pool, study->plan, fitted, &out->states);
     if (!status && study->plan->from_model)
         status = from_model(pool, jobs, point, messages, out);
     if (status)
         return status;
-    experiment_noise(study, point, out->made_by, &out->job);
-    status = experiment_sensors(pool, study, point, out->made_by, &out->job);
-    if (!status)
-        experiment_starts(study, point, &out->job);
-    return status;
+    out->job = &out->states.state[0].job;
+    out->length = rotor_length(&out->job->rotor);
+    for (int s = 0; s < out->states.nstate && !status; s++) {
+        const struct truth *truth = out->made_by ? &out->made_by[s] : NULL;
+        experiment_noise(study, point, truth, s, &out->states.state[s].job);
+        status = experiment_sensors(pool, study, point, truth, &out->states.state[s].job);
+    }
+    if (status)
+        return status;
+    experiment_starts(study, point, &out->states);
+    for (int s = 0; s < out->states.nstate; s++)
+        for (int p = 0; p < out->states.state[s].job.unknowns.nparameter; p++)
+            out->states.state[s].job.unknowns.bounds[p].start = out->states.bounds[out->states.state[s].unknown[p]].start;
+    return ROTID_OK;
 }

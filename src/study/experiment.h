@@ -5,10 +5,12 @@
 #include "study/jobs.h"
 
 struct experiment {
-    struct job job;
-    double *truth;               /* [job.nparameter] NaN where not known; NULL where the data are measured */
-    const struct truth *made_by; /* NULL where the data are measured; its effect or fault holds the values that were drawn */
-    double length;               /* of the rotor [m] */
+    struct states states;        /* with the data of this run; of a deck without *STATE one */
+    struct job *job;             /* of the first */
+    double *truth;               /* [states.nparameter] NaN where not known; NULL where the data are measured */
+    const struct truth *made_by; /* [states.nstate] NULL where the data are measured; its effect or fault holds the values that
+                                    were drawn, the same in all */
+    double length;               /* of the rotor, in the first state [m] */
 };
 
 /* Everything hangs on the pool, or on *jobs until its next use. What is wrong goes to the list. Statuses of deck_read,
@@ -22,8 +24,9 @@ int experiment_make(struct pool *pool, struct jobs *jobs, const struct study_poi
  * noise; shapes relative to their largest component. Values end in *truth. */
 int experiment_model(struct pool *pool, const struct study *study, long replicate, struct truth *truth,
                      struct message_list *messages, struct job *job);
-/* Adds noise to the data and states it. */
-void experiment_noise(const struct study *study, const struct study_point *point, const struct truth *truth, struct job *job);
+/* Adds noise to the data of state s, which has draws of its own, and states it. */
+void experiment_noise(const struct study *study, const struct study_point *point, const struct truth *truth, int s,
+                      struct job *job);
 /* Leaves the sensors of this run. */
 int experiment_sensors(struct pool *pool, const struct study *study, const struct study_point *point, const struct truth *truth,
                        struct job *job);

@@ -38,14 +38,26 @@ static struct override *overrides(struct pool *pool, const struct study *study, 
 }
 
 /* Whether data with this noise need it stated to the deck, whose functional follows what is known. */
-static int lacks_noise(const struct job *job, const struct plan_noise *noise)
+static int lacks_noise(const struct states *states, const struct plan_noise *noise)
 {
-    return (noise->frequency > 0 && !job_knows_frequency_noise(job)) ||
-           (noise->shape > 0 && job->measurement.shape && !job_knows_shape_noise(job));
+    int lacks = 0;
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job *job = &states->state[s].job;
+        lacks |= (noise->frequency > 0 && !job_knows_frequency_noise(job)) ||
+                 (noise->shape > 0 && job->measurement.shape && !job_knows_shape_noise(job));
+    }
+    return lacks;
+}
+
+static int read_states(struct pool *pool, const struct study *study, const struct study_cell *cell, int count,
+                       const struct override *list, struct message_list *messages, struct states *states)
+{
+    return list ? deck_read_states(pool, study->plan->deck[cell->deck].path, NULL, count, list, messages, states)
+                : ROTID_ERROR_MEMORY;
 }
 
 /* The deck by a functional that needs no noise: what it knows of that itself. */
-static int read_bare(struct pool *pool, const struct study *study, const struct study_cell *cell, struct job *bare)
+static int read_bare(struct pool *pool, const struct study *study, const struct study_cell *cell, struct states *bare)
 {
     struct message_list unheard;
     int count;
@@ -54,29 +66,29 @@ static int read_bare(struct pool *pool, const struct study *study, const struct 
     if (!list)
         return ROTID_ERROR_MEMORY;
     list[count++] = (struct override){"FIT", "FUNCTIONAL", "HYBRID", "", NULL};
-    return deck_read(pool, study->plan->deck[cell->deck].path, count, list, &unheard, bare);
+    return read_states(pool, study, cell, count, list, &unheard, bare);
 }
 
 int jobs_read_fitted(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
-                     struct job *job)
+                     struct states *states)
 {
-    const char *path = study->plan->deck[cell->deck].path;
     int count;
     struct override *list = overrides(pool, study, cell, -1, &count);
-    int status = list ? deck_read(pool, path, count, list, messages, job) : ROTID_ERROR_MEMORY;
+    *states = (struct states){0};
+    int status = read_states(pool, study, cell, count, list, messages, states);
     if (!study->plan->has_noise || status == ROTID_ERROR_MEMORY ||
-        (!status && !lacks_noise(job, &study->plan->noise[cell->noise])))
+        (!status && !lacks_noise(states, &study->plan->noise[cell->noise])))
         return status;
-    struct job bare = *job;
+    struct states bare = *states;
     int bare_status = status ? read_bare(pool, study, cell, &bare) : ROTID_OK;
     if (bare_status == ROTID_ERROR_MEMORY)
         return bare_status;
     message_open(messages, messages->pool);
     list = overrides(pool, study, cell, cell->noise, &count);
-    status = list ? deck_read(pool, path, count, list, messages, job) : ROTID_ERROR_MEMORY;
-    if (!status && !bare_status) { /* the noise of the plan is added to this one */
-        job->measurement.frequency_std = bare.measurement.frequency_std;
-        job->measurement.shape_std = bare.measurement.shape_std;
+    status = read_states(pool, study, cell, count, list, messages, states);
+    for (int s = 0; s < states->nstate && !status && !bare_status; s++) { /* the noise of the plan is added to this one */
+        states->state[s].job.measurement.frequency_std = bare.state[s].job.measurement.frequency_std;
+        states->state[s].job.measurement.shape_std = bare.state[s].job.measurement.shape_std;
     }
     return status;
 }
@@ -125,50 +137,63 @@ static int makes_shapes(const struct plan *plan)
     return makes && !plan->no_shapes;
 }
 
-int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int hide, struct message_list *messages,
-                    struct truth *truth)
+/* What a state has with the effect of a plan hidden in it, between two values. */
+static int hide(const struct plan_hide *hidden, struct job *lower, const struct job *upper, struct message_list *messages,
+                struct truth *truth)
 {
-    const struct plan *plan = study->plan;
-    const struct plan_hide *hidden = &plan->hide[hide];
-    const char *path = plan->deck[deck].path;
-    int count,
-        ncard = 1; /* with a noise: the job makes data and is not fitted, and its FIT or a hidden noise_level may need one */
-    struct override *list = overrides(pool, study, NULL, plan->has_noise ? 0 : -1, &count);
-    struct card card[2];
-    *truth = (struct truth){0};
-    int status = list ? deck_read(pool, path, count, list, messages, &truth->job) : ROTID_ERROR_MEMORY;
-    if (status || !hidden->lower)
-        return status;
-    if (!truth->job.measurement.shape && truth->job.rotor.nsensor && truth->job.measurement.nmode && makes_shapes(plan)) {
-        struct card *shape = shape_card(pool, &truth->job, hidden->place);
-        if (!shape)
-            return ROTID_ERROR_MEMORY;
-        card[ncard++] = *shape;
-    }
-    struct job lower, upper;
-    card[0] = *hidden->lower;
-    status = deck_read_with(pool, path, count, list, ncard, card, messages, &lower);
-    card[0] = *hidden->upper;
-    if (!status)
-        status = deck_read_with(pool, path, count, list, ncard, card, messages, &upper);
-    if (status)
-        return status;
     truth->cause = catalogue_find(card_option(hidden->lower, "TYPE")->value);
     if (truth->cause->class == CAUSE_PHYSICAL) { /* else the deck as it stands: the fault is put into the data of the model */
-        truth->job = lower;
+        truth->job = *lower;
         truth->effect = &truth->job.rotor.effect[truth->job.rotor.neffect - 1];
     } else {
-        truth->fault = lower.measurement.correction[lower.measurement.ncorrection - 1];
+        truth->fault = lower->measurement.correction[lower->measurement.ncorrection - 1];
     }
-    take_values(&lower, truth, truth->lower);
-    take_values(&upper, truth, truth->upper);
+    take_values(lower, truth, truth->lower);
+    take_values(upper, truth, truth->upper);
     for (int p = 0; truth_parameter(truth, p); p++)
         if (truth->upper[p] < truth->lower[p]) {
             message_add(messages, SEVERITY_ERROR, hidden->place.file, hidden->place.line, hidden->place.column,
                         "%s lies between %.6g and %.6g, expected the lower one first", truth_parameter(truth, p)->name,
                         truth->lower[p], truth->upper[p]);
-            status = ROTID_ERROR_SYNTAX;
+            return ROTID_ERROR_SYNTAX;
         }
+    return ROTID_OK;
+}
+
+int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int hide_index, struct message_list *messages,
+                    struct truth **truths)
+{
+    const struct plan *plan = study->plan;
+    const struct plan_hide *hidden = &plan->hide[hide_index];
+    const char *path = plan->deck[deck].path;
+    int count,
+        ncard = 1; /* with a noise: the job makes data and is not fitted, and its FIT or a hidden noise_level may need one */
+    struct override *list = overrides(pool, study, NULL, plan->has_noise ? 0 : -1, &count);
+    struct card card[2];
+    struct states states = {0}, lower, upper;
+    int status = list ? deck_read_states(pool, path, NULL, count, list, messages, &states) : ROTID_ERROR_MEMORY;
+    struct truth *truth = *truths = POOL_ARRAY(pool, struct truth, states.nstate);
+    if (!status && !truth)
+        status = ROTID_ERROR_MEMORY;
+    for (int s = 0; s < states.nstate && !status; s++)
+        truth[s].job = states.state[s].job;
+    if (status || !hidden->lower)
+        return status;
+    const struct job *first = &truth[0].job;
+    if (states.nstate == 1 && !first->measurement.shape && first->rotor.nsensor && first->measurement.nmode &&
+        makes_shapes(plan)) {
+        struct card *shape = shape_card(pool, first, hidden->place);
+        if (!shape)
+            return ROTID_ERROR_MEMORY;
+        card[ncard++] = *shape;
+    }
+    card[0] = *hidden->lower;
+    status = deck_read_with(pool, path, count, list, ncard, card, messages, &lower);
+    card[0] = *hidden->upper;
+    if (!status)
+        status = deck_read_with(pool, path, count, list, ncard, card, messages, &upper);
+    for (int s = 0; s < states.nstate && !status; s++)
+        status = hide(hidden, &lower.state[s].job, &upper.state[s].job, messages, &truth[s]);
     return status;
 }
 
@@ -190,7 +215,7 @@ static int is_same(const struct study_cell *a, const struct study_cell *b)
     return a->deck == b->deck && a->variant == b->variant && a->modes == b->modes && a->noise == b->noise;
 }
 
-int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct job **job)
+int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct states **states)
 {
     int status = ROTID_OK;
     if (!jobs->has_fitted || !is_same(&jobs->fitted_of, cell)) {
@@ -200,7 +225,7 @@ int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct j
         jobs->fitted_of = *cell;
         jobs->has_fitted = status ? -1 : 1;
     }
-    *job = &jobs->fitted;
+    *states = &jobs->fitted;
     return jobs->has_fitted > 0 ? ROTID_OK : status ? status : ROTID_ERROR_SYNTAX;
 }
 
@@ -214,6 +239,6 @@ int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct truth **
         jobs->truth_of = *cell;
         jobs->has_truth = status ? -1 : 1;
     }
-    *truth = &jobs->truth;
+    *truth = jobs->truth;
     return jobs->has_truth > 0 ? ROTID_OK : status ? status : ROTID_ERROR_SYNTAX;
 }

@@ -3,15 +3,15 @@
 #define ROTID_STUDY_JOBS_H
 
 #include "diagnose/causes/cause.h"
-#include "run/job.h"
+#include "run/states.h"
 #include "study/study.h"
 
 /* The deck of a cell in its variant, with its modes; where it does not state the noise that the plan adds, and its functional
  * would be another one for that, or none, with that as *NOISE. Statuses of deck_read. */
 int jobs_read_fitted(struct pool *pool, const struct study *study, const struct study_cell *cell, struct message_list *messages,
-                     struct job *job);
+                     struct states *states);
 
-/* A deck as it stands, with a hidden effect. */
+/* A state of a deck, or a deck that is one, as it stands, with a hidden effect. */
 struct truth {
     struct job job;
     const struct cause_kind *cause; /* NULL: nothing is hidden */
@@ -20,9 +20,9 @@ struct truth {
     double lower[EFFECT_MOST_PARAMETERS], upper[EFFECT_MOST_PARAMETERS];
 };
 
-/* ROTID_ERROR_SYNTAX also where a range is upside down. */
-int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int hide, struct message_list *messages,
-                    struct truth *truth);
+/* That of each state; what is hidden is in all. ROTID_ERROR_SYNTAX also where a range is upside down. */
+int jobs_read_truth(struct pool *pool, const struct study *study, int deck, int hide_index, struct message_list *messages,
+                    struct truth **truths);
 
 /* The name of parameter p of a cause, physical or not; NULL behind the last. */
 const struct effect_parameter_name *truth_parameter(const struct truth *truth, int p);
@@ -33,8 +33,8 @@ struct jobs {
     struct pool fitted_pool, truth_pool;
     struct study_cell fitted_of, truth_of;
     int has_fitted, has_truth; /* 1, or -1 where it could not be read: fitted_messages or truth_messages say why */
-    struct job fitted;
-    struct truth truth;
+    struct states fitted;
+    struct truth *truth; /* of each state */
     struct message_list fitted_messages, truth_messages;
 };
 
@@ -42,7 +42,7 @@ void jobs_open(const struct study *study, struct jobs *jobs);
 void jobs_close(struct jobs *jobs);
 
 /* Pointers into *jobs, valid until the next call. Statuses as above; the messages say what is wrong. */
-int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct job **job);
+int jobs_fitted(struct jobs *jobs, const struct study_cell *cell, const struct states **states);
 int jobs_truth(struct jobs *jobs, const struct study_cell *cell, struct truth **truth);
 
 #endif

@@ -52,15 +52,15 @@ char *line_failed(const struct line *line, const char *error, double seconds)
     return end(&pool, &run, 1, seconds);
 }
 
-static struct run_parameter *parameters(struct pool *pool, const struct job *job, const rotid_fit_result *fit,
+static struct run_parameter *parameters(struct pool *pool, const rotid_parameter *bounds, const rotid_fit_result *fit,
                                         const double *truth)
 {
     struct run_parameter *list = POOL_ARRAY(pool, struct run_parameter, fit->n);
     for (int p = 0; p < fit->n && list; p++)
-        list[p] = (struct run_parameter){.name = job->unknowns.bounds[p].name,
-                                         .unit = job->unknowns.bounds[p].unit,
+        list[p] = (struct run_parameter){.name = bounds[p].name,
+                                         .unit = bounds[p].unit,
                                          .value = fit->x[p],
-                                         .start = job->unknowns.bounds[p].start,
+                                         .start = bounds[p].start,
                                          .std = fit->std[p],
                                          .ci95 = {fit->ci_lower[p], fit->ci_upper[p]},
                                          .at_bound = fit->at_bound[p],
@@ -69,17 +69,28 @@ static struct run_parameter *parameters(struct pool *pool, const struct job *job
     return list;
 }
 
-static struct run_mode *modes(struct pool *pool, const struct job *job, const struct comparison *compared,
-                              const rotid_fit_result *fit)
+/* What was fitted: of a deck with several states each, with the predictions for it. */
+struct fitted {
+    const char *state; /* NULL of a deck that is one */
+    const struct job *job;
+    const struct comparison *compared;
+};
+
+/* The modes of all states one behind the other, as the fit has them. */
+static struct run_mode *modes(struct pool *pool, int count, const struct fitted *fitted, const rotid_fit_result *fit)
 {
     struct run_mode *list = POOL_ARRAY(pool, struct run_mode, fit->m);
-    for (int k = 0; k < fit->m && list; k++)
-        list[k] = (struct run_mode){.mode = compared->number[k],
-                                    .measured_hz = job->measurement.frequency_hz[k],
-                                    .predicted_hz = fit->predicted_hz[k],
-                                    .error_percent = 100 * (fit->predicted_hz[k] / job->measurement.frequency_hz[k] - 1),
-                                    .nco = compared->nco[k],
-                                    .holdout = job->measurement.holdout && job->measurement.holdout[k]};
+    for (int s = 0, row = 0; s < count && list; s++) {
+        const struct job_measurement *measured = &fitted[s].job->measurement;
+        for (int k = 0; k < measured->nmode && row < fit->m; k++, row++)
+            list[row] = (struct run_mode){.state = fitted[s].state,
+                                          .mode = fitted[s].compared->number[k],
+                                          .measured_hz = measured->frequency_hz[k],
+                                          .predicted_hz = fit->predicted_hz[row],
+                                          .error_percent = 100 * (fit->predicted_hz[row] / measured->frequency_hz[k] - 1),
+                                          .nco = fitted[s].compared->nco[k],
+                                          .holdout = measured->holdout && measured->holdout[k]};
+    }
     return list;
 }
 
@@ -101,10 +112,14 @@ static struct run_hidden *hidden(struct pool *pool, const struct truth *truth)
 }
 
 /* 0: memory is out; of all below. */
-static int add_fit(struct pool *pool, const struct experiment *experiment, const struct job *job,
-                   const struct comparison *compared, const rotid_fit_result *fit, const double *truth, struct study_run *run)
+static int add_fit(struct pool *pool, const struct experiment *experiment, int count, const struct fitted *fitted,
+                   const rotid_parameter *bounds, const rotid_fit_result *fit, const double *truth, struct study_run *run)
 {
+    const struct job *job = fitted[0].job;
     struct run_fit *out = POOL_NEW(pool, struct run_fit);
+    int sensors = 0;
+    for (int s = 0; s < count; s++)
+        sensors += fitted[s].job->rotor.nsensor;
     if (!out)
         return 0;
     run->fit = out;
@@ -118,11 +133,11 @@ static int add_fit(struct pool *pool, const struct experiment *experiment, const
         .iterations = fit->iterations,
         .evaluations = fit->evaluations,
         .stop_reason = rotid_status_text(fit->status),
-        .sensors = job->rotor.nsensor,
+        .sensors = sensors,
         .nparameters = fit->n,
-        .parameters = parameters(pool, job, fit, truth),
+        .parameters = parameters(pool, bounds, fit, truth),
         .nmodes = fit->m,
-        .modes = modes(pool, job, compared, fit),
+        .modes = modes(pool, count, fitted, fit),
     };
     int hides = experiment->made_by && experiment->made_by->cause;
     if (hides)
@@ -141,17 +156,22 @@ static int add_baseline(struct pool *pool, const rotid_fit_result *fit, struct s
 }
 
 char *line_identified(const struct line *line, const struct experiment *experiment, const struct identification *result,
-                      const struct message_list *notes)
+                      const rotid_fit_result *fit, const struct message_list *notes)
 {
     struct pool pool;
     struct study_run run = begin(line);
+    int count = experiment->states.nstate;
     pool_open(&pool, NULL);
-    int whole = add_fit(&pool, experiment, &experiment->job, &result->compared, result->fit, experiment->truth, &run) &&
+    struct fitted *fitted = POOL_ARRAY(&pool, struct fitted, count);
+    for (int s = 0; s < count && fitted; s++)
+        fitted[s] = (struct fitted){count > 1 ? experiment->states.state[s].name : NULL, &experiment->states.state[s].job,
+                                    &result[s].compared};
+    int whole = fitted && add_fit(&pool, experiment, count, fitted, experiment->states.bounds, fit, experiment->truth, &run) &&
                 (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) &&
-                (!line->study->plan->baseline || add_baseline(&pool, result->fit, &run));
+                (!line->study->plan->baseline || add_baseline(&pool, fit, &run));
     if (line->study->plan->spread > 0) { /* the way from each start is what such a plan is about */
-        run.niterates = result->fit->n * result->fit->nhistory;
-        run.iterates = result->fit->history_x;
+        run.niterates = fit->n * fit->nhistory;
+        run.iterates = fit->history_x;
     }
     return end(&pool, &run, whole, clock_seconds() - line->begin);
 }
@@ -207,8 +227,8 @@ static double extended_truth(const struct experiment *experiment, const struct d
 {
     const struct truth *truth = experiment->made_by;
     const char *dot = strrchr(name, '.');
-    for (int p = 0; p < experiment->job.unknowns.nparameter; p++)
-        if (same_text(name, experiment->job.unknowns.bounds[p].name))
+    for (int p = 0; p < experiment->job->unknowns.nparameter; p++)
+        if (same_text(name, experiment->job->unknowns.bounds[p].name))
             return experiment->truth[p];
     for (int i = 0; i < d->ncause && dot; i++) {
         const struct candidate *c = &d->cause[i];
@@ -228,14 +248,16 @@ char *line_diagnosed(const struct line *line, const struct experiment *experimen
 {
     const struct job *job = d->extended.fit ? &d->extended_job : &d->job;
     const struct identification *final = d->extended.fit ? &d->extended : &d->base;
+    const struct fitted fitted = {NULL, job, &final->compared};
     struct pool pool;
     struct study_run run = begin(line);
     pool_open(&pool, NULL);
     double *truth = POOL_ARRAY(&pool, double, job->unknowns.nparameter);
     for (int p = 0; p < job->unknowns.nparameter && truth && experiment->made_by; p++)
         truth[p] = extended_truth(experiment, d, job->unknowns.bounds[p].name);
-    int whole = final->fit && truth &&
-                add_fit(&pool, experiment, job, &final->compared, final->fit, experiment->made_by ? truth : NULL, &run) &&
-                (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) && add_diagnosis(&pool, experiment, d, &run);
+    int whole =
+        final->fit && truth &&
+        add_fit(&pool, experiment, 1, &fitted, job->unknowns.bounds, final->fit, experiment->made_by ? truth : NULL, &run) &&
+        (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) && add_diagnosis(&pool, experiment, d, &run);
     return end(&pool, &run, whole, clock_seconds() - line->begin);
 }

@@ -12,9 +12,10 @@ struct line {
     double begin; /* on the clock */
 };
 
-/* Each with the line feed at its end, to be freed with json_free; NULL where memory is out. */
+/* result [states of the experiment], fit: of all. Each with the line feed at its end, to be freed with json_free; NULL where
+ * memory is out. */
 char *line_identified(const struct line *line, const struct experiment *experiment, const struct identification *result,
-                      const struct message_list *notes);
+                      const rotid_fit_result *fit, const struct message_list *notes);
 char *line_diagnosed(const struct line *line, const struct experiment *experiment, const struct diagnosis *result,
                      const struct message_list *notes);
 char *line_failed(const struct line *line, const char *error, double seconds);

@@ -18,15 +18,19 @@ static double draw(const struct study *study, enum draw_purpose purpose, long re
     return upper > lower ? lower + along * (upper - lower) : lower;
 }
 
+static void set_parameter(struct rotor *rotor, struct parameter parameter, double value)
+{
+    if (parameter.kind == PARAMETER_G)
+        rotor->group[parameter.index].material.isotropic = 0;
+    *parameter_value(rotor, parameter) = value;
+}
+
 static void set(struct rotor *rotor, const char *name, double value)
 {
     struct parameter parameter;
     const char *unit;
-    if (parameter_find(rotor, name, &parameter, &unit))
-        return;
-    if (parameter.kind == PARAMETER_G)
-        rotor->group[parameter.index].material.isotropic = 0;
-    *parameter_value(rotor, parameter) = value;
+    if (!parameter_find(rotor, name, &parameter, &unit))
+        set_parameter(rotor, parameter, value);
 }
 
 /* Every value is set in every run: the truth keeps nothing of the run before. */
@@ -35,7 +39,7 @@ static void draw_values(const struct study *study, long replicate, struct truth 
     const struct plan *plan = study->plan;
     struct job *job = &truth->job;
     for (int p = 0; p < job->unknowns.nparameter; p++)
-        set(&job->rotor, job->unknowns.bounds[p].name, job->unknowns.bounds[p].start);
+        set_parameter(&job->rotor, job->unknowns.parameter[p], job->unknowns.bounds[p].start);
     for (int t = 0; t < plan->ntruth; t++)
         set(&job->rotor, plan->truth[t].name,
             draw(study, DRAW_TRUTH, replicate, plan->truth[t].name, plan->truth[t].lower, plan->truth[t].upper));

@@ -30,16 +30,19 @@ static const char *reason(struct pool *pool, int status, const struct message_li
 static char *identify(struct pool *pool, const struct study *study, const struct line *line, struct experiment *experiment,
                       const rotid_environment *environment, struct message_list *notes, int *status)
 {
-    struct identification result;
+    struct identification *result = POOL_ARRAY(pool, struct identification, experiment->states.nstate);
+    rotid_fit_result *fit = NULL;
     char *text = NULL;
-    *status = identify_run_bare(pool, &experiment->job, study->plan->baseline, environment, notes, &result);
+    *status = ROTID_ERROR_MEMORY;
+    if (result)
+        *status = identify_states_bare(pool, &experiment->states, study->plan->baseline, environment, notes, result, &fit);
     if (*status)
         return NULL;
-    if (result.fit->status == ROTID_STOP_CANCELLED)
+    if (fit->status == ROTID_STOP_CANCELLED)
         *status = ROTID_STOP_CANCELLED;
     else
-        text = line_identified(line, experiment, &result, notes);
-    rotid_fit_free(result.fit);
+        text = line_identified(line, experiment, result, fit, notes);
+    rotid_fit_free(fit);
     return text;
 }
 
@@ -49,7 +52,7 @@ static char *diagnose(struct pool *pool, const struct study *study, const struct
     const struct diagnose_options options = {.threads = 1, .seed = study->seed, .replicates = study->plan->bootstrap};
     struct diagnosis result;
     char *text = NULL;
-    *status = diagnose_run(pool, &experiment->job, &options, environment, notes, &result);
+    *status = diagnose_run(pool, experiment->job, &options, environment, notes, &result);
     if (*status)
         return NULL;
     if (result.result.interrupted)

@@ -153,5 +153,8 @@ void hammer_record(const struct hammer_test *test, uint64_t seed, int point, int
 int hammer_write(const struct hammer_test *test, uint64_t seed, int ascii, const char *records_path, char *message, size_t room);
 int hammer_write_truth(const struct hammer_test *test, uint64_t seed, const char *path, char *message, size_t room);
 int hammer_write_deck(const struct hammer_test *test, const char *modes_file, const char *path, char *message, size_t room);
+/* The deck with *STATE, this state of which was tested: its *MEASURED names the modes file, and the other states stay as they
+ * are. */
+int hammer_write_state(const char *deck, const char *state, const char *modes_file, const char *path, char *message, size_t room);
 
 #endif

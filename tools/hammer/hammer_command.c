@@ -13,6 +13,7 @@ const char hammer_usage[] =
     "usage: hammer ROTOR -o RECORDS.unv [--truth TRUTH.json] [--deck DECK.inp] [options]\n"
     "ROTOR is paper (998 kg, 68 points), beam (6 kg, 21 points) or a deck with *SENSORS.\n"
     "  --modes-file FILE       what the deck measures (modes.unv): the file that rotid ema will make\n"
+    "  --state NAME            of a deck with *STATE: that state is tested, and --deck names its modes file for it\n"
     "  --true NAME=VALUE       true value of a parameter of *IDENTIFY; may be repeated. Of a deck, others are drawn\n"
     "  --seed N                of everything that is drawn (1)\n"
     "  --rate HZ               sampling rate (8192); modes reach up to 1.2 times of it\n"
@@ -42,6 +43,7 @@ enum {
     TRUTH = 256,
     DECK,
     MODES_FILE,
+    STATE,
     TRUE,
     SEED,
     RATE,
@@ -70,6 +72,7 @@ enum {
 static const struct option long_options[] = {{"truth", 1, NULL, TRUTH},
                                              {"deck", 1, NULL, DECK},
                                              {"modes-file", 1, NULL, MODES_FILE},
+                                             {"state", 1, NULL, STATE},
                                              {"true", 1, NULL, TRUE},
                                              {"seed", 1, NULL, SEED},
                                              {"rate", 1, NULL, RATE},
@@ -238,6 +241,9 @@ static int take(int option, const char **true_value, struct hammer_command *c)
         return HAMMER_OK;
     case MODES_FILE:
         c->modes_file = optarg;
+        return HAMMER_OK;
+    case STATE:
+        c->state = optarg;
         return HAMMER_OK;
     case TRUE:
         true_value[c->truths++] = optarg;

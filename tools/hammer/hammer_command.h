@@ -6,7 +6,7 @@
 
 struct hammer_command {
     struct hammer_options options;
-    const char *rotor, *out, *truth, *deck, *modes_file;
+    const char *rotor, *out, *truth, *deck, *modes_file, *state;
     uint64_t seed;
     int ascii, help, truths, damping_given;
 };

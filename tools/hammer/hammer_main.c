@@ -6,22 +6,50 @@
 
 #include "hammer.h"
 #include "hammer_command.h"
-#include "hide/hide_text.h"
+#include "hide/hide_states.h"
 
-static int run(const struct hammer_command *c, const char *deck, int truths, const char *const *truth)
+/* The deck of the state that is tested, the deck itself without --state; to be freed. NULL after a message. */
+static char *tested(const struct hammer_command *c, const char *deck, int *status)
+{
+    char message[600] = "", *text = NULL;
+    const struct hide_message to = {message, sizeof message};
+    struct hide_cards cards = {0};
+    int first, end;
+    if (!c->state) {
+        text = malloc(strlen(deck) + 1);
+        *status = text ? HAMMER_OK : HAMMER_FAILURE;
+        return text ? strcpy(text, deck) : NULL;
+    }
+    *status = hide_cards_read(deck, c->rotor, &cards, &to);
+    if (!*status)
+        text = hide_state_text(deck, c->rotor, c->state, &cards, &first, &end, status, &to);
+    hide_cards_free(&cards);
+    if (*status)
+        fprintf(stderr, "hammer: %s\n", message);
+    return text;
+}
+
+static int run(const struct hammer_command *c, const char *whole, int truths, const char *const *truth)
 {
     struct hammer_test test;
     char message[600];
-    int status = hammer_open(deck, c->rotor, truths, truth, c->seed, &c->options, &test, message, sizeof message);
+    int status;
+    char *deck = tested(c, whole, &status);
+    if (status)
+        return status;
+    status = hammer_open(deck, c->rotor, truths, truth, c->seed, &c->options, &test, message, sizeof message);
     if (!status && c->truth)
         status = hammer_write_truth(&test, c->seed, c->truth, message, sizeof message);
-    if (!status && c->deck)
+    if (!status && c->deck && c->state)
+        status = hammer_write_state(whole, c->state, c->modes_file, c->deck, message, sizeof message);
+    else if (!status && c->deck)
         status = hammer_write_deck(&test, c->modes_file, c->deck, message, sizeof message);
     if (!status)
         status = hammer_write(&test, c->seed, c->ascii, c->out, message, sizeof message);
     if (status)
         fprintf(stderr, "hammer: %s\n", message);
     hammer_close(&test);
+    free(deck);
     return status;
 }
 

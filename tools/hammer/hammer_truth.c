@@ -4,7 +4,7 @@
 
 #include "hammer.h"
 #include "hammer_file.h"
-#include "hide/hide_cards.h"
+#include "hide/hide_states.h"
 
 static void add_numbers(struct hide_text *text, int count, int stride, const double *value)
 {
@@ -94,6 +94,73 @@ int hammer_write_truth(const struct hammer_test *test, uint64_t seed, const char
     return hammer_file_write(path, &text, &to);
 }
 
+/* Name of a file in the deck, and how it lies. */
+static void add_measured(struct hide_text *text, const char *modes_file)
+{
+    hide_add(text, "%s*MEASURED, FILE=%s, AXIS=Z, DIRECTION=X\n",
+             text->length && text->data[text->length - 1] != '\n' ? "\n" : "", modes_file);
+}
+
+static void add_fit(struct hide_text *text)
+{
+    hide_add(text, "*FIT, FUNCTIONAL=LIKELIHOOD, REDUCTION=NONE\n");
+}
+
+static int is_one_of(const char *name, int count, const char *const *names)
+{
+    for (int i = 0; i < count; i++)
+        if (hide_same(name, names[i]))
+            return 1;
+    return 0;
+}
+
+static void add_card(struct hide_text *text, const char *deck, const struct hide_card *card)
+{
+    hide_add_bytes(text, deck + card->begin, card->end - card->begin);
+}
+
+/* The common sensors, into a state that is still to be tested: the file of *MEASURED brings its own. */
+static void add_common_sensors(struct hide_text *text, const char *deck, const struct hide_cards *cards, int state)
+{
+    for (int i = state + 1; i < cards->cards && !hide_same(cards->card[i].name, "STATE"); i++)
+        if (hide_same(cards->card[i].name, "SENSORS") || hide_same(cards->card[i].name, "MEASURED"))
+            return;
+    for (int i = 0; i < cards->cards && !hide_same(cards->card[i].name, "STATE"); i++)
+        if (hide_same(cards->card[i].name, "SENSORS"))
+            add_card(text, deck, &cards->card[i]);
+}
+
+int hammer_write_state(const char *deck, const char *state, const char *modes_file, const char *path, char *message, size_t room)
+{
+    static const char *const dropped[] = {"MODES", "SHAPE", "MEASURED", "NOISE", "FREQUENCIES", "SENSORS"};
+    struct hide_message to = {message, room};
+    struct hide_text text = {NULL, 0, 0, 0};
+    struct hide_cards cards = {0};
+    int first = 0, end = 0, has_fit = 0, status = hide_cards_read(deck, "deck", &cards, &to);
+    char *own = status ? NULL : hide_state_text(deck, "deck", state, &cards, &first, &end, &status, &to);
+    free(own);
+    if (!status)
+        hide_add_bytes(&text, deck, cards.card[0].begin);
+    for (int i = 0, states = 0; i < cards.cards && !status; i++) {
+        const struct hide_card *card = &cards.card[i];
+        has_fit |= hide_same(card->name, "FIT");
+        if (hide_same(card->name, "STATE") && !states++ && !has_fit)
+            add_fit(&text);
+        int common = !states, own_state = i >= first && i < end;
+        if (!(common && hide_same(card->name, "SENSORS")) && !(own_state && is_one_of(card->name, 6, dropped)))
+            add_card(&text, deck, card);
+        if (hide_same(card->name, "STATE") && i != first)
+            add_common_sensors(&text, deck, &cards, i);
+        if (i == end - 1)
+            add_measured(&text, modes_file);
+    }
+    hide_cards_free(&cards);
+    if (!status)
+        return hammer_file_write(path, &text, &to);
+    free(text.data);
+    return status;
+}
+
 int hammer_write_deck(const struct hammer_test *test, const char *modes_file, const char *path, char *message, size_t room)
 {
     static const char *const dropped[] = {"MODES", "SHAPE", "MEASURED", "NOISE", "FIT", "SENSORS"};
@@ -104,18 +171,15 @@ int hammer_write_deck(const struct hammer_test *test, const char *modes_file, co
     if (!status)
         hide_add_bytes(&text, test->deck, cards.cards ? cards.card[0].begin : 0);
     for (int i = 0; i < cards.cards && !status; i++) {
-        int keep = 1;
-        for (size_t d = 0; d < sizeof dropped / sizeof *dropped; d++)
-            keep &= !hide_same(cards.card[i].name, dropped[d]);
-        if (keep)
-            hide_add_bytes(&text, test->deck + cards.card[i].begin, cards.card[i].end - cards.card[i].begin);
+        if (!is_one_of(cards.card[i].name, 6, dropped))
+            add_card(&text, test->deck, &cards.card[i]);
     }
     hide_cards_free(&cards);
     if (status) {
         free(text.data);
         return status;
     }
-    hide_add(&text, "%s*MEASURED, FILE=%s, AXIS=Z, DIRECTION=X\n*FIT, FUNCTIONAL=LIKELIHOOD, REDUCTION=NONE\n",
-             text.length && text.data[text.length - 1] != '\n' ? "\n" : "", modes_file);
+    add_measured(&text, modes_file);
+    add_fit(&text);
     return hammer_file_write(path, &text, &to);
 }

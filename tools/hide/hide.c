@@ -6,6 +6,7 @@
 
 #include "hide_draw.h"
 #include "hide_parameter.h"
+#include "hide_states.h"
 #include "hide_write.h"
 
 struct hide_request hide_request_default(void)
@@ -20,6 +21,8 @@ struct hide_request hide_request_default(void)
                                  .refine = 1};
 }
 
+#define STATE_NOISE 1000003u /* apart from the seeds that somebody counts */
+
 /* All of one case, on the heap: it is too large for the stack of a thread. */
 struct work {
     struct hide_cards cards;
@@ -29,7 +32,7 @@ struct work {
     struct hide_noise noise;
     struct hide_solution bare, hidden; /* without the effects, with them */
     struct hide_data measured, with, without;
-    struct hide_text deck, truth;
+    struct hide_text data, truth;
 };
 
 static int check(const struct hide_request *r, const struct hide_message *message)
@@ -145,7 +148,8 @@ static int make(const struct hide_request *r, struct work *work, const struct hi
     hide_true_positions(&physics, true_z);
     /* Modes are counted from the same one with and without the effects: a spring to the ground is no new mode. */
     if ((status = hide_rigid_modes(&bare, &truth.rigid, message)) ||
-        (status = hide_noise_draw(r->seed, &work->rotor, r->correlation, &work->noise, message)) ||
+        (status =
+             hide_noise_draw(r->seed + STATE_NOISE * (uint64_t)r->state, &work->rotor, r->correlation, &work->noise, message)) ||
         (status = hide_solve(&bare, truth.rigid, r->modes, sensors, stated, &work->bare, message)) ||
         (status = hide_solve(&physics, truth.rigid, r->modes, sensors, true_z, &work->hidden, message)) ||
         (status = hide_record(&bare, &work->bare, truth.shapes, 0, 0, NULL, &work->without, message)) ||
@@ -153,36 +157,84 @@ static int make(const struct hide_request *r, struct work *work, const struct hi
         (status = hide_record(&physics, &work->hidden, truth.shapes, truth.frequency_noise, truth.shape_noise, &work->noise,
                               &work->measured, message)))
         return status;
-    hide_write_deck(&truth, &work->cards, r->sensors || r->half_sensors, &work->measured, &work->deck);
+    hide_write_data(&truth, r->sensors || r->half_sensors, &work->measured, &work->data);
     hide_write_truth(&truth, &work->truth);
-    return work->deck.failed || work->truth.failed ? hide_fail(message, HIDE_FAILURE, "no memory for the texts") : HIDE_OK;
+    return work->data.failed || work->truth.failed ? hide_fail(message, HIDE_FAILURE, "no memory for the texts") : HIDE_OK;
+}
+
+int hide_one(const struct hide_request *request, struct hide_part *part, const struct hide_message *message)
+{
+    struct work *work = calloc(1, sizeof *work);
+    int status = work ? check(request, message) : hide_fail(message, HIDE_FAILURE, "no memory for a case");
+    *part = (struct hide_part){.effects = 0};
+    if (!status)
+        status = make(request, work, message);
+    if (!work)
+        return status;
+    part->data = work->data;
+    part->truth = work->truth;
+    part->effects = work->effects;
+    for (int i = 0; i < work->effects; i++)
+        memcpy(part->spec[i], work->effect[i].spec, sizeof part->spec[i]);
+    hide_cards_free(&work->cards);
+    hide_noise_free(&work->noise);
+    hide_solution_free(&work->bare);
+    hide_solution_free(&work->hidden);
+    hide_data_free(&work->measured);
+    hide_data_free(&work->with);
+    hide_data_free(&work->without);
+    free(work);
+    return status;
+}
+
+void hide_part_free(struct hide_part *part)
+{
+    free(part->data.data);
+    free(part->truth.data);
+}
+
+static int make_one(const struct hide_request *request, const struct hide_cards *cards, struct hide_text *deck,
+                    struct hide_text *truth, const struct hide_message *message)
+{
+    struct hide_part part;
+    int status = request->effects_in
+                     ? hide_fail(message, HIDE_INPUT, "--effect-in: %s has no *STATE, expected --effect", request->name)
+                     : hide_one(request, &part, message);
+    if (request->effects_in)
+        return status;
+    if (!status) {
+        hide_write_cards(request->deck, cards, 0, cards->cards, request->sensors || request->half_sensors, deck);
+        hide_add_bytes(deck, part.data.data, part.data.length);
+        hide_add_bytes(truth, part.truth.data, part.truth.length);
+    }
+    hide_part_free(&part);
+    return status;
 }
 
 int hide_case(const struct hide_request *request, char **deck, char **truth, char *message, size_t room)
 {
     struct hide_message to = {message, room};
-    struct work *work = calloc(1, sizeof *work);
-    int status = work ? check(request, &to) : hide_fail(&to, HIDE_FAILURE, "no memory for a case");
+    struct hide_cards cards = {NULL, 0, NULL, NULL};
+    struct hide_text deck_text = {NULL, 0, 0, 0}, truth_text = {NULL, 0, 0, 0};
+    int status = check(request, &to), several = 0;
     *deck = *truth = NULL;
     if (!status)
-        status = make(request, work, &to);
-    if (!status) {
-        *deck = work->deck.data;
-        *truth = work->truth.data;
-    } else if (work) {
-        free(work->deck.data);
-        free(work->truth.data);
+        status = hide_cards_read(request->deck, request->name, &cards, &to);
+    for (int i = 0; i < cards.cards; i++)
+        several |= hide_same(cards.card[i].name, "STATE");
+    if (!status)
+        status = several ? hide_states(request, &cards, &deck_text, &truth_text, &to)
+                         : make_one(request, &cards, &deck_text, &truth_text, &to);
+    if (!status && (deck_text.failed || truth_text.failed))
+        status = hide_fail(&to, HIDE_FAILURE, "no memory for the texts");
+    hide_cards_free(&cards);
+    if (status) {
+        free(deck_text.data);
+        free(truth_text.data);
+        return status;
     }
-    if (work) {
-        hide_cards_free(&work->cards);
-        hide_noise_free(&work->noise);
-        hide_solution_free(&work->bare);
-        hide_solution_free(&work->hidden);
-        hide_data_free(&work->measured);
-        hide_data_free(&work->with);
-        hide_data_free(&work->without);
-    }
-    free(work);
+    *deck = deck_text.data;
+    *truth = truth_text.data;
     return status;
 }
 

@@ -35,15 +35,21 @@ struct hide_request {
     const char *const *truth;
     int effects; /* SPECs */
     const char *const *effect;
+    int effects_in; /* "NAME=SPEC": in that state of a deck with several alone, at most HIDE_MOST_EFFECTS */
+    const char *const *effect_in;
     const char *random; /* kind of effect to draw beside these, or NULL: hide_draw.h */
     int refine;         /* cuts of varying stiffness start this many times finer than usual; 1 */
+    int state;          /* which state of a deck, from 0: each has noise of its own */
 };
 
 /* The defaults of the command line. */
 struct hide_request hide_request_default(void);
 
 /* Texts to be freed by the caller: the deck with the measured data, the truth as JSON. Whatever fails leaves both NULL and a line
- * in message[room]. */
+ * in message[room].
+ *
+ * A deck with *STATE is one rotor in several states: parameters and effects are those of all, what the cards of a state add, its
+ * *SET of lengths and its noise are its own. Its data stand behind its cards; the truth is {"states": [{"name", "truth"}]}. */
 int hide_case(const struct hide_request *request, char **deck, char **truth, char *message, size_t room);
 
 /* What --list prints; to be freed. NULL without memory. */

@@ -23,6 +23,7 @@ static const char usage[] =
     "  --correlated RHO             shape noise correlated along the rotor, RHO between neighbours\n"
     "  --true NAME=VALUE            true value of a parameter of *IDENTIFY (drawn within 15 % of the deck's); may be repeated\n"
     "  --effect SPEC                id[:key=value,...] of --list; may be repeated\n"
+    "  --effect-in NAME=SPEC        in that state of a deck with *STATE alone; may be repeated\n"
     "  --random KIND                draws: none, an id of --list, physical, data, outside, pair, any\n"
     "  --refine N                   begins with varying stiffness cut N times finer than usual (1)\n"
     "  --list, --help\n"
@@ -42,6 +43,7 @@ enum {
     OPTION_CORRELATED,
     OPTION_TRUE,
     OPTION_EFFECT,
+    OPTION_EFFECT_IN,
     OPTION_RANDOM,
     OPTION_REFINE,
     OPTION_LIST,
@@ -61,6 +63,7 @@ static const struct option options[] = {{"truth", 1, NULL, OPTION_TRUTH},
                                         {"correlated", 1, NULL, OPTION_CORRELATED},
                                         {"true", 1, NULL, OPTION_TRUE},
                                         {"effect", 1, NULL, OPTION_EFFECT},
+                                        {"effect-in", 1, NULL, OPTION_EFFECT_IN},
                                         {"random", 1, NULL, OPTION_RANDOM},
                                         {"refine", 1, NULL, OPTION_REFINE},
                                         {"list", 0, NULL, OPTION_LIST},
@@ -70,7 +73,7 @@ static const struct option options[] = {{"truth", 1, NULL, OPTION_TRUTH},
 struct command {
     struct hide_request request;
     const char *out, *truth;
-    const char **effect, **true_value; /* [argc] */
+    const char **effect, **effect_in, **true_value; /* [argc] */
     int list, help;
 };
 
@@ -137,6 +140,9 @@ static int take(int option, struct command *c)
         return 0;
     case OPTION_EFFECT:
         c->effect[r->effects++] = optarg;
+        return 0;
+    case OPTION_EFFECT_IN:
+        c->effect_in[r->effects_in++] = optarg;
         return 0;
     case OPTION_RANDOM:
         r->random = optarg;
@@ -205,11 +211,13 @@ int main(int argc, char **argv)
     int option, status = HIDE_OK;
     c.effect = calloc((size_t)argc + 1, sizeof *c.effect);
     c.true_value = calloc((size_t)argc + 1, sizeof *c.true_value);
-    if (!c.effect || !c.true_value)
+    c.effect_in = calloc((size_t)argc + 1, sizeof *c.effect_in);
+    if (!c.effect || !c.effect_in || !c.true_value)
         status = HIDE_FAILURE;
     while (!status && (option = getopt_long(argc, argv, "o:", options, NULL)) != -1)
         status = take(option, &c) ? HIDE_INPUT : HIDE_OK;
     c.request.effect = c.effect;
+    c.request.effect_in = c.effect_in;
     c.request.truth = c.true_value;
     if (status == HIDE_INPUT || (!status && !c.help && !c.list && (optind + 1 != argc || !c.out || !c.truth))) {
         fputs(usage, stderr);
@@ -223,6 +231,7 @@ int main(int argc, char **argv)
         status = run(&c);
     }
     free(c.effect);
+    free(c.effect_in);
     free(c.true_value);
     return status;
 }

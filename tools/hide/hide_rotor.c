@@ -290,6 +290,40 @@ static int read_identify(struct reader *r)
     return HIDE_OK;
 }
 
+/* SET of the length of a group: its sections in proportion, and what lies to its right moves. */
+static int read_set(struct reader *r)
+{
+    struct hide_rotor *rotor = r->rotor;
+    for (int i = 0; i < r->card->lines; i++) {
+        char *name, *dot;
+        double length = 0;
+        int group, status;
+        if ((status = read_line(r, i, 1, &name, 1, 1, &length, "GROUP.length, value")))
+            return status;
+        dot = strrchr(name, '.');
+        if (!dot || !hide_same(dot + 1, "length") || !(length > 0))
+            return expected(r, "GROUP.length and a value above zero: this program cannot follow another one");
+        *dot = 0;
+        if ((group = hide_find_group(rotor, name)) < 0)
+            return expected(r, "a group that the deck has");
+        double from = rotor->group[group].from, to = rotor->group[group].to, factor = length / (to - from);
+        for (int k = 0; k < rotor->segments; k++) {
+            double *end[] = {&rotor->segment[k].from, &rotor->segment[k].to};
+            for (int e = 0; e < 2; e++)
+                *end[e] = *end[e] >= to    ? *end[e] + from + length - to
+                          : *end[e] > from ? from + (*end[e] - from) * factor
+                                           : *end[e];
+        }
+        for (int k = 0; k < rotor->groups; k++) {
+            double *end[] = {&rotor->group[k].from, &rotor->group[k].to};
+            for (int e = 0; e < 2; e++)
+                *end[e] = *end[e] >= to ? *end[e] + from + length - to : *end[e];
+        }
+        rotor->length += length - (to - from);
+    }
+    return HIDE_OK;
+}
+
 static int refuse(struct reader *r)
 {
     return expected(r, "a deck without this card: this program cannot follow it");
@@ -315,16 +349,17 @@ static const struct {
              {"ELASTIC", 0, read_elastic},
              {"DENSITY", 0, read_density},
              {"SHAFT", 1, read_group},
-             {"LAYER", 2, read_layer},
+             {"SET", 2, read_set}, /* before anything refers to positions */
+             {"LAYER", 3, read_layer},
              {"BEAM", 1, read_group},
-             {"PERFORATION", 2, read_of_group},
-             {"PRELOAD", 2, read_of_group},
-             {"TIEROD", 2, read_tie},
-             {"DISK", 2, read_attached},
-             {"SPRING", 2, read_attached},
-             {"SLING", 2, read_sling},
-             {"SENSORS", 2, read_sensors},
-             {"IDENTIFY", 2, read_identify}};
+             {"PERFORATION", 3, read_of_group},
+             {"PRELOAD", 3, read_of_group},
+             {"TIEROD", 3, read_tie},
+             {"DISK", 3, read_attached},
+             {"SPRING", 3, read_attached},
+             {"SLING", 3, read_sling},
+             {"SENSORS", 3, read_sensors},
+             {"IDENTIFY", 3, read_identify}};
 
 #define KINDS ((int)(sizeof table / sizeof *table))
 
@@ -332,7 +367,7 @@ int hide_rotor_read(const struct hide_cards *cards, const char *name, struct hid
                     const struct hide_message *message)
 {
     struct reader r = {.cards = cards, .deck = name, .rotor = rotor, .message = message};
-    for (int pass = 0; pass < 3; pass++)
+    for (int pass = 0; pass < 4; pass++)
         for (int i = 0; i < cards->cards; i++) {
             int kind = 0, status;
             r.card = &cards->card[i];

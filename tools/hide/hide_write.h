@@ -14,9 +14,10 @@ struct hide_truth {
     const struct hide_data *with, *without; /* free of noise; without: no effect */
 };
 
-/* The text of the deck without its measured data, and those of `data` behind it. */
-void hide_write_deck(const struct hide_truth *truth, const struct hide_cards *cards, int new_sensors,
-                     const struct hide_data *data, struct hide_text *text);
+/* Cards first ... end - 1 of the deck without measured data; new_sensors: without sensors. The measured data. */
+void hide_write_cards(const char *deck, const struct hide_cards *cards, int first, int end, int new_sensors,
+                      struct hide_text *text);
+void hide_write_data(const struct hide_truth *truth, int new_sensors, const struct hide_data *data, struct hide_text *text);
 void hide_write_truth(const struct hide_truth *truth, struct hide_text *text);
 
 #endif

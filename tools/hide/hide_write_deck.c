@@ -9,17 +9,21 @@ static int is_measured(const struct hide_card *card, int new_sensors)
     return new_sensors && hide_same(card->name, "SENSORS");
 }
 
-void hide_write_deck(const struct hide_truth *truth, const struct hide_cards *cards, int new_sensors,
-                     const struct hide_data *data, struct hide_text *text)
+void hide_write_cards(const char *deck, const struct hide_cards *cards, int first, int end, int new_sensors,
+                      struct hide_text *text)
 {
-    const struct hide_rotor *rotor = truth->physics->rotor;
-    const char *deck = truth->request->deck;
-    hide_add_bytes(text, deck, cards->cards ? cards->card[0].begin : 0);
-    for (int i = 0; i < cards->cards; i++)
+    if (first == 0)
+        hide_add_bytes(text, deck, cards->cards ? cards->card[0].begin : 0);
+    for (int i = first; i < end; i++)
         if (!is_measured(&cards->card[i], new_sensors))
             hide_add_bytes(text, deck + cards->card[i].begin, cards->card[i].end - cards->card[i].begin);
     if (text->length && text->data[text->length - 1] != '\n')
         hide_add(text, "\n");
+}
+
+void hide_write_data(const struct hide_truth *truth, int new_sensors, const struct hide_data *data, struct hide_text *text)
+{
+    const struct hide_rotor *rotor = truth->physics->rotor;
     if (new_sensors) {
         hide_add(text, "*SENSORS\n");
         for (int s = 0; s < rotor->sensors; s++)

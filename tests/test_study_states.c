@@ -1,0 +1,140 @@
+/* Studies of decks with several states: what varies acts on the common part and noise on each state; a run fits all at once. */
+#include <math.h>
+#include <string.h>
+
+#include "json_value.h"
+#include "result/json_tree.h"
+#include "run/identify.h"
+#include "study/experiment.h"
+#include "study/run.h"
+#include "study_bench.h"
+#include "support.h"
+
+#define STATES                                                                                                                   \
+    "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n"      \
+    "1.2, 0.08, 0, 24\n*SENSORS\n1, 0\n2, 0.5\n3, end\n*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n*STATE, NAME=free\n*MODES\n1, 250\n" \
+    "2, 680\n3, 1300\n*STATE, NAME=bearings\n*SPRING, NAME=front\n0.1, 2e6\n*SPRING, NAME=rear\n1.1, 1e6\n*MODES\n1, 300\n"      \
+    "2, 700\n*IDENTIFY\nfront.k, 1e5, 1e8, 2e6\n"
+
+static struct study study;
+static struct jobs jobs;
+
+static void open_study(const char *plan)
+{
+    static struct message_list messages;
+    (void)bench_write("states.inp", STATES);
+    assert_status(bench_study(&test_pool, plan, &messages, &study), ROTID_OK);
+    jobs_open(&study, &jobs);
+}
+
+static struct experiment make(long run)
+{
+    struct message_list messages;
+    struct experiment experiment;
+    const struct study_point point = study_locate(&study, run);
+    message_open(&messages, &test_pool);
+    assert_status(experiment_make(&test_pool, &jobs, &point, &messages, &experiment), ROTID_OK);
+    return experiment;
+}
+
+/* Data of the model at values that are drawn once for all states: fitted without noise they give these values back. */
+static void the_truth_is_that_of_all_states(void **state)
+{
+    (void)state;
+    open_study("*STUDY, REPLICATES=3\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n*TRUTH\ncore.E, 1.5e11, 2.5e11\nfront.k, 3e6\n");
+    for (long run = 0; run < 3; run++) {
+        struct experiment e = make(run);
+        struct identification found[2];
+        struct message_list notes;
+        rotid_fit_result *fit;
+        assert_int_equal(e.states.nstate, 2);
+        assert_int_equal(e.states.nparameter, 2);
+        assert_true(e.truth[0] >= 1.5e11 && e.truth[0] <= 2.5e11);
+        assert_close(e.truth[1], 3e6, 1e-14, 0);
+        message_open(&notes, &test_pool);
+        assert_status(identify_states(&test_pool, &e.states, 0, NULL, &notes, found, &fit), ROTID_OK);
+        assert_close(fit->x[0], e.truth[0], 1e-7, 0);
+        assert_close(fit->x[1], 3e6, 1e-6, 0);
+        rotid_fit_free(fit);
+    }
+    assert_true(make(0).truth[0] != make(1).truth[0]);
+    jobs_close(&jobs);
+}
+
+/* The same truth, and noise of its own in each state. */
+static void noise_is_that_of_each_state(void **state)
+{
+    (void)state;
+    const char *same = STATES "*STATE, NAME=again\n*MODES\n1, 250\n2, 680\n3, 1300\n";
+    open_study("*STUDY\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0\n0.001\n");
+    (void)bench_write("states.inp", same);
+    jobs_close(&jobs);
+    jobs_open(&study, &jobs);
+    struct experiment clean = make(0), noisy = make(1);
+    assert_int_equal(clean.states.nstate, 3);
+    for (int k = 0; k < 3; k++) {
+        double r[2];
+        for (int i = 0; i < 2; i++) {
+            const struct job_measurement *a = &clean.states.state[2 * i].job.measurement,
+                                         *b = &noisy.states.state[2 * i].job.measurement;
+            r[i] = b->frequency_hz[k] / a->frequency_hz[k] - 1;
+            assert_true(r[i] != 0 && fabs(r[i]) < 0.005);
+            assert_close(b->frequency_std[k], 0.001, 1e-12, 0);
+        }
+        assert_close(clean.states.state[0].job.measurement.frequency_hz[k], clean.states.state[2].job.measurement.frequency_hz[k],
+                     1e-12, 0);
+        assert_true(fabs(r[0] - r[1]) > 1e-6);
+    }
+    jobs_close(&jobs);
+}
+
+/* What is hidden is in all states. */
+static void effects_are_hidden_in_all_states(void **state)
+{
+    (void)state;
+    open_study("*STUDY\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n");
+    struct experiment bare = make(0);
+    jobs_close(&jobs);
+    open_study("*STUDY\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n*HIDE, TYPE=added_mass\nz, 0.6\nmass, 2\n");
+    struct experiment with = make(0);
+    for (int s = 0; s < 2; s++)
+        assert_true(with.states.state[s].job.measurement.frequency_hz[0] <
+                    0.999 * bare.states.state[s].job.measurement.frequency_hz[0]);
+    jobs_close(&jobs);
+}
+
+/* The line of a run: parameters of all, and modes that name their state. */
+static void a_run_names_the_state_of_its_modes(void **state)
+{
+    (void)state;
+    char *text;
+    open_study("*STUDY\n*DECKS\nstates.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001\n");
+    assert_status(study_run(&jobs, 0, NULL, &text), ROTID_OK);
+    cJSON *json = cJSON_Parse(text);
+    const cJSON *modes = get(json, "modes"), *parameters = get(json, "parameters");
+    assert_int_equal(cJSON_GetArraySize(modes), 5);
+    assert_int_equal(cJSON_GetArraySize(parameters), 2);
+    assert_string_equal(get(cJSON_GetArrayItem(parameters, 1), "name")->valuestring, "bearings:front.k");
+    assert_close(number_of(cJSON_GetArrayItem(parameters, 1), "truth"), 2e6, 1e-14, 0);
+    for (int k = 0; k < 5; k++) {
+        const cJSON *mode = cJSON_GetArrayItem(modes, k);
+        assert_string_equal(get(mode, "state")->valuestring, k < 3 ? "free" : "bearings");
+        assert_int_equal((int)number_of(mode, "mode"), k % 3 + 1);
+        assert_true(fabs(number_of(mode, "error_percent")) < 0.5);
+    }
+    assert_int_equal((int)number_of(json, "sensors"), 6);
+    cJSON_Delete(json);
+    json_free(text);
+    jobs_close(&jobs);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(the_truth_is_that_of_all_states, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(noise_is_that_of_each_state, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(effects_are_hidden_in_all_states, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_run_names_the_state_of_its_modes, open_test_pool, close_test_pool),
+    };
+    return cmocka_run_group_tests_name("study_states", tests, bench_make, bench_remove);
+}
