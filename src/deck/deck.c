@@ -312,7 +312,9 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
             return ROTID_ERROR_MEMORY;
     if (add_cards(pool, &reader.text, ncard, card))
         return ROTID_ERROR_MEMORY;
-    deck_read_all_states(&reader, nread, states);
+    int bad_tables = deck_read_tables(&reader, &nread); /* what follows from a table that is not there would be told of as well */
+    if (!bad_tables)
+        deck_read_all_states(&reader, nread, states);
     if (reader.out_of_memory || messages->out_of_memory || !job.deck)
         return ROTID_ERROR_MEMORY;
     if (messages->errors)

@@ -55,6 +55,9 @@ enum range { ANY, NOT_NEGATIVE, POSITIVE };
 /* Zero, or within these. */
 int deck_is_usual(double value);
 
+/* The factor that makes numbers in the unit `word` SI, of what has the unit `si` inside ("m", "1" for a share); 0 where that has no
+ * such unit. */
+double deck_unit_factor(const char *si, const char *word);
 /* The factor that makes a number of the deck SI; what: "length [m]", or a unit alone. 1 for what has no unit. */
 double deck_in_si(const struct deck_reader *reader, const char *what);
 /* The deck's own unit of it, for messages. */
@@ -75,7 +78,9 @@ int deck_has(const struct data_line *line, int i);
 /* No more than `most` fields; otherwise an error that says what a line of this card holds. */
 int deck_count(struct deck_reader *reader, const struct data_line *line, int most, const char *layout);
 /* A number in metres, start, end, group.start or group.end, inside the rotor. */
-int deck_position(struct deck_reader *reader, const char *text, struct place place, const char *what, double *z);
+int deck_position(struct deck_reader *reader, const struct field *field, const char *what, double *z);
+/* The same of an option. */
+int deck_option_position(struct deck_reader *reader, const struct card_option *option, const char *what, double *z);
 
 /* The value of an option that must be there, or NULL after an error. */
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected);
@@ -138,6 +143,10 @@ void deck_read_cards(struct deck_reader *reader);
 void deck_drop_unknown(struct deck_reader *reader, int p);
 /* MODES and HOLDOUT of a card. */
 void deck_choose_modes(struct deck_reader *reader, const struct card *card);
+/* What the tables of FILE hold becomes data lines of their cards, of new cards where a table holds that of several. *nread, the
+ * number of cards in front, counts these. 0, or 1 after an error that leaves nothing to read. */
+int deck_read_tables(struct deck_reader *reader, int *nread);
+
 /* NAME of HOLDOUT=STATE:NAME, else NULL. */
 const char *deck_whole_state(const char *holdout);
 

@@ -146,7 +146,7 @@ static int read_values(struct cause_card *c, int count, const struct effect_para
         }
         given[p] = 1;
         int is_place = c->kind->class == CAUSE_PHYSICAL && p == c->kind->place && deck_has(line, 1);
-        bad |= is_place ? deck_position(c->reader, line->field[1].text, line->field[1].place, known[p].name, &value[p])
+        bad |= is_place ? deck_position(c->reader, &line->field[1], known[p].name, &value[p])
                         : deck_number(c->reader, line, 1, known[p].name, ANY, &value[p]);
         if (!is_place)
             value[p] *= deck_in_si(c->reader, known[p].unit);

@@ -69,7 +69,7 @@ void deck_sensors(struct deck_reader *reader, const struct card *card)
             deck_error(reader, line->end, "a value is missing, expected the position of sensor %d", sensor.id);
             continue;
         }
-        if (deck_position(reader, line->field[1].text, line->field[1].place, "position", &sensor.position))
+        if (deck_position(reader, &line->field[1], "position", &sensor.position))
             continue;
         if (rotor->nsensor == DECK_MOST_LINES) {
             deck_error(reader, line->place, "the rotor has more than %d sensors, expected fewer", DECK_MOST_LINES);
