@@ -5,6 +5,7 @@
 #include "deck/deck_text.h"
 #include "ema/ema.h"
 #include "import/measurement.h"
+#include "report/csv.h"
 #include "report/terminal.h"
 #include "result/result.h"
 #include "run/identify.h"
@@ -32,7 +33,7 @@ struct given_option {
 
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
-    const char *name, *deck, *json, *at, *extended, *output;
+    const char *name, *deck, *json, *at, *extended, *output, *csv;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
     int quiet, verbose, threads, no_baseline, compare, points, replicates, start, condensed;
@@ -78,6 +79,11 @@ int command_write_result(struct command *command, struct result *result, int cod
 
 /* Writes text (may be NULL: out of memory) to a file; `code` unless that fails. */
 int command_write_file(struct command *command, const char *path, const char *text, int code);
+
+/* Refuses --csv where one of its files is read or is that of --json. An exit code, EXIT_DONE to go on. */
+int command_refuse_csv(const struct command *command, const struct csv_part *part);
+/* Writes the tables that --csv asks for; `code` unless that fails. */
+int command_write_csv(struct command *command, const struct csv_part *part, const void *from, int code);
 
 /* Warns of an identification (may be NULL) at whose values the model is `done`, where it did not end well or its reduction is
  * coarse. An exit code, EXIT_DONE or EXIT_DOUBTFUL. */

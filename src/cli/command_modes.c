@@ -11,7 +11,9 @@ static int show(struct command *command, rotid_spectrum *spectrum)
         table_modes(terminal_out(), &result, command->verbose);
         table_notes(terminal_out(), &command->messages);
     }
-    return command_write_result(command, &result, EXIT_DONE);
+    const struct csv_spectrum tables = {spectrum, command->job};
+    int code = command_write_csv(command, csv_spectrum_parts, &tables, EXIT_DONE);
+    return code ? code : command_write_result(command, &result, EXIT_DONE);
 }
 
 int command_modes(struct command *command)
@@ -19,6 +21,9 @@ int command_modes(struct command *command)
     char failure[ROTID_FAILURE_LENGTH];
     rotid_spectrum *spectrum;
     const double *x = command->read->stated;
+    int refused = command_refuse_csv(command, csv_spectrum_parts);
+    if (refused)
+        return refused;
     int status = command->compare ? rotid_spectrum_beside(command->read, x, 0, NULL, failure, &spectrum)
                                   : rotid_spectrum_compute(command->read, x, 0, NULL, failure, &spectrum);
     if (status)

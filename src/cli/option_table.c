@@ -34,6 +34,11 @@ const struct option_row option_table[] = {
     {.name = "set", .commands = DECKS " study", .kind = OPTION_OVERRIDE, .value = "CARD.OPTION=VALUE",
      .help = "another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated"},
 
+    {.name = "csv", .commands = "modes identify uff", .kind = OPTION_WRITES, AT(csv), .value = "NAME",
+     .help = "tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv)",
+     .more = "FILE of *MODES, *SENSORS and *SHAPE reads them. Of a universal file they hold its modes as real shapes, in the "
+             "direction in which they move most."},
+
     {.name = "compare", .commands = "modes", .kind = OPTION_SWITCH, AT(compare),
      .help = "the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find",
      .more = "At the values of the deck, whichever of the two MODEL on *FIT asks for."},

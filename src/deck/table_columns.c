@@ -20,7 +20,7 @@ const struct table_kind table_kinds[] = {
       {"damping|damping ratio|zeta", "1", 1},
       {"std|standard deviation|frequency std|std frequency|sigma", "Hz", 1}, NOTHING}, {NOTHING}},
     {"SENSORS", 0,
-     {{"sensor|sensor id|point|node|id", NULL, 0}, {"position|z|x", "m", 0}, NOTHING}, {NOTHING}},
+     {{"sensor|sensor id|point|node|id", NULL, 0}, {"position|z", "m", 0}, NOTHING}, {NOTHING}},
     {"SHAPE", 1,
      {{"sensor|sensor id|point|node|id", NULL, 0}, {"value|component|shape", NULL, 0},
       {"std|standard deviation|sigma", NULL, 1}, NOTHING},
@@ -127,9 +127,10 @@ int table_numbers(const char *text, struct table_numbered *numbered)
     return numbers == 1;
 }
 
-/* Whether any card has a column of that name. */
+/* Whether any card has a column of that name, or a table that rotid has written. */
 static int is_known(const char *name)
 {
+    static const struct table_column written = {"condensed|reduction|mesh|measured|error|nco|x|y", NULL, 0};
     char unit[TABLE_CELL_LENGTH];
     struct table_numbered numbered;
     for (const struct table_kind *kind = table_kinds; kind->card; kind++) {
@@ -140,7 +141,7 @@ static int is_known(const char *name)
             if (table_names(name, c, unit))
                 return 1;
     }
-    return table_numbers(name, &numbered);
+    return table_names(name, &written, unit) || table_numbers(name, &numbered);
 }
 
 /* The column of the header that is called so, -1: none, -2 after an error. */
@@ -201,9 +202,16 @@ int table_find_columns(struct deck_reader *reader, const struct table_text *tabl
             return 1;
         }
     }
+    char unread[256] = "";
+    int first = -1;
     for (int i = 0; i < header->count && columns->header; i++)
-        if (*header->field[i].text && !is_known(header->field[i].text))
-            deck_note(reader, header->field[i].place, "column '%s' is not read by *%s, which knows %s", header->field[i].text,
-                      kind->card, list);
+        if (*header->field[i].text && !is_known(header->field[i].text)) {
+            (void)snprintf(unread + strlen(unread), sizeof unread - strlen(unread), "%s'%s'", first < 0 ? "" : ", ",
+                           header->field[i].text);
+            first = first < 0 ? i : first;
+        }
+    if (first >= 0)
+        deck_note(reader, header->field[first].place, "*%s does not read %s, expected columns such as %s", kind->card, unread,
+                  list);
     return 0;
 }
