@@ -313,7 +313,7 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
     if (add_cards(pool, &reader.text, ncard, card))
         return ROTID_ERROR_MEMORY;
     int bad_tables = deck_read_tables(&reader, &nread); /* what follows from a table that is not there would be told of as well */
-    if (!bad_tables)
+    if (!bad_tables && !reader.out_of_memory)
         deck_read_all_states(&reader, nread, states);
     if (reader.out_of_memory || messages->out_of_memory || !job.deck)
         return ROTID_ERROR_MEMORY;

@@ -32,8 +32,9 @@ static struct table_text *open_table(struct deck_reader *reader, const struct ca
     if (!grown || !table)
         return NULL;
     text->table = grown;
-    if (table_text_read(reader->pool, path, file->value_place, reader->messages, table) == ROTID_ERROR_MEMORY)
-        reader->out_of_memory = 1;
+    int status = table_text_read(reader->pool, path, file->value_place, reader->messages, table);
+    reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
+    table->bad = status != ROTID_OK;
     grown[text->ntable++] = table;
     return table;
 }
@@ -145,6 +146,10 @@ static void take_sections(struct taking *t)
         int count = values_of(t, row, field), is_new = !group || (*name.text && !same_text(name.text, group));
         if (is_new && named)
             name = (struct field){named->value, named->value_place, 0};
+        if (is_new && (strchr(name.text, ',') || strchr(name.text, '*'))) {
+            deck_error(reader, name.place, "'%s' is no name of a group, expected one without commas and asterisks", name.text);
+            return;
+        }
         if (is_new && !*name.text) {
             deck_error(reader, name.place, "the first section has no group, expected its name, or NAME on *%s", t->card->name);
             return;

@@ -53,7 +53,6 @@ static int refuse(struct splitter *s, int row, int column, const char *format, .
     va_end(values);
     message_add(s->messages, SEVERITY_ERROR, s->table->path, row, column, "%s (cell %s)", text,
                 table_cell_name(row, column, cell));
-    s->table->bad = 1;
     return 1;
 }
 
@@ -300,7 +299,7 @@ int table_text_read(struct pool *pool, const char *path, struct place from, stru
     char why[HOST_ERROR_TEXT];
     size_t length = 0;
     FILE *stream = file_open(path, 0, &about);
-    *table = (struct table_text){.path = path, .bad = 1};
+    *table = (struct table_text){.path = path};
     if (!stream) {
         message_add(messages, SEVERITY_ERROR, from.file, from.line, from.column, "cannot read %s: %s, expected a table as CSV",
                     path, file_error_text(errno, why));

@@ -11,7 +11,7 @@
 
 struct table_text {
     const char *path;
-    int bad; /* an error has been reported */
+    int bad; /* an error has been reported: of the caller */
     int nrow;
     size_t row_room;
     struct data_line *row; /* rows that hold something; a place counts rows and columns from 1, text is NULL */
