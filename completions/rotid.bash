@@ -24,6 +24,7 @@ _rotid_options=(
     '--help:check modes sensitivity identify diagnose frf ema export uff report study::'
     '--json:check modes sensitivity identify diagnose frf export ema uff study:files:json'
     '--set:check modes sensitivity identify diagnose frf export study:value:'
+    '--csv:modes identify uff:value:'
     '--compare:modes::'
     '--at:sensitivity:value:'
     '--step:sensitivity:value:'

@@ -156,6 +156,7 @@ static const char *value_of(const char *command, const char *option)
                                             {"--range", "0.1"},
                                             {"--points", "2"},
                                             {"--extended", "/x/y"},
+                                            {"--csv", "/x/y"},
                                             {"--replicates", "100"},
                                             {"--output", "/x/y"},
                                             {"-o", "/x/y"},
