@@ -10,6 +10,7 @@
 #include "deck/deck_frequencies.h"
 #include "deck/deck_state.h"
 #include "rotid.h"
+#include "run/mesh_choice.h"
 
 #define LAST_PHASE 8
 
@@ -187,6 +188,24 @@ static void check_model(struct deck_reader *reader)
                        job->measurement.number[k], modes);
 }
 
+/* Elements of the sections that state none. */
+static void choose_mesh(struct deck_reader *reader)
+{
+    struct mesh_choice c;
+    struct place place =
+        reader->nopen ? reader->group_place[reader->job->rotor.segment[reader->open_section[0]].group] : reader->text.end;
+    if (!reader->nopen)
+        return;
+    reader->out_of_memory |= mesh_choose(reader->pool, reader->job, reader->nopen, reader->open_section, &c) != ROTID_OK;
+    if (!reader->out_of_memory && isfinite(c.error) && !reader->job->options.solid) /* that has a mesh of its own */
+        deck_note(reader, place,
+                  "%d elements of at most %.3g mm are chosen where none are stated: modes 1 to %d lie within %.2g %% of a fine "
+                  "mesh, %s %.2g %%%s",
+                  c.elements, 1000 * c.length_m, c.mode, 100 * c.error,
+                  c.error > c.wanted ? "and more elements would have to be stated for" : "as wanted:", 100 * c.wanted,
+                  c.is_noise_known ? ", a tenth of the smallest noise" : "");
+}
+
 /* What a solid takes for granted where the deck says nothing of it. */
 static void note_assumptions(struct deck_reader *reader)
 {
@@ -274,7 +293,9 @@ void deck_read_cards(struct deck_reader *reader)
         return;
     choose_functional(reader);
     check_masters(reader);
-    check_model(reader);
+    choose_mesh(reader);
+    if (!reader->out_of_memory)
+        check_model(reader);
     deck_doubt_rotor(reader);
     note_assumptions(reader);
 }

@@ -17,6 +17,8 @@ struct deck_reader {
     size_t material_room, group_room, segment_room, ring_room, tierod_room, bars_room, sensor_room, parameter_room;
     size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
     struct material *material;
+    int nopen, *open_section; /* sections without elements: the mesh follows from modes and noise */
+    size_t open_room;
     int *material_complete; /* bit 1: elastic constants, bit 2: density */
     struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
     size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,

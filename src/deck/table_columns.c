@@ -33,11 +33,11 @@ const struct table_kind table_kinds[] = {
      {{"length|l", "m", 0},
       {"outer diameter|outer|od|diameter|d", "m", 0},
       {"inner diameter|inner|id|bore", "m", 0},
-      {"elements|number of elements", NULL, 0},
+      {"elements|number of elements", NULL, 1},
       {"stiffness diameter|stiff outer diameter|stiffness outer diameter", "m", 1}, NOTHING},
      {{"group|name|section", NULL, 1}, {"material", NULL, 1}, NOTHING}},
     {"BEAM", 0,
-     {{"length|l", "m", 0}, {"height|h", "m", 0}, {"width|b|w", "m", 0}, {"elements|number of elements", NULL, 0}, NOTHING},
+     {{"length|l", "m", 0}, {"height|h", "m", 0}, {"width|b|w", "m", 0}, {"elements|number of elements", NULL, 1}, NOTHING},
      {{"group|name|section", NULL, 1}, {"material", NULL, 1}, NOTHING}},
     {NULL, 0, {NOTHING}, {NOTHING}}};
 /* clang-format on */
