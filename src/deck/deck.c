@@ -69,40 +69,59 @@ static void check_unique(struct deck_reader *reader)
     }
 }
 
+/* TIE=E:G makes the groups of an unknown E isotropic: their G is no unknown. 0, or 1 after an error. */
+static int tie_groups(struct deck_reader *reader, const struct parameter *young, const char *name)
+{
+    struct job *job = reader->job;
+    for (int g = 0; g < job->rotor.ngroup; g++) {
+        struct group *group = &job->rotor.group[g];
+        if (!parameter_is_of_group(young, g))
+            continue;
+        if (group->material.laminated) {
+            deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
+                       "TIE=E:G has no meaning for the sheets of %s, expected a material of another type", group->name);
+            return 1;
+        }
+        group->material.isotropic = 1;
+        for (int q = job->unknowns.nparameter - 1; q >= 0; q--)
+            if (job->unknowns.parameter[q].kind == PARAMETER_G && parameter_is_of_group(&job->unknowns.parameter[q], g)) {
+                deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)",
+                          job->unknowns.bounds[q].name, name);
+                deck_drop_unknown(reader, q);
+            }
+    }
+    return 0;
+}
+
 /* G of its own where it is identified, G = E/2(1+nu) where TIE asks for it. */
 static void settle_moduli(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     for (int p = 0; p < job->unknowns.nparameter && reader->tie; p++) {
-        if (job->unknowns.parameter[p].kind != PARAMETER_E)
+        struct parameter young = job->unknowns.parameter[p];
+        const char *name = job->unknowns.bounds[p].name;
+        if (young.kind != PARAMETER_E)
             continue;
-        struct group *group = &job->rotor.group[job->unknowns.parameter[p].index];
-        if (group->material.laminated) {
-            deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
-                       "TIE=E:G has no meaning for the sheets of %s, expected a material of another type", group->name);
+        if (tie_groups(reader, &young, name))
             return;
-        }
-        group->material.isotropic = 1;
-        for (int q = 0; q < job->unknowns.nparameter; q++)
-            if (job->unknowns.parameter[q].kind == PARAMETER_G &&
-                job->unknowns.parameter[q].index == job->unknowns.parameter[p].index) {
-                deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)",
-                          job->unknowns.bounds[q].name, job->unknowns.bounds[p].name);
-                deck_drop_unknown(reader, q);
-                p -= q < p;
-                break;
-            }
+        while (p >= job->unknowns.nparameter || job->unknowns.bounds[p].name != name)
+            p--; /* those dropped stood in front */
     }
     for (int p = 0; p < job->unknowns.nparameter; p++) {
-        if (job->unknowns.parameter[p].kind != PARAMETER_G)
+        const struct parameter *shear = &job->unknowns.parameter[p];
+        if (shear->kind != PARAMETER_G)
             continue;
         if (reader->tie)
             deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
                        "TIE=E:G, but %s is identified without E of that group, expected E in its place",
                        job->unknowns.bounds[p].name);
-        struct material *material = &job->rotor.group[job->unknowns.parameter[p].index].material;
-        material->g = material_shear_modulus(material);
-        material->isotropic = 0;
+        for (int g = 0; g < job->rotor.ngroup; g++) {
+            struct material *material = &job->rotor.group[g].material;
+            if (!parameter_is_of_group(shear, g))
+                continue;
+            material->g = material_shear_modulus(material);
+            material->isotropic = 0;
+        }
     }
 }
 

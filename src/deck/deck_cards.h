@@ -28,14 +28,14 @@ struct deck_reader {
     double length;                  /* of the rotor, once all groups are read */
     double noise_frequency, noise_shape, floor_frequency, floor_shape;
     const struct card *measured_card, *modes_card, *frequencies_card, *fit_card, *identify_card, *noise_card, *frf_card;
-    const char *tie;     /* FIT, TIE=E:G */
-    int *mean_kept;      /* [nmode] FREQUENCIES, MEAN=NO */
-    const char *state;   /* that the cards are of, NULL in a deck without *STATE */
-    int ncommon;         /* the first cards of the text are common to all states; the others are of this one */
-    int ncommon_unknown; /* the first unknowns come from those */
-    int alone;           /* no other state is read beside it */
-    int held_out;        /* HOLDOUT=STATE: all its modes are */
-    int no_section;      /* the one error is that of a section that cannot be */
+    const char *tie;           /* FIT, TIE=E:G */
+    int *mean_kept;            /* [nmode] FREQUENCIES, MEAN=NO */
+    const char *state;         /* that the cards are of, NULL in a deck without *STATE */
+    int ncommon;               /* the first cards of the text are common to all states; the others are of this one */
+    int ncommon_unknown;       /* the first unknowns come from those */
+    int alone;                 /* no other state is read beside it */
+    int held_out;              /* HOLDOUT=STATE: all its modes are */
+    int no_section;            /* the one error is that of a section that cannot be */
     int unit[DECK_QUANTITIES]; /* of *UNITS: which word, 0: SI */
     unsigned doubted;          /* kinds of numbers that a warning was given for */
     int out_of_memory;
@@ -57,8 +57,8 @@ enum range { ANY, NOT_NEGATIVE, POSITIVE };
 /* Zero, or within these. */
 int deck_is_usual(double value);
 
-/* The factor that makes numbers in the unit `word` SI, of what has the unit `si` inside ("m", "1" for a share); 0 where that has no
- * such unit. */
+/* The factor that makes numbers in the unit `word` SI, of what has the unit `si` inside ("m", "1" for a share); 0 where that has
+ * no such unit. */
 double deck_unit_factor(const char *si, const char *word);
 /* The factor that makes a number of the deck SI; what: "length [m]", or a unit alone. 1 for what has no unit. */
 double deck_in_si(const struct deck_reader *reader, const char *what);
@@ -140,6 +140,9 @@ void deck_causes_of_solid(struct deck_reader *reader);
 
 /* The cards of the text into the job, with everything that is checked of them. */
 void deck_read_cards(struct deck_reader *reader);
+
+/* parameter_find of a field, also of "left.E=right.E". 3: an error of it has been reported. */
+int deck_find_parameter(struct deck_reader *reader, const struct field *field, struct parameter *parameter, const char **unit);
 
 /* Takes an unknown out of the job. */
 void deck_drop_unknown(struct deck_reader *reader, int p);

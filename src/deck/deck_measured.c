@@ -175,7 +175,8 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
     const struct card_option *option = card_option(card, "MODE");
     double number;
     int mode = -1;
-    if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") || deck_option_number(reader, option, "", POSITIVE, &number))
+    if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") ||
+        deck_option_number(reader, option, "", POSITIVE, &number))
         return;
     for (int k = 0; k < job->measurement.nmode; k++)
         if (job->measurement.number[k] == number)

@@ -18,15 +18,19 @@ static double draw(const struct study *study, enum draw_purpose purpose, long re
     return upper > lower ? lower + along * (upper - lower) : lower;
 }
 
-static void set(struct rotor *rotor, const char *name, double value)
+static void set(struct rotor *rotor, const char *names, double value)
 {
-    struct parameter parameter;
-    const char *unit;
-    if (parameter_find(rotor, name, &parameter, &unit))
-        return;
-    if (parameter.kind == PARAMETER_G)
-        rotor->group[parameter.index].material.isotropic = 0;
-    *parameter_value(rotor, parameter) = value;
+    char name[PARAMETER_NAME];
+    for (const char *next = names; next;) {
+        struct parameter parameter;
+        const char *unit;
+        next = parameter_next_name(next, name);
+        if (parameter_find(rotor, name, &parameter, &unit))
+            continue;
+        if (parameter.kind == PARAMETER_G)
+            rotor->group[parameter.index].material.isotropic = 0;
+        *parameter_value(rotor, parameter) = value;
+    }
 }
 
 /* Every value is set in every run: the truth keeps nothing of the run before. */
