@@ -107,6 +107,8 @@ int arguments_refuse(const struct command *command, const struct command_entry *
         refused = refuse_study(command);
     else if (!strcmp(command->name, "report") && !command->output)
         return arguments_wrong("%s: expected -o FOLDER", command->name);
+    else if (!strcmp(command->name, "import") && !command->output)
+        return arguments_wrong("%s: expected -o FILE", command->name);
     else if (arguments_given(command, "format") && !command->output)
         return arguments_wrong("--format %s: expected --output as well", arguments_given(command, "format"));
     return refused >= 0 ? refused : refuse_files(command);

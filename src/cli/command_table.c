@@ -12,6 +12,7 @@ const struct command_entry command_table[] = {
     {"ema", "time records or transfer functions (58, 58b) to modes for *MEASURED", "unv|uff|uf", command_ema, PARALLEL},
     {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script", "inp", command_export,
      READS_DECK},
+    {"import", "a rotor that ROSS has saved (Rotor.save, JSON) as a deck", "json", command_import, 0},
     {"uff", "what a universal file holds, and what is doubtful in it; with -o: ASCII to binary and back", "unv|uff|uf",
      command_uff, 0},
     {"report", "results that were written with --json as a page with figures", "json|jsonl", command_report, SEVERAL_FILES},

@@ -106,6 +106,8 @@ const struct option_row option_table[] = {
     {.name = "condensed", .commands = "export", .kind = OPTION_SWITCH, AT(condensed),
      .help = "dmig: the model condensed onto the sensors"},
 
+    {OUTPUT(.commands = "import", .value = "FILE", .files = "inp", .help = "the deck")},
+
     {OUTPUT(.commands = "uff", .value = "FILE", .files = UNIVERSAL, .help = "the file anew, its functions in the other format")},
     {.name = "format", .commands = "uff", .kind = OPTION_WORD, AT(format), .words = formats,
      .help = "with --output: of the functions in it"},
