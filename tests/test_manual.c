@@ -188,7 +188,7 @@ static const char *needs_of(const char *command, const char *option)
 {
     if (strcmp(command, "export") == 0)
         return "--format dmig -o /x/y";
-    if (strcmp(command, "report") == 0)
+    if (strcmp(command, "report") == 0 || strcmp(command, "import") == 0)
         return "-o /x/y";
     return strcmp(command, "study") == 0 && strcmp(option, "--summary") != 0 ? "-o /x/y" : "";
 }
