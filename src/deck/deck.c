@@ -14,11 +14,27 @@
 
 #define LAST_PHASE 8
 
+/* The card that a misspelt name is closest to, or NULL. */
+static const char *nearest_card(const char *name)
+{
+    const char *nearest = NULL;
+    int least = TEXT_FAR;
+    for (const struct deck_card *kind = deck_card_table; kind->name; kind++) {
+        int distance = text_distance(name, kind->name);
+        if (distance < least)
+            nearest = kind->name;
+        least = distance < least ? distance : least;
+    }
+    return nearest;
+}
+
 static void check_names(struct deck_reader *reader, const struct card *card)
 {
     const struct deck_card *kind = deck_card_find(card->name);
     if (!kind) {
-        deck_error(reader, card->place, "card *%s is not known, expected one of docs/deck.md such as *SHAFT", card->name);
+        const char *near = nearest_card(card->name);
+        deck_error(reader, card->place, "card *%s is not known, expected %s*%s", card->name,
+                   near ? "" : "one of docs/deck.md such as ", near ? near : "SHAFT");
         return;
     }
     char list[256] = "";

@@ -85,16 +85,14 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         struct parameter parameter;
         rotid_parameter bounds = {.name = line->field[0].text};
         int found = deck_find_parameter(reader, &line->field[0], &parameter, &bounds.unit);
+        const char *known = found == 1 || found == 2 ? parameter_list(reader->pool, &job->rotor, bounds.name) : "";
+        reader->out_of_memory |= !known;
         if (found == 1 && !deck_cause_explains(reader, bounds.name, line->field[0].place))
-            deck_error(reader, line->field[0].place,
-                       "%s is no parameter, expected NAME.E, .G, .nu, .rho of a group, NAME.E, .tension of a tie rod, NAME.k, "
-                       ".k_rot of a spring, "
-                       "NAME.mass, .inertia of a disk, NAME.parameter of a cause",
-                       bounds.name);
+            deck_error(reader, line->field[0].place, "%s is no parameter, expected one of %s", bounds.name, known ? known : "");
         if (found == 2)
             deck_error(reader, line->field[0].place,
-                       "%s: there is a thing of that name and it has no such parameter, expected another one behind the dot",
-                       bounds.name);
+                       "%s: there is a thing of that name and it has no such parameter, expected one of %s", bounds.name,
+                       known ? known : "");
         int bad = deck_count(reader, line, 4, layout) || found;
         bad |= deck_number(reader, line, 1, "lower bound", ANY, &bounds.lower);
         bad |= deck_number(reader, line, 2, "upper bound", ANY, &bounds.upper);

@@ -104,7 +104,8 @@ static int import_sensors(struct import *import)
         reader->out_of_memory = 1;
         return 1;
     }
-    int bad = 0;
+    int outside = 0, first = 0;
+    double at = 0;
     for (int i = 0; i < file->node_count; i++) {
         if (!carried || !bsearch(&file->node[i].id, carrying, carried, sizeof *carrying, compare_ids))
             continue;
@@ -115,21 +116,26 @@ static int import_sensors(struct import *import)
         }
         double z = import->origin + (import->flip ? -1 : 1) * import->scale * file->node[i].x[import->axis];
         if (!(z >= -1e-5 * reader->length && z <= reader->length * (1 + 1e-5))) {
-            deck_error(reader, in_file(import, 1),
-                       "node %d lies at %.6g m of the model, outside the rotor, expected 0 to %.6g m: check AXIS, ORIGIN, FLIP, "
-                       "SCALE and the unit",
-                       file->node[i].id, z, reader->length);
-            bad = 1;
+            if (!outside++) {
+                first = i;
+                at = z;
+            }
             continue;
         }
         z = fmin(fmax(z, 0), reader->length);
         rotor->sensor[rotor->nsensor++] = (struct sensor){file->node[i].id, z};
     }
+    if (outside) /* of a wrong unit or axis all of them are */
+        deck_error(reader, in_file(import, 1),
+                   "node %d lies at %.6g m of the model, outside the rotor%s, expected 0 to %.6g m: check AXIS, ORIGIN, FLIP, "
+                   "SCALE and the unit",
+                   file->node[first].id, at, outside > 1 ? pool_format(reader->pool, ", and %d more nodes are", outside - 1) : "",
+                   reader->length);
     if (rotor->nsensor)
         qsort(rotor->sensor, (size_t)rotor->nsensor, sizeof *rotor->sensor, compare_sensors);
     for (int s = 0; s < rotor->nsensor; s++)
         reader->sensor_place[s] = in_file(import, 1);
-    return bad;
+    return outside > 0;
 }
 
 /* Modes by rising frequency, without the second of each conjugate pair. */

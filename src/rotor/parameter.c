@@ -89,6 +89,39 @@ int parameter_find(const struct rotor *rotor, const char *name, struct parameter
     return find_in_effects(rotor, name, length, dot + 1, parameter, unit, result);
 }
 
+struct listing {
+    struct pool *pool;
+    const char *text, *of; /* of: an object alone, or NULL */
+    int count;
+};
+
+static void list(struct listing *l, const char *owner, const char *suffix)
+{
+    size_t length = l->of ? strcspn(l->of, ".") : 0;
+    if (!owner || !*owner || !l->text || (l->of && (strlen(owner) != length || !same(owner, l->of, length))))
+        return;
+    if (l->count++ < PARAMETERS_LISTED)
+        l->text = pool_format(l->pool, "%s%s%s.%s", l->text, *l->text ? ", " : "", owner, suffix);
+}
+
+const char *parameter_list(struct pool *pool, const struct rotor *rotor, const char *of)
+{
+    struct listing l = {.pool = pool, .text = "", .of = of};
+    for (enum owner owner = OF_GROUP; owner <= OF_DISK; owner++)
+        for (int i = 0; i < count_of(rotor, owner); i++)
+            for (size_t t = 0; t < sizeof table / sizeof *table; t++)
+                if (table[t].owner == owner)
+                    list(&l, name_of(rotor, owner, i), table[t].suffix);
+    for (int i = 0; i < rotor->neffect; i++)
+        for (int p = 0; p < effect_parameters(&rotor->effect[i]); p++)
+            list(&l, rotor->effect[i].name, rotor->effect[i].kind->parameter[p].name);
+    if (!l.count && of)
+        return parameter_list(pool, rotor, NULL);
+    if (l.text && l.count > PARAMETERS_LISTED)
+        l.text = pool_format(pool, "%s and %d more", l.text, l.count - PARAMETERS_LISTED);
+    return l.text;
+}
+
 double *parameter_value(const struct rotor *rotor, struct parameter parameter)
 {
     int i = parameter.index;

@@ -44,6 +44,11 @@ int parameters_overlap(const struct parameter *a, const struct parameter *b);
  * object has no such parameter; *unit is set with 0. */
 int parameter_find(const struct rotor *rotor, const char *name, struct parameter *parameter, const char **unit);
 
+/* The names there are, "left.E, left.G, ...", for messages; of the object alone that `of` ("left.x") names where there is one.
+ * Behind PARAMETERS_LISTED of them their number. NULL where memory is out. */
+#define PARAMETERS_LISTED 24
+const char *parameter_list(struct pool *pool, const struct rotor *rotor, const char *of);
+
 /* Its value in the rotor, to read or to set. G of an isotropic material is not stored: give the group a G of its own first. */
 double *parameter_value(const struct rotor *rotor, struct parameter parameter);
 
