@@ -18,11 +18,11 @@ _rotid_commands=(
 )
 _rotid_options=(
     '--quiet:check modes sensitivity identify diagnose frf ema export import uff report study::'
-    '--verbose:check modes sensitivity identify diagnose frf ema export import uff report study::'
-    '--threads:check modes sensitivity identify diagnose frf ema export import uff report study:value:'
-    '--seed:check modes sensitivity identify diagnose frf ema export import uff report study:value:'
+    '--verbose:check modes sensitivity identify diagnose frf export ema uff::'
+    '--threads:check modes sensitivity identify diagnose frf export ema study:value:'
+    '--seed:sensitivity diagnose study:value:'
     '--version:check modes sensitivity identify diagnose frf ema export import uff report study::'
-    '--help:check modes sensitivity identify diagnose frf ema export import uff report study::'
+    '-h --help:check modes sensitivity identify diagnose frf ema export import uff report study::'
     '--json:check modes sensitivity identify diagnose frf export ema uff study:files:json'
     '--set:check modes sensitivity identify diagnose frf export study:value:'
     '--csv:modes identify uff:value:'
