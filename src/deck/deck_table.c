@@ -22,15 +22,19 @@ static struct table_text *open_table(struct deck_reader *reader, const struct ca
 {
     struct deck_text *text = &reader->text;
     const struct card_option *file = card_option(card, "FILE");
-    const char *path = deck_option(reader, card, "FILE", "path of a table") ? deck_path(reader, card, file) : NULL;
+    int errors = reader->messages->errors;
+    if (!deck_option(reader, card, "FILE", "path of a table"))
+        return NULL;
+    const char *path = deck_text_path(reader->pool, text, card, file, reader->messages);
     for (int i = 0; i < text->ntable && path; i++)
         if (!strcmp(text->table[i]->path, path))
             return text->table[i];
     struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL,
                       **grown = pool_grow(reader->pool, text->table, (size_t)text->ntable, &text->table_room, sizeof *grown);
-    reader->out_of_memory |= !grown || (path && !table);
-    if (!grown || !table)
+    if (!grown || !table || deck_text_add_file(reader->pool, text, path)) {
+        reader->out_of_memory |= path != NULL || reader->messages->errors == errors;
         return NULL;
+    }
     text->table = grown;
     int status = table_text_read(reader->pool, path, file->value_place, reader->messages, table);
     reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
