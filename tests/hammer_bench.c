@@ -1,14 +1,26 @@
 #include "hammer_bench.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "hidden.h"
 
 static const double two_pi = 6.28318530717958647692;
 
 void hammer_bench_open(const char *rotor, struct hammer_bench *bench)
 {
     bench->options = hammer_options_default();
-    bench->deck = hammer_rotor_deck(rotor, &bench->options, &bench->truths, &bench->truth);
+    bench->truths = 0;
+    bench->truth = NULL;
+    if (strstr(rotor, ".inp")) {
+        char path[256];
+        (void)snprintf(path, sizeof path, "%s/input/%s", ROTID_SOURCE_DIR, rotor);
+        bench->deck = hidden_read(path);
+    } else {
+        bench->deck = hammer_rotor_deck(rotor, &bench->options, &bench->truths, &bench->truth);
+    }
     assert_non_null(bench->deck);
 }
 

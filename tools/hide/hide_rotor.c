@@ -69,19 +69,21 @@ static int read_material(struct reader *r)
 static int read_elastic(struct reader *r)
 {
     const char *type = hide_card_option(r->card, "TYPE");
-    int shear = type && hide_same(type, "SHEAR");
-    double value[3] = {0};
+    int laminated = type && hide_same(type, "LAMINATED"), shear = laminated || (type && hide_same(type, "SHEAR"));
+    double value[5] = {0};
     if (type && !shear && !hide_same(type, "ISOTROPIC"))
-        return expected(r, "TYPE=ISOTROPIC or SHEAR: this program has no others");
+        return expected(r, "TYPE=ISOTROPIC, SHEAR or LAMINATED: this program has no others");
     if (!r->rotor->materials || r->card->lines != 1)
         return expected(r, "*MATERIAL before it and one data line");
-    int status = read_line(r, 0, 0, NULL, shear ? 3 : 2, shear ? 3 : 2, value, shear ? "E, G, nu" : "E, nu");
+    int status = laminated ? read_line(r, 0, 0, NULL, 4, 5, value, "E, G, E and nu of a sheet [, stacking factor]")
+                           : read_line(r, 0, 0, NULL, shear ? 3 : 2, shear ? 3 : 2, value, shear ? "E, G, nu" : "E, nu");
     struct hide_material *m = &r->rotor->material[r->rotor->materials - 1];
     m->e = value[0];
     m->g = shear ? value[1] : 0;
-    m->nu = shear ? value[2] : value[1];
+    m->sheet_e = laminated ? value[2] : 0;
+    m->nu = laminated ? value[3] : shear ? value[2] : value[1];
     m->isotropic = !shear;
-    if (!status && !(m->e > 0 && (!shear || m->g > 0) && m->nu > -1 && m->nu <= 0.5))
+    if (!status && !(m->e > 0 && (!shear || m->g > 0) && (!laminated || m->sheet_e > 0) && m->nu > -1 && m->nu <= 0.5))
         return expected(r, "moduli above zero and nu above -1, at most 0.5");
     return status;
 }

@@ -23,6 +23,14 @@ static void drill(const struct hide_group *group, struct moments *m)
     m->second -= group->holes * pi / 64 * d2 * d2 + 0.5 * area * group->hole_pitch * group->hole_pitch;
 }
 
+/* Shear coefficient of an annulus across sheets (Dharmarajan and McCutchen 1973), whose contraction by axial stress is that of a
+ * sheet: nu_axial/E = nu/E_sheet. */
+static double of_sheets(const struct hide_material *m, double ratio)
+{
+    double q = ratio * ratio, p = (1 + q) * (1 + q), contraction = m->nu / m->sheet_e * m->g;
+    return 6 * p / ((7 - 2 * contraction) * p + (20 - 16 * contraction) * q);
+}
+
 /* stiff: diameter that carries stiffness */
 static void section_of(const struct hide_group *group, const struct hide_segment *s, double stiff, struct hide_section *section)
 {
@@ -35,7 +43,7 @@ static void section_of(const struct hide_group *group, const struct hide_segment
     } else {
         heavy = ring(s->outer, s->inner);
         bears = ring(stiff, s->inner);
-        coefficient = oracle_cowper(m->nu, s->inner / stiff);
+        coefficient = m->sheet_e > 0 ? of_sheets(m, s->inner / stiff) : oracle_cowper(m->nu, s->inner / stiff);
         if (group->holes)
             drill(group, &heavy);
         if (group->holes && group->hole_pitch < stiff / 2)
