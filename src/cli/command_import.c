@@ -21,27 +21,29 @@ static int check_deck(struct command *command, const char *text)
     return status;
 }
 
-static int write_text(struct command *command, const char *version, struct job *job, char **text)
+static const char *heading_of(struct command *command, const char *version)
 {
-    const char *slash = strrchr(command->deck, '/'), *line[2];
-    line[0] = pool_format(&command->pool, "Rotor of ROSS %s, bending in its plane x, from %s", version,
-                          slash ? slash + 1 : command->deck);
-    job->heading = line;
-    job->nheading = 1;
-    return line[0] ? deck_write(&command->pool, job, NULL, text) : ROTID_ERROR_MEMORY;
+    const char *slash = strrchr(command->deck, '/');
+    return pool_format(&command->pool, "Rotor of ROSS %s, bending in its plane x, from %s", version,
+                       slash ? slash + 1 : command->deck);
 }
 
 int command_import(struct command *command)
 {
     struct ross_saved saved;
+    const char *heading = NULL;
     struct job job = {.deck = command->deck};
     char *text;
     rotid_fit_defaults(sizeof job.options.fit, &job.options.fit);
     int status = ross_saved_read(&command->pool, command->deck, &command->messages, &saved);
     if (!status)
         status = ross_saved_rotor(&command->pool, command->deck, &saved, &command->messages, &job.rotor);
+    if (!status && !(heading = heading_of(command, saved.version)))
+        status = ROTID_ERROR_MEMORY;
+    job.heading = &heading;
+    job.nheading = 1;
     if (!status)
-        status = write_text(command, saved.version, &job, &text);
+        status = deck_write(&command->pool, &job, NULL, &text);
     if (!status)
         status = check_deck(command, text);
     if (status)

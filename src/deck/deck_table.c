@@ -109,7 +109,7 @@ static void take_rows(struct taking *t)
     card->option = t->card->option;
     card->noption = t->card->noption;
     for (int r = t->columns.header; r < t->table->nrow; r++) {
-        struct field field[TABLE_MOST_VALUES];
+        struct field field[TABLE_MOST_VALUES] = {{.text = ""}};
         int count = values_of(t, &t->table->row[r], field);
         if (add_line(t, card, t->table->row[r].place, count, field))
             return;
@@ -146,7 +146,8 @@ static void take_sections(struct taking *t)
     }
     for (int r = 1; r < t->table->nrow && !reader->out_of_memory; r++) {
         const struct data_line *row = &t->table->row[r];
-        struct field name = cell_of(row, t->columns.key[0]), of = cell_of(row, t->columns.key[1]), field[TABLE_MOST_VALUES];
+        struct field name = cell_of(row, t->columns.key[0]), of = cell_of(row, t->columns.key[1]),
+                     field[TABLE_MOST_VALUES] = {{.text = ""}};
         int count = values_of(t, row, field), is_new = !group || (*name.text && !same_text(name.text, group));
         if (is_new && named)
             name = (struct field){named->value, named->value_place, 0};

@@ -96,7 +96,7 @@ static double first_of(const struct json_place *object, const char *key, int *se
                 *first = cJSON_IsArray(value) ? value->child : value;
     for (const cJSON *v = cJSON_IsArray(value) ? first : NULL; v; v = v->next)
         *several |= v != first;
-    return cJSON_IsNumber(first) && isfinite(first->valuedouble) ? first->valuedouble : 0;
+    return first && cJSON_IsNumber(first) && isfinite(first->valuedouble) ? first->valuedouble : 0;
 }
 
 static void *append(struct saved_reader *r, void **list, int *count, size_t *room, size_t size)
