@@ -122,7 +122,7 @@ static int refuse_option(const struct command *command, const char *name)
             of = row;
             rows++;
         }
-    if (rows > 1 || strchr(of->commands, ' '))
+    if (!of || rows > 1 || strchr(of->commands, ' '))
         terminal_say("rotid: --%s is no option of %s\n", name, command->name);
     else
         terminal_say("rotid: --%s is an option of %s alone\n", name, of->commands);

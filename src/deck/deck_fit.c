@@ -39,6 +39,7 @@ int deck_find_parameter(struct deck_reader *reader, const struct field *field, s
     char name[PARAMETER_NAME];
     const char *next = field->text;
     int count = 0, *also = NULL;
+    *parameter = (struct parameter){.kind = PARAMETER_E};
     for (const char *c = next; *c; c++)
         count += *c == PARAMETER_SHARED_BY;
     if (!count)
