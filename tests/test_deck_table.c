@@ -286,7 +286,10 @@ static void a_card_has_a_table_or_data_lines(void **state)
 /* A table of bytes, all of one kind: the reader ends with one error, before it takes the memory of a machine. */
 static void tables_without_end_are_refused(void **state)
 {
-    static const char *const unit[] = {",", "\n", "\"", "a", "1,", "\"\"\n,"};
+    static const char *const unit[][2] = {
+        {",", "the row has more than 20100 cells"},  {"\n", "the table has more than 500000 cells"},
+        {"\"", "the text is longer than 1024 characters"},        {"a", "the text is longer than 1024 characters"},
+        {"1,", "the row has more than 20100 cells"}, {"1,\n", "the table has more than 500000 cells"}};
     size_t size = 3u << 20;
     char *bytes = malloc(size + 1);
     (void)state;
@@ -294,12 +297,14 @@ static void tables_without_end_are_refused(void **state)
     for (size_t i = 0; i < sizeof unit / sizeof *unit; i++) {
         struct reading r;
         for (size_t b = 0; b < size; b++)
-            bytes[b] = unit[i][b % strlen(unit[i])];
+            bytes[b] = unit[i][0][b % strlen(unit[i][0])];
         bytes[size] = 0;
         (void)folder_write("table.csv", bytes);
         read_path(&r, folder_write("deck.inp", MATERIAL SHAFT "*MODES, FILE=table.csv\n"));
         assert_status(r.status, ROTID_ERROR_SYNTAX);
         assert_int_equal(r.messages.errors, 1);
+        if (!strstr(r.messages.item[0].text, unit[i][1]))
+            fail_msg("%zu: %s", i, r.messages.item[0].text);
         pool_close(&r.pool);
     }
     free(bytes);
