@@ -3,7 +3,7 @@
 set -l overrides 'FIT.FUNCTIONAL= FIT.REDUCTION= FIT.MODES= FIT.HOLDOUT= FIT.DERIVATIVE= NOISE.FREQUENCY= NOISE.SHAPE= TIEROD.MODEL= MEASURED.FILE= FRF.FILE='
 complete -c rotid -f
 # what follows is written by make tables
-set -l commands check modes sensitivity identify diagnose frf ema export uff report study
+set -l commands check modes sensitivity identify diagnose frf ema export import uff report study
 set -l none "not __fish_seen_subcommand_from $commands"
 complete -c rotid -n $none -a check -d 'parse a deck; mass, centre of mass, length, mesh, sensors, warnings'
 complete -c rotid -n '__fish_seen_subcommand_from check' -k -a '(__fish_complete_suffix .inp; )'
@@ -21,6 +21,8 @@ complete -c rotid -n $none -a ema -d 'time records or transfer functions (58, 58
 complete -c rotid -n '__fish_seen_subcommand_from ema' -k -a '(__fish_complete_suffix .unv; __fish_complete_suffix .uff; __fish_complete_suffix .uf; )'
 complete -c rotid -n $none -a export -d 'the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script'
 complete -c rotid -n '__fish_seen_subcommand_from export' -k -a '(__fish_complete_suffix .inp; )'
+complete -c rotid -n $none -a import -d 'a rotor that ROSS has saved (Rotor.save, JSON) as a deck'
+complete -c rotid -n '__fish_seen_subcommand_from import' -k -a '(__fish_complete_suffix .json; )'
 complete -c rotid -n $none -a uff -d 'what a universal file holds, and what is doubtful in it; with -o: ASCII to binary and back'
 complete -c rotid -n '__fish_seen_subcommand_from uff' -k -a '(__fish_complete_suffix .unv; __fish_complete_suffix .uff; __fish_complete_suffix .uf; )'
 complete -c rotid -n $none -a report -d 'results that were written with --json as a page with figures'
@@ -28,13 +30,14 @@ complete -c rotid -n '__fish_seen_subcommand_from report' -k -a '(__fish_complet
 complete -c rotid -n $none -a study -d 'many runs from one plan, or of many decks, resumable'
 complete -c rotid -n '__fish_seen_subcommand_from study' -k -a '(__fish_complete_suffix .inp; __fish_complete_suffix .jsonl; )'
 complete -c rotid -l quiet -d 'no tables, no warnings and no progress; errors are always printed'
-complete -c rotid -l verbose -d 'more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)'
-complete -c rotid -l threads -x -d 'threads of diagnose and ema, processes of study (default: the processors); else of the BLAS (default: 1)'
-complete -c rotid -l seed -x -d 'of the random numbers'
+complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose frf export ema uff' -l verbose -d 'more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)'
+complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose frf export ema study' -l threads -x -d 'threads of diagnose and ema, processes of study (default: the processors); else of the BLAS (default: 1)'
+complete -c rotid -n '__fish_seen_subcommand_from sensitivity diagnose study' -l seed -x -d 'of the random numbers'
 complete -c rotid -l version -d 'version, commit and BLAS, and whether NLopt is missing'
-complete -c rotid -l help -d 'the commands; behind a command: its options'
+complete -c rotid -s h -l help -d 'the commands; behind a command: its options and examples'
 complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose frf export ema uff study' -l json -r -F -d 'the result as JSON; - for standard output, which then carries nothing else'
 complete -c rotid -n '__fish_seen_subcommand_from check modes sensitivity identify diagnose frf export study' -l set -x -a $overrides -d 'another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated'
+complete -c rotid -n '__fish_seen_subcommand_from modes identify uff' -l csv -x -d 'tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv)'
 complete -c rotid -n '__fish_seen_subcommand_from modes' -l compare -d 'the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l at -x -d 'these parameters instead of those of *IDENTIFY, at these values or those of the deck'
 complete -c rotid -n '__fish_seen_subcommand_from sensitivity' -l step -x -d 'relative step of the differences'
@@ -66,6 +69,7 @@ complete -c rotid -n '__fish_seen_subcommand_from export' -s o -l output -r -F -
 complete -c rotid -n '__fish_seen_subcommand_from export' -l format -x -a 'matrix-market dmig ross' -d 'for SciPy and others, for Nastran, for ROSS'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l start -d 'the model as the deck states it, not at identified parameters'
 complete -c rotid -n '__fish_seen_subcommand_from export' -l condensed -d 'dmig: the model condensed onto the sensors'
+complete -c rotid -n '__fish_seen_subcommand_from import' -s o -l output -r -F -d 'the deck'
 complete -c rotid -n '__fish_seen_subcommand_from uff' -s o -l output -r -F -d 'the file anew, its functions in the other format'
 complete -c rotid -n '__fish_seen_subcommand_from uff' -l format -x -a 'ascii binary' -d 'with --output: of the functions in it'
 complete -c rotid -n '__fish_seen_subcommand_from report' -s o -l output -r -F -d 'for the page, index.html, and for scripts and pictures of its figures'

@@ -158,6 +158,35 @@ void fuzz_one_deck(const uint8_t *bytes, size_t count)
     (void)close(descriptor);
 }
 
+void fuzz_one_table(const uint8_t *bytes, size_t count)
+{
+    static const char *const card[] = {"*SHAFT, MATERIAL=steel",
+                                       "*SHAFT, NAME=core, MATERIAL=steel",
+                                       "*BEAM, MATERIAL=steel",
+                                       "*MODES",
+                                       "*SENSORS",
+                                       "*SHAPE",
+                                       "*SHAPE, MODE=1",
+                                       "*FREQUENCIES"};
+    char path[32], text[512];
+    int descriptor = hold(bytes, count, path);
+    for (size_t i = 0; i < sizeof card / sizeof *card; i++) {
+        struct pool pool;
+        struct message_list messages;
+        struct states states;
+        pool_open(&pool, NULL);
+        message_open(&messages, &pool);
+        (void)snprintf(text, sizeof text, "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n%s%s%s, FILE=%s\n",
+                       i > 2 ? "*SHAFT, NAME=first, MATERIAL=steel\n1, 0.1, 0, 20\n" : "",
+                       i > 4 ? "*MODES\n1, 500\n2, 1300\n*SENSORS\n1, 0\n2, 0.5\n3, 1\n" : "", card[i], path);
+        struct deck_memory memory = {"deck", strlen(text), text, "/"};
+        int status = deck_read_states(&pool, "deck", &memory, 0, NULL, &messages, &states);
+        require((status != ROTID_OK) == (messages.errors > 0));
+        pool_close(&pool);
+    }
+    (void)close(descriptor);
+}
+
 void fuzz_one_plan(const uint8_t *bytes, size_t count)
 {
     struct pool pool;

@@ -207,7 +207,7 @@ static void unbalanced_tension_stores_force_times_length_in_a_rotation(void **st
 static void rods_alone(enum bundle_model model, int elements, rotid_matrix *rods)
 {
     struct rotor *rotor = paper_rotor(model, 1);
-    const struct parameter parameter = {PARAMETER_TIEROD_E, 0, 0};
+    const struct parameter parameter = {PARAMETER_TIEROD_E, 0, 0, 0, NULL};
     rotid_matrix unused;
     double e = rotor->tierod[0].material.e;
     rotor->tierod[0].elements = elements;

@@ -37,7 +37,7 @@ static void place_sensors(struct rotor *rotor)
 static struct job *open_job(enum bundle_model model)
 {
     struct rotor *rotor = bench_rotor(model, 1, 5);
-    bench = (struct bench){.parameter = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}}};
+    bench = (struct bench){.parameter = {{PARAMETER_E, 1, 0, 0, NULL}, {PARAMETER_G, 1, 0, 0, NULL}}};
     place_sensors(rotor);
     struct rotor_model client;
     struct prediction p;
@@ -167,18 +167,18 @@ static void columns_with_effects_in_the_model(void **state)
     bench_add(&job->rotor, cause_stiffness_local.effect, -1, 0, soft);
     bench_add(&job->rotor, cause_step_stiffness.effect, -1, 0, cone);
     for (int p = 0; p < 2; p++)
-        bench.parameter[2 + p] = (struct parameter){PARAMETER_EFFECT, 0, p};
+        bench.parameter[2 + p] = (struct parameter){PARAMETER_EFFECT, 0, p, 0, NULL};
     for (int p = 0; p < 3; p++)
-        bench.parameter[4 + p] = (struct parameter){PARAMETER_EFFECT, 1, p};
-    bench.parameter[7] = (struct parameter){PARAMETER_EFFECT, 2, 0};
+        bench.parameter[4 + p] = (struct parameter){PARAMETER_EFFECT, 1, p, 0, NULL};
+    bench.parameter[7] = (struct parameter){PARAMETER_EFFECT, 2, 0, 0, NULL};
     job->unknowns.nparameter = 8;
     check_own(job);
     job = open_job(BUNDLE_TUBE);
     bench_add(&job->rotor, cause_joint.effect, 1, 0, joint);
     bench_add(&job->rotor, cause_stiffness_local.effect, -1, 2, both); /* the shear with a depth of its own */
-    bench.parameter[2] = (struct parameter){PARAMETER_EFFECT, 0, 0};
+    bench.parameter[2] = (struct parameter){PARAMETER_EFFECT, 0, 0, 0, NULL};
     for (int p = 0; p < 4; p++)
-        bench.parameter[3 + p] = (struct parameter){PARAMETER_EFFECT, 1, p};
+        bench.parameter[3 + p] = (struct parameter){PARAMETER_EFFECT, 1, p, 0, NULL};
     job->unknowns.nparameter = 7;
     check_own(job);
 }
@@ -275,8 +275,8 @@ static void columns_of_causes_beside_an_accepted_one(void **state)
     struct job *job = open_job(BUNDLE_RODS);
     bench_add(&job->rotor, cause_step_stiffness.effect, -1, 0, cone);
     bench_add(&job->rotor, cause_added_mass.effect, -1, 0, mass);
-    bench.parameter[2] = (struct parameter){PARAMETER_EFFECT, 0, 0};
-    bench.parameter[3] = (struct parameter){PARAMETER_EFFECT, 1, 0};
+    bench.parameter[2] = (struct parameter){PARAMETER_EFFECT, 0, 0, 0, NULL};
+    bench.parameter[3] = (struct parameter){PARAMETER_EFFECT, 1, 0, 0, NULL};
     job->unknowns.nparameter = 4;
     bench.holdout[3] = 1;
     assert_true(check_all_causes(job) >= 20);

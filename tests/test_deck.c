@@ -185,11 +185,16 @@ static void every_kind_of_parameter_is_identified_by_its_name(void **state)
         struct parameter parameter;
         const char *unit;
         double lower, upper, start;
-    } expected[] = {{{PARAMETER_E, 1, 0}, "Pa", 1e6, 2.3e11, 0.6e11},     {{PARAMETER_G, 1, 0}, "Pa", 1e6, 0.9e11, 0.25e11},
-                    {{PARAMETER_NU, 0, 0}, "1", 0.1, 0.45, 0.3},          {{PARAMETER_RHO, 1, 0}, "kg/m3", 7000, 8000, 7650},
-                    {{PARAMETER_TIEROD_E, 0, 0}, "Pa", 1e10, 3e11, 2e11}, {{PARAMETER_TENSION, 0, 0}, "N", -1e5, 1e6, 5e4},
-                    {{PARAMETER_SPRING_K, 0, 0}, "N/m", 0, 1e5, 9790},    {{PARAMETER_SPRING_K_ROT, 0, 0}, "N.m/rad", 0, 1e3, 1},
-                    {{PARAMETER_DISK_MASS, 0, 0}, "kg", 1, 20, 12},       {{PARAMETER_DISK_INERTIA, 0, 0}, "kg.m2", 0.1, 1, 0.3}};
+    } expected[] = {{{PARAMETER_E, 1, 0, 0, NULL}, "Pa", 1e6, 2.3e11, 0.6e11},
+                    {{PARAMETER_G, 1, 0, 0, NULL}, "Pa", 1e6, 0.9e11, 0.25e11},
+                    {{PARAMETER_NU, 0, 0, 0, NULL}, "1", 0.1, 0.45, 0.3},
+                    {{PARAMETER_RHO, 1, 0, 0, NULL}, "kg/m3", 7000, 8000, 7650},
+                    {{PARAMETER_TIEROD_E, 0, 0, 0, NULL}, "Pa", 1e10, 3e11, 2e11},
+                    {{PARAMETER_TENSION, 0, 0, 0, NULL}, "N", -1e5, 1e6, 5e4},
+                    {{PARAMETER_SPRING_K, 0, 0, 0, NULL}, "N/m", 0, 1e5, 9790},
+                    {{PARAMETER_SPRING_K_ROT, 0, 0, 0, NULL}, "N.m/rad", 0, 1e3, 1},
+                    {{PARAMETER_DISK_MASS, 0, 0, 0, NULL}, "kg", 1, 20, 12},
+                    {{PARAMETER_DISK_INERTIA, 0, 0, 0, NULL}, "kg.m2", 0.1, 1, 0.3}};
     assert_int_equal(every.job.unknowns.nparameter, sizeof expected / sizeof *expected);
     for (int p = 0; p < every.job.unknowns.nparameter; p++) {
         const rotid_parameter *bounds = &every.job.unknowns.bounds[p];

@@ -11,9 +11,10 @@
 
 /* The left spring is stiff enough to be felt by the bending modes. */
 enum { nparam = 7 };
-static const struct parameter seven[nparam] = {{PARAMETER_E, 1, 0},       {PARAMETER_G, 1, 0},       {PARAMETER_NU, 1, 0},
-                                               {PARAMETER_RHO, 1, 0},     {PARAMETER_TENSION, 0, 0}, {PARAMETER_TIEROD_E, 0, 0},
-                                               {PARAMETER_SPRING_K, 0, 0}};
+static const struct parameter seven[nparam] = {{PARAMETER_E, 1, 0, 0, NULL},       {PARAMETER_G, 1, 0, 0, NULL},
+                                               {PARAMETER_NU, 1, 0, 0, NULL},      {PARAMETER_RHO, 1, 0, 0, NULL},
+                                               {PARAMETER_TENSION, 0, 0, 0, NULL}, {PARAMETER_TIEROD_E, 0, 0, 0, NULL},
+                                               {PARAMETER_SPRING_K, 0, 0, 0, NULL}};
 static const double rotor_values[nparam] = {0.6e11, 0.3e11, 0.28, 7380.66, 150e3, 2.1e11, 1e8};
 /* relative: as large as the curvature allows, since the bending modes hardly feel some of these */
 static const double rotor_steps[nparam] = {2e-3, 2e-3, 1e-2, 2e-3, 0.5, 2e-2, 2e-2};

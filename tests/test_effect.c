@@ -165,7 +165,7 @@ static void a_mass_moves_smoothly_from_element_to_element(void **state)
     (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
     struct beam beam, bare;
-    struct parameter place = {PARAMETER_EFFECT, 0, 1};
+    struct parameter place = {PARAMETER_EFFECT, 0, 1, 0, NULL};
     rotid_matrix k, m, m0, before;
     bench_build(rotor, 0, NULL, &bare);
     bench_matrices(&bare, NULL, &k, &m0);
@@ -367,7 +367,7 @@ static void parameters_move_the_beams_own_copy_of_an_effect(void **state)
     (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
     struct effect *effect = bench_add(rotor, cause_density.effect, 1, 0, (double[]){1.1});
-    struct parameter parameter = {PARAMETER_EFFECT, 0, 0};
+    struct parameter parameter = {PARAMETER_EFFECT, 0, 0, 0, NULL};
     struct beam beam;
     rotid_matrix k, m;
     bench_build(rotor, 1, &parameter, &beam);

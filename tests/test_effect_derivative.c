@@ -83,7 +83,7 @@ static double check(struct rotor *rotor, const char *what)
             assert_int_equal(parameter_find(rotor, base[b], &parameter[count++], &unit), 0);
     for (int i = 0; i < rotor->neffect; i++)
         for (int p = 0; p < effect_parameters(&rotor->effect[i]); p++)
-            parameter[count++] = (struct parameter){PARAMETER_EFFECT, i, p};
+            parameter[count++] = (struct parameter){PARAMETER_EFFECT, i, p, 0, NULL};
     bench_build(rotor, count, parameter, &beam);
     for (int p = 0; p < count; p++) {
         double error = bench_derivative_error(&beam, p, step_of(rotor, parameter[p]), 0);
@@ -177,7 +177,8 @@ static void a_mass_at_nodes_and_ends_is_differentiated_to_one_side(void **state)
         struct beam beam;
         double end = rotor_length(rotor), z = n == 2 ? end : node[n];
         bench_add(rotor, &bench_lump, -1, 0, (double[]){9, z, 0.3});
-        struct parameter parameter[] = {{PARAMETER_EFFECT, 0, 0}, {PARAMETER_EFFECT, 0, 1}, {PARAMETER_EFFECT, 0, 2}};
+        struct parameter parameter[] = {
+            {PARAMETER_EFFECT, 0, 0, 0, NULL}, {PARAMETER_EFFECT, 0, 1, 0, NULL}, {PARAMETER_EFFECT, 0, 2, 0, NULL}};
         bench_build(rotor, 3, parameter, &beam);
         for (int p = 0; p < 3; p += 2)
             assert_true(bench_derivative_error(&beam, p, 1e-3, 0) < 1e-9);
@@ -190,7 +191,7 @@ static void a_mass_beyond_the_ends_stays_there_and_does_not_move(void **state)
     (void)state;
     struct rotor *rotor = bench_rotor(BUNDLE_RODS, 1, 4);
     struct effect *lump = bench_add(rotor, &bench_lump, -1, 0, (double[]){9, -0.1, 0.3});
-    struct parameter parameter[] = {{PARAMETER_EFFECT, 0, 1}};
+    struct parameter parameter[] = {{PARAMETER_EFFECT, 0, 1, 0, NULL}};
     struct beam outside, at_end;
     rotid_matrix k[2], m[2], dk, dm;
     bench_build(rotor, 1, parameter, &outside);

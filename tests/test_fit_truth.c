@@ -95,8 +95,11 @@ static void test_scale_sign_and_gaps_of_the_shapes_do_not_matter(void **state)
 
 static void open_five(struct paper_fit *fit, int functional, double frequency_std, double shape_std)
 {
-    static const struct parameter five[] = {
-        {PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}, {PARAMETER_RHO, 1, 0}, {PARAMETER_TENSION, 0, 0}, {PARAMETER_SPRING_K, 0, 0}};
+    static const struct parameter five[] = {{PARAMETER_E, 1, 0, 0, NULL},
+                                            {PARAMETER_G, 1, 0, 0, NULL},
+                                            {PARAMETER_RHO, 1, 0, 0, NULL},
+                                            {PARAMETER_TENSION, 0, 0, 0, NULL},
+                                            {PARAMETER_SPRING_K, 0, 0, 0, NULL}};
     paper_fit_open_rotor(fit, paper_rotor(BUNDLE_TUBE, 1), 5, five);
     fit->parameter[0] = (rotid_parameter){"core.E", "Pa", 1e9, 2.3e11, 0.9e11};
     fit->parameter[1] = (rotid_parameter){"core.G", "Pa", 1e9, 0.898e11, 0.25e11};

@@ -14,7 +14,8 @@ static const double two_pi = 6.28318530717958647692;
 /* Five modes as somebody might list them: out of order, the last but one held out in some tests. */
 enum { nparam = 3, nmode = 5, nmaster = PAPER_SENSORS / 2 };
 static const int numbers_of_modes[nmode] = {2, 1, 5, 3, 4};
-static const struct parameter parameters[nparam] = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}, {PARAMETER_RHO, 1, 0}};
+static const struct parameter parameters[nparam] = {
+    {PARAMETER_E, 1, 0, 0, NULL}, {PARAMETER_G, 1, 0, 0, NULL}, {PARAMETER_RHO, 1, 0, 0, NULL}};
 static const double here[nparam] = {0.6e11, 0.3e11, 7380.66}, truth[nparam] = {0.75e11, 0.25e11, 7600};
 
 struct data {

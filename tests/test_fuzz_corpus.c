@@ -45,6 +45,12 @@ static void decks(void **state)
     assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/deck", fuzz_one_deck) > 3);
 }
 
+static void tables(void **state)
+{
+    (void)state;
+    assert_true(run_folder(ROTID_SOURCE_DIR "/tests/fuzz/corpus/table", fuzz_one_table) > 3);
+}
+
 static void studies(void **state)
 {
     (void)state;
@@ -54,6 +60,7 @@ static void studies(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(universal_files), cmocka_unit_test(decks), cmocka_unit_test(studies)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(universal_files), cmocka_unit_test(decks), cmocka_unit_test(tables),
+                                       cmocka_unit_test(studies)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

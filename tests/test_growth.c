@@ -22,7 +22,7 @@ static void make_bar(struct job *job, struct group *group, struct segment *segme
 static void of_a_bar_it_is_that_of_its_modulus(void **state)
 {
     (void)state;
-    static const struct parameter young = {PARAMETER_E, 0, 0};
+    static const struct parameter young = {PARAMETER_E, 0, 0, 0, NULL};
     const double x0 = 2.1e11;
     for (int reduction = ROTID_REDUCTION_NONE; reduction <= ROTID_IRS; reduction++) {
         struct group group;
@@ -85,7 +85,7 @@ static void the_slope_tends_to_one_at_the_optimum(void **state)
 static void a_parameter_without_effect_has_no_slope(void **state)
 {
     (void)state;
-    static const struct parameter mass = {PARAMETER_DISK_INERTIA, 0, 0};
+    static const struct parameter mass = {PARAMETER_DISK_INERTIA, 0, 0, 0, NULL};
     const double x0 = 1e-30;
     struct group group;
     struct segment segment;

@@ -346,7 +346,7 @@ static void derivatives_by_what_is_of_a_layer_agree_with_differences(void **stat
         for (int p = 0; p < NAMES; p++)
             assert_int_equal(parameter_find(rotor, names[p], &parameter[p], &unit), 0);
         for (int p = 0; s->cause && p < effect_parameters(&rotor->effect[0]); p++)
-            parameter[n++] = (struct parameter){PARAMETER_EFFECT, 0, p};
+            parameter[n++] = (struct parameter){PARAMETER_EFFECT, 0, p, 0, NULL};
         bench_build(rotor, n, parameter, &beam);
         for (int p = 0; p < n; p++) {
             double error = bench_derivative_error(&beam, p, p < NAMES ? 1e-3 : 2e-4, 0); /* crosses no end of a cone */

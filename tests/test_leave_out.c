@@ -19,7 +19,7 @@ static struct material steel = {.name = "steel", .e = 2.1e11, .nu = 0.3, .rho = 
 static struct group groups[3];
 static struct segment segments[3];
 static struct sensor sensors[SENSORS];
-static struct parameter parameters[2] = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}};
+static struct parameter parameters[2] = {{PARAMETER_E, 1, 0, 0, NULL}, {PARAMETER_G, 1, 0, 0, NULL}};
 static rotid_parameter bounds[2] = {{"core.E", "Pa", 0.5e11, 2e11, 1e11}, {"core.G", "Pa", 0.2e11, 0.8e11, 0.42e11}};
 static int number[MODES], holdout[MODES];
 static double hz[MODES], hz_std[MODES], shape[SENSORS * MODES], shape_std[SENSORS * MODES];

@@ -107,7 +107,7 @@ static void a_pipe_without_another_end_is_refused(void **state)
         "check pipe: 2 pipe:1:1: cannot read pipe: nobody is at the other end of this pipe, expected a deck",
         "uff pipe: 2 pipe:1:1: cannot be opened: nobody is at the other end of this pipe",
         "ema pipe: 2 pipe:1:1: cannot be opened: nobody is at the other end of this pipe",
-        "report pipe -o page: 2 pipe: is no regular file, expected one that rotid wrote with --json",
+        "report pipe -o page: 2 pipe: is no regular file, expected one of JSON",
         "study pipe -o x.jsonl: 2 rotid: pipe is no regular file, expected one, for it is read several times",
         "study --summary pipe: 2 pipe:1:1: this is no file of results",
         "study --merge pipe pipe -o x.jsonl: 2 pipe:1:1: this is no file of results",

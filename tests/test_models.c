@@ -6,7 +6,7 @@
 #include "model/model.h"
 #include "paper_rotor.h"
 
-static const struct parameter density = {PARAMETER_RHO, 0, 0};
+static const struct parameter density = {PARAMETER_RHO, 0, 0, 0, NULL};
 
 static int open_in(struct models *models, const struct rotor *rotor, int refine, struct rotor_model *model)
 {

@@ -35,7 +35,7 @@ static void files_that_are_no_result_are_refused_with_their_place(void **state)
     static const struct {
         const char *text, *says;
     } wrong[] = {
-        {"", "is empty, expected JSON that rotid wrote"},
+        {"", "is empty, expected JSON"},
         {" \n\t ", "is empty"},
         {"{\"a\": [1, 2", ":1:11: the file ends within a value"},
         {"{\"a\": 1,\n \"b\": NaN}", ":2:7: 'NaN' is no JSON"},
@@ -67,7 +67,7 @@ static void files_that_are_no_result_are_refused_with_their_place(void **state)
         assert_false(page_exists("page"));
     }
     assert_int_equal(page_run("%s report %s -o %s", ROTID_PROGRAM, page_path(""), page_path("page")), 2);
-    assert_non_null(strstr(page_err, "is a folder, expected a file that rotid wrote with --json"));
+    assert_non_null(strstr(page_err, "is a folder, expected a file of JSON"));
     assert_int_equal(page_run("%s report /nowhere/x.json -o %s", ROTID_PROGRAM, page_path("page")), 2);
     assert_non_null(strstr(page_err, "/nowhere/x.json: No such file or directory"));
     assert_int_equal(page_run("%s report /dev/null -o %s", ROTID_PROGRAM, page_path("page")), 2);

@@ -148,8 +148,9 @@ static void condensation_errors_of_the_papers_rotor_are_those_of_scipy(void **st
 
 /* ---- derivatives */
 
-static const struct parameter six[6] = {{PARAMETER_E, 1, 0},   {PARAMETER_G, 1, 0},       {PARAMETER_NU, 1, 0},
-                                        {PARAMETER_RHO, 1, 0}, {PARAMETER_TENSION, 0, 0}, {PARAMETER_TIEROD_E, 0, 0}};
+static const struct parameter six[6] = {{PARAMETER_E, 1, 0, 0, NULL},       {PARAMETER_G, 1, 0, 0, NULL},
+                                        {PARAMETER_NU, 1, 0, 0, NULL},      {PARAMETER_RHO, 1, 0, 0, NULL},
+                                        {PARAMETER_TENSION, 0, 0, 0, NULL}, {PARAMETER_TIEROD_E, 0, 0, 0, NULL}};
 /* steps of the differences in relative terms: as large as the curvature allows, since K~ hardly feels some of these */
 static const double values[6] = {0.6e11, 0.3e11, 0.28, 7380.66, 150e3, 2.1e11}, steps[6] = {2e-3, 2e-3, 1e-2, 2e-3, 0.5, 1e-2};
 

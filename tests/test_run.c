@@ -185,7 +185,8 @@ static void sensitivities_add_up_to_at_most_one_and_their_limit_is_the_derivativ
     static const rotid_parameter named[3] = {{.name = "core.E"}, {.name = "core.G"}, {.name = "core.nu"}};
     struct sensitivity_options options = {.step = 1e-2, .range = 0.5, .points = 3, .modes = 6};
     const double x[3] = {8e10, 3e10, 1.0 / 3};
-    const struct parameter parameter[3] = {{PARAMETER_E, 1, 0}, {PARAMETER_G, 1, 0}, {PARAMETER_NU, 1, 0}};
+    const struct parameter parameter[3] = {
+        {PARAMETER_E, 1, 0, 0, NULL}, {PARAMETER_G, 1, 0, 0, NULL}, {PARAMETER_NU, 1, 0, 0, NULL}};
     pool_open(&pool, NULL);
     make_job(&pool, 6, &job);
     job.options.fit.reduction = ROTID_GUYAN;

@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include <ctype.h>
+#include <string.h>
 
 int same_text(const char *a, const char *b)
 {
@@ -8,6 +9,31 @@ int same_text(const char *a, const char *b)
         if (toupper((unsigned char)*a) != toupper((unsigned char)*b))
             return 0;
     return *a == *b;
+}
+
+#define MOST_LETTERS 31
+
+int text_distance(const char *word, const char *other)
+{
+    int d[MOST_LETTERS + 1][MOST_LETTERS + 1];
+    size_t m = strlen(word), n = strlen(other);
+    if (m > MOST_LETTERS || n > MOST_LETTERS)
+        return TEXT_FAR;
+    for (size_t i = 0; i <= m; i++)
+        for (size_t j = 0; j <= n; j++) {
+            if (!i || !j) {
+                d[i][j] = (int)(i + j);
+                continue;
+            }
+            int a = toupper((unsigned char)word[i - 1]), b = toupper((unsigned char)other[j - 1]);
+            int least = d[i - 1][j - 1] + (a != b);
+            least = d[i - 1][j] + 1 < least ? d[i - 1][j] + 1 : least;
+            least = d[i][j - 1] + 1 < least ? d[i][j - 1] + 1 : least;
+            if (i > 1 && j > 1 && a == toupper((unsigned char)other[j - 2]) && b == toupper((unsigned char)word[i - 2]))
+                least = d[i - 2][j - 2] + 1 < least ? d[i - 2][j - 2] + 1 : least;
+            d[i][j] = least;
+        }
+    return d[m][n] > 3 || 3 * d[m][n] > (int)n ? TEXT_FAR : d[m][n];
 }
 
 size_t text_utf8(const char *text)

@@ -102,7 +102,7 @@ int axis_direction(const struct beam *beam, struct parameter parameter, int e, s
     }
     for (int i = 0; i < count && parameter.kind <= PARAMETER_RHO; i++) {
         struct element own = {0};
-        if (part[i].group != parameter.index)
+        if (!parameter_is_of_group(&parameter, part[i].group))
             continue;
         moves |= material_direction(&rotor->group[part[i].group].material, &part[i].section, parameter.kind, &own);
         add_part(own, factor ? &factor[i] : NULL, d);

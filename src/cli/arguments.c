@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "cli/options.h"
 #include "fit/baseline.h"
 
@@ -56,6 +57,21 @@ static struct option *long_options(struct command *command)
     return options;
 }
 
+/* The option that a misspelt "--word" or "--word=value" is closest to, or NULL. */
+static const char *nearest_option(const char *word)
+{
+    const char *nearest = NULL;
+    char name[32];
+    int least = TEXT_FAR, length = (int)strcspn(word, "=") - 2;
+    (void)snprintf(name, sizeof name, "%.*s", length > 0 ? length : 0, length > 0 ? word + 2 : "");
+    for (const struct option_row *row = option_table; row->name && *name; row++) {
+        int distance = text_distance(name, row->name);
+        nearest = distance < least ? row->name : nearest;
+        least = distance < least ? distance : least;
+    }
+    return nearest;
+}
+
 /* Says what getopt would have; word: where it stopped. */
 static int refuse_word(int why, const char *word)
 {
@@ -68,6 +84,11 @@ static int refuse_word(int why, const char *word)
         return arguments_wrong("--%s: expected no value", name);
     if (optopt)
         return arguments_wrong("-%s is no option", (char[]){(char)optopt, 0});
+    const char *near = nearest_option(word);
+    if (near) {
+        terminal_say("rotid: %s is no option, expected --%s (rotid COMMAND --help lists its options)\n", word, near);
+        return EXIT_USAGE;
+    }
     return arguments_wrong("%s is no option, or the beginning of several", word);
 }
 
@@ -82,10 +103,10 @@ static int collect(struct command *command, int argc, char **argv)
         return command_fail(command, ROTID_ERROR_MEMORY);
     (void)unsetenv("POSIXLY_CORRECT"); /* with it getopt takes the options behind COMMAND FILE for files */
     opterr = 0;                        /* getopt prints what it was given as it is */
-    while ((option = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
+    while ((option = getopt_long(argc, argv, ":o:h", options, NULL)) != -1) {
         if (option == '?' || option == ':')
             return refuse_word(option, argv[optind - 1]);
-        const char *name = option == 'o' ? "output" : option_table[option - FIRST_OPTION].name;
+        const char *name = option == 'o' ? "output" : option == 'h' ? "help" : option_table[option - FIRST_OPTION].name;
         command->given[command->ngiven++] = (struct given_option){name, optarg ? optarg : ""};
     }
     return -1;
@@ -101,7 +122,7 @@ static int refuse_option(const struct command *command, const char *name)
             of = row;
             rows++;
         }
-    if (rows > 1 || strchr(of->commands, ' '))
+    if (!of || rows > 1 || strchr(of->commands, ' '))
         terminal_say("rotid: --%s is no option of %s\n", name, command->name);
     else
         terminal_say("rotid: --%s is an option of %s alone\n", name, of->commands);

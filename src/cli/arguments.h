@@ -14,6 +14,7 @@ enum command_flag {
 
 struct command_entry {
     const char *name, *text; /* as help shows them */
+    const char *examples;    /* command lines, separated by line feeds */
     const char *files;       /* endings of what it reads, separated by bars */
     int (*run)(struct command *command);
     int flags; /* of enum command_flag */

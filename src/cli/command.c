@@ -16,9 +16,20 @@ void command_print_messages(struct command *command)
         const rotid_message *m = &command->messages.item[command->printed];
         if (m->severity != SEVERITY_ERROR && (command->quiet || (m->severity == SEVERITY_NOTE && !command->verbose)))
             continue;
-        if (m->file)
+        if (m->file) {
+            terminal_mark(TERMINAL_BOLD);
             terminal_say("%s:%d:%d: ", m->file, m->line, m->column);
-        terminal_say("%s%s\n", words[m->severity], m->text);
+            terminal_mark(TERMINAL_PLAIN);
+        }
+        terminal_mark(m->severity == SEVERITY_ERROR     ? TERMINAL_ERROR
+                      : m->severity == SEVERITY_WARNING ? TERMINAL_WARNING
+                                                        : TERMINAL_PLAIN);
+        if (m->severity != SEVERITY_ERROR) {
+            terminal_say("%s", words[m->severity]);
+            terminal_mark(TERMINAL_PLAIN);
+        }
+        terminal_say("%s\n", m->text);
+        terminal_mark(TERMINAL_PLAIN);
     }
     if (command->messages.errors > MESSAGE_LIMIT)
         terminal_say("%d errors in all, the first %d are shown\n", command->messages.errors, MESSAGE_LIMIT);

@@ -5,6 +5,7 @@
 #include "deck/deck_text.h"
 #include "ema/ema.h"
 #include "import/measurement.h"
+#include "report/csv.h"
 #include "report/terminal.h"
 #include "result/result.h"
 #include "run/identify.h"
@@ -32,7 +33,7 @@ struct given_option {
 
 struct command {
     /* files and texts NULL where they are not asked for; deck: the file of a command that reads none, too */
-    const char *name, *deck, *json, *at, *extended, *changed, *output, *state;
+    const char *name, *deck, *json, *at, *extended, *changed, *output, *state, *csv;
     int nfile;
     char **file; /* [nfile] deck is the first of them; more than one only with SEVERAL_FILES */
     int quiet, verbose, threads, no_baseline, compare, points, replicates, start, condensed;
@@ -106,6 +107,11 @@ int command_fit_deck(struct command *command, int wanted, struct command_fit *fi
  * exit code, EXIT_DONE or EXIT_DOUBTFUL. */
 int command_judge_fit(struct command *command, const struct command_fit *fit, const char *done);
 
+/* Refuses --csv where one of its files is read or is that of --json. An exit code, EXIT_DONE to go on. */
+int command_refuse_csv(const struct command *command, const struct csv_part *part);
+/* Writes the tables that --csv asks for; `code` unless that fails. */
+int command_write_csv(struct command *command, const struct csv_part *part, const void *from, int code);
+
 /* Whether somebody would see a line of progress. */
 int command_wants_progress(const struct command *command);
 /* What a long call of the library gets: command_cancelled and, where somebody would see it, a line on standard error that is
@@ -128,6 +134,7 @@ int command_ema(struct command *command);
 int command_uff(struct command *command);
 int command_report(struct command *command);
 int command_export(struct command *command);
+int command_import(struct command *command);
 int command_study(struct command *command);
 
 /* Of the build. */

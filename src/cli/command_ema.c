@@ -1,3 +1,4 @@
+#include "cli/arguments.h"
 #include "cli/command.h"
 
 #include <stdio.h>
@@ -19,6 +20,24 @@ static int write_modes(struct command *command, const struct measurement *measur
         return EXIT_INTERNAL;
     }
     return status ? command_fail(command, status) : EXIT_DONE;
+}
+
+/* An option that the file leaves without a meaning. 0, or 1 after an error. */
+static int refuse_options(struct command *command, const struct measurement *measurement)
+{
+    static const char *const of_records[] = {"estimator",  "exponential",   "force-window",     "block",
+                                             "pretrigger", "trigger-level", "keep-double-hits", NULL},
+                             *const of_functions[] = {"averages", NULL};
+    const char *const *ignored = measurement->from_records ? of_functions : of_records;
+    for (; *ignored; ignored++)
+        if (arguments_given(command, *ignored)) {
+            message_add(&command->messages, SEVERITY_ERROR, command->deck, 1, 1,
+                        "--%s is for %s and this file has %s, expected it without", *ignored,
+                        measurement->from_records ? "transfer functions" : "time records",
+                        measurement->from_records ? "time records" : "transfer functions");
+            return 1;
+        }
+    return 0;
 }
 
 static int is_doubtful(const struct ema *ema)
@@ -43,6 +62,8 @@ int command_ema(struct command *command)
     int status = measurement_read(&command->pool, command->deck, &from, &command->messages, &measurement);
     if (!status && command_cancelled(NULL))
         status = ROTID_STOP_CANCELLED;
+    if (!status && refuse_options(command, &measurement))
+        status = ROTID_ERROR_ARGUMENT;
     for (int i = 0; i < options.npick && !status; i++)
         if (options.pick_hz[i] < measurement.set.frequency_hz[0] ||
             options.pick_hz[i] > measurement.set.frequency_hz[measurement.set.nline - 1]) {

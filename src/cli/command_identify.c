@@ -17,7 +17,8 @@ static int show(struct command *command, rotid_identification *found)
         terminal_say("rotid: interrupted; the fit was complete, what comes after it is not\n");
         code = EXIT_DOUBTFUL;
     }
-    return command_write_result(command, &result, code);
+    int written = command_write_csv(command, csv_identify_parts, found, code);
+    return written == EXIT_INTERNAL ? written : command_write_result(command, &result, code);
 }
 
 int command_identify(struct command *command)
@@ -31,6 +32,9 @@ int command_identify(struct command *command)
                     "the deck names nothing to identify, expected a card *IDENTIFY");
         return command_fail(command, ROTID_ERROR_ARGUMENT);
     }
+    int refused = command_refuse_csv(command, csv_identify_parts);
+    if (refused)
+        return refused;
     int status = rotid_identify(command->read, !command->no_baseline, &environment, failure, &found);
     if (environment.progress)
         terminal_progress_end();

@@ -33,13 +33,18 @@ static int compute(struct command *command, struct result *result)
 int command_modes(struct command *command)
 {
     struct result result = {.head = command->head};
-    int code = command_begin_states(command, &result);
+    int code = command_refuse_csv(command, csv_spectrum_parts);
+    if (!code)
+        code = command_begin_states(command, &result);
     if (!code)
         code = compute(command, &result);
     if (!code && command_wants_table(command)) {
         table_modes(terminal_out(), &result, command->verbose);
         table_notes(terminal_out(), &command->messages);
     }
+    const struct csv_spectrum tables = {result.modes, command->job};
+    if (!code)
+        code = command_write_csv(command, csv_spectrum_parts, &tables, EXIT_DONE);
     if (!code)
         code = command_write_result(command, &result, EXIT_DONE);
     free_all(&result);

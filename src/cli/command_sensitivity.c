@@ -29,7 +29,7 @@ static int select_listed(struct command *command, const struct job *job, struct 
         named->name = item;
         if (parameter_find(rotor, item, &s->parameter[s->n], &named->unit)) {
             message_add(&command->messages, SEVERITY_ERROR, "--at", 1, (int)(item - list) + 1,
-                        "%s is no parameter of this deck, expected one such as core.E", item);
+                        "%s is no parameter of this deck, expected one of %s", item, parameter_list(&command->pool, rotor, item));
             return ROTID_ERROR_SYNTAX;
         }
         if (s->parameter[s->n].kind == PARAMETER_G) { /* from here on a modulus of its own */

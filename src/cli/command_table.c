@@ -1,20 +1,51 @@
 #include "cli/arguments.h"
 
 const struct command_entry command_table[] = {
-    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings", "inp", command_check, READS_DECK},
-    {"modes", "frequencies and shapes, full and condensed, beside the measured ones", "inp", command_modes, READS_DECK},
-    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)", "inp", command_sensitivity,
-     READS_DECK},
-    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", "inp", command_identify, READS_DECK},
-    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the detection limits", "inp",
-     command_diagnose, READS_DECK | PARALLEL},
-    {"frf", "synthesised transfer functions with measured damping, beside measured ones", "inp", command_frf, READS_DECK},
-    {"ema", "time records or transfer functions (58, 58b) to modes for *MEASURED", "unv|uff|uf", command_ema, PARALLEL},
-    {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script", "inp", command_export,
-     READS_DECK},
-    {"uff", "what a universal file holds, and what is doubtful in it; with -o: ASCII to binary and back", "unv|uff|uf",
-     command_uff, 0},
-    {"report", "results that were written with --json as a page with figures", "json|jsonl", command_report, SEVERAL_FILES},
-    {"study", "many runs from one plan, or of many decks, resumable", "inp|jsonl", command_study, PARALLEL | SEVERAL_FILES},
-    {NULL, NULL, NULL, NULL, 0},
+    {"check", "parse a deck; mass, centre of mass, length, mesh, sensors, warnings",
+     "rotid check rotor.inp\n"
+     "rotid check rotor.inp --json -",
+     "inp", command_check, READS_DECK},
+    {"modes", "frequencies and shapes, full and condensed, beside the measured ones",
+     "rotid modes rotor.inp\n"
+     "rotid modes rotor.inp --csv rotor\n"
+     "rotid modes rotor.inp --set FIT.MODEL=SOLID --compare",
+     "inp", command_modes, READS_DECK},
+    {"sensitivity", "how the modes depend on parameters (Table 1 and Figure 5 of the paper)",
+     "rotid sensitivity rotor.inp\n"
+     "rotid sensitivity rotor.inp --at core.E=8e10,core.G --step 0.001",
+     "inp", command_sensitivity, READS_DECK},
+    {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it",
+     "rotid identify rotor.inp\n"
+     "rotid identify rotor.inp --set FIT.HOLDOUT=5,6 --json result.json",
+     "inp", command_identify, READS_DECK},
+    {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the detection limits",
+     "rotid diagnose rotor.inp\n"
+     "rotid diagnose rotor.inp --extended extended.inp --json result.json",
+     "inp", command_diagnose, READS_DECK | PARALLEL},
+    {"frf", "synthesised transfer functions with measured damping, beside measured ones",
+     "rotid frf rotor.inp\n"
+     "rotid frf rotor.inp --set FRF.FILE=measured.unv -o synthesised.unv",
+     "inp", command_frf, READS_DECK},
+    {"ema", "time records or transfer functions (58, 58b) to modes for *MEASURED",
+     "rotid ema records.unv --band 200,3200 -o modes.unv\n"
+     "rotid ema records.unv --pick 415,722 --per-point",
+     "unv|uff|uf", command_ema, PARALLEL},
+    {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script",
+     "rotid export rotor.inp --format ross -o rotor.py\n"
+     "rotid export rotor.inp --format dmig --condensed -o rotor.dmig",
+     "inp", command_export, READS_DECK},
+    {"import", "a rotor that ROSS has saved (Rotor.save, JSON) as a deck", "rotid import rotor.json -o rotor.inp", "json",
+     command_import, 0},
+    {"uff", "what a universal file holds, and what is doubtful in it; with -o: ASCII to binary and back",
+     "rotid uff records.unv --verbose\n"
+     "rotid uff modes.unv --csv modes\n"
+     "rotid uff records.unv --format binary -o records.uff",
+     "unv|uff|uf", command_uff, 0},
+    {"report", "results that were written with --json as a page with figures", "rotid report identify.json diagnose.json -o page",
+     "json|jsonl", command_report, SEVERAL_FILES},
+    {"study", "many runs from one plan, or of many decks, resumable",
+     "rotid study plan.inp -o results.jsonl\n"
+     "rotid study part1.jsonl part2.jsonl -o results.jsonl --merge",
+     "inp|jsonl", command_study, PARALLEL | SEVERAL_FILES},
+    {NULL, NULL, NULL, NULL, NULL, 0},
 };

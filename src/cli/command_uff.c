@@ -43,6 +43,20 @@ static int convert(struct command *command)
     return EXIT_DONE;
 }
 
+/* The modes of the file as the tables of --csv. */
+static int write_tables(struct command *command, int code)
+{
+    struct csv_universal universal;
+    int status = csv_universal_read(&command->pool, command->deck, &command->messages, &universal);
+    if (status)
+        return command_fail(command, status);
+    if (universal.points)
+        message_add(&command->messages, SEVERITY_WARNING, NULL, 0, 0,
+                    "the frequencies at single points stand in no table: *MEASURED reads them from the universal file");
+    command_print_messages(command);
+    return command_write_csv(command, csv_universal_parts, &universal, code);
+}
+
 int command_uff(struct command *command)
 {
     const struct listing_options options = {.keep_shapes = command->verbose && command->json, .cancelled = command_cancelled};
@@ -50,8 +64,13 @@ int command_uff(struct command *command)
     struct stat about;
     int summary_count = 0;
     const char **summary = NULL;
-    if (command->output && stat(command->deck, &about) == 0 && S_ISFIFO(about.st_mode))
-        return arguments_wrong("%s is a pipe, expected a regular file beside --output, for it is read twice", command->deck);
+    if ((command->output || command->csv) && stat(command->deck, &about) == 0 && S_ISFIFO(about.st_mode))
+        return arguments_wrong(command->output ? "%s is a pipe, expected a regular file beside --output, for it is read twice"
+                                               : "%s is a pipe, expected a regular file beside --csv, for it is read twice",
+                               command->deck);
+    int refused = command_refuse_csv(command, csv_universal_parts);
+    if (refused)
+        return refused;
     int status = listing_read(&command->pool, command->deck, &options, &command->messages, &listing);
     if (status == ROTID_STOP_CANCELLED) {
         terminal_say("rotid: interrupted\n");
@@ -70,12 +89,16 @@ int command_uff(struct command *command)
         result.uff =
             uff_result_of(&command->pool, command->deck, &listing, summary_count, summary, command->verbose, &command->messages);
     code = command_write_result(command, &result, code);
-    if (code == EXIT_INTERNAL || !command->output)
+    if (code == EXIT_INTERNAL || (!command->output && !command->csv))
         return code;
     if (listing.faulty_count) {
-        terminal_say("rotid: %s is not written, for a part of %s cannot be read\n", command->output, command->deck);
+        terminal_say("rotid: %s is not written, for a part of %s cannot be read\n",
+                     command->output ? command->output : command->csv, command->deck);
         return EXIT_USAGE;
     }
+    int written = command->csv ? write_tables(command, code) : code;
+    if (written != code || !command->output)
+        return written;
     int converted = convert(command);
     return converted ? converted : code;
 }

@@ -8,7 +8,8 @@
 static void print_option(FILE *out, const struct option_row *row)
 {
     char left[128];
-    int length = snprintf(left, sizeof left, "%s--%s", row->letter ? "-o, " : "", row->name);
+    int length = row->letter ? snprintf(left, sizeof left, "-%c, ", row->letter) : 0;
+    length += snprintf(left + length, sizeof left - (size_t)length, "--%s", row->name);
     if (row->value)
         length += snprintf(left + length, sizeof left - (size_t)length, " %s", row->value);
     for (int i = 0; row->words && row->words[i]; i++)
@@ -27,6 +28,14 @@ static void print_options(FILE *out, const char *command, int of_all)
             print_option(out, row);
 }
 
+/* Command lines separated by line feeds. */
+static void print_examples(FILE *out, const char *examples)
+{
+    (void)fputs("\nexamples:\n", out);
+    for (const char *at = examples; *at; at += strcspn(at, "\n") + (at[strcspn(at, "\n")] == '\n'))
+        (void)fprintf(out, "  %.*s\n", (int)strcspn(at, "\n"), at);
+}
+
 void help_print(FILE *out, const struct command_entry *entry)
 {
     if (entry) {
@@ -39,7 +48,9 @@ void help_print(FILE *out, const struct command_entry *entry)
             (void)fprintf(out, "  %-12s %s\n", c->name, c->text);
         (void)fputs("\nrotid COMMAND --help lists the options of a command. Of all commands:\n\n", out);
     }
-    print_options(out, "", 1);
+    print_options(out, entry ? entry->name : "", 1);
+    if (entry)
+        print_examples(out, entry->examples);
     (void)fputs(
         "\n"
         "exit: 0 computed and converged, diagnose: any verdict; 1 computed, not to be trusted as it stands or interrupted;\n"

@@ -18,21 +18,26 @@ static const char *const formats[] = {"ascii", "binary", NULL}, *const estimator
 const struct option_row option_table[] = {
     {.name = "quiet", .kind = OPTION_SWITCH, AT(quiet),
      .help = "no tables, no warnings and no progress; errors are always printed"},
-    {.name = "verbose", .kind = OPTION_SWITCH, AT(verbose),
+    {.name = "verbose", .commands = DECKS " ema uff", .kind = OPTION_SWITCH, AT(verbose),
      .help = "more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)",
      .more = "What was skipped in universal files is listed as well."},
-    {.name = "threads", .kind = OPTION_WHOLE, AT(threads), FROM(1, THREADS_MOST), .value = "N",
+    {.name = "threads", .commands = DECKS " ema study", .kind = OPTION_WHOLE, AT(threads), FROM(1, THREADS_MOST), .value = "N",
      .help = "threads of diagnose and ema, processes of study (default: the processors); else of the BLAS (default: 1)",
      .more = "The result does not depend on it."},
-    {.name = "seed", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0), .standard = 1, .value = "N",
+    {.name = "seed", .commands = "sensitivity diagnose study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0), .standard = 1, .value = "N",
      .help = "of the random numbers", .more = "Without it a study takes that of its plan. It stands in every result."},
     {.name = "version", .kind = OPTION_VERSION, .help = "version, commit and BLAS, and whether NLopt is missing"},
-    {.name = "help", .kind = OPTION_HELP, .help = "the commands; behind a command: its options"},
+    {.name = "help", .letter = 'h', .kind = OPTION_HELP, .help = "the commands; behind a command: its options and examples"},
 
     {.name = "json", .commands = DECKS " ema uff study", .kind = OPTION_WRITES, AT(json), .value = "FILE", .files = "json",
      .help = "the result as JSON; - for standard output, which then carries nothing else"},
     {.name = "set", .commands = DECKS " study", .kind = OPTION_OVERRIDE, .value = "CARD.OPTION=VALUE",
      .help = "another option on every such card of the deck, e.g. FIT.REDUCTION=NONE; may be repeated"},
+
+    {.name = "csv", .commands = "modes identify uff", .kind = OPTION_WRITES, AT(csv), .value = "NAME",
+     .help = "tables for a spreadsheet, NAME.modes.csv and NAME.shapes.csv (identify: NAME.parameters.csv)",
+     .more = "FILE of *MODES, *SENSORS and *SHAPE reads them. Of a universal file they hold its modes as real shapes, in the "
+             "direction in which they move most."},
 
     {.name = "compare", .commands = "modes", .kind = OPTION_SWITCH, AT(compare),
      .help = "the rotor as a beam beside the same rotor as a solid, and the moduli that a beam would find",
@@ -106,6 +111,8 @@ const struct option_row option_table[] = {
      .help = "the model as the deck states it, not at identified parameters"},
     {.name = "condensed", .commands = "export", .kind = OPTION_SWITCH, AT(condensed),
      .help = "dmig: the model condensed onto the sensors"},
+
+    {OUTPUT(.commands = "import", .value = "FILE", .files = "inp", .help = "the deck")},
 
     {OUTPUT(.commands = "uff", .value = "FILE", .files = UNIVERSAL, .help = "the file anew, its functions in the other format")},
     {.name = "format", .commands = "uff", .kind = OPTION_WORD, AT(format), .words = formats,

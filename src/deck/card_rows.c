@@ -3,8 +3,8 @@
 #include "deck/deck_row.h"
 
 static const char *const models[] = {"RODS", "TUBE", NULL}, *const axes[] = {"X", "Y", "Z", NULL},
-                         *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL},
-                         *const ties[] = {"E:G", NULL}, *const discretisations[] = {"BEAM", "SOLID", NULL};
+                         *const quantities[] = {"DISPLACEMENT", "VELOCITY", "ACCELERATION", NULL}, *const ties[] = {"E:G", NULL},
+                         *const discretisations[] = {"BEAM", "SOLID", NULL};
 
 /* clang-format off */
 

@@ -10,7 +10,7 @@ static const char *const types[] = {"ISOTROPIC", "SHEAR", "LAMINATED", NULL}, *c
 
 static const struct deck_row nothing[] = {LAST}, material[] = {NAME(struct material), LAST},
     elastic[] = {OTHER("TYPE", .words = types), LAST},
-    group[] = {OTHER("NAME", .what = ""), OTHER("MATERIAL", .what = ""), LAST},
+    group[] = {OTHER("NAME", .what = ""), OTHER("MATERIAL", .what = ""), OTHER("FILE", .what = ""), LAST}, table[] = {OTHER("FILE", .what = ""), LAST},
     layer[] = {OTHER("NAME", .what = ""), OTHER("GROUP", .what = ""), OTHER("MATERIAL", .what = ""), LAST}, of_group[] = {OTHER("GROUP", .what = ""), LAST};
 
 static const struct deck_row disk[] = {
@@ -29,8 +29,8 @@ static const struct deck_row spring[] = {
     {FROM_0(struct spring, rotational, "rotational stiffness [N.m/rad]"), OPTIONAL},
     LAST};
 
-static const struct deck_row mode[] = {OTHER("MODE", .what = ""), LAST},
-    frequencies[] = {OTHER("MODE", .what = ""), OTHER("MEAN", .words = deck_answers, .standard = 1), LAST};
+static const struct deck_row mode[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), LAST},
+    frequencies[] = {OTHER("MODE", .what = ""), OTHER("FILE", .what = ""), OTHER("MEAN", .words = deck_answers, .standard = 1), LAST};
 static const struct deck_row measured[] = {
     OTHER("FILE", .what = ""),
     OTHER("AXIS", .words = axes, .standard = 2),
@@ -67,8 +67,8 @@ const struct deck_card deck_card_table[] = {
     {"ELASTIC", CARD_MODEL, 1, deck_elastic, "E [Pa], nu; with SHEAR: E [Pa], G [Pa], nu; with LAMINATED: E, G along the axis [Pa], E [Pa], nu of a sheet [, stacking factor]", elastic, BY_CODE},
     {"DENSITY", CARD_MODEL, 1, deck_density, "density [kg/m3]", deck_density_rows, BY_CODE},
     {"SHAFT", CARD_MODEL, 2, deck_shaft,
-     "length, outer diameter, inner diameter [m], elements [, outer diameter that carries stiffness]", group, BY_CODE},
-    {"BEAM", CARD_MODEL, 2, deck_beam, "length, height in the bending plane, width [m], elements", group, BY_CODE},
+     "length, outer diameter, inner diameter [m] [, elements [, outer diameter that carries stiffness]]", group, BY_CODE},
+    {"BEAM", CARD_MODEL, 2, deck_beam, "length, height in the bending plane, width [m] [, elements]", group, BY_CODE},
     {"LAYER", CARD_MODEL, 3, deck_layer, "outer diameter, inner diameter [m]", layer, BY_CODE},
     {"PERFORATION", CARD_MODEL, 4, deck_perforation, "number, hole diameter [m], pitch radius [m]", of_group, BY_CODE},
     {"TIEROD", CARD_MODEL, 4, deck_tierod, "number, diameter [m], pitch radius [m], tension per rod [N] [, elements]",
@@ -80,9 +80,9 @@ const struct deck_card deck_card_table[] = {
     {"SPRING", CARD_MODEL, 4, NULL, "position, lateral stiffness [N/m] [, rotational stiffness [N.m/rad]]", spring,
      LIST(spring, spring)},
     {"SLING", CARD_MODEL, 4, deck_sling, NULL, deck_sling_rows, REPLACES},
-    {"SENSORS", CARD_MEASURED, 4, deck_sensors, "sensor id, position", nothing, REPLACES},
+    {"SENSORS", CARD_MEASURED, 4, deck_sensors, "sensor id, position", table, REPLACES},
     {"MODES", CARD_MEASURED, 5, deck_modes,
-     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", nothing, OF_STATE},
+     "mode, frequency [Hz] [, damping ratio [, standard deviation of the frequency [Hz]]]", table, OF_STATE},
     {"SHAPE", CARD_MEASURED, 6, deck_shape, "sensor id, value [, standard deviation relative to the largest component]", mode, OF_STATE},
     {"FREQUENCIES", CARD_MEASURED, 6, deck_frequencies, "sensor id, frequency [Hz] [, standard deviation of it [Hz]]",
      frequencies, OF_STATE},

@@ -10,14 +10,31 @@
 #include "deck/deck_frequencies.h"
 #include "deck/deck_state.h"
 #include "rotid.h"
+#include "run/mesh_choice.h"
 
 #define LAST_PHASE 8
+
+/* The card that a misspelt name is closest to, or NULL. */
+static const char *nearest_card(const char *name)
+{
+    const char *nearest = NULL;
+    int least = TEXT_FAR;
+    for (const struct deck_card *kind = deck_card_table; kind->name; kind++) {
+        int distance = text_distance(name, kind->name);
+        if (distance < least)
+            nearest = kind->name;
+        least = distance < least ? distance : least;
+    }
+    return nearest;
+}
 
 static void check_names(struct deck_reader *reader, const struct card *card)
 {
     const struct deck_card *kind = deck_card_find(card->name);
     if (!kind) {
-        deck_error(reader, card->place, "card *%s is not known, expected one of docs/deck.md such as *SHAFT", card->name);
+        const char *near = nearest_card(card->name);
+        deck_error(reader, card->place, "card *%s is not known, expected %s*%s", card->name,
+                   near ? "" : "one of docs/deck.md such as ", near ? near : "SHAFT");
         return;
     }
     char list[256] = "";
@@ -74,40 +91,59 @@ static void check_unique(struct deck_reader *reader)
     }
 }
 
+/* TIE=E:G makes the groups of an unknown E isotropic: their G is no unknown. 0, or 1 after an error. */
+static int tie_groups(struct deck_reader *reader, const struct parameter *young, const char *name)
+{
+    struct job *job = reader->job;
+    for (int g = 0; g < job->rotor.ngroup; g++) {
+        struct group *group = &job->rotor.group[g];
+        if (!parameter_is_of_group(young, g))
+            continue;
+        if (group->material.laminated) {
+            deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
+                       "TIE=E:G has no meaning for the sheets of %s, expected a material of another type", group->name);
+            return 1;
+        }
+        group->material.isotropic = 1;
+        for (int q = job->unknowns.nparameter - 1; q >= 0; q--)
+            if (job->unknowns.parameter[q].kind == PARAMETER_G && parameter_is_of_group(&job->unknowns.parameter[q], g)) {
+                deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)",
+                          job->unknowns.bounds[q].name, name);
+                deck_drop_unknown(reader, q);
+            }
+    }
+    return 0;
+}
+
 /* G of its own where it is identified, G = E/2(1+nu) where TIE asks for it. */
 static void settle_moduli(struct deck_reader *reader)
 {
     struct job *job = reader->job;
     for (int p = 0; p < job->unknowns.nparameter && reader->tie; p++) {
-        if (job->unknowns.parameter[p].kind != PARAMETER_E)
+        struct parameter young = job->unknowns.parameter[p];
+        const char *name = job->unknowns.bounds[p].name;
+        if (young.kind != PARAMETER_E)
             continue;
-        struct group *group = &job->rotor.group[job->unknowns.parameter[p].index];
-        if (group->material.laminated) {
-            deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
-                       "TIE=E:G has no meaning for the sheets of %s, expected a material of another type", group->name);
+        if (tie_groups(reader, &young, name))
             return;
-        }
-        group->material.isotropic = 1;
-        for (int q = 0; q < job->unknowns.nparameter; q++)
-            if (job->unknowns.parameter[q].kind == PARAMETER_G &&
-                job->unknowns.parameter[q].index == job->unknowns.parameter[p].index) {
-                deck_note(reader, reader->identify_card->place, "%s follows %s and is not identified (TIE=E:G)",
-                          job->unknowns.bounds[q].name, job->unknowns.bounds[p].name);
-                deck_drop_unknown(reader, q);
-                p -= q < p;
-                break;
-            }
+        while (p >= job->unknowns.nparameter || job->unknowns.bounds[p].name != name)
+            p--; /* those dropped stood in front */
     }
     for (int p = 0; p < job->unknowns.nparameter; p++) {
-        if (job->unknowns.parameter[p].kind != PARAMETER_G)
+        const struct parameter *shear = &job->unknowns.parameter[p];
+        if (shear->kind != PARAMETER_G)
             continue;
         if (reader->tie)
             deck_error(reader, card_option(reader->fit_card, "TIE")->value_place,
                        "TIE=E:G, but %s is identified without E of that group, expected E in its place",
                        job->unknowns.bounds[p].name);
-        struct material *material = &job->rotor.group[job->unknowns.parameter[p].index].material;
-        material->g = material_shear_modulus(material);
-        material->isotropic = 0;
+        for (int g = 0; g < job->rotor.ngroup; g++) {
+            struct material *material = &job->rotor.group[g].material;
+            if (!parameter_is_of_group(shear, g))
+                continue;
+            material->g = material_shear_modulus(material);
+            material->isotropic = 0;
+        }
     }
 }
 
@@ -191,6 +227,24 @@ static void check_model(struct deck_reader *reader)
             deck_error(reader, (reader->modes_card ? reader->modes_card : reader->measured_card)->place,
                        "mode %d is measured and the mesh has %d, expected more elements, or mode numbers that count from 1",
                        job->measurement.number[k], modes);
+}
+
+/* Elements of the sections that state none. */
+static void choose_mesh(struct deck_reader *reader)
+{
+    struct mesh_choice c;
+    struct place place =
+        reader->nopen ? reader->group_place[reader->job->rotor.segment[reader->open_section[0]].group] : reader->text.end;
+    if (!reader->nopen)
+        return;
+    reader->out_of_memory |= mesh_choose(reader->pool, reader->job, reader->nopen, reader->open_section, &c) != ROTID_OK;
+    if (!reader->out_of_memory && isfinite(c.error) && !reader->job->options.solid) /* that has a mesh of its own */
+        deck_note(reader, place,
+                  "%d elements of at most %.3g mm are chosen where none are stated: modes 1 to %d lie within %.2g %% of a fine "
+                  "mesh, %s %.2g %%%s",
+                  c.elements, 1000 * c.length_m, c.mode, 100 * c.error,
+                  c.error > c.wanted ? "and more elements would have to be stated for" : "as wanted:", 100 * c.wanted,
+                  c.is_noise_known ? ", a tenth of the smallest noise" : "");
 }
 
 /* What a solid takes for granted where the deck says nothing of it. */
@@ -280,7 +334,9 @@ void deck_read_cards(struct deck_reader *reader)
         return;
     choose_functional(reader);
     check_masters(reader);
-    check_model(reader);
+    choose_mesh(reader);
+    if (!reader->out_of_memory)
+        check_model(reader);
     deck_doubt_rotor(reader);
     note_assumptions(reader);
 }
@@ -318,7 +374,9 @@ static int read_deck(struct pool *pool, const char *path, const struct deck_memo
             return ROTID_ERROR_MEMORY;
     if (add_cards(pool, &reader.text, ncard, card))
         return ROTID_ERROR_MEMORY;
-    deck_read_all_states(&reader, nread, states);
+    int bad_tables = deck_read_tables(&reader, &nread); /* what follows from a table that is not there would be told of as well */
+    if (!bad_tables && !reader.out_of_memory)
+        deck_read_all_states(&reader, nread, states);
     if (reader.out_of_memory || messages->out_of_memory || !job.deck)
         return ROTID_ERROR_MEMORY;
     if (messages->errors)

@@ -17,6 +17,8 @@ struct deck_reader {
     size_t material_room, group_room, segment_room, ring_room, tierod_room, bars_room, sensor_room, parameter_room;
     size_t list_room[DECK_MOST_KINDS]; /* of cards without code of their own, by their rows in deck_card_table */
     struct material *material;
+    int nopen, *open_section; /* sections without elements: the mesh follows from modes and noise */
+    size_t open_room;
     int *material_complete; /* bit 1: elastic constants, bit 2: density */
     struct place *material_place, *group_place, *tierod_place, *bars_place, *sensor_place;
     size_t material_complete_room, material_place_room, group_place_room, tierod_place_room, bars_place_room, sensor_place_room,
@@ -55,6 +57,9 @@ enum range { ANY, NOT_NEGATIVE, POSITIVE };
 /* Zero, or within these. */
 int deck_is_usual(double value);
 
+/* The factor that makes numbers in the unit `word` SI, of what has the unit `si` inside ("m", "1" for a share); 0 where that has
+ * no such unit. */
+double deck_unit_factor(const char *si, const char *word);
 /* The factor that makes a number of the deck SI; what: "length [m]", or a unit alone. 1 for what has no unit. */
 double deck_in_si(const struct deck_reader *reader, const char *what);
 /* The deck's own unit of it, for messages. */
@@ -75,7 +80,9 @@ int deck_has(const struct data_line *line, int i);
 /* No more than `most` fields; otherwise an error that says what a line of this card holds. */
 int deck_count(struct deck_reader *reader, const struct data_line *line, int most, const char *layout);
 /* A number in metres, start, end, group.start or group.end, inside the rotor. */
-int deck_position(struct deck_reader *reader, const char *text, struct place place, const char *what, double *z);
+int deck_position(struct deck_reader *reader, const struct field *field, const char *what, double *z);
+/* The same of an option. */
+int deck_option_position(struct deck_reader *reader, const struct card_option *option, const char *what, double *z);
 
 /* The value of an option that must be there, or NULL after an error. */
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected);
@@ -134,6 +141,9 @@ void deck_causes_of_solid(struct deck_reader *reader);
 /* The cards of the text into the job, with everything that is checked of them. */
 void deck_read_cards(struct deck_reader *reader);
 
+/* parameter_find of a field, also of "left.E=right.E". 3: an error of it has been reported. */
+int deck_find_parameter(struct deck_reader *reader, const struct field *field, struct parameter *parameter, const char **unit);
+
 /* Takes an unknown out of the job. */
 void deck_drop_unknown(struct deck_reader *reader, int p);
 /* MODES and HOLDOUT of a card. */
@@ -141,6 +151,10 @@ void deck_choose_modes(struct deck_reader *reader, const struct card *card);
 /* The names of HOLDOUT=STATE:a,STATE:b one after the other: that at *rest, which goes on behind it; NULL behind the last one and
  * where the value is a list of modes. */
 const char *deck_whole_state(struct deck_reader *reader, const char **rest);
+
+/* What the tables of FILE hold becomes data lines of their cards, of new cards where a table holds that of several. *nread, the
+ * number of cards in front, counts these. 0, or 1 after an error that leaves nothing to read. */
+int deck_read_tables(struct deck_reader *reader, int *nread);
 
 void deck_identify(struct deck_reader *reader, const struct card *card);
 void deck_fit(struct deck_reader *reader, const struct card *card);

@@ -120,8 +120,9 @@ static int read_bounds(struct cause_card *c, const struct data_line *line, int p
     cause_reach(c->kind, &c->reader->job->rotor, &c->effect, p, &lower, &upper);
     if (bound[0] < bound[1] && bound[0] >= lower && bound[1] <= upper)
         return 0;
-    deck_error(c->reader, field[1].place, "the bounds of %s are %s and %s, expected the lower one first and both from %.6g to %.6g",
-               known[p].name, field[1].text, field[2].text, lower, upper);
+    deck_error(c->reader, field[1].place,
+               "the bounds of %s are %s and %s, expected the lower one first and both from %.6g to %.6g", known[p].name,
+               field[1].text, field[2].text, lower, upper);
     return 1;
 }
 
@@ -146,7 +147,7 @@ static int read_values(struct cause_card *c, int count, const struct effect_para
         }
         given[p] = 1;
         int is_place = c->kind->class == CAUSE_PHYSICAL && p == c->kind->place && deck_has(line, 1);
-        bad |= is_place ? deck_position(c->reader, line->field[1].text, line->field[1].place, known[p].name, &value[p])
+        bad |= is_place ? deck_position(c->reader, &line->field[1], known[p].name, &value[p])
                         : deck_number(c->reader, line, 1, known[p].name, ANY, &value[p]);
         if (!is_place)
             value[p] *= deck_in_si(c->reader, known[p].unit);

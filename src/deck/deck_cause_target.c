@@ -102,7 +102,7 @@ static int read_interface(struct cause_card *c)
     if (!at)
         return !deck_option(c->reader, c->card, "BETWEEN", target_of[TARGET_INTERFACE].expected) || !between ||
                read_between(c, between);
-    if (deck_position(c->reader, at->value, at->value_place, "AT", &z))
+    if (deck_option_position(c->reader, at, "AT", &z))
         return 1;
     for (int g = 0; g + 1 < rotor_axis_groups(rotor); g++) {
         rotor_group_span(rotor, g, &from, &to);

@@ -6,13 +6,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "deck/table_text.h"
 #include "rotid.h"
 
 static void add(struct deck_reader *reader, enum severity severity, struct place place, const char *format, va_list values)
 {
-    char text[1024];
+    char text[1024], cell[TABLE_CELL_LENGTH];
+    int table = 0;
     (void)vsnprintf(text, sizeof text, format, values);
-    message_add(reader->messages, severity, place.file, place.line, place.column, "%s", text);
+    for (int i = 0; i < reader->text.ntable; i++)
+        table |= place.file == reader->text.table[i]->path;
+    if (table)
+        message_add(reader->messages, severity, place.file, place.line, place.column, "%s (cell %s)", text,
+                    table_cell_name(place.line, place.column, cell));
+    else
+        message_add(reader->messages, severity, place.file, place.line, place.column, "%s", text);
 }
 
 void deck_error(struct deck_reader *reader, struct place place, const char *format, ...)
@@ -52,9 +60,10 @@ int deck_is_usual(double value)
     return value == 0 || (fabs(value) >= DECK_LEAST && fabs(value) <= DECK_MOST);
 }
 
-static int parse_number(struct deck_reader *reader, const char *text, struct place place, const char *what, enum range range,
-                        double *value)
+static int parse_number(struct deck_reader *reader, const struct field *field, const char *what, enum range range, double *value)
 {
+    const char *text = field->text;
+    struct place place = field->place;
     char *end;
     double number = strtod(text, &end);
     if (end == text || *end) {
@@ -70,7 +79,9 @@ static int parse_number(struct deck_reader *reader, const char *text, struct pla
                    range == POSITIVE ? "" : ", or zero");
         return 1;
     }
-    *value = number * deck_in_si(reader, what); /* only now: what follows from a bad length would be reported as well */
+    *value = number * (field->in_si > 0
+                           ? field->in_si
+                           : deck_in_si(reader, what)); /* only now: what follows from a bad length would be reported as well */
     deck_doubt(reader, place, what, text, *value);
     return 0;
 }
@@ -87,7 +98,7 @@ int deck_number(struct deck_reader *reader, const struct data_line *line, int i,
         deck_error(reader, i < line->count ? line->field[i].place : line->end, "a value is missing, expected %s", what);
         return 1;
     }
-    return parse_number(reader, line->field[i].text, line->field[i].place, what, range, value);
+    return parse_number(reader, &line->field[i], what, range, value);
 }
 
 int deck_integer(struct deck_reader *reader, const struct data_line *line, int i, const char *what, int least, int most,
@@ -125,12 +136,15 @@ static int find_group(const struct deck_reader *reader, const char *name, size_t
     return -1;
 }
 
-int deck_position(struct deck_reader *reader, const char *text, struct place place, const char *what, double *z)
+int deck_position(struct deck_reader *reader, const struct field *field, const char *what, double *z)
 {
+    const char *text = field->text;
+    struct place place = field->place;
     const char *dot = strrchr(text, '.');
     double from = 0, to = reader->length;
     char *end;
-    *z = strtod(text, &end) * deck_in_si(reader, "m");
+    double in_si = field->in_si > 0 ? field->in_si : deck_in_si(reader, "m");
+    *z = strtod(text, &end) * in_si;
     if (end == text || *end) {
         const char *which = text;
         int group = dot ? find_group(reader, text, (size_t)(dot - text)) : -1;
@@ -150,11 +164,18 @@ int deck_position(struct deck_reader *reader, const char *text, struct place pla
     /* a coordinate with six digits may end a little beyond the end of the rotor */
     if (!isfinite(*z) || *z < -1e-5 * reader->length || *z > reader->length * (1 + 1e-5)) {
         deck_error(reader, place, "%s %s %s lies outside the rotor, expected 0 to %.6g %s", what, text,
-                   deck_unit_name(reader, "m"), reader->length / deck_in_si(reader, "m"), deck_unit_name(reader, "m"));
+                   field->in_si > 0 ? "in the unit of its column" : deck_unit_name(reader, "m"), reader->length / in_si,
+                   field->in_si > 0 ? "in that unit" : deck_unit_name(reader, "m"));
         return 1;
     }
     *z = fmin(fmax(*z, 0), reader->length);
     return 0;
+}
+
+int deck_option_position(struct deck_reader *reader, const struct card_option *option, const char *what, double *z)
+{
+    const struct field field = {option->value, option->value_place, 0};
+    return deck_position(reader, &field, what, z);
 }
 
 const char *deck_option(struct deck_reader *reader, const struct card *card, const char *name, const char *expected)
@@ -177,7 +198,8 @@ const char *deck_path(struct deck_reader *reader, const struct card *card, const
 int deck_option_number(struct deck_reader *reader, const struct card_option *option, const char *unit, enum range range,
                        double *value)
 {
-    int bad = parse_number(reader, option->value, option->value_place, option->name, range, value);
+    const struct field field = {option->value, option->value_place, 0};
+    int bad = parse_number(reader, &field, option->name, range, value);
     if (!bad)
         *value *= deck_in_si(reader, unit);
     return bad;

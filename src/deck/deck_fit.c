@@ -34,6 +34,48 @@ void deck_drop_unknown(struct deck_reader *reader, int p)
     reader->ncommon_unknown -= p < reader->ncommon_unknown;
 }
 
+int deck_find_parameter(struct deck_reader *reader, const struct field *field, struct parameter *parameter, const char **unit)
+{
+    const struct rotor *rotor = &reader->job->rotor;
+    char name[PARAMETER_NAME];
+    const char *next = field->text;
+    int count = 0, *also = NULL;
+    *parameter = (struct parameter){.kind = PARAMETER_E};
+    for (const char *c = next; *c; c++)
+        count += *c == PARAMETER_SHARED_BY;
+    if (!count)
+        return parameter_find(rotor, next, parameter, unit);
+    also = POOL_ARRAY(reader->pool, int, count);
+    reader->out_of_memory |= !also;
+    for (int i = 0; next && also; i++) {
+        struct parameter one;
+        next = parameter_next_name(next, name);
+        int found = parameter_find(rotor, name, &one, unit);
+        if (found || one.kind > PARAMETER_RHO || (i && one.kind != parameter->kind)) {
+            deck_error(reader, field->place,
+                       "%s in %s cannot be shared, expected the same one of E, G, nu and rho of several groups", name,
+                       field->text);
+            return 3;
+        }
+        if (i && parameter_is_of_group(parameter, one.index)) {
+            deck_error(reader, field->place, "%s stands twice in %s, expected once", name, field->text);
+            return 3;
+        }
+        if (i && *parameter_value(rotor, one) != *parameter_value(rotor, *parameter)) {
+            deck_error(reader, field->place, "%s is %.9g and %.*s %.9g in the deck, expected the same value of what is shared",
+                       name, *parameter_value(rotor, one), (int)strcspn(field->text, "="), field->text,
+                       *parameter_value(rotor, *parameter));
+            return 3;
+        }
+        if (i)
+            also[parameter->nalso++] = one.index;
+        else
+            *parameter = one;
+        parameter->also = also;
+    }
+    return also ? 0 : 3;
+}
+
 void deck_identify(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
@@ -44,17 +86,15 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
         const struct data_line *line = &card->line[i];
         struct parameter parameter;
         rotid_parameter bounds = {.name = line->field[0].text};
-        int found = parameter_find(&job->rotor, bounds.name, &parameter, &bounds.unit);
+        int found = deck_find_parameter(reader, &line->field[0], &parameter, &bounds.unit);
+        const char *known = found == 1 || found == 2 ? parameter_list(reader->pool, &job->rotor, bounds.name) : "";
+        reader->out_of_memory |= !known;
         if (found == 1 && !deck_cause_explains(reader, bounds.name, line->field[0].place))
-            deck_error(reader, line->field[0].place,
-                       "%s is no parameter, expected NAME.E, .G, .nu, .rho of a group, NAME.E, .tension of a tie rod, NAME.k, "
-                       ".k_rot of a spring, "
-                       "NAME.mass, .inertia of a disk, NAME.parameter of a cause",
-                       bounds.name);
+            deck_error(reader, line->field[0].place, "%s is no parameter, expected one of %s", bounds.name, known ? known : "");
         if (found == 2)
             deck_error(reader, line->field[0].place,
-                       "%s: there is a thing of that name and it has no such parameter, expected another one behind the dot",
-                       bounds.name);
+                       "%s: there is a thing of that name and it has no such parameter, expected one of %s", bounds.name,
+                       known ? known : "");
         int bad = deck_count(reader, line, 4, layout) || found;
         bad |= deck_number(reader, line, 1, "lower bound", ANY, &bounds.lower);
         bad |= deck_number(reader, line, 2, "upper bound", ANY, &bounds.upper);
@@ -87,8 +127,7 @@ void deck_identify(struct deck_reader *reader, const struct card *card)
             deck_error(reader, line->field[1].place, "the bounds of %s are %s and %s, expected them inside -1 to 0.5",
                        bounds.name, line->field[1].text, line->field[2].text);
         for (int p = 0; p < job->unknowns.nparameter; p++)
-            if (job->unknowns.parameter[p].kind == parameter.kind && job->unknowns.parameter[p].index == parameter.index &&
-                job->unknowns.parameter[p].component == parameter.component) {
+            if (parameters_overlap(&job->unknowns.parameter[p], &parameter)) {
                 if (!common && p < reader->ncommon_unknown) /* the state has one of its own in place of the common one */
                     deck_drop_unknown(reader, p--);
                 else

@@ -39,7 +39,8 @@ void deck_frequencies(struct deck_reader *reader, const struct card *card)
     const struct card_option *option = card_option(card, "MODE"), *mean = card_option(card, "MEAN");
     double number;
     int mode = -1, take = 1;
-    if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") || deck_option_number(reader, option, "", POSITIVE, &number))
+    if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") ||
+        deck_option_number(reader, option, "", POSITIVE, &number))
         return;
     for (int k = 0; k < job->measurement.nmode; k++)
         if (job->measurement.number[k] == number)

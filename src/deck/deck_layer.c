@@ -38,9 +38,10 @@ static void lay_ring(struct deck_reader *reader, const struct data_line *line, c
     if (within && ring->outer >= inner * (1 - TOUCH))
         ring->outer = inner;
     else if (within)
-        deck_error(reader, line->field[0].place,
-                   "a gap: layer %s has an outer diameter of %.12g m and section %d a bore of %.12g m, expected the same diameter",
-                   name, ring->outer, section, inner);
+        deck_error(
+            reader, line->field[0].place,
+            "a gap: layer %s has an outer diameter of %.12g m and section %d a bore of %.12g m, expected the same diameter", name,
+            ring->outer, section, inner);
     else if (outside && ring->inner <= outer * (1 + TOUCH))
         ring->inner = outer;
     else
@@ -93,8 +94,8 @@ void deck_layer(struct deck_reader *reader, const struct card *card)
             }
             if (ring.inner >= ring.outer)
                 deck_error(reader, line->field[1].place,
-                           "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one",
-                           ring.inner, ring.outer);
+                           "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one", ring.inner,
+                           ring.outer);
             else
                 lay_ring(reader, line, rotor->group[group].name, section, &ring);
             add_ring(reader, &ring);

@@ -69,7 +69,7 @@ void deck_sensors(struct deck_reader *reader, const struct card *card)
             deck_error(reader, line->end, "a value is missing, expected the position of sensor %d", sensor.id);
             continue;
         }
-        if (deck_position(reader, line->field[1].text, line->field[1].place, "position", &sensor.position))
+        if (deck_position(reader, &line->field[1], "position", &sensor.position))
             continue;
         if (rotor->nsensor == DECK_MOST_LINES) {
             deck_error(reader, line->place, "the rotor has more than %d sensors, expected fewer", DECK_MOST_LINES);
@@ -175,7 +175,8 @@ void deck_shape(struct deck_reader *reader, const struct card *card)
     const struct card_option *option = card_option(card, "MODE");
     double number;
     int mode = -1;
-    if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") || deck_option_number(reader, option, "", POSITIVE, &number))
+    if (!deck_option(reader, card, "MODE", "number of a mode of *MODES") ||
+        deck_option_number(reader, option, "", POSITIVE, &number))
         return;
     for (int k = 0; k < job->measurement.nmode; k++)
         if (job->measurement.number[k] == number)

@@ -53,14 +53,16 @@ static void check_stack(struct deck_reader *reader, const struct data_line *line
         deck_error(reader, line->field[4].place, "stacking factor is %s, expected a share of the length, at most 1",
                    line->field[4].text);
     else if (1 - m->nu - 2 * m->nu * m->nu * m->stacking * m->e / m->sheet_e <= 0)
-        deck_error(reader, line->field[0].place,
-                   "Young's modulus E along the axis is %.9g Pa with sheets of %.9g Pa: such a stack would move by itself (negative "
-                   "strain energy), expected less",
-                   m->e, m->sheet_e);
+        deck_error(
+            reader, line->field[0].place,
+            "Young's modulus E along the axis is %.9g Pa with sheets of %.9g Pa: such a stack would move by itself (negative "
+            "strain energy), expected less",
+            m->e, m->sheet_e);
     else if (m->g > 1.5 * m->sheet_e)
-        deck_error(reader, line->field[1].place,
-                   "shear modulus G along the axis is %.9g Pa with sheets of %.9g Pa, expected less than the %.4g Pa of the sheets",
-                   m->g, m->sheet_e, steel);
+        deck_error(
+            reader, line->field[1].place,
+            "shear modulus G along the axis is %.9g Pa with sheets of %.9g Pa, expected less than the %.4g Pa of the sheets",
+            m->g, m->sheet_e, steel);
     else if (m->e > m->sheet_e * (1 + 1e-9) || m->g > steel * (1 + 1e-9))
         deck_note(reader, line->field[m->e > m->sheet_e * (1 + 1e-9) ? 0 : 1].place,
                   "the stack is stiffer along the axis than its sheets (E %.4g Pa, G %.4g Pa)", m->sheet_e, steel);
@@ -135,6 +137,19 @@ static struct segment *add_segment(struct deck_reader *reader, int group)
     return segment;
 }
 
+/* A section that states no elements has some until those of all are chosen. */
+static void settle_elements(struct deck_reader *reader, struct segment *s)
+{
+    if (s->elements)
+        return;
+    s->elements = 1;
+    int *open = DECK_APPEND(reader, reader->open_section, reader->nopen, reader->open_room);
+    if (open) {
+        *open = (int)(s - reader->job->rotor.segment);
+        reader->nopen++;
+    }
+}
+
 void deck_shaft(struct deck_reader *reader, const struct card *card)
 {
     const char *layout = reader->layout;
@@ -144,7 +159,9 @@ void deck_shaft(struct deck_reader *reader, const struct card *card)
         struct segment *s = add_segment(reader, group);
         if (!s)
             return;
+        s->elements = 0;
         int bad = deck_read_values(reader, line, deck_shaft_rows, layout, s);
+        settle_elements(reader, s);
         if (!bad && s->inner >= s->outer)
             deck_error(reader, line->field[2].place,
                        "inner diameter %.12g m is not below the outer diameter %.12g m, expected a smaller one", s->inner,
@@ -165,6 +182,8 @@ void deck_beam(struct deck_reader *reader, const struct card *card)
         if (!s)
             return;
         s->rectangular = 1;
+        s->elements = 0;
         (void)deck_read_values(reader, &card->line[i], deck_beam_rows, layout, s);
+        settle_elements(reader, s);
     }
 }

@@ -44,7 +44,7 @@ static int read_option(struct deck_reader *reader, const struct card *card, cons
     case ROW_WHOLE:
         return deck_option_integer(reader, option, row->least, row->most, member);
     case ROW_POSITION:
-        return deck_position(reader, option->value, option->value_place, row->option, member);
+        return deck_option_position(reader, option, row->option, member);
     default:
         return 0;
     }
@@ -78,7 +78,7 @@ int deck_read_values(struct deck_reader *reader, const struct data_line *line, c
             continue;
         }
         if (row->kind == ROW_POSITION)
-            bad |= deck_position(reader, line->field[i].text, line->field[i].place, row->what, member);
+            bad |= deck_position(reader, &line->field[i], row->what, member);
         else if (row->kind == ROW_WHOLE)
             bad |= deck_integer(reader, line, i, row->what, row->least, row->most, member);
         else

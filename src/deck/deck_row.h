@@ -53,7 +53,7 @@ struct deck_row {
 #define WHOLE(S, M, W)   .kind = ROW_WHOLE, IN(S, M), .what = (W)
 #define ELEMENTS(S)                                                                                                              \
     {                                                                                                                            \
-        WHOLE(S, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS)                                                 \
+        WHOLE(S, elements, "number of elements"), FROM_TO(1, DECK_MOST_ELEMENTS), OPTIONAL                                       \
     }
 #define WORD(S, M, W) .kind = ROW_WORD, IN(S, M), .words = (W)
 #define OTHER(O, ...)                                                                                                            \

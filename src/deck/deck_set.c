@@ -74,18 +74,25 @@ static void set_parameter(struct deck_reader *reader, const struct data_line *li
     const char *name = line->field[0].text, *unit;
     struct parameter parameter;
     double value;
-    int found = parameter_find(&job->rotor, name, &parameter, &unit);
-    if (found && (found == 2 || !deck_cause_explains(reader, name, line->field[0].place)))
+    int found = deck_find_parameter(reader, &line->field[0], &parameter, &unit);
+    if (found && found != 3 && (found == 2 || !deck_cause_explains(reader, name, line->field[0].place)))
         deck_error(reader, line->field[0].place, "%s is no parameter, expected one as for *IDENTIFY, or GROUP.length", name);
     if (found || deck_count(reader, line, 2, reader->layout) || deck_number(reader, line, 1, "value", ANY, &value) ||
         check_value(reader, line, parameter, value))
         return;
     if (parameter.kind == PARAMETER_G)
         job->rotor.group[parameter.index].material.isotropic = 0;
-    *parameter_value(&job->rotor, parameter) = value;
-    for (int p = 0; p < job->unknowns.nparameter; p++)
-        if (!memcmp(&job->unknowns.parameter[p], &parameter, sizeof parameter))
-            deck_drop_unknown(reader, p);
+    for (int i = 0; i < parameter.nalso && parameter.kind == PARAMETER_G; i++)
+        job->rotor.group[parameter.also[i]].material.isotropic = 0;
+    parameters_set(&job->rotor, 1, &parameter, &value);
+    for (int p = 0; p < job->unknowns.nparameter; p++) {
+        if (!parameters_overlap(&job->unknowns.parameter[p], &parameter))
+            continue;
+        if (job->unknowns.parameter[p].nalso != parameter.nalso)
+            deck_error(reader, line->field[0].place, "%s has a value in common with the unknown %s, expected *SET of that name",
+                       name, job->unknowns.bounds[p].name);
+        deck_drop_unknown(reader, p--);
+    }
 }
 
 void deck_set(struct deck_reader *reader, const struct card *card)

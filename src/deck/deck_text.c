@@ -234,7 +234,7 @@ static void read_data(struct reader *reader, const char *begin, const char *end,
     for (const char *piece = begin; data.count < count; data.count++) {
         const char *comma = memchr(piece, ',', (size_t)(end - piece)), *from = piece, *to = comma ? comma : end;
         trim(&from, &to);
-        data.field[data.count] = (struct field){copy_span(reader, from, to), at(reader, begin, from, line)};
+        data.field[data.count] = (struct field){copy_span(reader, from, to), at(reader, begin, from, line), 0};
         if (!data.field[data.count].text)
             return;
         piece = comma ? comma + 1 : end;

@@ -19,7 +19,8 @@ struct place {
 
 struct field { /* of a data line, trimmed; empty between two commas */
     const char *text;
-    struct place place;
+    struct place place; /* row and column where the line comes from a table */
+    double in_si;       /* factor of a unit that the field has of its own; 0: that of the deck */
 };
 
 struct data_line {
@@ -28,6 +29,8 @@ struct data_line {
     int count;
     struct field *field;
 };
+
+struct table_text;
 
 struct card_option {
     const char *name, *value; /* value "" where there is no '=' */
@@ -52,6 +55,9 @@ struct deck_text {
     int nfile; /* the deck, what it includes, and measured data that its cards name */
     size_t file_room;
     const char **file;
+    int ntable;
+    size_t table_room;
+    struct table_text **table;      /* read so far: a table may serve several cards */
     const char *memory, *directory; /* of a deck from memory: the file of its places, what its files are relative to; or NULL */
 };
 

@@ -4,11 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/complex.h"
 #include "deck/deck_cards.h"
 #include "deck/deck_uff_std.h"
 #include "rotid.h"
-#include "uff/uff.h"
+#include "uff/uff_modes.h"
 
 struct import {
     struct deck_reader *reader;
@@ -53,11 +52,6 @@ static int compare_sensors(const void *left, const void *right)
     return (a->position > b->position) - (a->position < b->position);
 }
 
-static int is_mode(const struct uff_shape *shape)
-{
-    return shape->analysis_type != 5; /* 5 is a frequency response: an operating shape */
-}
-
 static int compare_ids(const void *left, const void *right)
 {
     int a = *(const int *)left, b = *(const int *)right;
@@ -69,11 +63,11 @@ static int *shape_nodes(struct pool *pool, const struct uff_file *file, size_t *
 {
     *count = 0;
     for (int k = 0; k < file->shape_count; k++)
-        *count += is_mode(&file->shape[k]) ? (size_t)file->shape[k].node_count : 0;
+        *count += uff_is_mode(&file->shape[k]) ? (size_t)file->shape[k].node_count : 0;
     int *id = POOL_ARRAY(pool, int, *count);
     size_t at = 0;
     for (int k = 0; k < file->shape_count && id; k++)
-        for (int i = 0; is_mode(&file->shape[k]) && i < file->shape[k].node_count; i++)
+        for (int i = 0; uff_is_mode(&file->shape[k]) && i < file->shape[k].node_count; i++)
             id[at++] = file->shape[k].node[i];
     if (at)
         qsort(id, at, sizeof *id, compare_ids);
@@ -110,7 +104,8 @@ static int import_sensors(struct import *import)
         reader->out_of_memory = 1;
         return 1;
     }
-    int bad = 0;
+    int outside = 0, first = 0;
+    double at = 0;
     for (int i = 0; i < file->node_count; i++) {
         if (!carried || !bsearch(&file->node[i].id, carrying, carried, sizeof *carrying, compare_ids))
             continue;
@@ -121,76 +116,38 @@ static int import_sensors(struct import *import)
         }
         double z = import->origin + (import->flip ? -1 : 1) * import->scale * file->node[i].x[import->axis];
         if (!(z >= -1e-5 * reader->length && z <= reader->length * (1 + 1e-5))) {
-            deck_error(reader, in_file(import, 1),
-                       "node %d lies at %.6g m of the model, outside the rotor, expected 0 to %.6g m: check AXIS, ORIGIN, FLIP, "
-                       "SCALE and the unit",
-                       file->node[i].id, z, reader->length);
-            bad = 1;
+            if (!outside++) {
+                first = i;
+                at = z;
+            }
             continue;
         }
         z = fmin(fmax(z, 0), reader->length);
         rotor->sensor[rotor->nsensor++] = (struct sensor){file->node[i].id, z};
     }
+    if (outside) /* of a wrong unit or axis all of them are */
+        deck_error(reader, in_file(import, 1),
+                   "node %d lies at %.6g m of the model, outside the rotor%s, expected 0 to %.6g m: check AXIS, ORIGIN, FLIP, "
+                   "SCALE and the unit",
+                   file->node[first].id, at, outside > 1 ? pool_format(reader->pool, ", and %d more nodes are", outside - 1) : "",
+                   reader->length);
     if (rotor->nsensor)
         qsort(rotor->sensor, (size_t)rotor->nsensor, sizeof *rotor->sensor, compare_sensors);
     for (int s = 0; s < rotor->nsensor; s++)
         reader->sensor_place[s] = in_file(import, 1);
-    return bad;
-}
-
-static int compare_shapes(const void *left, const void *right)
-{
-    const struct uff_shape *const *a = left, *const *b = right;
-    return ((*a)->frequency_hz > (*b)->frequency_hz) - ((*a)->frequency_hz < (*b)->frequency_hz);
-}
-
-/* A complex eigenvalue comes with its conjugate; two real modes of one frequency are two modes. */
-static int is_conjugate(const struct uff_shape *a, const struct uff_shape *b)
-{
-    return a->is_complex && b->is_complex && fabs(a->frequency_hz - b->frequency_hz) <= 1e-9 * a->frequency_hz;
+    return outside > 0;
 }
 
 /* Modes by rising frequency, without the second of each conjugate pair. */
 static int choose_modes(struct import *import, const struct uff_shape **chosen)
 {
-    int count = 0, kept = 0, rigid = 0;
-    for (int k = 0; k < import->file.shape_count; k++) {
-        if (is_mode(&import->file.shape[k]) && import->file.shape[k].frequency_hz > 0)
-            chosen[count++] = &import->file.shape[k];
-        else
-            rigid += is_mode(&import->file.shape[k]);
-    }
+    int rigid, conjugates, kept = uff_choose_modes(&import->file, chosen, &rigid, &conjugates);
     if (rigid)
         deck_note(import->reader, in_file(import, 1), "%d modes at 0 Hz are left out: they do not bend", rigid);
-    if (count)
-        qsort(chosen, (size_t)count, sizeof *chosen, compare_shapes);
-    for (int k = 0; k < count; k++)
-        if (!kept || !is_conjugate(chosen[k], chosen[kept - 1]))
-            chosen[kept++] = chosen[k];
-    if (kept < count)
+    if (conjugates)
         deck_note(import->reader, in_file(import, chosen[0]->line),
-                  "%d shapes repeat the frequency of another and are left out, as conjugates of it", count - kept);
+                  "%d shapes repeat the frequency of another and are left out, as conjugates of it", conjugates);
     return kept;
-}
-
-/* The real vector nearest to a complex one: turned by the phase that makes its real part largest. Returns the part of the motion
- * that is out of phase. */
-static double turn_to_real(int n, const double *real, const double *imag, double *out)
-{
-    double complex square = 0;
-    double total = 0, left = 0;
-    for (int i = 0; i < n; i++) {
-        double complex value = real[i] + I * imag[i];
-        square += value * value;
-        total += real[i] * real[i] + imag[i] * imag[i];
-    }
-    double complex turn = cexp(-0.5 * I * carg(square));
-    for (int i = 0; i < n; i++) {
-        double complex value = (real[i] + I * imag[i]) * turn;
-        out[i] = creal(value);
-        left += cimag(value) * cimag(value);
-    }
-    return total > 0 ? left / total : 0;
 }
 
 static void place_components(struct import *import, const struct uff_shape *shape, const double *value, double *target)
@@ -220,17 +177,15 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
                    shape->component_count);
         return 1;
     }
-    double *real = POOL_ARRAY(reader->pool, double, shape->node_count),
-           *imag = POOL_ARRAY(reader->pool, double, shape->node_count);
-    if (!real || !imag) {
+    double *value = POOL_ARRAY(reader->pool, double, shape->node_count);
+    if (!value) {
         reader->out_of_memory = 1;
         return 1;
     }
     double largest = 0;
     for (int i = 0; i < shape->node_count; i++) {
-        real[i] = shape->real[i * shape->component_count + component];
-        imag[i] = shape->imag ? shape->imag[i * shape->component_count + component] : 0;
-        largest = fmax(largest, hypot(real[i], imag[i]));
+        int at = i * shape->component_count + component;
+        largest = fmax(largest, hypot(shape->real[at], shape->imag ? shape->imag[at] : 0));
     }
     if (!deck_is_usual(largest) || !deck_is_usual(shape->frequency_hz)) {
         deck_error(reader, in_file(import, shape->line),
@@ -243,25 +198,12 @@ static int import_shape(struct import *import, const struct uff_shape *shape, do
                    "the shape at %.6g Hz is zero everywhere in this direction, expected another DIRECTION", shape->frequency_hz);
         return 1;
     }
-    if (shape->imag) {
-        double left = turn_to_real(shape->node_count, real, imag, real);
-        if (left > 0.05)
-            deck_note(reader, in_file(import, shape->line),
-                      "%.0f %% of the motion of the shape at %.6g Hz is out of phase and left out", 100 * left,
-                      shape->frequency_hz);
-    }
-    place_components(import, shape, real, target);
+    double left = uff_real_shape(shape, component, value);
+    if (left > 0.05)
+        deck_note(reader, in_file(import, shape->line),
+                  "%.0f %% of the motion of the shape at %.6g Hz is out of phase and left out", 100 * left, shape->frequency_hz);
+    place_components(import, shape, value, target);
     return 0;
-}
-
-/* Record 8 has six digits, which a good test knows better: `rotid ema` writes all of them in a line of text. */
-static double precise_frequency(const struct uff_shape *mode)
-{
-    double hz;
-    for (int i = 0; i < UFF_ID_LINES; i++)
-        if (sscanf(mode->id[i], "ROTID FREQUENCY_HZ %lf", &hz) == 1 && fabs(hz - mode->frequency_hz) < 1e-5 * mode->frequency_hz)
-            return hz;
-    return mode->frequency_hz;
 }
 
 /* The sensor beside the hammer: of the card, else of the line that `rotid ema` writes. */
@@ -311,12 +253,10 @@ static int import_modes(struct import *import)
     }
     for (size_t i = 0; i < components; i++)
         job->measurement.shape[i] = job->measurement.shape_std[i] = NAN;
-    int distinct = 1, bad = 0;
-    for (int k = 0; k < count; k++)
-        distinct &= chosen[k]->number > 0 && (!k || chosen[k]->number > chosen[k - 1]->number);
+    int bad = 0, numbered = uff_modes_are_numbered(count, chosen);
     for (int k = 0; k < count; k++) {
-        job->measurement.number[k] = distinct ? chosen[k]->number : k + 1;
-        job->measurement.frequency_hz[k] = precise_frequency(chosen[k]);
+        job->measurement.number[k] = numbered ? chosen[k]->number : k + 1;
+        job->measurement.frequency_hz[k] = uff_mode_frequency(chosen[k]);
         job->measurement.damping[k] = chosen[k]->damping > 0 ? chosen[k]->damping : NAN;
         job->measurement.frequency_std[k] = NAN;
         bad |= import_shape(import, chosen[k], job->measurement.shape + (ptrdiff_t)k * job->rotor.nsensor);

@@ -7,12 +7,7 @@
 
 #include "deck/deck_frequencies.h"
 #include "diagnose/causes/sensor.h"
-
-enum { OF_SHAPE, AT_POINT, OF_POINT, KINDS };
-
-static const char *const title[KINDS] = {[OF_SHAPE] = "ROTID STANDARD DEVIATION OF MODE ",
-                                         [AT_POINT] = "ROTID FREQUENCY AT POINT OF MODE ",
-                                         [OF_POINT] = "ROTID STANDARD DEVIATION OF FREQUENCY AT POINT OF MODE "};
+#include "uff/uff_modes.h"
 
 struct extra {
     struct deck_reader *reader;
@@ -20,7 +15,7 @@ struct extra {
     const struct uff_shape *set;
     int kind, mode; /* of the job */
     int component;  /* of a node */
-    int *seen;      /* [KINDS * nmode] */
+    int *seen;      /* [UFF_EXTRAS * nmode] */
 };
 
 static struct place id_line(const struct extra *extra, int i)
@@ -28,24 +23,14 @@ static struct place id_line(const struct extra *extra, int i)
     return (struct place){extra->path, extra->set->line + 2 + i, 1}; /* behind '-1' and the number of the set */
 }
 
-/* The end of a text is one whole number above zero; 0 where it is not. */
-static int number_at_end(const char *text)
-{
-    char *end;
-    long number = strtol(text, &end, 10);
-    return end != text && !*end && number > 0 && number <= 1000000 ? (int)number : 0;
-}
-
 /* What the set is and of which mode. 0; 1 after an error, or where it is none of these. */
 static int identify(struct extra *extra, int count, const struct uff_shape *const *chosen)
 {
     const char *text = extra->set->id[0];
-    extra->kind = 0;
-    while (extra->kind < KINDS && strncmp(text, title[extra->kind], strlen(title[extra->kind])) != 0)
-        extra->kind++;
-    if (extra->kind == KINDS)
+    int number, matches = 0;
+    extra->kind = (int)uff_extra_of(extra->set, &number);
+    if (extra->kind == UFF_EXTRAS)
         return 1;
-    int number = number_at_end(text + strlen(title[extra->kind])), matches = 0;
     for (int k = 0; k < count; k++)
         if (chosen[k]->number == number) {
             extra->mode = k;
@@ -58,7 +43,7 @@ static int identify(struct extra *extra, int count, const struct uff_shape *cons
                              : "a mode that is not there");
         return 1;
     }
-    if (extra->seen[extra->kind + KINDS * extra->mode]++) {
+    if (extra->seen[extra->kind + UFF_EXTRAS * extra->mode]++) {
         deck_error(extra->reader, id_line(extra, 0), "'%s' is given twice, expected once", text);
         return 1;
     }
@@ -80,15 +65,12 @@ static int check_form(const struct extra *extra)
     return 0;
 }
 
-/* FREQUENCY_HZ value DAMPING value; nothing needs the deviation of a damping yet, but it has to be one. */
 static void read_frequency(const struct extra *extra)
 {
     struct job *job = extra->reader->job;
     const char *text = extra->set->id[1];
-    double hz, damping;
-    int length = 0;
-    if (sscanf(text, "FREQUENCY_HZ %lf DAMPING %lf%n", &hz, &damping, &length) != 2 || text[length] ||
-        !(isfinite(hz) && hz >= 0 && deck_is_usual(hz) && isfinite(damping) && damping >= 0)) {
+    double hz;
+    if (uff_extra_frequency_std(extra->set, &hz) || !deck_is_usual(hz)) {
         deck_error(extra->reader, id_line(extra, 1),
                    "the second line of text is '%s', expected FREQUENCY_HZ value DAMPING value, "
                    "two standard deviations",
@@ -114,20 +96,20 @@ static double read_offset(const struct extra *extra)
 
 static void read_values(const struct extra *extra)
 {
-    static const char *const expected[KINDS] = {"a standard deviation, zero where it is not known",
-                                                "a frequency within 5 % of that of the mode, zero where it is not known",
-                                                "a standard deviation [Hz], zero where it is not known"};
+    static const char *const expected[UFF_EXTRAS] = {"a standard deviation, zero where it is not known",
+                                                     "a frequency within 5 % of that of the mode, zero where it is not known",
+                                                     "a standard deviation [Hz], zero where it is not known"};
     struct job *job = extra->reader->job;
     const struct uff_shape *set = extra->set;
     ptrdiff_t first = (ptrdiff_t)extra->mode * job->rotor.nsensor;
-    double *target = extra->kind == OF_SHAPE   ? job->measurement.shape_std
-                     : extra->kind == AT_POINT ? job->measurement.point_frequency_hz
-                                               : job->measurement.point_frequency_std,
+    double *target = extra->kind == UFF_EXTRA_SHAPE_STD ? job->measurement.shape_std
+                     : extra->kind == UFF_EXTRA_POINT   ? job->measurement.point_frequency_hz
+                                                        : job->measurement.point_frequency_std,
            largest = 0;
     for (int s = 0; s < job->rotor.nsensor; s++)
         if (isfinite(job->measurement.shape[first + s]))
             largest = fmax(largest, fabs(job->measurement.shape[first + s]));
-    double offset = extra->kind == AT_POINT ? read_offset(extra) : 0;
+    double offset = extra->kind == UFF_EXTRA_POINT ? read_offset(extra) : 0;
     for (int i = 0; i < set->node_count; i++) {
         int sensor = sensor_find(job, set->node[i]);
         double value = set->real[i * set->component_count + extra->component];
@@ -138,29 +120,29 @@ static void read_values(const struct extra *extra)
             continue;
         }
         if (!isfinite(value) || value < 0 || !deck_is_usual(value) ||
-            (value > 0 && extra->kind == AT_POINT && deck_point_is_far(job, extra->mode, value))) {
+            (value > 0 && extra->kind == UFF_EXTRA_POINT && deck_point_is_far(job, extra->mode, value))) {
             deck_error(extra->reader, id_line(extra, 0), "'%s' has %.6g at node %d, expected %s", set->id[0], value, set->node[i],
                        expected[extra->kind]);
             continue;
         }
         if (value > 0)
-            target[first + sensor] = extra->kind == OF_SHAPE ? value / largest : value;
+            target[first + sensor] = extra->kind == UFF_EXTRA_SHAPE_STD ? value / largest : value;
     }
 }
 
 void deck_uff_std(struct deck_reader *reader, const char *path, const struct uff_file *file, int count,
                   const struct uff_shape *const *chosen, int component)
 {
-    struct extra extra = {.reader = reader, .path = path, .seen = POOL_ARRAY(reader->pool, int, KINDS *(size_t)count)};
+    struct extra extra = {.reader = reader, .path = path, .seen = POOL_ARRAY(reader->pool, int, UFF_EXTRAS *(size_t)count)};
     reader->out_of_memory |= !extra.seen;
     for (int i = 0; i < file->extra_count && !reader->out_of_memory; i++) {
         extra.set = &file->extra[i];
         extra.component = extra.set->component_count == 1 ? 0 : component;
         if (identify(&extra, count, chosen) || check_form(&extra))
             continue;
-        if (extra.kind != OF_SHAPE && deck_new_points(reader))
+        if (extra.kind != UFF_EXTRA_SHAPE_STD && deck_new_points(reader))
             return;
-        if (extra.kind == OF_SHAPE)
+        if (extra.kind == UFF_EXTRA_SHAPE_STD)
             read_frequency(&extra);
         read_values(&extra);
     }

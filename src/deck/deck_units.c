@@ -63,6 +63,17 @@ static int find(const char *what)
     return -1;
 }
 
+double deck_unit_factor(const char *si, const char *word)
+{
+    if (!strcmp(si, "1"))
+        return !strcmp(word, "%") ? 0.01 : !strcmp(word, "-") || !strcmp(word, "1") ? 1 : 0;
+    int q = find(si);
+    for (int u = 0; q >= 0 && quantity[q].word[u]; u++)
+        if (same_text(quantity[q].word[u], word))
+            return quantity[q].factor[u];
+    return 0;
+}
+
 double deck_in_si(const struct deck_reader *reader, const char *what)
 {
     int q = find(what);

@@ -69,8 +69,8 @@ static void set_parameters(struct deck_writer *w)
     struct rotor *rotor = &w->rotor;
     rotor->tierod = copy(w, rotor->tierod, rotor->ntierod, sizeof *rotor->tierod);
     rotor->effect = copy(w, rotor->effect, rotor->neffect, sizeof *rotor->effect);
-    for (int p = 0; p < w->job->unknowns.nparameter && !w->status; p++)
-        *parameter_value(rotor, w->job->unknowns.parameter[p]) = w->x[p];
+    if (!w->status)
+        parameters_set(rotor, w->job->unknowns.nparameter, w->job->unknowns.parameter, w->x);
 }
 
 /* A cause is said to act on a spring or a disk by its name: those without one get one. */

@@ -43,7 +43,7 @@ static struct group *group_of(const struct written *s, const char *name)
 
 static struct parameter of_group(const struct written *s, const struct group *group, enum parameter_kind kind)
 {
-    return (struct parameter){kind, (int)(group - s->w.rotor.group), 0};
+    return (struct parameter){.kind = kind, .index = (int)(group - s->w.rotor.group)};
 }
 
 static double value_of(const struct group *group, enum parameter_kind kind)

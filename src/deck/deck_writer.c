@@ -43,13 +43,12 @@ static void shorten_exponent(char *text)
     (void)sprintf(e + 1, "%d", exponent); /* never longer than it was */
 }
 
-/* The fewest digits that give the value back, written out unless that is much longer. text [32] */
-static const char *number_text(double value, char *text)
+const char *deck_number_text(double value, char text[DECK_NUMBER_LENGTH])
 {
-    char plain[32];
+    char plain[DECK_NUMBER_LENGTH];
     int digits = -1;
     do
-        (void)snprintf(text, 32, "%.*e", ++digits, value);
+        (void)snprintf(text, DECK_NUMBER_LENGTH, "%.*e", ++digits, value);
     while (digits < 16 && strtod(text, NULL) != value);
     shorten_exponent(text);
     (void)snprintf(plain, sizeof plain, "%.*g", digits + 1 < 15 ? 15 : digits + 1, value);
@@ -59,10 +58,10 @@ static const char *number_text(double value, char *text)
 
 void deck_put_number(struct deck_writer *w, const char *separator, double value)
 {
-    char text[32];
+    char text[DECK_NUMBER_LENGTH];
     if (!isfinite(value))
         w->status = w->status ? w->status : ROTID_ERROR_ARGUMENT;
-    deck_put(w, "%s%s", separator, number_text(value, text));
+    deck_put(w, "%s%s", separator, deck_number_text(value, text));
 }
 
 /* What the value of an option can be: no comma, no comment, no control character, nothing that trimming takes away. */
@@ -101,6 +100,6 @@ void deck_put_option(struct deck_writer *w, const char *name, const char *value)
 
 void deck_put_option_number(struct deck_writer *w, const char *name, double value)
 {
-    char text[32];
-    deck_put_option(w, name, number_text(value, text));
+    char text[DECK_NUMBER_LENGTH];
+    deck_put_option(w, name, deck_number_text(value, text));
 }

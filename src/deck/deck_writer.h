@@ -17,7 +17,12 @@ struct deck_writer {
 
 void deck_put(struct deck_writer *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A number in as few digits as give it back to the last bit; the value of a data line with the separator in front of it. */
+#define DECK_NUMBER_LENGTH 32
+
+/* The fewest digits that give the value back to the last bit, written out unless that is much longer. Returns `text`. */
+const char *deck_number_text(double value, char text[DECK_NUMBER_LENGTH]);
+
+/* A number in such digits; the value of a data line with the separator in front of it. */
 void deck_put_number(struct deck_writer *w, const char *separator, double value);
 
 /* The beginning of a card, and an option of it; the line goes on in the next one where it becomes long. A text that a deck cannot

@@ -9,7 +9,7 @@
 static int is_identified(const struct job *job, int group)
 {
     for (int p = 0; p < job->unknowns.nparameter; p++)
-        if (job->unknowns.parameter[p].index == group &&
+        if (parameter_is_of_group(&job->unknowns.parameter[p], group) &&
             (job->unknowns.parameter[p].kind == PARAMETER_E || job->unknowns.parameter[p].kind == PARAMETER_G))
             return 1;
     return 0;

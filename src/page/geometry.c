@@ -39,7 +39,12 @@ double geometry_radius_at(const rotid_geometry *geometry, double z)
 int geometry_is_of(const rotid_group *group, const char *parameter)
 {
     size_t length = strlen(group->name);
-    return !strncmp(parameter, group->name, length) && parameter[length] == '.';
+    for (const char *next = parameter; next; next = strchr(parameter, '=')) { /* left.E=right.E is of both */
+        parameter = next + (next != parameter);
+        if (!strncmp(parameter, group->name, length) && parameter[length] == '.')
+            return 1;
+    }
+    return 0;
 }
 
 int geometry_elements(const rotid_geometry *geometry)

@@ -26,12 +26,13 @@ static void print_rms(FILE *out, const rotid_identification *fit)
 static void print_modes(FILE *out, const struct result_head *head, int first, const rotid_identification *fit)
 {
     const rotid_reference *paper_hz = head_reference(head, "predicted_hz"), *paper_error = head_reference(head, "error_percent");
-    int paper = paper_hz || paper_error, shapes = 0;
+    int paper = paper_hz || paper_error, shapes = 0, reduced = strcmp(fit->reduction, "NONE") != 0;
     for (int k = 0; k < fit->nmodes; k++)
         shapes |= isfinite(fit->modes[k].nco);
-    (void)fprintf(out, "mode   measured  predicted    error%s  reduction    mesh%s\n", paper ? "      paper    paper" : "",
-                  shapes ? "     NCO    MAC" : "");
-    (void)fprintf(out, "           [Hz]       [Hz]      [%%]%s        [%%]     [%%]\n", paper ? "       [Hz]      [%]" : "");
+    (void)fprintf(out, "mode   measured  predicted    error%s%s    mesh%s\n", paper ? "      paper    paper" : "",
+                  reduced ? "  reduction" : "", shapes ? "     NCO    MAC" : "");
+    (void)fprintf(out, "           [Hz]       [Hz]      [%%]%s%s     [%%]\n", paper ? "       [Hz]      [%]" : "",
+                  reduced ? "        [%]" : "");
     for (int k = 0; k < fit->nmodes; k++) {
         const rotid_compared_mode *mode = &fit->modes[k];
         (void)fprintf(out, "%4d", mode->mode);
@@ -42,7 +43,8 @@ static void print_modes(FILE *out, const struct result_head *head, int first, co
             number_cell(out, 11, 2, reference_value(paper_hz, first + k));
             signed_cell(out, 9, 2, reference_value(paper_error, first + k));
         }
-        signed_cell(out, 11, 2, fit->reduction_error_percent[k]);
+        if (reduced)
+            signed_cell(out, 11, 2, fit->reduction_error_percent[k]);
         signed_cell(out, 8, 3, fit->mesh_error_percent[k]);
         if (shapes) {
             number_cell(out, 8, 3, mode->nco);

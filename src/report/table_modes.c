@@ -49,16 +49,23 @@ static void print_modes(FILE *out, const rotid_spectrum *s, int shapes)
 {
     for (int i = 0; i < s->nrigid_hz; i++)
         (void)fprintf(out, "rotor on its supports: %.4f Hz\n", s->rigid_hz[i]);
-    (void)fprintf(out, "%smode   full model   %-6s [Hz]  reduction   mesh      measured    error     NCO\n",
-                  s->nrigid_hz ? "\n" : "", strcmp(s->reduction, "IRS") ? "Guyan" : "IRS");
-    (void)fprintf(out, "           [Hz]                     [%%]       [%%]         [Hz]      [%%]\n");
+    int reduced = 0; /* there are masters for some mode */
+    for (int j = 0; j < s->nmodes; j++)
+        reduced |= isfinite(s->modes[j].reduced_hz);
+    (void)fprintf(out, "%smode   full model", s->nrigid_hz ? "\n" : "");
+    if (reduced)
+        (void)fprintf(out, "   %-6s [Hz]  reduction", strcmp(s->reduction, "IRS") ? "Guyan" : "IRS");
+    (void)fprintf(out, "   mesh      measured    error     NCO\n           [Hz]%s       [%%]         [Hz]      [%%]\n",
+                  reduced ? "                     [%]" : "");
     for (int j = 0; j < s->nmodes; j++) {
         const rotid_model_mode *mode = &s->modes[j];
         const rotid_compared_mode *measured = mode->measured;
         (void)fprintf(out, "%3d ", mode->mode);
         number_cell(out, 13, 4, mode->full_hz);
-        number_cell(out, 14, 4, mode->reduced_hz);
-        signed_cell(out, 10, 3, mode->reduction_error_percent);
+        if (reduced) {
+            number_cell(out, 14, 4, mode->reduced_hz);
+            signed_cell(out, 10, 3, mode->reduction_error_percent);
+        }
         signed_cell(out, 9, 4, mode->mesh_error_percent);
         number_cell(out, 13, 4, measured ? measured->measured_hz : NAN);
         signed_cell(out, 9, 2, measured ? measured->error_percent : NAN);

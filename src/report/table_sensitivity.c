@@ -18,18 +18,21 @@ static void signed_power(FILE *out, double value)
 static void print_sensitivity(FILE *out, const struct result_head *head, const struct sensitivity *r)
 {
     (void)fprintf(out,
-                  "sensitivity of E_k = 1 - R*_k/w_k^2 to the relative value of each parameter, %g %% steps, reduction %s\n\n",
-                  100 * r->step, r->reduction);
+                  "sensitivity to the relative value of each parameter, reduction %s: per cent of a frequency for each per cent, "
+                  "and\nthe paper's E_k = 1 - R*_k/w_k^2 by steps of %g %% and their limit\n\n",
+                  r->reduction, 100 * r->step);
     for (int p = 0; p < r->nparameters; p++) {
         const struct sensitivity_parameter *one = &r->parameters[p];
         char quantity[128];
         (void)snprintf(quantity, sizeof quantity, "sensitivity %s", one->name);
         const rotid_reference *paper = head_reference(head, quantity);
         (void)fprintf(out, "%s at %.6g %s\n", one->name, one->reference, strcmp(one->unit, "1") ? one->unit : "");
-        (void)fprintf(out, "mode   frequency [Hz]   step        limit       %s\n", paper ? "paper (magnitude)" : "");
+        (void)fprintf(out, "mode   frequency [Hz]   frequency   E_k: step   limit       %s\n", paper ? "paper (magnitude)" : "");
+        (void)fputs("                          [% / %]\n", out);
         for (int k = 0; k < r->nfrequency_hz; k++) {
             (void)fprintf(out, "%3d", k + 1);
             number_cell(out, 16, 4, r->frequency_hz[k]);
+            signed_cell(out, 13, 4, -one->derivative[k] / 2); /* E_k = 1 - w^2/w0^2 */
             (void)fputs("  ", out);
             signed_power(out, one->sensitivity[k]);
             (void)fputc(' ', out);

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/text.h"
 #include "file/open.h"
@@ -105,6 +106,22 @@ void terminal_say(const char *format, ...)
     va_start(values, format);
     say(format, values);
     va_end(values);
+}
+
+static int has_colours(void)
+{
+    const char *none = getenv("NO_COLOR"), *term = getenv("TERM");
+    return isatty(STDERR_FILENO) && !(none && *none) && term && *term && strcmp(term, "dumb") != 0;
+}
+
+void terminal_mark(enum terminal_mark mark)
+{
+    static const char *const sequence[] = {"\033[0m", "\033[1m", "\033[33m", "\033[31m"};
+    if (!has_colours())
+        return;
+    if (out.stream)
+        (void)terminal_flush();
+    (void)fputs(sequence[mark], stderr);
 }
 
 void terminal_progress(const char *format, ...)

@@ -22,6 +22,11 @@ int terminal_print(const char *text);
 /* A line to standard error, its line feed included: line feeds within the values would be lines of somebody else. */
 void terminal_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* Marks on standard error: what is said until the next mark stands out where that is a terminal with colours, unless the
+ * environment has a NO_COLOR that is not empty or TERM=dumb. */
+enum terminal_mark { TERMINAL_PLAIN, TERMINAL_BOLD, TERMINAL_WARNING, TERMINAL_ERROR };
+void terminal_mark(enum terminal_mark mark);
+
 /* What stands in terminal_out to standard error instead. */
 void terminal_to_error(void);
 

@@ -15,8 +15,8 @@ static int read_text(struct pool *pool, const char *file, struct message_list *m
     int status = ROTID_ERROR_IO;
     const char *why = NULL;
     if (!stream)
-        why = errno == EISDIR   ? "is a folder, expected a file that rotid wrote with --json"
-              : errno == EINVAL ? "is no regular file, expected one that rotid wrote with --json"
+        why = errno == EISDIR   ? "is a folder, expected a file of JSON"
+              : errno == EINVAL ? "is no regular file, expected one of JSON"
                                 : strerror(errno);
     else if (is.st_size > JSON_FILE_MOST)
         why = "is larger than 512 MiB, more than any result of rotid";
@@ -110,7 +110,7 @@ int json_file_read(struct pool *pool, const char *file, struct message_list *mes
         return status;
     end = text + length;
     if (skip_blanks(text, end) == end) {
-        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "%s: is empty, expected JSON that rotid wrote", file);
+        message_add(messages, SEVERITY_ERROR, NULL, 0, 0, "%s: is empty, expected JSON", file);
         return ROTID_ERROR_SYNTAX;
     }
     *json = cJSON_ParseWithLengthOpts(text, length, &rest, 0);

@@ -58,7 +58,7 @@ static int find_in_effects(const struct rotor *rotor, const char *name, size_t l
         for (int p = 0; p < effect_parameters(effect); p++) {
             const struct effect_parameter_name *own = &effect->kind->parameter[p];
             if (same_text(own->name, suffix)) {
-                *parameter = (struct parameter){PARAMETER_EFFECT, i, p};
+                *parameter = (struct parameter){PARAMETER_EFFECT, i, p, 0, NULL};
                 *unit = own->unit;
                 return 0;
             }
@@ -81,12 +81,45 @@ int parameter_find(const struct rotor *rotor, const char *name, struct parameter
                 continue;
             result = 2;
             if (same_text(table[t].suffix, dot + 1)) {
-                *parameter = (struct parameter){table[t].kind, i, 0};
+                *parameter = (struct parameter){table[t].kind, i, 0, 0, NULL};
                 *unit = table[t].unit;
                 return 0;
             }
         }
     return find_in_effects(rotor, name, length, dot + 1, parameter, unit, result);
+}
+
+struct listing {
+    struct pool *pool;
+    const char *text, *of; /* of: an object alone, or NULL */
+    int count;
+};
+
+static void list(struct listing *l, const char *owner, const char *suffix)
+{
+    size_t length = l->of ? strcspn(l->of, ".") : 0;
+    if (!owner || !*owner || !l->text || (l->of && (strlen(owner) != length || !same(owner, l->of, length))))
+        return;
+    if (l->count++ < PARAMETERS_LISTED)
+        l->text = pool_format(l->pool, "%s%s%s.%s", l->text, *l->text ? ", " : "", owner, suffix);
+}
+
+const char *parameter_list(struct pool *pool, const struct rotor *rotor, const char *of)
+{
+    struct listing l = {.pool = pool, .text = "", .of = of};
+    for (enum owner owner = OF_GROUP; owner <= OF_DISK; owner++)
+        for (int i = 0; i < count_of(rotor, owner); i++)
+            for (size_t t = 0; t < sizeof table / sizeof *table; t++)
+                if (table[t].owner == owner)
+                    list(&l, name_of(rotor, owner, i), table[t].suffix);
+    for (int i = 0; i < rotor->neffect; i++)
+        for (int p = 0; p < effect_parameters(&rotor->effect[i]); p++)
+            list(&l, rotor->effect[i].name, rotor->effect[i].kind->parameter[p].name);
+    if (!l.count && of)
+        return parameter_list(pool, rotor, NULL);
+    if (l.text && l.count > PARAMETERS_LISTED)
+        l.text = pool_format(pool, "%s and %d more", l.text, l.count - PARAMETERS_LISTED);
+    return l.text;
 }
 
 double *parameter_value(const struct rotor *rotor, struct parameter parameter)
@@ -118,8 +151,44 @@ double *parameter_value(const struct rotor *rotor, struct parameter parameter)
     }
 }
 
+const char *parameter_next_name(const char *names, char name[PARAMETER_NAME])
+{
+    const char *end = strchr(names, PARAMETER_SHARED_BY);
+    size_t length = end ? (size_t)(end - names) : strlen(names);
+    while (length && names[length - 1] == ' ')
+        length--;
+    length = length < PARAMETER_NAME ? length : PARAMETER_NAME - 1;
+    memcpy(name, names, length);
+    name[length] = 0;
+    return end ? end + 1 + strspn(end + 1, " ") : NULL;
+}
+
+int parameter_is_of_group(const struct parameter *parameter, int group)
+{
+    int is = parameter->kind <= PARAMETER_RHO && parameter->index == group;
+    for (int i = 0; i < parameter->nalso; i++)
+        is |= parameter->also[i] == group;
+    return is;
+}
+
+int parameters_overlap(const struct parameter *a, const struct parameter *b)
+{
+    int same = a->index == b->index;
+    for (int i = 0; i < a->nalso; i++)
+        same |= parameter_is_of_group(b, a->also[i]);
+    for (int i = 0; i < b->nalso; i++)
+        same |= parameter_is_of_group(a, b->also[i]);
+    return same && a->kind == b->kind && a->component == b->component;
+}
+
 void parameters_set(const struct rotor *rotor, int n, const struct parameter *parameter, const double *x)
 {
-    for (int p = 0; p < n; p++)
-        *parameter_value(rotor, parameter[p]) = x[p];
+    for (int p = 0; p < n; p++) {
+        struct parameter one = parameter[p];
+        *parameter_value(rotor, one) = x[p];
+        for (int i = 0; i < parameter[p].nalso; i++) {
+            one.index = parameter[p].also[i];
+            *parameter_value(rotor, one) = x[p];
+        }
+    }
 }

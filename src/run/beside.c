@@ -154,7 +154,7 @@ static int choose_moduli(struct pool *pool, const struct job *job, const struct 
             status = add_modulus(pool, rotor, own->parameter[p], own->bounds[p].name, unknowns);
     int group = unknowns->nparameter ? -1 : orthotropic_group(rotor);
     for (int kind = PARAMETER_E; kind <= PARAMETER_G && group >= 0 && !status; kind++)
-        status = add_modulus(pool, rotor, (struct parameter){(enum parameter_kind)kind, group, 0}, NULL, unknowns);
+        status = add_modulus(pool, rotor, (struct parameter){(enum parameter_kind)kind, group, 0, 0, NULL}, NULL, unknowns);
     return status;
 }
 

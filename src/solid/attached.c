@@ -115,7 +115,7 @@ static void add_ring(const struct solid *solid, double z, double mass, double in
 static void add_points(const struct solid *solid, int p, rotid_matrix *k, rotid_matrix *m)
 {
     struct effect_point point, d;
-    struct parameter parameter = p < 0 ? (struct parameter){0} : solid->parameter[p];
+    struct parameter parameter = p < 0 ? (struct parameter){.index = 0} : solid->parameter[p];
     double length = solid->mesh.z[solid->mesh.nslice];
     if (p >= 0 && parameter.kind != PARAMETER_EFFECT)
         return;

@@ -92,15 +92,19 @@ static double stiff_area(const struct solid *solid, int segment, int group)
     return area;
 }
 
-/* E over the sum of E A, and its derivative with respect to E of `by` */
-static double share_of_force(const struct solid *solid, const struct solid_element *element, int by, double *derivative)
+/* E over the sum of E A, and its derivative with respect to the E that `by` is, of one group or several */
+static double share_of_force(const struct solid *solid, const struct solid_element *element, const struct parameter *by,
+                             double *derivative)
 {
     const struct rotor *rotor = &solid->rotor;
-    double sum = 0, e = rotor->group[element->group].material.e;
-    for (int g = 0; g < rotor->ngroup; g++)
-        sum += rotor->group[g].material.e * stiff_area(solid, element->segment, g);
+    double sum = 0, of = 0, e = rotor->group[element->group].material.e;
+    for (int g = 0; g < rotor->ngroup; g++) {
+        double area = stiff_area(solid, element->segment, g);
+        sum += rotor->group[g].material.e * area;
+        of += by && parameter_is_of_group(by, g) ? area : 0;
+    }
     if (derivative)
-        *derivative = ((by == element->group) - e * stiff_area(solid, element->segment, by) / sum) / sum;
+        *derivative = (parameter_is_of_group(by, element->group) - e * of / sum) / sum;
     return e / sum;
 }
 
@@ -117,7 +121,7 @@ void field_of_share(const struct solid *solid, const struct solid_element *eleme
     *out = (struct share){.elasticity = elasticity_of(material, &factors), .rho = material->rho * rho};
     double force = solid->elastic_only ? 0 : axial_force(solid, element);
     if (force != 0)
-        out->stress = force * share_of_force(solid, element, 0, NULL);
+        out->stress = force * share_of_force(solid, element, NULL, NULL);
 }
 
 /* ---- derivatives */
@@ -134,10 +138,10 @@ static int by_material(const struct solid *solid, const struct solid_element *el
     const struct material *material = &solid->rotor.group[element->group].material;
     double rho, force = parameter.kind == PARAMETER_E ? axial_force(solid, element) : 0, derivative;
     if (force != 0) {
-        (void)share_of_force(solid, element, parameter.index, &derivative);
+        (void)share_of_force(solid, element, &parameter, &derivative);
         rate->stress = force * derivative;
     }
-    if (parameter.index != element->group)
+    if (!parameter_is_of_group(&parameter, element->group))
         return rate->stress != 0;
     struct elasticity_factors factors = factors_of(solid, element, share, &rho);
     if (parameter.kind == PARAMETER_RHO) {
@@ -161,7 +165,7 @@ static int by_effect(const struct solid *solid, const struct solid_element *elem
     struct effect_field relative = {0, 0, 0};
     double rho, force = rotor_axial_force_derivative(&solid->rotor, parameter, middle_of(solid, element));
     if (force != 0)
-        rate->stress = force * share_of_force(solid, element, 0, NULL);
+        rate->stress = force * share_of_force(solid, element, NULL, NULL);
     int moves = effects_axis_rate(&solid->rotor, parameter, &span, 0, &relative);
     double compliance = joint_compliance(solid, element->slice, parameter.index, parameter.component);
     if (!moves && compliance == 0)
@@ -182,7 +186,7 @@ int field_derivative(const struct solid *solid, const struct solid_element *elem
         return by_effect(solid, element, share, parameter, rate);
     if (parameter.kind == PARAMETER_TENSION) {
         double force = rotor_axial_force_derivative(&solid->rotor, parameter, middle_of(solid, element));
-        rate->stress = force == 0 ? 0 : force * share_of_force(solid, element, 0, NULL);
+        rate->stress = force == 0 ? 0 : force * share_of_force(solid, element, NULL, NULL);
         return force != 0;
     }
     return parameter.kind <= PARAMETER_RHO ? by_material(solid, element, share, parameter, rate) : 0;

@@ -6,11 +6,13 @@
 #include "diagnose/data.h"
 #include "study/draw.h"
 
-/* The value of a parameter of the model that made the data, NaN where it has none of that name. */
-static double true_value(struct rotor *rotor, const char *name)
+/* The value of a parameter of the model that made the data, of a shared one the first; NaN where it has none of that name. */
+static double true_value(struct rotor *rotor, const char *names)
 {
     struct parameter parameter;
     const char *unit;
+    char name[PARAMETER_NAME];
+    (void)parameter_next_name(names, name);
     if (parameter_find(rotor, name, &parameter, &unit))
         return NAN;
     const struct material *material = parameter.kind == PARAMETER_G ? &rotor->group[parameter.index].material : NULL;

@@ -120,8 +120,8 @@ static struct card *shape_card(struct pool *pool, const struct job *job, struct 
     struct field *field = POOL_ARRAY(pool, struct field, 2);
     if (!card || !option || !line || !field)
         return NULL;
-    field[0] = (struct field){pool_format(pool, "%d", job->rotor.sensor[0].id), place};
-    field[1] = (struct field){"1", place};
+    field[0] = (struct field){pool_format(pool, "%d", job->rotor.sensor[0].id), place, 0};
+    field[1] = (struct field){"1", place, 0};
     *line = (struct data_line){.place = place, .end = place, .text = "", .count = 2, .field = field};
     *option = (struct card_option){
         .name = "MODE", .value = pool_format(pool, "%d", job->measurement.number[0]), .place = place, .value_place = place};

@@ -25,12 +25,16 @@ static void set_parameter(struct rotor *rotor, struct parameter parameter, doubl
     *parameter_value(rotor, parameter) = value;
 }
 
-static void set(struct rotor *rotor, const char *name, double value)
+static void set(struct rotor *rotor, const char *names, double value)
 {
-    struct parameter parameter;
-    const char *unit;
-    if (!parameter_find(rotor, name, &parameter, &unit))
-        set_parameter(rotor, parameter, value);
+    char name[PARAMETER_NAME];
+    for (const char *next = names; next;) {
+        struct parameter parameter;
+        const char *unit;
+        next = parameter_next_name(next, name);
+        if (!parameter_find(rotor, name, &parameter, &unit))
+            set_parameter(rotor, parameter, value);
+    }
 }
 
 /* Every value is set in every run: the truth keeps nothing of the run before. */

@@ -259,6 +259,83 @@ def stated(checks, folder):
             checks.close(f"{name}: the script has the whole model", out["exported_hz"], full, EXACT)
 
 
+PLAIN = """*SHAFT, NAME=left, MATERIAL=steel
+0.25, 0.08, 0.02, 8
+0.125, 0.1, 0.02, 3
+*SHAFT, NAME=core, MATERIAL=foam
+0.50, 0.20, 0.05, 20
+*SHAFT, NAME=right, MATERIAL=steel
+0.25, 0.09, 0, 8
+*PRELOAD, GROUP=core
+3e4
+*DISK, NAME=fan
+0.375, 6, 0.02, 0.04
+*DISK, NAME=ring
+1.125, 2
+*SPRING, NAME=a
+start, 2e6
+*SPRING, NAME=b
+end, 1e6
+"""
+
+
+def parts_of_ross(rs, rings):
+    """Rings around a shaft, a bearing on a support, a disk, a force; elements of equal and of different lengths."""
+    steel = rs.Material("steel", rho=7850, E=2.1e11, G_s=8.1e10)
+    brass = rs.Material("brass,cast", rho=8500, E=1.0e11, G_s=3.7e10)
+    shaft = [rs.ShaftElement(L=0.1, idl=0.01, odl=0.05, material=steel, n=n, axial_force=2e4) for n in range(4)]
+    shaft += [rs.ShaftElement(L=0.06, idl=0, odl=0.07, material=steel, n=n) for n in range(4, 8)]
+    shaft += [rs.ShaftElement(L=0.06, idl=0.07, odl=0.16, material=brass, n=n) for n in range(5, 7) if rings]
+    shaft += [rs.ShaftElement(L=0.11, idl=0.02, odl=0.04, material=steel, n=8)]
+    disks = [rs.DiskElement(n=5, m=12.5, Id=0.07, Ip=0.12)]
+    bearings = [rs.BearingElement(n=0, kxx=3e7, cxx=100, n_link=10), rs.BearingElement(n=10, kxx=5e7, cxx=0), rs.BearingElement(n=9, kxx=2e7, kyy=1e7, cxx=0)]
+    return rs.Rotor(shaft, disks, bearings, point_mass_elements=[rs.PointMass(n=10, m=1e-13)])
+
+
+def cone_of_ross(rs):
+    steel = rs.Material("steel", rho=7850, E=2.1e11, G_s=8.1e10)
+    ends = np.linspace(0.08, 0.05, 41)
+    shaft = [rs.ShaftElement(L=0.02, idl=0, odl=a, idr=0, odr=b, material=steel, n=n) for n, (a, b) in enumerate(zip(ends[:-1], ends[1:], strict=True))]
+    return rs.Rotor(shaft, [], [rs.BearingElement(n=0, kxx=1e7, cxx=0), rs.BearingElement(n=40, kxx=1e7, cxx=0)])
+
+
+def saved_hz(rotor, count, of_shaft):
+    """The lowest bending frequencies in the plane x at rest; supports, which carry no mass, are condensed."""
+    plane = np.sort(np.r_[0 : of_shaft * 6 : 6, 4 : of_shaft * 6 : 6])
+    others = np.arange(of_shaft * 6, rotor.ndof, 3)
+    k, m = rotor.K(0), rotor.M()
+    stiffness = k[np.ix_(plane, plane)]
+    if len(others):
+        stiffness = stiffness - k[np.ix_(plane, others)] @ np.linalg.solve(k[np.ix_(others, others)], k[np.ix_(others, plane)])
+    return lowest_hz(stiffness, m[np.ix_(plane, plane)], count)
+
+
+def imported(checks, folder):
+    """Rotors that ROSS has saved, as decks: the same frequencies."""
+    import ross as rs
+
+    deck = folder / "plain.inp"
+    deck.write_text(STEEL + STEEL.replace("steel", "foam").replace("2.1e11, 0.3", "0.7e11, 0.33").replace("7850", "2700") + PLAIN)
+    script = folder / "plain.py"
+    exported(checks, deck, "ross", script)
+    # rings of one section share its shear angle here, in ROSS each has its own; a cone becomes shorter cylinders, a finer mesh
+    cases = (("our own export", load(script).build(), None, 1e-10), ("example of ROSS", rs.rotor_example(), 7, 1e-10),
+             ("support, disk, force", parts_of_ross(rs, False), 10, 1e-10), ("rings", parts_of_ross(rs, True), 10, 1e-3),
+             ("cone", cone_of_ross(rs), 41, 5e-3))
+    for name, rotor, of_shaft, tolerance in cases:
+        saved, again = folder / "saved.json", folder / "again.inp"
+        saved.unlink(missing_ok=True)
+        rotor.save(saved)
+        code, _, text = rotid("import", saved, "-o", again)
+        checks.true(f"{name}: rotid import reads what ROSS saved", code == 0, text)
+        modes = result("modes", again)
+        found = modes["rigid_hz"] + [mode["full_hz"] for mode in modes["modes"]]
+        expected = [mode["full_hz"] for mode in result("modes", deck)["modes"]] if of_shaft is None else saved_hz(rotor, len(found), of_shaft)
+        found = found[len(found) - len(expected):]
+        checks.close(f"{name}: frequencies of the imported deck", found, expected, tolerance)
+        checks.close(f"{name}: mass of the imported deck", [result("check", again)["mass_kg"]], [rotor.m], 1e-4 if name == "cone" else 1e-12)
+
+
 def as_user(checks, folder):
     """The script of the paper's rotor, run."""
     path = folder / "paper.py"
@@ -277,6 +354,7 @@ def main():
         identified(checks, Path(folder))
         stated(checks, Path(folder))
         as_user(checks, Path(folder))
+        imported(checks, Path(folder))
     checks.end()
 
 

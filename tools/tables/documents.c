@@ -41,7 +41,10 @@ static void put_item(FILE *out, const struct option_row *row)
 {
     (void)fputs(".It", out);
     for (int letter = row->letter ? 1 : 0; letter >= 0; letter--) {
-        (void)fprintf(out, letter ? " Fl o" : " Fl -%s", row->name);
+        if (letter)
+            (void)fprintf(out, " Fl %c", row->letter);
+        else
+            (void)fprintf(out, " Fl -%s", row->name);
         if (row->words) {
             (void)fputs(" Cm ", out);
             put_words(out, row, " | ");

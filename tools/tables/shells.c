@@ -49,7 +49,10 @@ void write_bash(FILE *out, int section)
         (void)fprintf(out, "    '%s:%s'\n", c->name, c->files);
     (void)fputs(")\n_rotid_options=(\n", out);
     for (const struct option_row *row = option_table; row->name; row++) {
-        (void)fprintf(out, "    '%s--%s:", row->letter ? "-o " : "", row->name);
+        (void)fputs("    '", out);
+        if (row->letter)
+            (void)fprintf(out, "-%c ", row->letter);
+        (void)fprintf(out, "--%s:", row->name);
         if (row->commands)
             (void)fputs(row->commands, out);
         else
@@ -91,7 +94,11 @@ void write_zsh(FILE *out, int section)
         if (row->kind == OPTION_OVERRIDE)
             (void)fputs("'*", out);
         else
-            (void)fprintf(out, row->letter ? "'(-o --%s)'{-o," : row->kind <= OPTION_HELP ? "'(- *)" : "'", row->name);
+            (void)fputs(row->kind <= OPTION_HELP ? "'(- *)" : row->letter ? "'(" : "'", out);
+        if (row->letter && row->kind > OPTION_HELP)
+            (void)fprintf(out, "-%c --%s)", row->letter, row->name);
+        if (row->letter)
+            (void)fprintf(out, "'{-%c,", row->letter);
         (void)fprintf(out, row->letter ? "--%s}'[" : "--%s[", row->name);
         put_escaped(out, row->help, "[]:", "\\");
         (void)fputc(']', out);
@@ -129,7 +136,9 @@ void write_fish(FILE *out, int section)
         (void)fputs("complete -c rotid", out);
         if (row->commands)
             (void)fprintf(out, " -n '__fish_seen_subcommand_from %s'", row->commands);
-        (void)fprintf(out, "%s -l %s", row->letter ? " -s o" : "", row->name);
+        if (row->letter)
+            (void)fprintf(out, " -s %c", row->letter);
+        (void)fprintf(out, " -l %s", row->name);
         if (takes_value(row))
             (void)fputs(row->files ? " -r -F" : " -x", out);
         if (row->words) {

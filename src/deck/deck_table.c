@@ -1,0 +1,339 @@
+/* FILE on *MODES, *SENSORS, *SHAPE, *FREQUENCIES, *SHAFT and *BEAM: a table in the place of data lines. What is read of it
+ * becomes data lines whose places are rows and columns of the table, so the readers of the cards judge them like any others. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "deck/table_columns.h"
+
+#define MOST_MODES 1000 /* as of *MODES */
+
+struct taking {
+    struct deck_reader *reader;
+    const struct card *card; /* that names the table */
+    struct table_text *table;
+    const struct table_kind *kind;
+    struct table_columns columns;
+    struct deck_text *to;    /* cards go there */
+    int first;               /* the cards of this table begin there */
+    double mode[MOST_MODES]; /* of each of them, where it has one */
+};
+
+static struct table_text *open_table(struct deck_reader *reader, const struct card *card)
+{
+    struct deck_text *text = &reader->text;
+    const struct card_option *file = card_option(card, "FILE");
+    int errors = reader->messages->errors;
+    if (!deck_option(reader, card, "FILE", "path of a table"))
+        return NULL;
+    const char *path = deck_text_path(reader->pool, text, card, file, reader->messages);
+    for (int i = 0; i < text->ntable && path; i++)
+        if (!strcmp(text->table[i]->path, path))
+            return text->table[i];
+    struct table_text *table = path ? POOL_NEW(reader->pool, struct table_text) : NULL,
+                      **grown = pool_grow(reader->pool, text->table, (size_t)text->ntable, &text->table_room, sizeof *grown);
+    if (!grown || !table || deck_text_add_file(reader->pool, text, path)) {
+        reader->out_of_memory |= path != NULL || reader->messages->errors == errors;
+        return NULL;
+    }
+    text->table = grown;
+    int status = table_text_read(reader->pool, path, file->value_place, reader->messages, table);
+    reader->out_of_memory |= status == ROTID_ERROR_MEMORY;
+    table->bad = status != ROTID_OK;
+    grown[text->ntable++] = table;
+    return table;
+}
+
+static struct card *new_card(struct taking *t, struct place place)
+{
+    struct card *card = NULL;
+    if (t->to->ncard >= DECK_MOST_CARDS)
+        deck_error(t->reader, place, "the deck has more than %d cards with those of the table, expected fewer", DECK_MOST_CARDS);
+    else if (!(card = deck_text_add_card(t->reader->pool, t->to, t->card->name, place)))
+        t->reader->out_of_memory = 1;
+    return card;
+}
+
+static void add_option(struct taking *t, struct card *card, const char *name, const struct field *value)
+{
+    struct card_option option = {name, value->text, value->place, value->place, 0};
+    t->reader->out_of_memory |= deck_text_add_option(t->reader->pool, card, option);
+}
+
+/* 0, or 1 where memory is out. */
+static int add_line(struct taking *t, struct card *card, struct place row, int count, const struct field *field)
+{
+    struct data_line *grown = pool_grow(t->reader->pool, card->line, (size_t)card->nline, &card->line_room, sizeof *grown);
+    struct field *copy = POOL_ARRAY(t->reader->pool, struct field, count);
+    t->reader->out_of_memory |= !grown || !copy;
+    if (!grown || !copy)
+        return 1;
+    memcpy(copy, field, (size_t)count * sizeof *field);
+    card->line = grown;
+    grown[card->nline++] = (struct data_line){
+        .place = row, .end = {row.file, row.line, field[count - 1].place.column + 1}, .text = "", .count = count, .field = copy};
+    return 0;
+}
+
+/* The cell of a column, -1: none, in a row, blank where there is none. */
+static struct field cell_of(const struct data_line *row, int column)
+{
+    if (column >= 0 && column < row->count)
+        return row->field[column];
+    return (struct field){"", {row->place.file, row->place.line, column < 0 ? 1 : column + 1}, 0};
+}
+
+/* The values of a row in the order of a data line. */
+static int values_of(const struct taking *t, const struct data_line *row, struct field *field)
+{
+    int count = 0, filled = 0;
+    for (; t->kind->value[count].names; count++) {
+        field[count] = cell_of(row, t->columns.value[count]);
+        field[count].in_si = t->columns.in_si[count];
+        filled = *field[count].text ? count + 1 : filled;
+    }
+    for (int i = count; i < row->count && !t->columns.header; i++) /* without names all of them are values */
+        if (*row->field[i].text)
+            deck_error(t->reader, row->field[i].place,
+                       "'%s' is one value too many, expected %d of *%s, or names in the first row", row->field[i].text, count,
+                       t->card->name);
+    return filled ? filled : 1;
+}
+
+/* ---- one card */
+
+static void take_rows(struct taking *t)
+{
+    struct card *card = new_card(t, t->card->place);
+    if (!card)
+        return;
+    card->option = t->card->option;
+    card->noption = t->card->noption;
+    for (int r = t->columns.header; r < t->table->nrow; r++) {
+        struct field field[TABLE_MOST_VALUES] = {{.text = ""}};
+        int count = values_of(t, &t->table->row[r], field);
+        if (add_line(t, card, t->table->row[r].place, count, field))
+            return;
+    }
+}
+
+/* ---- sections: a card for each group */
+
+static void take_group(struct taking *t, const struct field *name, const struct field *material)
+{
+    struct card *card = new_card(t, name->place);
+    const struct card_option *given = card_option(t->card, "MATERIAL");
+    if (!card)
+        return;
+    add_option(t, card, "NAME", name);
+    if (*material->text)
+        add_option(t, card, "MATERIAL", material);
+    else if (given)
+        t->reader->out_of_memory |= deck_text_add_option(t->reader->pool, card, *given);
+}
+
+static void take_sections(struct taking *t)
+{
+    struct deck_reader *reader = t->reader;
+    const struct card_option *named = card_option(t->card, "NAME");
+    const char *group = NULL, *material = NULL;
+    if (t->columns.key[0] < 0 && t->columns.key[1] < 0) {
+        take_rows(t);
+        return;
+    }
+    if (named && t->columns.key[0] >= 0) {
+        deck_error(reader, named->place, "*%s has a NAME and its table a column of groups, expected one of them", t->card->name);
+        return;
+    }
+    for (int r = 1; r < t->table->nrow && !reader->out_of_memory; r++) {
+        const struct data_line *row = &t->table->row[r];
+        struct field name = cell_of(row, t->columns.key[0]), of = cell_of(row, t->columns.key[1]),
+                     field[TABLE_MOST_VALUES] = {{.text = ""}};
+        int count = values_of(t, row, field), is_new = !group || (*name.text && !same_text(name.text, group));
+        if (is_new && named)
+            name = (struct field){named->value, named->value_place, 0};
+        if (is_new && (strchr(name.text, ',') || strchr(name.text, '*'))) {
+            deck_error(reader, name.place, "'%s' is no name of a group, expected one without commas and asterisks", name.text);
+            return;
+        }
+        if (is_new && !*name.text) {
+            deck_error(reader, name.place, "the first section has no group, expected its name, or NAME on *%s", t->card->name);
+            return;
+        }
+        if (is_new) {
+            take_group(t, &name, &of);
+            group = name.text;
+            material = of.text;
+        } else if (*of.text && !same_text(of.text, material)) {
+            deck_error(reader, of.place, "material %s stands within group %s, which is of %s, expected one material a group",
+                       of.text, group, *material ? material : "another one");
+            return;
+        }
+        if (t->to->ncard == t->first || add_line(t, &t->to->card[t->to->ncard - 1], row->place, count, field))
+            return;
+    }
+}
+
+/* ---- a value for each mode and sensor: a card for each mode */
+
+/* The card of the mode that a cell names; NULL where the card asks for another one, or after an error. */
+static struct card *card_of_mode(struct taking *t, const struct field *mode)
+{
+    const struct card_option *asked = card_option(t->card, "MODE");
+    double number = strtod(mode->text, NULL);
+    if (asked && strtod(asked->value, NULL) != number)
+        return NULL;
+    int count = t->to->ncard - t->first;
+    for (int c = 0; c < count; c++)
+        if (t->mode[c] == number)
+            return &t->to->card[t->first + c];
+    if (count == MOST_MODES) {
+        deck_error(t->reader, mode->place, "the table has more than %d modes, expected fewer", MOST_MODES);
+        t->table->bad = 1;
+    }
+    struct card *card = count < MOST_MODES ? new_card(t, mode->place) : NULL;
+    if (!card)
+        return NULL;
+    t->mode[count] = number;
+    for (int o = 0; o < t->card->noption; o++)
+        if (!same_text(t->card->option[o].name, "MODE"))
+            t->reader->out_of_memory |= deck_text_add_option(t->reader->pool, card, t->card->option[o]);
+    add_option(t, card, "MODE", mode);
+    return card;
+}
+
+static void take_value(struct taking *t, const struct data_line *row, const struct field *mode, const struct field *sensor,
+                       const struct field *value, const struct field *std)
+{
+    if (!*value->text) /* not measured */
+        return;
+    if (!table_is_number(mode->text)) {
+        deck_error(t->reader, mode->place, "'%s' is not a number, expected that of a mode", mode->text);
+        return;
+    }
+    struct card *card = card_of_mode(t, mode);
+    const struct field field[] = {*sensor, *value, *std};
+    if (card)
+        (void)add_line(t, card, row->place, *std->text ? 3 : 2, field);
+}
+
+/* mode, sensor, value */
+static void take_triples(struct taking *t)
+{
+    const struct card_option *asked = card_option(t->card, "MODE");
+    struct field only = {asked ? asked->value : "", asked ? asked->value_place : t->card->place, 0};
+    for (int r = 1; r < t->table->nrow && !t->reader->out_of_memory; r++) {
+        const struct data_line *row = &t->table->row[r];
+        struct field field[TABLE_MOST_VALUES], mode = t->columns.key[0] >= 0 ? cell_of(row, t->columns.key[0]) : only;
+        int count = values_of(t, row, field);
+        if (count > 1)
+            take_value(t, row, &mode, &field[0], &field[1], &field[2]);
+    }
+}
+
+/* A column of the matrix; std: that of its standard deviations, -1: there is none. */
+static void take_column(struct taking *t, int of_rows, int of_modes, int column, int std_column, int number)
+{
+    struct deck_reader *reader = t->reader;
+    const struct field *name = &t->table->row[0].field[column];
+    const struct table_column plain = {"", t->kind->value[1].si, 0};
+    char unit[TABLE_CELL_LENGTH];
+    double in_si = 0;
+    (void)table_names(name->text, &plain, unit);
+    if (plain.si && *unit && !((in_si = deck_unit_factor(plain.si, unit)) > 0)) {
+        deck_error(reader, name->place, "the unit of '%s' is not known, expected %s or another one of *UNITS", name->text,
+                   plain.si);
+        return;
+    }
+    struct field numbered = {pool_format(reader->pool, "%d", number), name->place, 0};
+    reader->out_of_memory |= !numbered.text;
+    for (int r = 1; r < t->table->nrow && !reader->out_of_memory && !t->table->bad; r++) {
+        const struct data_line *row = &t->table->row[r];
+        struct field of_row = cell_of(row, of_rows), value = cell_of(row, column), std = cell_of(row, std_column);
+        value.in_si = std.in_si = in_si;
+        take_value(t, row, of_modes ? &numbered : &of_row, of_modes ? &of_row : &numbered, &value, &std);
+    }
+}
+
+/* Sensors in rows and modes in columns (of_modes), or the other way; of_rows: the column that says of which each row is. */
+static void take_matrix(struct taking *t, int of_rows, int of_modes)
+{
+    const struct data_line *header = &t->table->row[0];
+    struct table_numbered *column = POOL_ARRAY(t->reader->pool, struct table_numbered, header->count);
+    t->reader->out_of_memory |= !column;
+    for (int i = 0; i < header->count && column; i++)
+        if (!table_numbers(header->field[i].text, &column[i]) || (of_modes ? column[i].of_sensor : column[i].of_mode))
+            column[i].number = -1;
+    for (int i = 0; i < header->count && column; i++) {
+        int std = -1;
+        for (int j = 0; j < header->count; j++)
+            std = column[j].is_std && column[j].number == column[i].number ? j : std;
+        if (column[i].number >= 0 && !column[i].is_std && i != of_rows)
+            take_column(t, of_rows, of_modes, i, std, column[i].number);
+    }
+}
+
+static void take_shapes(struct taking *t)
+{
+    const struct table_columns *c = &t->columns;
+    const int *sensor = &c->value[0], *value = &c->value[1], *mode = &c->key[0];
+    struct deck_reader *reader = t->reader;
+    if (!c->header && card_option(t->card, "MODE"))
+        take_rows(t);
+    else if (c->header && *sensor >= 0 && *value >= 0 && (*mode >= 0 || card_option(t->card, "MODE")))
+        take_triples(t);
+    else if (c->header && (*sensor >= 0) != (*mode >= 0))
+        take_matrix(t, *sensor >= 0 ? *sensor : *mode, *sensor >= 0);
+    else
+        deck_error(reader, t->table->row[0].place,
+                   "the first row does not say what the table of *%s holds, expected names: sensor, mode 1, mode 2, ... or mode, "
+                   "sensor 1, sensor 2, ... or mode, sensor, value",
+                   t->card->name);
+    if (t->to->ncard == t->first && !reader->messages->errors)
+        deck_error(reader, t->table->row[0].place, "the table holds no value for *%s, expected one in a column such as 'mode 1'",
+                   t->card->name);
+}
+
+static void take_table(struct deck_reader *reader, const struct card *card, const struct table_kind *kind, struct deck_text *to)
+{
+    struct taking t = {.reader = reader, .card = card, .kind = kind, .to = to, .first = to->ncard};
+    if (card->nline) {
+        deck_error(reader, card->line[0].place, "*%s has a FILE and data lines, expected one of them", card->name);
+        return;
+    }
+    t.table = open_table(reader, card);
+    if (!t.table || t.table->bad || table_find_columns(reader, t.table, kind, !kind->by_mode, &t.columns))
+        return;
+    if (kind->by_mode)
+        take_shapes(&t);
+    else if (kind->key[0].names)
+        take_sections(&t);
+    else
+        take_rows(&t);
+}
+
+int deck_read_tables(struct deck_reader *reader, int *nread)
+{
+    struct deck_text *text = &reader->text, to = {0};
+    int before = reader->messages->errors, none = 1, front = *nread;
+    for (int c = 0; c < text->ncard; c++)
+        none &= !table_kind_of(text->card[c].name) || !card_option(&text->card[c], "FILE");
+    for (int c = 0; c < text->ncard && !none && !reader->out_of_memory; c++) {
+        const struct card *card = &text->card[c];
+        const struct table_kind *kind = card_option(card, "FILE") ? table_kind_of(card->name) : NULL;
+        struct card *same = kind ? NULL : deck_text_add_card(reader->pool, &to, card->name, card->place);
+        if (kind)
+            take_table(reader, card, kind, &to);
+        else if (same)
+            *same = *card;
+        else
+            reader->out_of_memory = 1;
+        if (c == front - 1)
+            *nread = to.ncard;
+    }
+    if (!none) {
+        text->card = to.card;
+        text->ncard = to.ncard;
+        text->card_room = to.card_room;
+    }
+    return reader->messages->errors > before;
+}

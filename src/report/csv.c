@@ -1,0 +1,54 @@
+#include "report/csv.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "deck/deck_writer.h"
+#include "report/output.h"
+#include "rotid.h"
+
+void csv_text(FILE *out, const char *before, const char *text)
+{
+    int formula = *text && strchr("=+-@\t", *text) != NULL, quoted = strpbrk(text, ",;\"\n\r\t") != NULL;
+    (void)fprintf(out, "%s%s%s", before, quoted ? "\"" : "", formula ? "'" : "");
+    for (; *text; text++)
+        (void)fprintf(out, *text == '"' ? "\"\"" : "%c", *text);
+    (void)fputs(quoted ? "\"" : "", out);
+}
+
+void csv_number(FILE *out, const char *before, double value)
+{
+    char text[DECK_NUMBER_LENGTH];
+    (void)fprintf(out, "%s%s", before, isfinite(value) ? deck_number_text(value, text) : "");
+}
+
+const char *csv_path(struct pool *pool, const char *path, const struct csv_part *part)
+{
+    return pool_format(pool, "%s.%s.csv", path, part->suffix);
+}
+
+int csv_write(struct pool *pool, const char *path, const struct csv_part part[CSV_MOST_FILES], const void *from,
+              const char **failed)
+{
+    struct output output[CSV_MOST_FILES];
+    const char *name[CSV_MOST_FILES];
+    int count = 0, status = ROTID_OK, which = 0;
+    for (int i = 0; i < CSV_MOST_FILES; i++)
+        if (!(name[i] = csv_path(pool, path, &part[i])))
+            return ROTID_ERROR_MEMORY;
+    while (count < CSV_MOST_FILES && !status) {
+        *failed = name[count];
+        status = output_open(&output[count], name[count]);
+        if (status)
+            break;
+        status = part[count].write(output[count].stream, from);
+        count++;
+    }
+    for (int i = 0; i < count && status; i++)
+        output_abandon(&output[i]);
+    if (status)
+        return status;
+    status = output_close_all(CSV_MOST_FILES, output, &which);
+    *failed = status ? name[which] : NULL;
+    return status;
+}

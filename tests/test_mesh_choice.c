@@ -1,0 +1,149 @@
+/* Elements that a deck does not state: the mesh that is chosen beside exact dynamic stiffness. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "deck/deck.h"
+#include "deck/deck_write.h"
+#include "exact.h"
+#include "folder.h"
+#include "run/mesh_choice.h"
+
+#define MATERIAL "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+
+struct reading {
+    struct pool pool;
+    struct message_list messages;
+    struct job job;
+};
+
+static void read_text(struct reading *r, const char *text)
+{
+    pool_open(&r->pool, NULL);
+    message_open(&r->messages, &r->pool);
+    int status = deck_read(&r->pool, folder_write("deck.inp", text), 0, NULL, &r->messages, &r->job);
+    for (size_t i = 0; i < r->messages.count && status; i++)
+        print_error("%s\n", r->messages.item[i].text);
+    assert_status(status, ROTID_OK);
+}
+
+/* Worst error of modes 1 to count against the oracle, relative. */
+static double error_of(const struct rotor *rotor, int count)
+{
+    struct exact exact;
+    double truth[EXACT_MODES], hz[EXACT_MODES];
+    exact_open(rotor, &exact);
+    exact_hz(&exact, 3, count, truth);
+    mesh_hz(rotor, 1, 2, count, hz);
+    return worst_ratio(count, hz, truth);
+}
+
+static int elements_of(const struct rotor *rotor)
+{
+    int elements = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        elements += rotor->segment[s].elements;
+    return elements;
+}
+
+#define SHAFTS(L, C, R)                                                                                                          \
+    "*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.05, 0" L "\n*SHAFT, NAME=core, MATERIAL=steel\n0.4, 0.1, 0.02" C                  \
+    "\n*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.06, 0" R "\n"
+#define MODES "*MODES\n1, 390\n2, 690\n4, 2470\n"
+
+static void the_error_is_a_tenth_of_the_noise_and_no_less_than_a_fifth_of_that(void **state)
+{
+    static const double noise[] = {3e-3, 1e-3, 1e-4};
+    (void)state;
+    for (size_t i = 0; i < sizeof noise / sizeof *noise; i++) {
+        char text[1024];
+        struct reading r;
+        (void)snprintf(text, sizeof text, MATERIAL SHAFTS("", "", ",, 0.058") MODES "*NOISE, FREQUENCY=%g\n", noise[i]);
+        read_text(&r, text);
+        double error = error_of(&r.job.rotor, 4);
+        assert_true(error <= MESH_CHOICE_SHARE * noise[i]);
+        assert_true(error > 0.2 * MESH_CHOICE_SHARE * noise[i]); /* elements cost time */
+        pool_close(&r.pool);
+    }
+}
+
+static void the_highest_mode_and_the_smallest_noise_count(void **state)
+{
+    struct reading low, high, fine;
+    (void)state;
+    read_text(&low, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n");
+    read_text(&high, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n6, 4900, , 4.9\n");
+    read_text(&fine, MATERIAL SHAFTS("", "", "") "*MODES\n1, 390, , 0.39\n6, 4900, , 0.49\n");
+    assert_true(elements_of(&high.job.rotor) > 2 * elements_of(&low.job.rotor));
+    assert_true(elements_of(&fine.job.rotor) > 2 * elements_of(&high.job.rotor));
+    assert_true(error_of(&fine.job.rotor, 6) <= 1e-5);
+    pool_close(&low.pool);
+    pool_close(&high.pool);
+    pool_close(&fine.pool);
+}
+
+static void without_noise_the_error_is_a_hundredth_of_a_percent(void **state)
+{
+    struct reading r;
+    (void)state;
+    read_text(&r, MATERIAL SHAFTS("", "", ""));
+    assert_true(error_of(&r.job.rotor, MESH_CHOICE_MODES) <= MESH_CHOICE_ERROR);
+    int told = 0;
+    for (size_t i = 0; i < r.messages.count; i++)
+        told +=
+            strstr(r.messages.item[i].text, pool_format(&r.pool, "%d elements of at most", elements_of(&r.job.rotor))) != NULL;
+    assert_int_equal(told, 1);
+    pool_close(&r.pool);
+}
+
+static void sections_that_state_elements_keep_them(void **state)
+{
+    struct reading r;
+    (void)state;
+    read_text(&r, MATERIAL SHAFTS(", 7", "", ", 300, 0.055") MODES "*NOISE, FREQUENCY=0.01\n");
+    assert_int_equal(r.job.rotor.segment[0].elements, 7);
+    assert_true(r.job.rotor.segment[1].elements > 1);
+    assert_int_equal(r.job.rotor.segment[2].elements, 300);
+    assert_close(r.job.rotor.segment[2].stiff_outer, 0.055, 0, 0);
+    pool_close(&r.pool);
+    read_text(&r, MATERIAL "*BEAM, NAME=strip, MATERIAL=steel\n0.5, 0.005, 0.02\n" MODES);
+    assert_true(r.job.rotor.segment[0].elements > 5);
+    pool_close(&r.pool);
+}
+
+/* Noise that no mesh reaches ends at the most elements, and is told. */
+static void there_is_an_end(void **state)
+{
+    struct reading r;
+    (void)state;
+    read_text(&r, MATERIAL SHAFTS("", "", "") MODES "*NOISE, FREQUENCY=1e-9\n");
+    assert_in_range(elements_of(&r.job.rotor), MESH_CHOICE_LARGEST, MESH_CHOICE_LARGEST + 3);
+    assert_non_null(strstr(r.messages.item[0].text, "more elements would have to be stated"));
+    pool_close(&r.pool);
+}
+
+/* The deck that is written states them, so it gives the same model whatever its noise becomes. */
+static void the_deck_that_is_written_states_the_elements(void **state)
+{
+    struct reading r, again;
+    char *text;
+    (void)state;
+    read_text(&r, MATERIAL SHAFTS("", "", "") MODES);
+    assert_status(deck_write(&r.pool, &r.job, NULL, &text), ROTID_OK);
+    read_text(&again, text);
+    for (int s = 0; s < 3; s++)
+        assert_int_equal(again.job.rotor.segment[s].elements, r.job.rotor.segment[s].elements);
+    pool_close(&again.pool);
+    pool_close(&r.pool);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_error_is_a_tenth_of_the_noise_and_no_less_than_a_fifth_of_that),
+                                       cmocka_unit_test(the_highest_mode_and_the_smallest_noise_count),
+                                       cmocka_unit_test(without_noise_the_error_is_a_hundredth_of_a_percent),
+                                       cmocka_unit_test(sections_that_state_elements_keep_them),
+                                       cmocka_unit_test(there_is_an_end),
+                                       cmocka_unit_test(the_deck_that_is_written_states_the_elements)};
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
