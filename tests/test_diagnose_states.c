@@ -5,7 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "deck/deck.h"
+#include "diagnose/changed.h"
 #include "hidden_states.h"
+#include "run/spectrum.h"
 
 #define ROTOR                                                                                                                    \
     "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n"                                         \
@@ -229,6 +232,46 @@ static void what_changed_is_named_and_what_stays_is_not(void **state)
     }
 }
 
+/* The data of the second state by the equations of changed.h, beside the modes of the model that is held. */
+static void data_are_corrected_by_what_the_first_state_shows(void **state)
+{
+    (void)state;
+    enum { MODES = 4, SENSORS = 7 };
+    static const char *const dense[] = {"density:group=left,factor=1.1"};
+    static const struct hidden_state states[] = {{"before", "", 1, dense}, {"after", "", 1, dense}};
+    const struct hide_request r = request(MODES, SENSORS, 1300);
+    const struct diagnose_options options = {.threads = 1, .seed = 1};
+    char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
+    const struct deck_memory memory = {"deck", strlen(text), text, NULL};
+    struct message_list notes;
+    struct states read;
+    struct job out;
+    struct spectrum spectrum;
+    message_open(&notes, &test_pool);
+    assert_status(deck_read_states(&test_pool, "deck", &memory, 0, NULL, &notes, &read), ROTID_OK);
+    assert_status(changed_job(&test_pool, &read, "before", "after", &options, NULL, &notes, &out), ROTID_OK);
+    assert_int_equal(out.unknowns.nparameter, 0);
+    assert_status(spectrum_compute(&test_pool, NULL, &out.rotor, 0, NULL, NULL, ROTID_GUYAN, MODES, &spectrum), ROTID_OK);
+    const struct job_measurement *before = &read.state[0].job.measurement, *after = &read.state[1].job.measurement;
+    for (int k = 0; k < MODES; k++) {
+        const double *a = after->shape + (ptrdiff_t)k * SENSORS, *b = before->shape + (ptrdiff_t)k * SENSORS,
+                     *phi = spectrum.shape + (ptrdiff_t)k * SENSORS;
+        double ab = 0, bb = 0, pb = 0, pp = 0, p = spectrum.full_hz[k];
+        assert_close(out.measurement.frequency_hz[k], after->frequency_hz[k] * p / before->frequency_hz[k], 1e-6, 0);
+        assert_true(out.measurement.frequency_std[k] >= sqrt(2) * 0.000999);
+        assert_true(out.measurement.frequency_std[k] < 1.1 * sqrt(2) * 0.001);
+        for (int s = 0; s < SENSORS; s++) {
+            ab += a[s] * b[s];
+            bb += b[s] * b[s];
+            pb += phi[s] * b[s];
+            pp += phi[s] * phi[s];
+        }
+        for (int s = 0; s < SENSORS; s++)
+            assert_close(out.measurement.shape[s + k * SENSORS], a[s] - ab / bb * (b[s] - pb / pp * phi[s]), 0, 1e-5);
+    }
+    free(text);
+}
+
 /* What a disc adds that the deck states is no change. */
 static void what_the_deck_states_is_no_change(void **state)
 {
@@ -265,6 +308,39 @@ static void wrong_states_are_refused(void **state)
     free(text);
 }
 
+/* Both questions, with each allocation of a growing row failing. */
+static void failing_allocations_are_survived(void **state)
+{
+    (void)state;
+    static const char *const mass[] = {"added_mass:mass=0.5,z=0.7"};
+    static const struct hidden_state states[] = {{"before", "", 0, NULL}, {"after", DISC, 1, mass}};
+    const struct hide_request r = request(5, 0, 900);
+    char message[300], *text = hidden_states_deck(&r, 2, states, NULL, message, sizeof message);
+    assert_non_null(text);
+    for (int question = 0; question < 2; question++) {
+        const rotid_diagnose_options options = {
+            .size = sizeof options, .replicates = 100, .before = question ? "before" : NULL, .after = question ? "after" : NULL};
+        rotid_deck *deck = read_text(text, NULL);
+        for (int n = 1, done = 0; !done; n += 1 + n / 4) {
+            struct failing_allocator failing;
+            rotid_diagnosis *d = NULL;
+            failing_allocator_open(&failing, n);
+            const rotid_environment environment = {.size = sizeof environment, .allocator = &failing.allocator};
+            int status = rotid_diagnose(deck, &options, &environment, NULL, &d);
+            if (status)
+                assert_status(status, ROTID_ERROR_MEMORY);
+            done = !status;
+            assert_true(!done || failing.until_failure > 0);
+            rotid_diagnosis_free(d);
+            assert_int_equal(failing.in_use, 0);
+            if (done)
+                print_message("%d allocations at most\n", n);
+        }
+        rotid_deck_free(deck);
+    }
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -274,8 +350,10 @@ int main(void)
         cmocka_unit_test(a_fault_of_a_channel_goes_with_its_state),
         cmocka_unit_test(a_state_held_out_is_evidence),
         cmocka_unit_test(what_changed_is_named_and_what_stays_is_not),
+        cmocka_unit_test_setup_teardown(data_are_corrected_by_what_the_first_state_shows, open_test_pool, close_test_pool),
         cmocka_unit_test(what_the_deck_states_is_no_change),
         cmocka_unit_test(wrong_states_are_refused),
+        cmocka_unit_test(failing_allocations_are_survived),
     };
     return cmocka_run_group_tests_name("diagnose_states", tests, NULL, NULL);
 }

@@ -269,12 +269,12 @@ int data_prepare(struct engine *engine, const struct states *states)
     for (int s = 0; s < states->nstate && !status; s++) {
         engine_look_at(engine, s);
         status = prepare_state(engine);
+        if (status)
+            return status;
         fitted += count_fitted(engine->job);
         shapes |= job_fits_shapes(engine->job);
     }
     engine_look_at(engine, 0);
-    if (status)
-        return status;
     if (!shapes && fitted <= nparameter) {
         message_add(engine->notes, SEVERITY_ERROR, engine->job->deck, 1, 1,
                     "%d %s for %d parameters leave nothing to judge the model by, expected more modes, or shapes with *NOISE, "
