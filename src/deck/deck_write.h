@@ -21,8 +21,9 @@ struct deck_write_options {
 int deck_write(struct pool *pool, const struct job *job, const struct deck_write_options *options, char **text);
 
 /* The deck of all states; x of the options: of the unknowns of all [states->nparameter]. Common are the cards that all states
- * begin with; moduli, densities and lengths of groups that differ stand in *SET. Reading it gives each state as deck_write would,
- * but for lengths that *SET states, and positions on them, within 1e-12. Statuses as of deck_write. */
+ * begin with, and the unknowns that are common or of a cause that is in all; moduli, densities and lengths of groups that differ
+ * stand in *SET. Reading it gives each state as deck_write would, but for lengths that *SET states, and positions on them, within
+ * 1e-12. Statuses as of deck_write. */
 int deck_write_states(struct pool *pool, const struct states *states, const struct deck_write_options *options, char **text);
 
 #endif
