@@ -1,0 +1,32 @@
+/* The explanations that a diagnosis cannot tell apart, each as a fitted model. */
+#ifndef ROTID_SUGGEST_RIVALS_H
+#define ROTID_SUGGEST_RIVALS_H
+
+#include "diagnose/diagnose.h"
+
+#define MOST_RIVALS 6 /* causes or pairs; the model as it is comes on top */
+
+struct rival {
+    const char *label;
+    const struct candidate *candidate; /* NULL: the model as it is */
+    struct job job;                    /* with its causes, at the best values */
+    rotid_fit_result *fit;             /* to what was measured */
+    double score, share;               /* as in rotid.h */
+};
+
+struct rivals {
+    int n; /* the last one is the model as it is */
+    struct rival *rival;
+    int nmode;           /* fitted ones */
+    int *number;         /* [nmode] of the model */
+    double margin;       /* lead over another rival that is needed for a name */
+    double base_margin;  /* the same over the model as it is */
+    int left_out;        /* of the set: no causes of the rotor, as solids, or beyond the most */
+};
+
+/* Those of the last round of an ambiguous diagnosis, fitted anew: n is 0 where it is not ambiguous, or nothing but the model as
+ * it is would be left. The fits are to be freed with rivals_free. Statuses of the fits. */
+int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_environment *environment, struct rivals *rivals);
+void rivals_free(struct rivals *rivals);
+
+#endif
