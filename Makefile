@@ -84,7 +84,7 @@ LIBRARY_LIBS := $(shell pkg-config --libs lapacke) $(BLAS_LIBS) $(if $(filter 1,
 PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(LIBRARY_LIBS)
 
 # the rooms that public routines reach, and those of the program alone
-LIBRARY_ROOMS := base record linalg rotor beam solid model modal fit run diagnose/causes diagnose file uff deck api
+LIBRARY_ROOMS := base record linalg rotor beam solid model modal fit run diagnose/causes diagnose suggest file uff deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
 PROGRAM_SOURCES := $(foreach room,signal ema import result report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)

@@ -8,6 +8,8 @@ const struct command_entry command_table[] = {
     {"identify", "fit the parameters of *IDENTIFY to the measured modes, NLopt beside it", "inp", command_identify, READS_DECK},
     {"diagnose", "what the model gets wrong, the cause, the extended model, the gain, the detection limits", "inp",
      command_diagnose, READS_DECK | PARALLEL},
+    {"suggest", "what to measure next: sensors, modes and intervals before a test, tests that end an ambiguous diagnosis", "inp",
+     command_suggest, READS_DECK | PARALLEL},
     {"frf", "synthesised transfer functions with measured damping, beside measured ones", "inp", command_frf, READS_DECK},
     {"ema", "time records or transfer functions (58, 58b) to modes for *MEASURED", "unv|uff|uf", command_ema, PARALLEL},
     {"export", "the identified model for other programs: Matrix Market, Nastran DMIG, a ROSS script", "inp", command_export,

@@ -23,37 +23,11 @@ struct side { /* a rival in the state of a test */
 
 /* ------------------------------------------------------------------------------------------------ a rival in a state */
 
-static int is_used(const struct rival *rival, int p)
-{
-    return !rival->fit->at_bound[p] && rival->fit->x[p] != 0;
-}
-
-/* J1'J1 in the parameters used, those with a value of their own in the test left out. */
-static void gram_before(const struct rival *rival, const int *own, int n, double *h)
-{
-    const rotid_fit_result *fit = rival->fit;
-    int a = 0;
-    for (int p = 0; p < fit->n; p++) {
-        int b = 0;
-        if (!is_used(rival, p))
-            continue;
-        for (int q = 0; q < fit->n; q++) {
-            if (!is_used(rival, q))
-                continue;
-            const double *left = fit->jacobian + (ptrdiff_t)p * fit->nresidual, *right = fit->jacobian + (ptrdiff_t)q * fit->nresidual;
-            double product = product_dot(fit->nresidual, left, right) * fit->x[p] * fit->x[q];
-            h[a + (ptrdiff_t)b * n] = own[p] || own[q] ? (double)(p == q) : product;
-            b++;
-        }
-        a++;
-    }
-}
-
 static int take_columns(struct columns *c, const struct rival *rival, const double *x_test, struct side *side)
 {
     int status = ROTID_OK, n = 0, row = c->nmode;
     for (int p = 0; p < rival->fit->n && !status; p++) {
-        if (!is_used(rival, p))
+        if (!rival_uses(rival, p))
             continue;
         double *column = side->j + (ptrdiff_t)n++ * side->nrow;
         status = columns_parameter(c, p, column);
@@ -80,7 +54,7 @@ static int factor_both(struct pool *pool, const struct rival *rival, const int *
     s->spread = POOL_ARRAY(pool, double, cells);
     if (!gram || !column || !s->factor || !s->spread)
         return ROTID_ERROR_MEMORY;
-    gram_before(rival, own, s->n, s->spread);
+    rival_gram(rival, own, s->n, s->spread);
     for (int j = 0; j < s->n; j++)
         for (int i = 0; i < s->n; i++)
             gram[i + (ptrdiff_t)j * s->n] =
@@ -127,7 +101,7 @@ static int side_open(struct pool *pool, const struct rival *b, const struct test
     if (status)
         return status;
     for (int p = 0; p < nparameter; p++)
-        s->n += is_used(b, p);
+        s->n += rival_uses(b, p);
     s->nrow = c->nrow;
     s->j = POOL_ARRAY(pool, double, (size_t)s->nrow *(size_t)s->n);
     s->unit = POOL_ARRAY(pool, double, (size_t)s->nrow *(size_t)c->nmode);

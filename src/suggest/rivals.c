@@ -4,6 +4,7 @@
 
 #include "diagnose/decide.h"
 #include "diagnose/refit.h"
+#include "linalg/product.h"
 
 #define CLEAR 2.0 /* times the threshold of the scan: the drop that a name needs, as in decide.c */
 
@@ -130,4 +131,28 @@ void rivals_free(struct rivals *rivals)
     for (int i = 0; i < rivals->n; i++)
         rotid_fit_free(rivals->rival[i].fit);
     rivals->n = 0;
+}
+
+int rival_uses(const struct rival *rival, int p)
+{
+    return !rival->fit->at_bound[p] && rival->fit->x[p] != 0;
+}
+
+void rival_gram(const struct rival *rival, const int *own, int n, double *gram)
+{
+    const rotid_fit_result *fit = rival->fit;
+    int rows = fit->nresidual, a = 0;
+    for (int p = 0; p < fit->n; p++) {
+        int b = 0;
+        if (!rival_uses(rival, p))
+            continue;
+        for (int q = 0; q < fit->n; q++) {
+            if (!rival_uses(rival, q))
+                continue;
+            double product = product_dot(rows, fit->jacobian + (ptrdiff_t)p * rows, fit->jacobian + (ptrdiff_t)q * rows);
+            int alone = own && (own[p] || own[q]);
+            gram[a + (ptrdiff_t)b++ * n] = alone ? (double)(p == q) : product * fit->x[p] * fit->x[q];
+        }
+        a++;
+    }
 }

@@ -29,4 +29,11 @@ struct rivals {
 int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_environment *environment, struct rivals *rivals);
 void rivals_free(struct rivals *rivals);
 
+/* Whether parameter p of a rival can follow new data: it is not pressed against a bound. */
+int rival_uses(const struct rival *rival, int p);
+
+/* gram [n * n] := J'J of its fit in the relative values of the n parameters that it uses; of those with own [nparameter] nonzero
+ * (may be NULL) the unit matrix: 100 % is what is known of them. */
+void rival_gram(const struct rival *rival, const int *own, int n, double *gram);
+
 #endif

@@ -26,6 +26,7 @@ struct test {
     double mass, z;       /* kg, m: of the mass; z of the support that was moved */
     int spring;           /* that was moved */
     int setups, averages; /* averages: how often each point is measured */
+    double *hz;           /* [modes] that the best rival expects, or NULL */
 };
 
 /* The i-th of them as a deck and a result know it: "again", "modes", ... */
