@@ -35,12 +35,10 @@ static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
     rotid_suggestion *made = &s->result;
     made->geometry = result_geometry(pool, &s->job.rotor, s->spectrum.model);
     for (int i = 0; i < made->nrivals; i++) {
-        const struct candidate *c = s->rivals.rival[i].candidate;
-        int room = c ? POOL_LIST(pool, made->rivals[i].causes, 2) : 0;
-        if (room)
-            made->rivals[i].causes[made->rivals[i].ncauses++] = result_cause(pool, c);
-        if (room && c->with)
-            made->rivals[i].causes[made->rivals[i].ncauses++] = result_cause(pool, c->with);
+        const struct rival *rival = &s->rivals.rival[i];
+        made->rivals[i].ncauses = POOL_LIST(pool, made->rivals[i].causes, rival->ncause);
+        for (int c = 0; c < made->rivals[i].ncauses; c++)
+            made->rivals[i].causes[c] = result_cause(pool, &rival->cause[c]);
     }
     for (int i = 0; i < made->ntests; i++) {
         char *cards = NULL;

@@ -100,13 +100,13 @@ static void print_rivals(FILE *out, const rotid_suggestion *s)
     }
 }
 
-/* The pair of rivals that a test tells apart least, the model as it is left out where there are others. */
+/* Of the best rival, were it true: the other one that a test tells from it least, the model as it is where there is no other. */
 static const rotid_expected_margin *closest(const rotid_suggestion *s, const rotid_suggested_test *test)
 {
     const rotid_expected_margin *least = NULL;
     for (int i = 0; i < test->nmargins; i++) {
         const rotid_expected_margin *m = &test->margins[i];
-        if (m->rival == s->nrivals - 1 && s->nrivals > 2)
+        if (m->truth || (m->rival == s->nrivals - 1 && s->nrivals > 2))
             continue;
         if (!least || m->expected < least->expected)
             least = m;
@@ -119,7 +119,7 @@ static void print_tests(FILE *out, const rotid_suggestion *s, int all)
     if (!s->ntests)
         return;
     (void)fprintf(out,
-                  "\nTESTS  chance: that the true one of the rivals is named; margin: expected, of the closest two\n"
+                  "\nTESTS  chance: that the true one of the rivals is named; margin: lead expected of 1, were it true, over (the closest other)\n"
                   "chance wrong   cost set-ups points modes    margin\n");
     for (int i = 0; i < s->ntests; i++) {
         const rotid_suggested_test *t = &s->tests[i];
@@ -129,7 +129,7 @@ static void print_tests(FILE *out, const rotid_suggestion *s, int all)
         (void)fprintf(out, " %7d %6d %5d", t->setups, t->points, t->modes);
         number_cell(out, 10, 1, m ? m->expected : (double)NAN);
         if (m)
-            (void)fprintf(out, " (%d|%d)", m->truth + 1, m->rival + 1);
+            (void)fprintf(out, " (%d)", m->rival + 1);
         (void)fputs("  ", out);
         name_cell(out, 1, t->text);
         (void)fputc('\n', out);

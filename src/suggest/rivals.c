@@ -1,66 +1,119 @@
 #include "suggest/rivals.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "diagnose/decide.h"
 #include "diagnose/refit.h"
 #include "linalg/product.h"
 
-#define CLEAR 2.0 /* times the threshold of the scan: the drop that a name needs, as in decide.c */
+#define SAME_CHI2  1.0 /* of a fit on a mesh that may be finer */
+#define SAME_MODEL 2.0 /* times chi2: beyond that the fit did not find what the diagnosis had found */
+#define CLEAR      2.0 /* times the threshold of the scan: the drop that a name needs, as in decide.c */
 
-/* The candidate, with the second cause of a pair, in the job. */
-static int add_causes(struct pool *pool, const struct job *base, const double *x, const struct candidate *c, struct job *to)
-{
-    int status = job_with_effect(pool, base, x, &c->effect, c->cause, c->fixed, to);
-    if (status || !c->with)
-        return status;
-    struct effect second = c->with->effect;
-    second.name = scan_free_name(pool, &to->rotor, c->with->cause->id);
-    return second.name ? job_with_effect(pool, to, NULL, &second, c->with->cause, c->with->fixed, to) : ROTID_ERROR_MEMORY;
-}
+struct sources { /* of rivals */
+    const struct job *base; /* the model with what is named */
+    const double *x;        /* [nparameter] its values */
+    const int *number, *holdout;
+    const rotid_environment *environment;
+};
 
 static int is_model(const struct candidate *c)
 {
-    return c->cause->class == CAUSE_PHYSICAL && c->cause->effect && !c->cause->solid && (!c->with || is_model(c->with));
+    return c->cause->class == CAUSE_PHYSICAL && c->cause->effect && !c->cause->solid && isfinite(c->result.chi2);
+}
+
+/* The causes [count] of a rival in the job, its own parameters from x (NULL: their starts), the first cause at another place
+ * where that is finite; held: at their values. */
+static int add_causes(struct pool *pool, const struct sources *from, const double *x, int count, const struct candidate *cause,
+                      double other_place, int held, struct job *to)
+{
+    static const int all[EFFECT_MOST_PARAMETERS] = {1, 1, 1, 1};
+    int status = ROTID_OK;
+    for (int i = 0; i < count && !status; i++) {
+        struct effect effect = cause[i].effect;
+        if (i && !(effect.name = scan_free_name(pool, &to->rotor, cause[i].cause->id)))
+            return ROTID_ERROR_MEMORY;
+        if (!i && isfinite(other_place))
+            effect.value[cause->cause->place] = other_place;
+        status = job_with_effect(pool, i ? to : from->base, i ? NULL : x, &effect, cause[i].cause, held ? all : cause[i].fixed, to);
+    }
+    return status;
+}
+
+static int is_fatal(int status)
+{
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED;
+}
+
+/* The fit from there, kept in *refit where it is better. Statuses of memory and cancellation. */
+static int fit_from(struct pool *pool, const struct sources *from, const double *x, int count, const struct candidate *cause,
+                    double other_place, struct refit *refit)
+{
+    struct job job;
+    rotid_fit_result *held = NULL, *fit = NULL;
+    int status = add_causes(pool, from, x, count, cause, other_place, 1, &job);
+    if (!status && job.unknowns.nparameter) /* the rest follows first: it may be far from where the causes were found */
+        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &held);
+    if (!status)
+        status = add_causes(pool, from, held ? held->x : x, count, cause, other_place, 0, &job);
+    rotid_fit_free(held);
+    if (!status)
+        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &fit);
+    if (status)
+        return is_fatal(status) ? status : ROTID_OK;
+    if (fit->chi2 < refit->chi2)
+        return refit_keep(pool, &job, fit, refit);
+    rotid_fit_free(fit);
+    return ROTID_OK;
+}
+
+static const char *label_of(struct pool *pool, int count, const struct candidate *cause, double other_place)
+{
+    const char *text = candidate_label(pool, cause), *second = count > 1 ? candidate_label(pool, cause + 1) : NULL;
+    if (!text || (count > 1 && !second))
+        return NULL;
+    return second                   ? pool_format(pool, "%s with %s", text, second)
+           : isfinite(other_place) ? pool_format(pool, "%s near %.3g m", text, other_place)
+                                   : text;
 }
 
 /* Fits a rival; one that cannot be fitted is none. */
-static int add(struct pool *pool, const struct job *base, const double *x, const struct candidate *c, const int *number,
-               const int *holdout, double other_place, const rotid_environment *environment, struct rivals *rivals)
+static int add(struct pool *pool, const struct sources *from, int count, const struct candidate *cause, double other_place,
+               struct rivals *rivals)
 {
-    struct candidate there = *c;
     struct rival *rival = &rivals->rival[rivals->n];
-    struct refit refit = {0};
-    struct job job;
-    rotid_fit_result *fit = NULL;
-    if (isfinite(other_place))
-        there.effect.value[c->cause->place] = other_place;
-    int status = add_causes(pool, base, x, &there, &job);
-    if (!status)
-        status = refit_job(pool, &job, number, holdout, environment, &fit);
-    if (status)
-        return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
-    status = refit_keep(pool, &job, fit, &refit);
+    struct refit refit = {.chi2 = INFINITY};
+    int status = fit_from(pool, from, from->x, count, cause, other_place, &refit);
+    if (!status && !(refit.chi2 < cause->result.chi2 + SAME_CHI2)) /* the base may end at a bound, far away */
+        status = fit_from(pool, from, NULL, count, cause, other_place, &refit);
+    if (!status && !(refit.chi2 < SAME_MODEL * cause->result.chi2 + SAME_CHI2)) {
+        rotid_fit_free(refit.fit);
+        rivals->left_out++;
+        return ROTID_OK;
+    }
     if (status)
         return status;
-    const char *name = candidate_label(pool, c);
-    *rival = (struct rival){.label = name, .candidate = c, .job = refit.job, .fit = refit.fit};
-    if (isfinite(other_place) && name)
-        rival->label = pool_format(pool, "%s near %.3g m", name, other_place);
-    rival->score = refit.chi2 + candidate_score(c) - c->result.chi2;
+    *rival = (struct rival){.label = label_of(pool, count, cause, other_place),
+                            .ncause = count,
+                            .cause = cause,
+                            .job = refit.job,
+                            .fit = refit.fit,
+                            .score = refit.chi2};
+    for (int i = 0; i < count; i++)
+        rival->score += candidate_score(&cause[i]) - cause[i].result.chi2;
     rivals->n++;
     return rival->label ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
-static int add_base(struct pool *pool, const struct job *base, const double *x, const int *number, const int *holdout,
-                    const rotid_environment *environment, struct rivals *rivals)
+static int add_base(struct pool *pool, const struct sources *from, struct rivals *rivals)
 {
     struct job job;
     struct refit refit = {0};
     rotid_fit_result *fit = NULL;
-    int status = job_started_at(pool, base, x, &job);
+    int status = job_started_at(pool, from->base, from->x, &job);
     if (!status)
-        status = refit_job(pool, &job, number, holdout, environment, &fit);
+        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &fit);
     if (!status)
         status = refit_keep(pool, &job, fit, &refit);
     if (status)
@@ -70,9 +123,17 @@ static int add_base(struct pool *pool, const struct job *base, const double *x, 
     return ROTID_OK;
 }
 
+static int by_score(const void *left, const void *right)
+{
+    double a = ((const struct rival *)left)->score, b = ((const struct rival *)right)->score;
+    return (a > b) - (a < b);
+}
+
 static void share(struct rivals *rivals)
 {
     double least = INFINITY, sum = 0;
+    if (rivals->n > 1)
+        qsort(rivals->rival, (size_t)rivals->n - 1, sizeof *rivals->rival, by_score);
     for (int i = 0; i + 1 < rivals->n; i++)
         least = fmin(least, rivals->rival[i].score);
     for (int pass = 0; pass < 2; pass++)
@@ -89,36 +150,40 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
 {
     const struct diagnosis_round *last = d->nround ? &d->round[d->nround - 1] : NULL;
     *rivals = (struct rivals){0};
-    if (!last || last->result.kind != ROTID_AMBIGUOUS || !d->base.fit || !last->result.set)
+    if (!last || !d->nalternative || !d->base.fit)
         return ROTID_OK;
     int named = d->extended.fit != NULL, status = ROTID_OK;
-    const struct job *base = named ? &d->extended_job : &d->job;
     const struct identification *fitted = named ? &d->extended : &d->base;
-    const int *number = fitted->compared.number, *holdout = base->measurement.holdout;
-    const double *x = fitted->fit->x;
-    rivals->rival = POOL_ARRAY(pool, struct rival, 2 * MOST_RIVALS + 2);
-    rivals->number = POOL_ARRAY(pool, int, base->measurement.nmode);
+    const struct sources from = {.base = named ? &d->extended_job : &d->job,
+                                 .x = fitted->fit->x,
+                                 .number = fitted->compared.number,
+                                 .environment = environment,
+                                 .holdout = (named ? &d->extended_job : &d->job)->measurement.holdout};
+    int nmode = from.base->measurement.nmode;
+    rivals->rival = POOL_ARRAY(pool, struct rival, MOST_RIVALS + 1);
+    rivals->number = POOL_ARRAY(pool, int, nmode);
     if (!rivals->rival || !rivals->number)
         return ROTID_ERROR_MEMORY;
-    for (int k = 0; k < base->measurement.nmode; k++)
-        if (!holdout[k])
-            rivals->number[rivals->nmode++] = number[k];
+    for (int k = 0; k < nmode; k++)
+        if (!from.holdout[k])
+            rivals->number[rivals->nmode++] = from.number[k];
     rivals->margin = fmax(LEAST_MARGIN, isfinite(last->result.required_margin) ? last->result.required_margin : 0);
     rivals->base_margin = fmax(rivals->margin, CLEAR * last->result.threshold);
-    for (int i = 0; i < last->result.set && i < last->ncandidate && !status; i++) {
-        const struct candidate *c = &last->candidate[i];
-        if (!is_model(c) || !isfinite(c->result.chi2) || rivals->n >= MOST_RIVALS) {
+    for (int i = 0, count; i < d->nalternative && !status; i += count) {
+        const struct candidate *c = &d->alternative[i];
+        count = 1 + (i + 1 < d->nalternative && c[1].set == c->set); /* a pair has one number */
+        if (!is_model(c) || !is_model(&c[count - 1]) || rivals->n >= MOST_RIVALS) {
             rivals->left_out++;
             continue;
         }
-        status = add(pool, base, x, c, number, holdout, NAN, environment, rivals);
-        int elsewhere = !c->with && c->cause->place >= 0 && !c->fixed[c->cause->place] &&
+        status = add(pool, &from, count, c, NAN, rivals);
+        int elsewhere = count == 1 && c->cause->place >= 0 && !c->fixed[c->cause->place] &&
                         c->other_chi2 - c->result.chi2 < rivals->margin;
         if (!status && elsewhere && rivals->n < MOST_RIVALS)
-            status = add(pool, base, x, c, number, holdout, c->other_place, environment, rivals);
+            status = add(pool, &from, count, c, c->other_place, rivals);
     }
     if (!status && rivals->n)
-        status = add_base(pool, base, x, number, holdout, environment, rivals);
+        status = add_base(pool, &from, rivals);
     if (status)
         rivals_free(rivals);
     else

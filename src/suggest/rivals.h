@@ -8,14 +8,15 @@
 
 struct rival {
     const char *label;
-    const struct candidate *candidate; /* NULL: the model as it is */
+    int ncause;                    /* 0 of the model as it is, 2 of a pair */
+    const struct candidate *cause; /* [ncause] */
     struct job job;                    /* with its causes, at the best values */
     rotid_fit_result *fit;             /* to what was measured */
     double score, share;               /* as in rotid.h */
 };
 
 struct rivals {
-    int n; /* the last one is the model as it is */
+    int n; /* best first; the last one is the model as it is */
     struct rival *rival;
     int nmode;           /* fitted ones */
     int *number;         /* [nmode] of the model */
@@ -24,8 +25,8 @@ struct rivals {
     int left_out;        /* of the set: no causes of the rotor, as solids, or beyond the most */
 };
 
-/* Those of the last round of an ambiguous diagnosis, fitted anew: n is 0 where it is not ambiguous, or nothing but the model as
- * it is would be left. The fits are to be freed with rivals_free. Statuses of the fits. */
+/* What a diagnosis leaves as alternatives, beside the causes that it names, each fitted anew: n is 0 where it leaves none that is
+ * a model. The fits are to be freed with rivals_free. Statuses of the fits. */
 int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_environment *environment, struct rivals *rivals);
 void rivals_free(struct rivals *rivals);
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fit/quantile.h"
 #include "suggest/advice.h"
 #include "suggest/candidates.h"
 #include "suggest/plan.h"
@@ -15,6 +16,7 @@
 #define SENSORS         8
 #define MODES           5
 #define REPLICATES      1000
+#define JUDGED          0.01 /* a misfit that noise exceeds less often is no noise */
 
 static int by_size(const void *left, const void *right)
 {
@@ -115,6 +117,22 @@ static int take_diagnosis(struct pool *pool, const struct job *job, const rotid_
     return status;
 }
 
+/* What the chances rest on, and do not hold without. */
+static void note_rivals(struct message_list *notes, const struct rivals *rivals)
+{
+    const rotid_fit_result *best = rivals->n ? rivals->rival[0].fit : NULL;
+    if (rivals->left_out)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "%d of the alternatives of the diagnosis %s left out: not among the first %d, no model of this kind, or not "
+                    "fitted again; the chances of the tests hold among the others",
+                    rivals->left_out, rivals->left_out == 1 ? "is" : "are", MOST_RIVALS);
+    if (best && best->dof > 0 && chi_square_tail(best->chi2, best->dof) < JUDGED)
+        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
+                    "the best of the rivals leaves chi2 %.3g for %d degrees of freedom: perhaps none of them is the true one, and "
+                    "the chances hold only if one is",
+                    best->chi2, best->dof);
+}
+
 static int list_rivals(struct pool *pool, struct suggestion *out)
 {
     rotid_suggestion *r = &out->result;
@@ -160,6 +178,8 @@ static int run(struct pool *pool, const struct job *job, rotid_suggest_options *
     status = first ? plan_run(pool, &out->job, out->x, &places, &request, r, first) : ROTID_ERROR_MEMORY;
     if (!status)
         status = list_rivals(pool, out);
+    if (!status)
+        note_rivals(notes, &out->rivals);
     if (!status && out->rivals.n)
         status = candidates_judge(pool, &places, o, environment, out);
     if (status)
