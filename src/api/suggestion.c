@@ -16,9 +16,15 @@ static int take_options(const rotid_suggest_options *given, char *failure, rotid
     const struct {
         const char *name;
         double value;
-    } number[] = {{"wanted_percent", o->wanted_percent}, {"frequency_noise", o->frequency_noise}, {"shape_noise", o->shape_noise},
-                  {"set_up_cost", o->set_up_cost},       {"sensors", o->sensors},                 {"modes", o->modes},
-                  {"threads", o->threads},               {"replicates", o->replicates},           {"seed", (double)o->seed}};
+    } number[] = {{"wanted_percent", o->wanted_percent},
+                  {"frequency_noise", o->frequency_noise},
+                  {"shape_noise", o->shape_noise},
+                  {"set_up_cost", o->set_up_cost},
+                  {"sensors", o->sensors},
+                  {"modes", o->modes},
+                  {"threads", o->threads},
+                  {"replicates", o->replicates},
+                  {"seed", (double)o->seed}};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
         if (!(number[i].value >= 0 && number[i].value <= 1e12))
             return refuse(failure, "options->%s is %g, expected 0 or more", number[i].name, number[i].value);

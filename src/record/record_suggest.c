@@ -39,42 +39,27 @@ static const struct field place_fields[] = {
 static const struct record place_record = RECORD(rotid_sensor_place, place_fields);
 
 static const struct field rival_fields[] = {
-    TEXT(rotid_rival, label, 0),
-    STRUCTS(rotid_rival, causes, 0, cause_record),
-    NUMBER(rotid_rival, chi2, FROM_0),
-    NUMBER(rotid_rival, score, FROM_0),
-    NUMBER(rotid_rival, share, PROBABILITY),
-    {0},
+    TEXT(rotid_rival, label, 0),        STRUCTS(rotid_rival, causes, 0, cause_record), NUMBER(rotid_rival, chi2, FROM_0),
+    NUMBER(rotid_rival, score, FROM_0), NUMBER(rotid_rival, share, PROBABILITY),       {0},
 };
 static const struct record rival_record = RECORD(rotid_rival, rival_fields);
 
 static const struct field margin_fields[] = {
-    INTEGER(rotid_expected_margin, truth, FROM_0),
-    INTEGER(rotid_expected_margin, rival, FROM_0),
-    NUMBER(rotid_expected_margin, before, 0),
-    NUMBER(rotid_expected_margin, distance, FROM_0),
-    NUMBER(rotid_expected_margin, expected, 0),
-    NUMBER(rotid_expected_margin, refitted, MAY_BE_NULL),
-    NUMBER(rotid_expected_margin, chance, PROBABILITY),
-    {0},
+    INTEGER(rotid_expected_margin, truth, FROM_0),      INTEGER(rotid_expected_margin, rival, FROM_0),
+    NUMBER(rotid_expected_margin, before, 0),           NUMBER(rotid_expected_margin, distance, FROM_0),
+    NUMBER(rotid_expected_margin, expected, 0),         NUMBER(rotid_expected_margin, refitted, MAY_BE_NULL),
+    NUMBER(rotid_expected_margin, chance, PROBABILITY), {0},
 };
 static const struct record margin_record = RECORD(rotid_expected_margin, margin_fields);
 
 static const struct field test_fields[] = {
-    TEXT_OF(rotid_suggested_test, id, 0, tests),
-    TEXT(rotid_suggested_test, text, 0),
-    NUMBER(rotid_suggested_test, cost, FROM_0),
-    INTEGER(rotid_suggested_test, setups, FROM_0),
-    INTEGER(rotid_suggested_test, points, FROM_1),
-    INTEGER(rotid_suggested_test, modes, FROM_1),
-    NUMBERS(rotid_suggested_test, sensors_m, 0),
-    NUMBER(rotid_suggested_test, mass_kg, MAY_BE_NULL | ABOVE_0),
-    NUMBER(rotid_suggested_test, z_m, MAY_BE_NULL),
-    NUMBER(rotid_suggested_test, chance, PROBABILITY),
-    NUMBER(rotid_suggested_test, wrong, PROBABILITY),
-    STRUCTS(rotid_suggested_test, margins, 0, margin_record),
-    TEXT(rotid_suggested_test, cards, MAY_BE_NULL),
-    {0},
+    TEXT_OF(rotid_suggested_test, id, 0, tests),      TEXT(rotid_suggested_test, text, 0),
+    NUMBER(rotid_suggested_test, cost, FROM_0),       INTEGER(rotid_suggested_test, setups, FROM_0),
+    INTEGER(rotid_suggested_test, points, FROM_1),    INTEGER(rotid_suggested_test, modes, FROM_1),
+    NUMBERS(rotid_suggested_test, sensors_m, 0),      NUMBER(rotid_suggested_test, mass_kg, MAY_BE_NULL | ABOVE_0),
+    NUMBER(rotid_suggested_test, z_m, MAY_BE_NULL),   NUMBER(rotid_suggested_test, chance, PROBABILITY),
+    NUMBER(rotid_suggested_test, wrong, PROBABILITY), STRUCTS(rotid_suggested_test, margins, 0, margin_record),
+    TEXT(rotid_suggested_test, cards, MAY_BE_NULL),   {0},
 };
 static const struct record test_record = RECORD(rotid_suggested_test, test_fields);
 

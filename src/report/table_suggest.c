@@ -7,8 +7,9 @@
 
 static void print_plans(FILE *out, const rotid_suggestion *s)
 {
-    (void)fprintf(out, "\nSENSORS  %d modes; gain: how far the standard deviations of moduli and causes fall below those of the\n"
-                       "         frequencies alone; loss: how far they rise without one sensor (geometric means)\n",
+    (void)fprintf(out,
+                  "\nSENSORS  %d modes; gain: how far the standard deviations of moduli and causes fall below those of the\n"
+                  "         frequencies alone; loss: how far they rise without one sensor (geometric means)\n",
                   s->plan_modes);
     (void)fprintf(out, "%-24s gain [%%]", "plan");
     for (int p = 0; p < s->nparameters; p++) {
@@ -35,7 +36,8 @@ static void print_modes(FILE *out, const rotid_suggestion *s)
 {
     if (!s->nmodes || !s->nparameters)
         return;
-    (void)fprintf(out, "\nEXPECTED INTERVALS  half of 95 %%, in percent of the value: by frequencies / with shapes at the first plan\n");
+    (void)fprintf(
+        out, "\nEXPECTED INTERVALS  half of 95 %%, in percent of the value: by frequencies / with shapes at the first plan\n");
     (void)fprintf(out, "modes");
     for (int p = 0; p < s->nparameters; p++) {
         (void)fputs("  ", out);
@@ -118,9 +120,9 @@ static void print_tests(FILE *out, const rotid_suggestion *s, int all)
 {
     if (!s->ntests)
         return;
-    (void)fprintf(out,
-                  "\nTESTS  chance: that the true one of the rivals is named; margin: lead expected of 1, were it true, over (the closest other)\n"
-                  "chance wrong   cost set-ups points modes    margin\n");
+    (void)fprintf(out, "\nTESTS  chance: that the true one of the rivals is named; margin: lead expected of 1, were it true, "
+                       "over (the closest other)\n"
+                       "chance wrong   cost set-ups points modes    margin\n");
     for (int i = 0; i < s->ntests; i++) {
         const rotid_suggested_test *t = &s->tests[i];
         const rotid_expected_margin *m = closest(s, t);
@@ -149,10 +151,11 @@ void table_suggest(FILE *out, const struct result *result, int all)
 {
     const rotid_suggestion *s = result->suggest;
     table_heading(out, &result->head);
-    wrap_text(out, 2, WIDTH, "NEXT  ", s->sentence);
+    (void)fputs("\nSUGGESTION\n", out);
+    wrap_text(out, 2, WIDTH, "  ", s->sentence);
     if (s->verdict)
-        wrap_text(out, 2, WIDTH, "diagnosis: ", s->verdict);
-    (void)fprintf(out, "noise: %.3g %% of frequencies%s, %.3g %% of shapes%s\n", 100 * s->noise.frequency,
+        wrap_text(out, 2, WIDTH, "  diagnosis: ", s->verdict);
+    (void)fprintf(out, "  noise: %.3g %% of frequencies%s, %.3g %% of shapes%s\n", 100 * s->noise.frequency,
                   s->noise.frequency_assumed ? " (assumed)" : "", 100 * s->noise.shape,
                   s->noise.shape_assumed ? " (assumed)" : "");
     print_rivals(out, s);

@@ -1,8 +1,9 @@
 #include "suggest/advice.h"
 
-#include <math.h>
+#include "fit/quantile.h"
 
-#define LIKELY 0.5 /* chance of a name from which on a test is recommended without more ado */
+#define JUDGED 0.01 /* a misfit that noise exceeds less often is no noise */
+#define LIKELY 0.5  /* chance of a name from which on a test is recommended without more ado */
 
 static const char *needed(struct pool *pool, const rotid_suggestion *r)
 {
@@ -39,17 +40,21 @@ static const char *tests(struct pool *pool, const struct suggestion *s)
     for (int i = 0; i < r->ntests; i++)
         if (s->test[i].kind == TEST_AGAIN)
             again = &r->tests[i];
+    const rotid_fit_result *fit = s->rivals.rival[0].fit;
+    int doubtful = s->rivals.left_out || (fit->dof > 0 && chi_square_tail(fit->chi2, fit->dof) < JUDGED);
+    const char *unless = doubtful ? "If one of these rivals is the true one: " : "Next: ";
     const char *who = causes > 1 ? pool_format(pool, "the true one of the %d rivals", causes) : "the one cause that is left";
     const char *instead = again && again != best ? pool_format(pool, "; the same test again: %.2f", again->chance) : "";
     if (!who || !instead)
         return NULL;
     if (best->chance < LIKELY)
-        return pool_format(pool,
-                           "No single test that was tried is likely to name %s; the best is %s, with a chance of %.2f at a cost of "
-                           "%.3g points%s.",
-                           who, best->text, best->chance, best->cost, instead);
-    return pool_format(pool, "Measure %s: %s is then named with a chance of %.2f, at a cost of %.3g points%s.", best->text, who,
-                       best->chance, best->cost, instead);
+        return pool_format(
+            pool,
+            "%sno single test that was tried is likely to name %s; the best is %s, with a chance of %.2f at a cost of "
+            "%.3g points%s.",
+            unless, who, best->text, best->chance, best->cost, instead);
+    return pool_format(pool, "%smeasure %s: %s is then named with a chance of %.2f, at a cost of %.3g points%s.", unless,
+                       best->text, who, best->chance, best->cost, instead);
 }
 
 const char *advice_sentence(struct pool *pool, const struct suggestion *s)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "suggest/joint_fit.h"
 #include "suggest/margin.h"
 #include "suggest/pair_design.h"
 
@@ -15,6 +16,8 @@
 #define AVERAGES      4    /* measurements of a point that halve its noise */
 #define MOVED         0.1  /* of the length */
 #define SAME_CHANCE   0.05 /* that is worth no cost */
+#define MOST_REFITTED 3    /* tests */
+#define MOST_BESIDE   2    /* rivals of the best one */
 #define DRAWS         400  /* a chance to 0.025 */
 
 static const double mass_share[] = {0.05, 0.15}; /* of the rotor */
@@ -285,6 +288,34 @@ static int rank(struct judging *j)
     return status;
 }
 
+/* The linear margins of the best rival in the first tests beside those of nonlinear fits; of a solid these would take too long.
+ */
+static int refit_first(struct judging *j)
+{
+    const struct rivals *rivals = &j->out->rivals;
+    rotid_suggestion *out = &j->out->result;
+    int status = ROTID_OK, solid = rivals->rival[0].job.options.solid;
+    for (int i = 0; i < out->ntests && i < MOST_REFITTED && !solid && !status; i++)
+        for (int k = 0; k < out->tests[i].nmargins && !status; k++) {
+            rotid_expected_margin *m = &out->tests[i].margins[k];
+            const struct rival *b = &rivals->rival[m->rival];
+            struct job_measurement measured;
+            struct pool scratch;
+            double chi2;
+            if (m->truth || m->rival > MOST_BESIDE)
+                continue;
+            pool_open(&scratch, j->pool->allocator);
+            status = joint_measurement(&scratch, &rivals->rival[0], rivals->rival[0].fit->x, &j->out->test[i], &measured);
+            if (!status)
+                status = joint_chi2(&scratch, b, &j->out->test[i], &measured, j->environment, &chi2);
+            pool_close(&scratch);
+            if (!status)
+                m->refitted = m->before + chi2 - b->fit->chi2;
+            status = status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+        }
+    return status;
+}
+
 int candidates_judge(struct pool *pool, const struct places *places, const rotid_suggest_options *options,
                      const rotid_environment *environment, struct suggestion *out)
 {
@@ -312,5 +343,7 @@ int candidates_judge(struct pool *pool, const struct places *places, const rotid
         status = add_masses(&j);
     if (!status)
         status = add_supports(&j);
-    return status ? status : rank(&j);
+    if (!status)
+        status = rank(&j);
+    return status ? status : refit_first(&j);
 }

@@ -15,10 +15,10 @@
 struct design {
     int nmode, nplace, nparam, ntarget;
     int targets_alone; /* nonzero: the value is that of the targets */
-    double *column; /* [nrow * (nparam + ntarget)], nrow = nmode (1 + nplace): frequencies, then shapes mode by mode */
-    double *scale;  /* [nplace * nmode] u_k at all places */
-    double *prior;  /* [nparam * nparam] P, positive definite */
-    double *largest; /* [nplace * nmode] |shape|, largest 1: noise is stated relative to the largest component at S */
+    double *column;    /* [nrow * (nparam + ntarget)], nrow = nmode (1 + nplace): frequencies, then shapes mode by mode */
+    double *scale;     /* [nplace * nmode] u_k at all places */
+    double *prior;     /* [nparam * nparam] P, positive definite */
+    double *largest;   /* [nplace * nmode] |shape|, largest 1: noise is stated relative to the largest component at S */
 };
 
 /* Room for a design. ROTID_OK or ROTID_ERROR_MEMORY. */

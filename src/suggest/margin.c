@@ -12,13 +12,13 @@ static const struct effect_kind nothing = {.id = "none"};
 
 struct side { /* a rival in the state of a test */
     int nrow, n, nscale;
-    double *j;       /* [nrow * n] relative parameters that are not pressed against a bound */
-    double *unit;    /* [nrow * nscale] directions of the scales, orthonormal */
-    double *d;       /* [nrow] */
-    double *factor;  /* [n * n] of H */
-    double *spread;  /* [n * n] factor of J1'J1 + I */
-    double *work;    /* [nrow + n] */
-    double trace;    /* of H^-1 J2'J2 */
+    double *j;      /* [nrow * n] relative parameters that are not pressed against a bound */
+    double *unit;   /* [nrow * nscale] directions of the scales, orthonormal */
+    double *d;      /* [nrow] */
+    double *factor; /* [n * n] of H */
+    double *spread; /* [n * n] factor of J1'J1 + I */
+    double *work;   /* [nrow + n] */
+    double trace;   /* of H^-1 J2'J2 */
 };
 
 /* ------------------------------------------------------------------------------------------------ a rival in a state */
@@ -57,8 +57,7 @@ static int factor_both(struct pool *pool, const struct rival *rival, const int *
     rival_gram(rival, own, s->n, s->spread);
     for (int j = 0; j < s->n; j++)
         for (int i = 0; i < s->n; i++)
-            gram[i + (ptrdiff_t)j * s->n] =
-                product_dot(s->nrow, s->j + (ptrdiff_t)i * s->nrow, s->j + (ptrdiff_t)j * s->nrow);
+            gram[i + (ptrdiff_t)j * s->n] = product_dot(s->nrow, s->j + (ptrdiff_t)i * s->nrow, s->j + (ptrdiff_t)j * s->nrow);
     for (size_t i = 0; i < cells; i++)
         s->factor[i] = s->spread[i] + gram[i];
     for (int i = 0; i < s->n; i++) {

@@ -318,8 +318,7 @@ static int take_optimal(struct planning *p, int n, int *taken)
     if (!room || !counted)
         return ROTID_ERROR_MEMORY;
     status = design_choose(p->pool, 1, p->design, p->modes, p->places->z, p->places->apart, MOST_COUNTED, count_one, p, counted);
-    return status ? status
-                  : design_choose(p->pool, 1, p->design, p->modes, p->places->z, p->places->apart, n, NULL, NULL, taken);
+    return status ? status : design_choose(p->pool, 1, p->design, p->modes, p->places->z, p->places->apart, n, NULL, NULL, taken);
 }
 
 static int shapes_of(struct planning *p, double **shape)

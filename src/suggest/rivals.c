@@ -11,7 +11,7 @@
 #define SAME_MODEL 2.0 /* times chi2: beyond that the fit did not find what the diagnosis had found */
 #define CLEAR      2.0 /* times the threshold of the scan: the drop that a name needs, as in decide.c */
 
-struct sources { /* of rivals */
+struct sources {            /* of rivals */
     const struct job *base; /* the model with what is named */
     const double *x;        /* [nparameter] its values */
     const int *number, *holdout;
@@ -36,7 +36,8 @@ static int add_causes(struct pool *pool, const struct sources *from, const doubl
             return ROTID_ERROR_MEMORY;
         if (!i && isfinite(other_place))
             effect.value[cause->cause->place] = other_place;
-        status = job_with_effect(pool, i ? to : from->base, i ? NULL : x, &effect, cause[i].cause, held ? all : cause[i].fixed, to);
+        status =
+            job_with_effect(pool, i ? to : from->base, i ? NULL : x, &effect, cause[i].cause, held ? all : cause[i].fixed, to);
     }
     return status;
 }
@@ -73,7 +74,7 @@ static const char *label_of(struct pool *pool, int count, const struct candidate
     const char *text = candidate_label(pool, cause), *second = count > 1 ? candidate_label(pool, cause + 1) : NULL;
     if (!text || (count > 1 && !second))
         return NULL;
-    return second                   ? pool_format(pool, "%s with %s", text, second)
+    return second                  ? pool_format(pool, "%s with %s", text, second)
            : isfinite(other_place) ? pool_format(pool, "%s near %.3g m", text, other_place)
                                    : text;
 }
@@ -177,8 +178,8 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
             continue;
         }
         status = add(pool, &from, count, c, NAN, rivals);
-        int elsewhere = count == 1 && c->cause->place >= 0 && !c->fixed[c->cause->place] &&
-                        c->other_chi2 - c->result.chi2 < rivals->margin;
+        int elsewhere =
+            count == 1 && c->cause->place >= 0 && !c->fixed[c->cause->place] && c->other_chi2 - c->result.chi2 < rivals->margin;
         if (!status && elsewhere && rivals->n < MOST_RIVALS)
             status = add(pool, &from, count, c, c->other_place, rivals);
     }

@@ -10,19 +10,19 @@ struct rival {
     const char *label;
     int ncause;                    /* 0 of the model as it is, 2 of a pair */
     const struct candidate *cause; /* [ncause] */
-    struct job job;                    /* with its causes, at the best values */
-    rotid_fit_result *fit;             /* to what was measured */
-    double score, share;               /* as in rotid.h */
+    struct job job;                /* with its causes, at the best values */
+    rotid_fit_result *fit;         /* to what was measured */
+    double score, share;           /* as in rotid.h */
 };
 
 struct rivals {
     int n; /* best first; the last one is the model as it is */
     struct rival *rival;
-    int nmode;           /* fitted ones */
-    int *number;         /* [nmode] of the model */
-    double margin;       /* lead over another rival that is needed for a name */
-    double base_margin;  /* the same over the model as it is */
-    int left_out;        /* of the set: no causes of the rotor, as solids, or beyond the most */
+    int nmode;          /* fitted ones */
+    int *number;        /* [nmode] of the model */
+    double margin;      /* lead over another rival that is needed for a name */
+    double base_margin; /* the same over the model as it is */
+    int left_out;       /* of the set: no causes of the rotor, as solids, or beyond the most */
 };
 
 /* What a diagnosis leaves as alternatives, beside the causes that it names, each fitted anew: n is 0 where it leaves none that is

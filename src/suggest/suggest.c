@@ -48,8 +48,8 @@ static void settle(struct pool *pool, const struct job *job, rotid_suggest_optio
     if (!(o->frequency_noise > 0))
         o->frequency_noise = m->nmode ? median(pool, m->nmode, m->frequency_std) : m->stated_frequency_noise;
     if (!(o->shape_noise > 0))
-        o->shape_noise =
-            m->shape && m->shape_std ? median(pool, (ptrdiff_t)m->nmode * job->rotor.nsensor, m->shape_std) : m->stated_shape_noise;
+        o->shape_noise = m->shape && m->shape_std ? median(pool, (ptrdiff_t)m->nmode * job->rotor.nsensor, m->shape_std)
+                                                  : m->stated_shape_noise;
     *noise = (rotid_noise){.frequency_assumed = !(o->frequency_noise > 0), .shape_assumed = !(o->shape_noise > 0)};
     o->frequency_noise = noise->frequency = o->frequency_noise > 0 ? o->frequency_noise : FREQUENCY_NOISE;
     o->shape_noise = noise->shape = o->shape_noise > 0 ? o->shape_noise : SHAPE_NOISE;
@@ -127,10 +127,11 @@ static void note_rivals(struct message_list *notes, const struct rivals *rivals)
                     "fitted again; the chances of the tests hold among the others",
                     rivals->left_out, rivals->left_out == 1 ? "is" : "are", MOST_RIVALS);
     if (best && best->dof > 0 && chi_square_tail(best->chi2, best->dof) < JUDGED)
-        message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the best of the rivals leaves chi2 %.3g for %d degrees of freedom: perhaps none of them is the true one, and "
-                    "the chances hold only if one is",
-                    best->chi2, best->dof);
+        message_add(
+            notes, SEVERITY_WARNING, NULL, 0, 0,
+            "the best of the rivals leaves chi2 %.3g for %d degrees of freedom: perhaps none of them is the true one, and "
+            "the chances hold only if one is",
+            best->chi2, best->dof);
 }
 
 static int list_rivals(struct pool *pool, struct suggestion *out)
@@ -139,8 +140,8 @@ static int list_rivals(struct pool *pool, struct suggestion *out)
     int n = POOL_LIST(pool, r->rivals, out->rivals.n);
     for (int i = 0; i < n; i++) {
         const struct rival *rival = &out->rivals.rival[i];
-        r->rivals[r->nrivals++] = (rotid_rival){
-            .label = rival->label, .chi2 = rival->fit->chi2, .score = rival->score, .share = rival->share};
+        r->rivals[r->nrivals++] =
+            (rotid_rival){.label = rival->label, .chi2 = rival->fit->chi2, .score = rival->score, .share = rival->share};
     }
     return n == out->rivals.n ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
@@ -150,7 +151,8 @@ static int run(struct pool *pool, const struct job *job, rotid_suggest_options *
 {
     rotid_suggestion *r = &out->result;
     struct places places;
-    int *first, status = job->measurement.nmode ? take_diagnosis(pool, job, o, environment, notes, out) : take_starts(pool, job, out);
+    int *first,
+        status = job->measurement.nmode ? take_diagnosis(pool, job, o, environment, notes, out) : take_starts(pool, job, out);
     if (!status)
         settle(pool, &out->job, o, &r->noise);
     r->wanted_percent = o->wanted_percent;
