@@ -99,7 +99,7 @@ static void structs_of_hosts_say_their_size(void **state)
 {
     (void)state;
     static const char *const fixed[] = {"rotid_allocator", "rotid_parameter", "rotid_matrix", "rotid_lm_result"};
-    static const char *const sized[] = {"rotid_environment", "rotid_diagnose_options", "rotid_model",     "rotid_measured",
+    static const char *const sized[] = {"rotid_environment", "rotid_diagnose_options", "rotid_suggest_options", "rotid_model",     "rotid_measured",
                                         "rotid_state",       "rotid_fit_options",      "rotid_lm_options"};
     struct header header;
     int count = 0;
