@@ -314,9 +314,13 @@ static const struct {
     const char *effect;
     double noise;
     unsigned seed;
-} ambiguous[] = {{"stiffness:group=right,factor=0.93", 0.002, 5}, {"added_mass:mass=0.25,z=0.58", 0.001, 4}};
+    double nonlinear; /* of the distance: beside a zone whose place and width are open, columns at its best place are no more */
+    int draws;
+} ambiguous[] = {{"density:group=left,factor=1.04", 0.001, 1, 0.02, 8},
+                 {"joint:at=core.end,flexibility=2e-7", 0.001, 1, 0.05, 0},
+                 {"stiffness:group=right,factor=0.93", 0.002, 5, 0.45, 6}};
 #define CASES ((int)(sizeof ambiguous / sizeof *ambiguous))
-#define DRAWS 12
+#define DRAWS 8 /* at most */
 
 static const rotid_expected_margin *first_margin(const rotid_suggested_test *t)
 {
@@ -357,21 +361,22 @@ static void a_lead_that_is_promised_is_found(void **state)
         for (int r = 0; r + 1 < s.rivals.n; r++)
             shares += s.rivals.rival[r].share;
         assert_close(shares, 1, 1e-12, 0);
-        for (int t = 0; t < s.result.ntests; t += 2) {
+        for (int t = 0; t < 3; t++) { /* those that are refitted */
             const rotid_expected_margin *m = first_margin(&s.result.tests[t]);
             const struct rival *a = &s.rivals.rival[0], *b = &s.rivals.rival[1];
             double value[DRAWS], x[8], error;
-            if (isfinite(m->refitted))
-                assert_close(m->before + m->distance, m->refitted, 0.1, 0.5);
-            for (int i = 0; i < DRAWS; i++) {
+            assert_close(m->distance, m->refitted - m->before, ambiguous[c].nonlinear, 0.1);
+            if (t == 1 || !ambiguous[c].draws)
+                continue;
+            for (int i = 0; i < ambiguous[c].draws; i++) {
                 struct job_measurement measured;
                 draw_truth(&stream, a, x);
                 assert_int_equal(joint_measurement(&test_pool, a, x, &s.test[t], &measured), 0);
                 add_noise(&stream, &measured, s.test[t].nsensor);
                 value[i] = lead(a, b, &s.test[t], &measured);
             }
-            double mean = mean_of(DRAWS, value, &error);
-            if (fabs(mean - m->expected) > 3.5 * error + 0.1 * fabs(m->expected))
+            double mean = mean_of(ambiguous[c].draws, value, &error);
+            if (fabs(mean - m->expected) > 3.5 * error + ambiguous[c].nonlinear * m->distance)
                 fail_msg("case %d, %s: expected %g, found %g +- %g", c, s.result.tests[t].text, m->expected, mean, error);
         }
         suggest_free(&s);
@@ -388,6 +393,7 @@ static void the_oracle_keeps_the_promise(void **state)
     struct message_list notes;
     struct job job;
     int compared = 0;
+    double heavy = 0;
     (void)state;
     make_job(shaft, ambiguous[0].effect, ambiguous[0].noise, ambiguous[0].seed, &job);
     message_open(&notes, &test_pool);
@@ -396,9 +402,10 @@ static void the_oracle_keeps_the_promise(void **state)
         const struct test *test = &s.test[t];
         const rotid_expected_margin *m = first_margin(&s.result.tests[t]);
         double value[DRAWS], error;
-        char *deck = (char *)shaft;
-        if (test->kind != TEST_AGAIN && test->kind != TEST_MASS)
+        const char *deck = shaft;
+        if (test->kind != TEST_AGAIN && (test->kind != TEST_MASS || !(m->distance > heavy)))
             continue;
+        heavy = test->kind == TEST_MASS ? INFINITY : heavy; /* one of them is enough */
         if (test->kind == TEST_MASS)
             deck = pool_format(&test_pool, "%s*DISK\n%.17g, %.17g\n", shaft, test->z, test->mass);
         for (int i = 0; i < DRAWS; i++) {
@@ -411,7 +418,7 @@ static void the_oracle_keeps_the_promise(void **state)
             fail_msg("%s: expected %g +- %g, found %g +- %g", s.result.tests[t].text, m->expected, deviation, mean, error);
         compared++;
     }
-    assert_int_equal(compared, 3);
+    assert_int_equal(compared, 2);
     suggest_free(&s);
 }
 
@@ -432,7 +439,7 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
     struct states states;
     (void)state;
     message_open(&messages, &test_pool);
-    assert_int_equal(deck_read_states(&test_pool, NULL, &memory, 0, NULL, &messages, &states), 0);
+    assert_int_equal(deck_read_states(&test_pool, memory.name, &memory, 0, NULL, &messages, &states), 0);
     job = states.state[0].job;
     rotid_deck_free(deck);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -451,16 +458,13 @@ static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
         assert_int_equal(deck_add_state(&test_pool, old, cards, &text), 0);
         assert_int_equal(strncmp(text, "** my shaft\n", 12), 0);
         assert_non_null(strstr(text, "*STATE, NAME=measured\n*MODES\n1, 200\n"));
-        deck = read_text(text);
-        assert_int_equal(deck->nstate, 2);
-        assert_int_equal(deck->state[0]->nmode, 2);
-        assert_int_equal(deck->state[1]->nmode, 0);
-        assert_int_equal(deck->state[1]->nsensor, 3);
-        assert_close(deck->state[1]->mass - deck->state[0]->mass, kinds[i] == TEST_MASS ? 0.5 : 0, 1e-9, 1e-12);
-        rotid_deck_free(deck);
         /* with its measurements in it, it is fitted; a support that was changed has a stiffness of its own */
         text = pool_format(&test_pool, "%s*MODES\n1, 199\n2, 548\n", text);
         deck = read_text(text);
+        assert_int_equal(deck->nstate, 2);
+        assert_int_equal(deck->state[0]->nmode, 2);
+        assert_int_equal(deck->state[1]->nsensor, 3);
+        assert_close(deck->state[1]->mass - deck->state[0]->mass, kinds[i] == TEST_MASS ? 0.5 : 0, 1e-9, 1e-12);
         rotid_identification *fit;
         if (rotid_identify(deck, 0, NULL, failure, &fit))
             fail_msg("%s", failure);
