@@ -21,6 +21,7 @@ void section_rests_on(struct document *document, int count, const struct result 
 void section_rotor(struct document *document, const struct result *result, const rotid_identification *fit);
 void section_identify(struct document *document, const struct result *result);
 void section_diagnose(struct document *document, const struct result *result);
+void section_suggest(struct document *document, const struct result *result);
 void section_study(struct document *document, const struct result *result);
 void section_modes(struct document *document, const struct result *result);
 void section_sensitivity(struct document *document, const struct result *result);

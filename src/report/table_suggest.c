@@ -3,9 +3,10 @@
 #include "report/layout.h"
 #include "report/table.h"
 
-#define WIDTH 100
+#define WIDTH       100
+#define MOST_LISTED 24 /* sensors; more with --verbose */
 
-static void print_plans(FILE *out, const rotid_suggestion *s)
+static void print_plans(FILE *out, const rotid_suggestion *s, int all)
 {
     (void)fprintf(out,
                   "\nSENSORS  %d modes; gain: how far the standard deviations of moduli and causes fall below those of the\n"
@@ -25,6 +26,8 @@ static void print_plans(FILE *out, const rotid_suggestion *s)
         for (int p = 0; p < plan->nhalf_width_percent; p++)
             number_cell(out, 13, 3, plan->half_width_percent[p]);
         (void)fputc('\n', out);
+        if (plan->nz_m > MOST_LISTED && !all)
+            continue;
         wrap_open(&wrap, out, 6, WIDTH, "    z: ");
         for (int k = 0; k < plan->nz_m; k++)
             wrap_item(&wrap, "%.4g m (%.2g %%)%s", plan->z_m[k], plan->loss_percent[k], k + 1 < plan->nz_m ? "," : "");
@@ -161,6 +164,6 @@ void table_suggest(FILE *out, const struct result *result, int all)
     print_rivals(out, s);
     print_tests(out, s, all);
     print_modes(out, s);
-    print_plans(out, s);
+    print_plans(out, s, all);
     print_limits(out, s);
 }

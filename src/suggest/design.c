@@ -313,9 +313,10 @@ int effective_independence(struct pool *pool, int nplace, int modes, const doubl
     double *fisher = POOL_ARRAY(pool, double, square), *row = POOL_ARRAY(pool, double, modes);
     if (!fisher || !row)
         return ROTID_ERROR_MEMORY;
+    int count = 0;
     for (int i = 0; i < nplace; i++)
-        taken[i] = 1;
-    for (int left = nplace; left > n && left > modes; left--) {
+        count += taken[i];
+    for (int left = count; left > n && left > modes; left--) {
         int least = -1;
         double smallest = INFINITY;
         memset(fisher, 0, square * sizeof *fisher);

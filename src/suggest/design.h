@@ -52,8 +52,8 @@ int design_choose(struct pool *pool, int ndesign, const struct design *design, i
 /* Mean value of the designs, likewise. */
 int design_value(struct pool *pool, int ndesign, const struct design *design, int modes, const int *taken, double *value);
 
-/* Effective independence: of all places the one of the least leverage phi_i'(Phi'Phi)^-1 phi_i goes, until n are left. shape
- * [nplace * modes]. ROTID_OK, ROTID_ERROR_MEMORY or _RANK (fewer places than modes). */
+/* Effective independence: of the places in `taken` [nplace] the one of the least leverage phi_i'(Phi'Phi)^-1 phi_i goes, until n
+ * are left. shape [nplace * modes]. ROTID_OK, ROTID_ERROR_MEMORY or _RANK (fewer places than modes). */
 int effective_independence(struct pool *pool, int nplace, int modes, const double *shape, int n, int *taken);
 
 #endif

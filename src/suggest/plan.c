@@ -10,6 +10,7 @@
 #define MOST_PLACES  100
 #define MOST_COUNTED 24   /* sensors; beyond that a plan is no longer the question */
 #define APART        0.02 /* of the length: nearer sensors share their noise, and seldom fit beside each other */
+#define SPREAD       0.5  /* of the distance of that many sensors spread evenly: where there are many they come nearer */
 #define LEAST_MODES  2
 #define MOST_MODES   8 /* of the list: a hammer seldom excites more */
 #define CAUSE_PLACES 9 /* where a cause that has a place is looked for */
@@ -23,22 +24,24 @@ int places_find(struct pool *pool, const struct job *job, struct places *places)
     int failed, status = model ? model_open(pool, job->models, rotor, 0, NULL, 1, model, &failed) : ROTID_ERROR_MEMORY;
     if (status)
         return status;
-    double length = rotor_length(rotor);
-    int stride = (model->naxis + MOST_PLACES - 1) / MOST_PLACES;
-    *places = (struct places){.z = POOL_ARRAY(pool, double, model->naxis + rotor->nsensor),
-                              .deck = POOL_ARRAY(pool, int, model->naxis + rotor->nsensor),
-                              .apart = APART * length};
-    if (!places->z || !places->deck)
+    int stride = (model->naxis + MOST_PLACES - 1) / MOST_PLACES, *sensor = POOL_ARRAY(pool, int, model->naxis);
+    *places = (struct places){.z = POOL_ARRAY(pool, double, model->naxis),
+                              .deck = POOL_ARRAY(pool, int, model->naxis),
+                              .apart = APART * rotor_length(rotor)};
+    if (!places->z || !places->deck || !sensor)
         return ROTID_ERROR_MEMORY;
-    for (int i = 0, s = 0; i <= model->naxis; i++) {
-        double z = i < model->naxis ? model->z[i] : INFINITY;
-        for (; s < rotor->nsensor && rotor->sensor[s].position <= z + 1e-9 * length; s++) {
-            places->deck[places->n] = 1;
-            places->z[places->n++] = rotor->sensor[s].position;
-        }
-        int alone = !places->n || z - places->z[places->n - 1] > 1e-6 * length;
-        if (i < model->naxis && i % stride == 0 && alone)
-            places->z[places->n++] = z;
+    for (int s = 0; s < rotor->nsensor; s++) { /* a sensor near a node is read there: no other one has room */
+        int node = 0;
+        for (int i = 1; i < model->naxis; i++)
+            if (fabs(model->z[i] - rotor->sensor[s].position) < fabs(model->z[node] - rotor->sensor[s].position))
+                node = i;
+        sensor[node] = s + 1;
+    }
+    for (int i = 0; i < model->naxis; i++) {
+        if (!sensor[i] && i % stride)
+            continue;
+        places->deck[places->n] = sensor[i] > 0;
+        places->z[places->n++] = sensor[i] ? rotor->sensor[sensor[i] - 1].position : model->z[i];
     }
     return ROTID_OK;
 }
@@ -311,14 +314,14 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
 
 /* ------------------------------------------------------------------------------------------------ all of it */
 
-static int take_optimal(struct planning *p, int n, int *taken)
+static int take_optimal(struct planning *p, int n, double apart, int *taken)
 {
     int room = POOL_LIST(p->pool, p->out->counts, MOST_COUNTED + 1), status;
     int *counted = POOL_ARRAY(p->pool, int, p->places->n);
     if (!room || !counted)
         return ROTID_ERROR_MEMORY;
-    status = design_choose(p->pool, 1, p->design, p->modes, p->places->z, p->places->apart, MOST_COUNTED, count_one, p, counted);
-    return status ? status : design_choose(p->pool, 1, p->design, p->modes, p->places->z, p->places->apart, n, NULL, NULL, taken);
+    status = design_choose(p->pool, 1, p->design, p->modes, p->places->z, apart, MOST_COUNTED, count_one, p, counted);
+    return status ? status : design_choose(p->pool, 1, p->design, p->modes, p->places->z, apart, n, NULL, NULL, taken);
 }
 
 static int shapes_of(struct planning *p, double **shape)
@@ -330,13 +333,23 @@ static int shapes_of(struct planning *p, double **shape)
     return *shape ? ROTID_OK : ROTID_ERROR_MEMORY;
 }
 
+/* The places that effective independence begins with keep the same distance: else neighbours that say the same count twice. */
+static void start_apart(const struct places *places, double apart, int *taken)
+{
+    double last = -INFINITY;
+    for (int i = 0; i < places->n; i++) {
+        taken[i] = places->z[i] - last >= apart * (1 - 1e-9);
+        last = taken[i] ? places->z[i] : last;
+    }
+}
+
 int plan_run(struct pool *pool, const struct job *job, const double *x, const struct places *places,
              const struct plan_request *request, rotid_suggestion *out, int *first)
 {
     struct design *design = POOL_NEW(pool, struct design);
     int most = request->modes > MOST_MODES ? request->modes : MOST_MODES, status = ROTID_ERROR_ARGUMENT, deck = 0;
     int *optimal = POOL_ARRAY(pool, int, places->n), *classic = POOL_ARRAY(pool, int, places->n);
-    double *shape;
+    double *shape, apart = fmin(places->apart, SPREAD / request->sensors * rotor_length(&job->rotor));
     if (!design || !optimal || !classic || !POOL_LIST(pool, out->plans, 3))
         return ROTID_ERROR_MEMORY;
     for (; status == ROTID_ERROR_ARGUMENT && most >= LEAST_MODES; most--) /* a coarse model has fewer */
@@ -352,13 +365,15 @@ int plan_run(struct pool *pool, const struct job *job, const double *x, const st
     if (!status && deck)
         status = add_plan(&p, "deck", first);
     if (!status)
-        status = take_optimal(&p, request->sensors, optimal);
+        status = take_optimal(&p, request->sensors, apart, optimal);
     if (!status && !deck)
         memcpy(first, optimal, (size_t)places->n * sizeof *first);
     if (!status)
         status = add_plan(&p, "optimal", optimal);
     if (!status)
         status = shapes_of(&p, &shape);
+    if (!status)
+        start_apart(places, apart, classic);
     if (!status)
         status = effective_independence(pool, places->n, p.modes, shape, request->sensors, classic);
     if (!status)
