@@ -272,30 +272,39 @@ static int exchange(struct choice *c, const int *fixed)
     return status;
 }
 
+/* With the places that are taken. */
+static int choice_open(struct pool *pool, struct choice *c)
+{
+    c->sums = POOL_ARRAY(pool, struct sums, c->ndesign);
+    c->work = POOL_ARRAY(pool, double *, c->ndesign);
+    if (!c->sums || !c->work)
+        return ROTID_ERROR_MEMORY;
+    for (int d = 0; d < c->ndesign; d++)
+        if (sums_new(pool, &c->design[d], c->modes, &c->sums[d]) || !(c->work[d] = work_for(pool, &c->design[d])))
+            return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < c->nplace; i++)
+        if (c->taken[i])
+            change(c, i, 1);
+    return ROTID_OK;
+}
+
+int design_improve(struct pool *pool, int ndesign, const struct design *design, int modes, const double *z, double apart,
+                   int *taken)
+{
+    struct choice c = {
+        .ndesign = ndesign, .design = design, .modes = modes, .nplace = design->nplace, .z = z, .apart = apart, .taken = taken};
+    int *fixed = POOL_ARRAY(pool, int, c.nplace), status = fixed ? choice_open(pool, &c) : ROTID_ERROR_MEMORY;
+    return status ? status : exchange(&c, fixed);
+}
+
 int design_choose(struct pool *pool, int ndesign, const struct design *design, int modes, const double *z, double apart, int n,
                   int (*told)(void *context, const int *taken), void *context, int *taken)
 {
-    int count = 0, nplace = ndesign ? design[0].nplace : 0, status = ROTID_OK, *fixed = POOL_ARRAY(pool, int, nplace);
-    struct choice c = {.ndesign = ndesign,
-                       .design = design,
-                       .modes = modes,
-                       .nplace = nplace,
-                       .sums = POOL_ARRAY(pool, struct sums, ndesign),
-                       .work = POOL_ARRAY(pool, double *, ndesign),
-                       .z = z,
-                       .apart = apart,
-                       .taken = taken};
-    if (!c.sums || !c.work || !fixed)
-        return ROTID_ERROR_MEMORY;
-    for (int d = 0; d < ndesign; d++)
-        if (sums_new(pool, &design[d], modes, &c.sums[d]) || !(c.work[d] = work_for(pool, &design[d])))
-            return ROTID_ERROR_MEMORY;
-    for (int i = 0; i < nplace; i++)
-        if (taken[i]) {
-            fixed[i] = 1;
-            count++;
-            change(&c, i, 1);
-        }
+    struct choice c = {
+        .ndesign = ndesign, .design = design, .modes = modes, .nplace = design->nplace, .z = z, .apart = apart, .taken = taken};
+    int count = 0, *fixed = POOL_ARRAY(pool, int, c.nplace), status = fixed ? choice_open(pool, &c) : ROTID_ERROR_MEMORY;
+    for (int i = 0; i < c.nplace && !status; i++)
+        count += fixed[i] = taken[i];
     for (int best = 0; count < n && best >= 0 && !status;) {
         status = best_addition(&c, -INFINITY, &best);
         if (status || best < 0)

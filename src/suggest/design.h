@@ -49,6 +49,10 @@ int design_half_widths(struct pool *pool, int nparam, const double *gram, double
 int design_choose(struct pool *pool, int ndesign, const struct design *design, int modes, const double *z, double apart, int n,
                   int (*told)(void *context, const int *taken), void *context, int *taken);
 
+/* The exchanges alone, of all that are taken. Statuses likewise. */
+int design_improve(struct pool *pool, int ndesign, const struct design *design, int modes, const double *z, double apart,
+                   int *taken);
+
 /* Mean value of the designs, likewise. */
 int design_value(struct pool *pool, int ndesign, const struct design *design, int modes, const int *taken, double *value);
 

@@ -314,14 +314,45 @@ static int list_detectable(struct planning *p, const struct job *job, const doub
 
 /* ------------------------------------------------------------------------------------------------ all of it */
 
-static int take_optimal(struct planning *p, int n, double apart, int *taken)
+static int count_of(int n, const int *taken)
 {
-    int room = POOL_LIST(p->pool, p->out->counts, MOST_COUNTED + 1), status;
-    int *counted = POOL_ARRAY(p->pool, int, p->places->n);
-    if (!room || !counted)
+    int count = 0;
+    for (int i = 0; i < n; i++)
+        count += taken[i];
+    return count;
+}
+
+/* taken := other, improved, where that is better. */
+static int take_better(struct planning *p, double apart, int *other, int *taken)
+{
+    double value, with;
+    int status = design_improve(p->pool, 1, p->design, p->modes, p->places->z, apart, other);
+    if (!status)
+        status = design_value(p->pool, 1, p->design, p->modes, taken, &value);
+    if (!status)
+        status = design_value(p->pool, 1, p->design, p->modes, other, &with);
+    if (!status && with > value)
+        memcpy(taken, other, (size_t)p->places->n * sizeof *taken);
+    return status;
+}
+
+/* One after the other from none, and by exchanges from the classic and from places spread evenly: none of them alone is always
+ * the best. */
+static int take_optimal(struct planning *p, int n, double apart, const int *classic, int *taken)
+{
+    int places = p->places->n, status, *counted = POOL_ARRAY(p->pool, int, places), *other = POOL_ARRAY(p->pool, int, places);
+    if (!POOL_LIST(p->pool, p->out->counts, MOST_COUNTED + 1) || !counted || !other)
         return ROTID_ERROR_MEMORY;
     status = design_choose(p->pool, 1, p->design, p->modes, p->places->z, apart, MOST_COUNTED, count_one, p, counted);
-    return status ? status : design_choose(p->pool, 1, p->design, p->modes, p->places->z, apart, n, NULL, NULL, taken);
+    if (!status)
+        status = design_choose(p->pool, 1, p->design, p->modes, p->places->z, apart, n, NULL, NULL, taken);
+    memcpy(other, classic, (size_t)places * sizeof *other);
+    if (!status && count_of(places, classic) == n) /* it has one for each mode at least */
+        status = take_better(p, apart, other, taken);
+    memset(other, 0, (size_t)places * sizeof *other);
+    for (int i = 0; i < n; i++)
+        other[(int)((i + 0.5) / n * places)] = 1;
+    return status || n > places ? status : take_better(p, apart, other, taken);
 }
 
 static int shapes_of(struct planning *p, double **shape)
@@ -349,7 +380,7 @@ int plan_run(struct pool *pool, const struct job *job, const double *x, const st
     struct design *design = POOL_NEW(pool, struct design);
     int most = request->modes > MOST_MODES ? request->modes : MOST_MODES, status = ROTID_ERROR_ARGUMENT, deck = 0;
     int *optimal = POOL_ARRAY(pool, int, places->n), *classic = POOL_ARRAY(pool, int, places->n);
-    double *shape, apart = fmin(places->apart, SPREAD / request->sensors * rotor_length(&job->rotor));
+    double *shape = NULL, apart = fmin(places->apart, SPREAD / request->sensors * rotor_length(&job->rotor));
     if (!design || !optimal || !classic || !POOL_LIST(pool, out->plans, 3))
         return ROTID_ERROR_MEMORY;
     for (; status == ROTID_ERROR_ARGUMENT && most >= LEAST_MODES; most--) /* a coarse model has fewer */
@@ -365,17 +396,16 @@ int plan_run(struct pool *pool, const struct job *job, const double *x, const st
     if (!status && deck)
         status = add_plan(&p, "deck", first);
     if (!status)
-        status = take_optimal(&p, request->sensors, apart, optimal);
+        status = shapes_of(&p, &shape);
+    start_apart(places, apart, classic);
+    if (!status)
+        status = effective_independence(pool, places->n, p.modes, shape, request->sensors, classic);
+    if (!status)
+        status = take_optimal(&p, request->sensors, apart, classic, optimal);
     if (!status && !deck)
         memcpy(first, optimal, (size_t)places->n * sizeof *first);
     if (!status)
         status = add_plan(&p, "optimal", optimal);
-    if (!status)
-        status = shapes_of(&p, &shape);
-    if (!status)
-        start_apart(places, apart, classic);
-    if (!status)
-        status = effective_independence(pool, places->n, p.modes, shape, request->sensors, classic);
     if (!status)
         status = add_plan(&p, "effective_independence", classic);
     if (!status)
