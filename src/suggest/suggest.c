@@ -1,9 +1,9 @@
 #include "suggest/suggest.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/order.h"
 #include "fit/quantile.h"
 #include "suggest/advice.h"
 #include "suggest/candidates.h"
@@ -18,24 +18,15 @@
 #define REPLICATES      1000
 #define JUDGED          0.01 /* a misfit that noise exceeds less often is no noise */
 
-static int by_size(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /* Median of those that are finite; 0 without any. */
 static double median(struct pool *pool, ptrdiff_t n, const double *value)
 {
-    double *sorted = POOL_ARRAY(pool, double, n);
+    double *known = POOL_ARRAY(pool, double, n);
     size_t count = 0;
-    for (ptrdiff_t i = 0; sorted && i < n; i++)
+    for (ptrdiff_t i = 0; known && i < n; i++)
         if (isfinite(value[i]))
-            sorted[count++] = value[i];
-    if (!count)
-        return 0;
-    qsort(sorted, count, sizeof *sorted, by_size);
-    return sorted[count / 2];
+            known[count++] = value[i];
+    return count ? median_of(count, known) : 0;
 }
 
 /* What the deck and the user leave open. */
