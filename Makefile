@@ -226,14 +226,14 @@ figures: all
 # WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
 LONGEST := $(addprefix $(BUILD)/tests/test_,chain hidden_effects diagnose diagnose_cases diagnose_bounds limits embedding held_mesh \
            ema_statistics accelerometer study_run page_input hidden_faults api_cancel install sensor_check)
-# Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis.
+# Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all rows of hidden_effects.
 LONG := hidden_numbers hidden_rivals hidden_pairs power
 TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: all $(TESTED)
 	@sh tools/run-tests $(TESTED)
 .PHONY: test-long
-test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG))
-	@sh tools/run-tests $(addprefix $(BUILD)/tests/test_,$(LONG))
+test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects)
+	@ROTID_LONG=1 sh tools/run-tests $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects)
 
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)

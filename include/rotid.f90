@@ -900,13 +900,14 @@ module rotid
   end type rotid_state
 
   type, bind(C) :: rotid_fit_options
-    integer(c_size_t) :: size = 56
+    integer(c_size_t) :: size = 64
     integer(c_int) :: functional = 0, reduction = 0, derivative = 0
     integer(c_int) :: baseline = 0
     integer(c_int) :: max_iterations = 0
     real(c_double) :: gradient_tolerance = 0
     real(c_double) :: step_tolerance = 0
     real(c_double) :: bijection_chi = 0
+    real(c_double) :: decrease_tolerance = 0
   end type rotid_fit_options
 
   type, bind(C) :: rotid_fit_iteration
@@ -968,7 +969,7 @@ module rotid
   end type rotid_lm_iteration
 
   type, bind(C) :: rotid_lm_options
-    integer(c_size_t) :: size = 64
+    integer(c_size_t) :: size = 72
     integer(c_int) :: max_iterations = 0
     real(c_double) :: gradient_tolerance = 0
     real(c_double) :: step_tolerance = 0
@@ -976,6 +977,7 @@ module rotid
     real(c_double) :: initial_damping = 0
     type(c_funptr) :: trace = c_null_funptr ! rotid_lm_options_trace
     type(c_ptr) :: trace_user = c_null_ptr
+    real(c_double) :: decrease_tolerance = 0
   end type rotid_lm_options
 
   type, bind(C) :: rotid_lm_result

@@ -439,7 +439,7 @@ typedef struct rotid_identified_state {
     int nmodes;
     rotid_compared_mode *modes;      /* as those of the identification */
     double *reduction_error_percent; /* per entry of modes: condensed over full frequency, less one [%]; NaN as in the identification */
-    double *mesh_error_percent;      /* per entry of modes: frequency over its Richardson limit, less one [%] */
+    double *mesh_error_percent;      /* per entry of modes, as mesh_error_percent of rotid_mode [%] */
     double mass_kg;                  /* of the fitted model [kg] */
     double center_of_mass_m;         /* of the fitted model, from the left end [m] */
     rotid_shapes *shapes;            /* measured beside predicted */
@@ -485,7 +485,7 @@ typedef struct rotid_identification {
     rotid_compared_mode *modes;      /* measured modes in the order of the deck or by rising frequency */
     double *reduction_error_percent; /* per entry of modes: condensed over full frequency at the fitted model, less one [%]; NaN
                                         where the masters are too few or more than 1,000 */
-    double *mesh_error_percent;      /* per entry of modes: frequency over its Richardson limit, less one [%] */
+    double *mesh_error_percent;      /* per entry of modes, as mesh_error_percent of rotid_mode [%] */
     double mass_kg;                  /* of the fitted model [kg] */
     double center_of_mass_m;         /* of the fitted model, from the left end [m] */
     rotid_shapes *shapes;            /* NULL in old results */
@@ -529,7 +529,8 @@ typedef struct rotid_model_mode {
     double full_hz;    /* frequency of the model that is not condensed [Hz] */
     double reduced_hz; /* frequency of the condensed model [Hz]; NaN where the masters are too few or more than 1,000 */
     double reduction_error_percent; /* reduced over full frequency, less one [%] */
-    double mesh_error_percent;      /* frequency over its Richardson limit from this mesh and one twice as fine, less one [%] */
+    double mesh_error_percent;      /* frequency over its Richardson limit from this mesh and one twice as fine, less one [%];
+                                       of a solid, whose full_hz is such a limit, what it may be off by */
     int nshape;
     double *shape;                 /* deflection of the full model at sensor_z_m, largest component 1 [1] */
     rotid_compared_mode *measured; /* NULL where no measured mode is paired with it; residual is NaN */
@@ -561,7 +562,7 @@ typedef struct rotid_beside_mode {
     double nco; /* between their shapes at the sensors, by the mass of the beam condensed onto these [1]; NaN where that is
                    impossible */
     double mac; /* modal assurance criterion between these shapes [1]; NaN with fewer than two sensors */
-    double solid_mesh_error_percent; /* solid_hz over its limit for a fine mesh, less one [%] */
+    double solid_mesh_error_percent; /* what solid_hz, a limit for a fine mesh, is in doubt by [%] */
     double beam_mesh_error_percent;  /* beam_hz over its limit for a fine mesh, less one [%] */
 } rotid_beside_mode;
 
@@ -1088,6 +1089,7 @@ typedef struct rotid_fit_options {
     double step_tolerance;     /* [1e-12] relative step */
     double bijection_chi;      /* [0.05] 1e-50 ... 1e6: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
                                   their start */
+    double decrease_tolerance; /* [0] as in rotid_lm_options */
 } rotid_fit_options;
 
 /* *options := ROTID_LIKELIHOOD without reduction, the defaults in brackets; size is sizeof *options of the host. */
@@ -1267,6 +1269,8 @@ typedef struct rotid_lm_options {
     double initial_damping;                                        /* [1e-14] */
     int (*trace)(void *user, const rotid_lm_iteration *iteration); /* NULL, or told of every accepted point; nonzero cancels */
     void *trace_user;
+    double decrease_tolerance; /* [0] decrease by the last five accepted steps over the objective: smaller, the iteration creeps
+                                  along a valley, and ends with ROTID_STOP_OBJECTIVE */
 } rotid_lm_options;
 
 typedef struct rotid_lm_result {

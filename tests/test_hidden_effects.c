@@ -1,5 +1,6 @@
 /* The diagnosis on hidden effects (hidden.h: exact dynamic stiffness, 0.1 % on frequencies, 1.5 % on shapes): fixed cases of
- * every kind; faults of the data alone are in test_hidden_faults. tools/power does the same with fresh ones by the thousand. */
+ * every kind; faults of the data alone are in test_hidden_faults. Of what is clear or small every third row, unless ROTID_LONG is set
+ * (make test-long). tools/power does the same with fresh ones by the thousand. */
 #include "support.h"
 
 #include <math.h>
@@ -104,10 +105,18 @@ static void look(void *context, const struct hidden_case *c, const struct diagno
             s->tension_beyond = d->result.detectable[i].beyond;
 }
 
+/* Whether the row is looked at in this run. */
+static int is_run(int i)
+{
+    return getenv("ROTID_LONG") || (table[i].expected != CLEAR && table[i].expected != SMALL) || i % 3 == 0;
+}
+
 static int run_one(void *deck, int i, int worker)
 {
     struct hidden_case c = {.request = hide_request_default(), .directory = directory, .number = i};
     (void)worker;
+    if (!is_run(i))
+        return 0;
     c.request.deck = deck;
     c.request.name = "input/paper_rotor.inp";
     c.request.seed = table[i].seed;
@@ -175,7 +184,7 @@ static void check(enum expected expected)
     int bad = 0;
     for (int i = 0; i < COUNT; i++) {
         const struct hidden_score *s = &score[i];
-        if (table[i].expected != expected)
+        if (table[i].expected != expected || !is_run(i))
             continue;
         int as_expected = is_as_expected(i) && s->outcome != HIDDEN_FAILED;
         bad += !as_expected;
@@ -204,7 +213,7 @@ static void the_tension_of_the_rods_is_a_blind_spot_and_said_to_be_one(void **st
 {
     (void)state;
     for (int i = 0; i < COUNT; i++)
-        if (table[i].effect[0] && is_of("tie_tension", table[i].effect[0])) {
+        if (table[i].effect[0] && is_of("tie_tension", table[i].effect[0]) && is_run(i)) {
             assert_int_equal(seen[i].kind, ROTID_ADEQUATE);
             assert_true(seen[i].tension_beyond);
         }
@@ -216,12 +225,12 @@ static void a_drop_of_30_is_reported(void **state)
     int clear = 0;
     (void)state;
     for (int i = 0; i < COUNT; i++)
-        if (score[i].class == HIDDEN_PHYSICAL && score[i].drop >= 30) {
+        if (is_run(i) && score[i].class == HIDDEN_PHYSICAL && score[i].drop >= 30) {
             clear++;
             if (!score[i].reported)
                 fail_msg("%s: drop %.1f and nothing reported", table[i].effect[0], score[i].drop);
         }
-    assert_true(clear >= 15);
+    assert_true(clear >= 10);
 }
 
 static void intervals_hold_the_truth(void **state)
@@ -229,7 +238,7 @@ static void intervals_hold_the_truth(void **state)
     int count = 0, inside = 0;
     (void)state;
     for (int i = 0; i < COUNT; i++)
-        for (int v = 0; v < score[i].nvalue; v++) {
+        for (int v = 0; v < score[i].nvalue && is_run(i); v++) {
             count++;
             inside += hidden_covers(&score[i].value[v]);
         }

@@ -284,6 +284,38 @@ static void test_iteration_limit_is_kept(void **state)
     assert_int_equal(result.iterations, 3);
 }
 
+/* 1 and exp(-x): every step adds about 1 to x, and there is no minimum */
+static int falls_for_ever(void *user, int m, int n, const double *x, double *r, double *j)
+{
+    (void)user, (void)m, (void)n;
+    if (r) {
+        r[0] = 1;
+        r[1] = exp(-x[0]);
+    } else {
+        j[0] = 0;
+        j[1] = -exp(-x[0]);
+    }
+    return 0;
+}
+
+static void test_a_creep_ends_where_five_steps_gain_less_than_is_asked_for(void **state)
+{
+    (void)state;
+    static const double tolerance[] = {0, 1e-2, 1e-4, 1e-6};
+    int iterations[4];
+    for (int i = 0; i < 4; i++) {
+        double x = 0, r[2], above;
+        rotid_lm_result result;
+        const rotid_lm_options options = {.size = sizeof options, .gradient_tolerance = 1e-30, .decrease_tolerance = tolerance[i]};
+        int status = rotid_lm(2, 1, falls_for_ever, NULL, &options, NULL, &x, r, jacobian, work, &result);
+        above = r[1] * r[1] / 2; /* the objective less its limit, of which five steps take nearly all */
+        assert_int_equal(status, ROTID_STOP_OBJECTIVE);
+        iterations[i] = result.iterations;
+        assert_true(i == 0 || (above < 1e-3 * tolerance[i] && above > 1e-7 * tolerance[i]));
+    }
+    assert_true(iterations[1] < iterations[2] && iterations[2] < iterations[3] && iterations[3] < iterations[0]);
+}
+
 static void test_evaluations_are_counted_as_they_are_made(void **state)
 {
     (void)state;
@@ -375,6 +407,7 @@ int main(void)
         cmocka_unit_test(test_cancelling_leaves_the_last_accepted_point),
         cmocka_unit_test(test_trace_sees_every_accepted_point_and_the_last_one_is_the_result),
         cmocka_unit_test(test_iteration_limit_is_kept),
+        cmocka_unit_test(test_a_creep_ends_where_five_steps_gain_less_than_is_asked_for),
         cmocka_unit_test(test_evaluations_are_counted_as_they_are_made),
         cmocka_unit_test(test_jacobian_of_the_wrong_sign_ends_soon_and_changes_nothing),
     };

@@ -260,7 +260,7 @@ static void least_squares_name_what_they_refuse(void **state)
                    "x[0] is nan, expected a number");
     x[0] = 2;
     assert_refused(rotid_lm(1, 1, residual, NULL, &options, failure, x, r, jacobian, work, &result),
-                   "options->size is 0, expected sizeof(rotid_lm_options), here 64");
+                   "options->size is 0, expected sizeof(rotid_lm_options), here 72");
     assert_refused(rotid_check_jacobian(1, 1, residual, NULL, x, scale, failure, error, doubt, work),
                    "scale[0] is 0, expected a positive number");
     options.size = sizeof options;

@@ -102,6 +102,7 @@ int refit_job(struct pool *pool, const struct job *job, const int *number, const
     options.max_iterations = 40;
     options.gradient_tolerance = REFIT_GRADIENT;
     options.step_tolerance = REFIT_STEP;
+    options.decrease_tolerance = REFIT_DECREASE;
     struct pool scratch; /* the model of a fit is not needed behind it */
     pool_open(&scratch, pool->allocator);
     int status = identify_fit(&scratch, job, number, holdout, &options, &quiet, NULL, fit);

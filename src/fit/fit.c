@@ -335,6 +335,7 @@ static int run(struct pool *keep, struct pool *pool, struct fit *fit, const stru
                                    .max_iterations = options->max_iterations,
                                    .gradient_tolerance = options->gradient_tolerance,
                                    .step_tolerance = options->step_tolerance,
+                                   .decrease_tolerance = options->decrease_tolerance,
                                    .trace = trace,
                                    .trace_user = fit};
     rotid_lm_result lm;

@@ -16,6 +16,7 @@
 #define NOISE      1e-12  /* rounding of J, 1e-16, over the part of x by which it may move what r does not determine */
 #define REGULAR    1e-28  /* keeps the QR regular where r is small */
 #define FLAT       1e-8   /* decrease over objective below which the noise of a computed objective can hide it */
+#define CREEP      5      /* steps whose decrease together tells a creep along a valley */
 #define FLAT_TRIES 5      /* steps that neither lower f by more than its noise nor the gradient, before the iteration ends */
 #define ROUNDED    1e-14  /* change of r over |D x| that the rounding of x makes: no step can be told from it */
 #define SHRUNK     1e-100 /* of J beside what it was: smaller, its square would have no double */
@@ -304,8 +305,18 @@ static int report(struct lm *lm)
     return lm->options.trace(lm->options.trace_user, &now);
 }
 
+/* objective: of the last CREEP points and this one, one after the other */
+static int creeps(const struct lm *lm, double *objective)
+{
+    int now = lm->result->iterations;
+    double *before = &objective[now % CREEP], then = *before;
+    *before = lm->result->objective;
+    return now >= CREEP && then - *before < lm->options.decrease_tolerance * *before;
+}
+
 static int minimise(struct lm *lm)
 {
+    double objective[CREEP];
     lm->result->evaluations = 1;
     if (lm->residual(lm->user, lm->m, lm->n, lm->x, lm->r, NULL))
         return ROTID_ERROR_CALLBACK;
@@ -323,6 +334,8 @@ static int minimise(struct lm *lm)
             return ROTID_STOP_CANCELLED;
         if (lm->objective == 0 || lm->result->cosine <= lm->options.gradient_tolerance)
             return ROTID_STOP_GRADIENT;
+        if (creeps(lm, objective))
+            return ROTID_STOP_OBJECTIVE;
         if (lm->result->iterations >= lm->options.max_iterations)
             return ROTID_STOP_ITERATIONS;
         status = descend(lm);

@@ -58,7 +58,13 @@ int discrete_place_joints(struct pool *pool, struct discrete *discrete);
 int discrete_member_elements(const struct discrete *discrete, int i);
 void discrete_member_deflection(const struct discrete *discrete, int i, const double *u, int npoint, double *z, double *v);
 
-/* The error of its mesh: that many times the frequencies of a mesh refined by *refine less those of this one. */
-double discrete_mesh_error(const struct discrete *discrete, int *refine);
+/* Where frequencies f of a mesh and g of one refined by `refine` lead: to f - share (g - f). counts: the limit is the
+ * frequency that counts, and f otherwise. */
+struct mesh_limit {
+    int refine;
+    double share;
+    int counts;
+};
+struct mesh_limit discrete_mesh_limit(const struct discrete *discrete);
 
 #endif

@@ -96,9 +96,9 @@ int model_lateral_dof(const struct rotor_model *model, double z)
     return discrete_place_dof(&model->discrete, nearest);
 }
 
-double model_mesh_error(const struct rotor_model *model, int *refine)
+struct mesh_limit model_mesh_limit(const struct rotor_model *model)
 {
-    return discrete_mesh_error(&model->discrete, refine);
+    return discrete_mesh_limit(&model->discrete);
 }
 
 void model_set(struct rotor_model *model, const double *x)

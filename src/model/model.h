@@ -31,8 +31,7 @@ double model_master_z(const struct rotor_model *model, int i);
 /* The lateral degree of freedom nearest to z. */
 int model_lateral_dof(const struct rotor_model *model, double z);
 
-/* discrete_mesh_error of its mesh. */
-double model_mesh_error(const struct rotor_model *model, int *refine);
+struct mesh_limit model_mesh_limit(const struct rotor_model *model);
 
 /* Sets the parameters to x without solving anything: for mass and deflections. */
 void model_set(struct rotor_model *model, const double *x);

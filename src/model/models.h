@@ -46,7 +46,7 @@ void models_keep_rigid(struct models *models, const struct rotor *rotor, int ref
  * and G change by half. */
 struct held_modes {
     int count, nmaster;
-    const double *ratio; /* [count] frequencies of the mesh that counts over those of the coarse one */
+    const double *ratio; /* [count] frequencies that count over those of the coarse mesh */
     const double *shape; /* [nmaster * count] of the mesh that counts, largest component 1; NULL: shapes are not held */
     const double *shift; /* [nmaster * count] that shape less the one of the coarse mesh */
 };

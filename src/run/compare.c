@@ -129,9 +129,9 @@ void comparison_warn_of_mesh(const struct job *job, const struct spectrum *spect
     double error = spectrum->mesh_error_percent[comparison->number[worst] - 1];
     if (solid)
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
-                    "the mesh of the solid moves measured mode %d by %+.4f %%, more than a third of its noise of %.4f %%: the "
-                    "intervals do not allow for it",
-                    job->measurement.number[worst], error, 100 * job->measurement.frequency_std[worst]);
+                    "the mesh of the solid leaves measured mode %d in doubt by %.4f %%, more than a third of its noise of %.4f %%: "
+                    "the intervals do not allow for it",
+                    job->measurement.number[worst], fabs(error), 100 * job->measurement.frequency_std[worst]);
     else
         message_add(notes, SEVERITY_WARNING, NULL, 0, 0,
                     "the mesh moves measured mode %d by %+.4f %%, %.1f times its noise: give more elements, the intervals do not "

@@ -88,11 +88,14 @@ static int compute(struct pool *pool, struct pool *scratch, struct models *model
         return ROTID_ERROR_MEMORY;
     int refine = parts & SPECTRUM_COARSE ? COARSE_MESH : 1;
     int status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, refine, &count, model, &p);
-    double share = status ? 0 : model_mesh_error(model, &refine);
-    if (!status && parts & SPECTRUM_MESH)
-        status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, refine, &count, other, &q);
     if (status)
         return status;
+    const struct mesh_limit limit = model_mesh_limit(model);
+    if (parts & SPECTRUM_MESH)
+        status = full_model(pool, scratch, models, rotor, nparameter, parameter, x, limit.refine, &count, other, &q);
+    double *meshed_hz = POOL_ARRAY(scratch, double, count);
+    if (status || !meshed_hz)
+        return status ? status : ROTID_ERROR_MEMORY;
     *s = (struct spectrum){.nrigid = model->equations.nrigid,
                            .count = count,
                            .nmaster = model->equations.nmaster,
@@ -118,19 +121,22 @@ static int compute(struct pool *pool, struct pool *scratch, struct models *model
     if (alike)
         keep_shapes(other, &q, count, s->other_shape);
     for (int j = 0; j < count; j++) {
-        s->reduced_hz[j] = NAN;
-        s->full_hz[j] = prediction_hz(&p, s->nrigid + j);
-        s->other_hz[j] = parts & SPECTRUM_MESH ? prediction_hz(&q, other->equations.nrigid + j) : NAN;
+        double hz = prediction_hz(&p, s->nrigid + j);
+        s->reduced_hz[j] = s->other_hz[j] = s->mesh_error_percent[j] = NAN;
+        s->full_hz[j] = meshed_hz[j] = hz;
+        if (!(parts & SPECTRUM_MESH))
+            continue;
+        s->other_hz[j] = prediction_hz(&q, other->equations.nrigid + j);
+        double led_to = hz - limit.share * (s->other_hz[j] - hz);
+        s->full_hz[j] = limit.counts ? led_to : hz;
+        s->mesh_error_percent[j] = 100 * (hz / led_to - 1);
     }
     /* what a condensation costs is seen on a coarse mesh as well */
     int on_other = alike && other->equations.n < model->equations.n;
     if (parts & SPECTRUM_REDUCED)
-        status = condensed_model(pool, scratch, on_other ? other : model, x, reduction, on_other ? s->other_hz : s->full_hz, s);
-    for (int j = 0; j < count && !status; j++) {
-        double hz = s->full_hz[j];
-        s->mesh_error_percent[j] = 100 * (hz / (hz - share * (s->other_hz[j] - hz)) - 1);
-        s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / hz - 1);
-    }
+        status = condensed_model(pool, scratch, on_other ? other : model, x, reduction, on_other ? s->other_hz : meshed_hz, s);
+    for (int j = 0; j < count && !status; j++)
+        s->reduction_error_percent[j] = 100 * (s->reduced_hz[j] / s->full_hz[j] - 1);
     return status;
 }
 

@@ -10,13 +10,13 @@ struct spectrum {
     int nrigid, count, nmaster;      /* count: elastic modes */
     int nnode;                       /* of the axis */
     double *rigid_hz;                /* [nrigid] */
-    double *full_hz;                 /* [count] */
+    double *full_hz;                 /* [count] of a solid, with SPECTRUM_MESH, the limit that two meshes lead to */
     double *reduced_hz;              /* [count] NaN where the masters are too few, or more than 1000 */
     double *reduction_error_percent; /* [count] reduced against full */
     double *other_hz;                /* [count] by a mesh that is refined, of a solid by the coarse one; NaN without */
-    double *mesh_error_percent;      /* [count] against the limit that both meshes lead to */
-    double *shape;                   /* [nmaster * count] full model at the masters, largest component 1 */
-    double *other_shape;             /* the same of the mesh of other_hz; NULL without, and where that has other masters */
+    double *mesh_error_percent; /* [count] of the mesh against that limit; a solid's full_hz may be off by as much, either way */
+    double *shape;              /* [nmaster * count] full model at the masters, largest component 1 */
+    double *other_shape;        /* the same of the mesh of other_hz; NULL without, and where that has other masters */
     double *mass;     /* [nmaster * nmaster] condensed by Guyan, NULL where that is impossible or there are more than 1000 */
     double *master_z; /* [nmaster] m */
     const struct rotor_model *model; /* the full one: its rotor at x with the end springs of a sling */
