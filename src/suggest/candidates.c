@@ -185,6 +185,7 @@ static int mass_worth(struct judging *j, const struct test *t, double *worth)
         struct pool scratch;
         pool_open(&scratch, j->pool->allocator);
         status = margin_distances(&scratch, rivals, t, a, distance, &feasible);
+        status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
         pool_close(&scratch);
         for (int b = 0; b < rivals->n && feasible; b++)
             least = b == a || (b == rivals->n - 1 && b > 1) ? least : fmin(least, distance[b]);
@@ -308,6 +309,7 @@ static int refit_first(struct judging *j)
             status = joint_measurement(&scratch, &rivals->rival[0], rivals->rival[0].fit->x, &j->out->test[i], &measured);
             if (!status)
                 status = joint_chi2(&scratch, b, &j->out->test[i], &measured, j->environment, &chi2);
+            status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
             pool_close(&scratch);
             if (!status)
                 m->refitted = m->before + chi2 - b->fit->chi2;

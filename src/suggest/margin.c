@@ -285,6 +285,7 @@ int margin_judge(struct pool *pool, const struct rivals *rivals, const struct te
         struct pool scratch; /* models of every rival */
         pool_open(&scratch, pool->allocator);
         status = judge_truth(&scratch, rivals, test, a, draws, seed, out, feasible);
+        status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
         pool_close(&scratch);
     }
     return status;
