@@ -868,15 +868,15 @@ typedef struct rotid_sensor_plan {
 
 /* How far a number of sensors leads, the best places taken one after the other. */
 typedef struct rotid_sensor_count {
-    int sensors;                /* how many */
-    double half_width_percent;  /* the widest of the parameters [%] */
-    double gain_percent;        /* as in the plans [%] */
+    int sensors;               /* how many */
+    double half_width_percent; /* the widest of the parameters [%] */
+    double gain_percent;       /* as in the plans [%] */
 } rotid_sensor_count;
 
 /* One more sensor at a place. */
 typedef struct rotid_sensor_place {
-    double z_m;           /* from the left end [m] */
-    double worth_percent; /* by how much it lowers the standard deviations of moduli and causes, geometric mean [%] */
+    double z_m;            /* from the left end [m] */
+    double worth_percent;  /* by how much it lowers the standard deviations of moduli and causes, geometric mean [%] */
     double margin_percent; /* by how much it raises what tells the rivals apart in the same test again, mean [%]; NaN without
                               rivals */
 } rotid_sensor_place;
@@ -926,11 +926,11 @@ typedef struct rotid_suggestion {
     int nparameters;
     rotid_fitted_parameter *parameters; /* of *IDENTIFY at the values that all of this holds for: std and ci95 as measured, NaN
                                            where nothing is */
-    rotid_noise noise;     /* that is expected of the tests */
-    double wanted_percent; /* half-width that is asked for [%] */
-    int modes_needed;      /* modes whose frequencies alone reach it; null: none of the numbers below */
-    int sensors_needed;    /* sensors that reach it with the modes of the plans; null: none of the numbers below */
-    int plan_modes;        /* modes of the plans */
+    rotid_noise noise;                  /* that is expected of the tests */
+    double wanted_percent;              /* half-width that is asked for [%] */
+    int modes_needed;                   /* modes whose frequencies alone reach it; null: none of the numbers below */
+    int sensors_needed;                 /* sensors that reach it with the modes of the plans; null: none of the numbers below */
+    int plan_modes;                     /* modes of the plans */
     int nmodes;
     rotid_expected_modes *modes;
     int nplans;

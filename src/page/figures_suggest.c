@@ -63,7 +63,7 @@ static void curve_panel(struct plot *plot, int panel, struct series *series, con
 static void draw(struct plot *plot, struct series *series, const rotid_suggestion *s, int margins)
 {
     struct plot_layout layout = {
-        .panels = 2 + margins, .columns = {1, 1}, .height = 190, .left = 92, .right = 14, .top = 10, .bottom = 48};
+        .panels = 2 + margins, .columns = {1, 1}, .height = 190, .left = 108, .right = 14, .top = 10, .bottom = 48};
     plot_begin(plot, &layout);
     curve_panel(plot, 0, series, s, WORTH, "worth [%]");
     if (margins)
