@@ -239,7 +239,7 @@ bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases: what they call is in the others
-DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds stiff_supports held_mesh chain
+DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds stiff_supports held_mesh suggest chain
 COUNT_MANY := ema_statistics accelerometer hide
 check-asan:
 	@ROTID_CHAIN_RUNS=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
