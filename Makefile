@@ -84,7 +84,7 @@ LIBRARY_LIBS := $(shell pkg-config --libs lapacke) $(BLAS_LIBS) $(if $(filter 1,
 PROGRAM_LIBS := $(shell pkg-config --libs $(PROGRAM_PACKAGES)) $(LIBRARY_LIBS)
 
 # the rooms that public routines reach, and those of the program alone
-LIBRARY_ROOMS := base record linalg rotor beam solid model modal fit run diagnose/causes diagnose file uff deck api
+LIBRARY_ROOMS := base record linalg rotor beam solid model modal fit run diagnose/causes diagnose suggest file uff deck api
 LIBRARY_SOURCES := $(foreach room,$(LIBRARY_ROOMS),$(wildcard src/$(room)/*.c))
 PROGRAM_SOURCES := $(foreach room,signal ema import result report export study page,$(wildcard src/$(room)/*.c))
 CLI_SOURCES := $(wildcard src/cli/*.c)
@@ -239,7 +239,7 @@ bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases: what they call is in the others
-DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds stiff_supports held_mesh chain
+DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds stiff_supports held_mesh suggest chain
 COUNT_MANY := ema_statistics accelerometer hide
 check-asan:
 	@ROTID_CHAIN_RUNS=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \

@@ -750,6 +750,105 @@ module rotid
     type(c_ptr) :: after = c_null_ptr ! text
   end type rotid_diagnosis
 
+  type, bind(C) :: rotid_expected_modes
+    integer(c_int) :: modes = 0
+    integer(c_int) :: nfrequencies_percent = 0
+    integer(c_int) :: nshapes_percent = 0
+    type(c_ptr) :: frequencies_percent = c_null_ptr ! real
+    type(c_ptr) :: shapes_percent = c_null_ptr ! real
+  end type rotid_expected_modes
+
+  type, bind(C) :: rotid_sensor_plan
+    type(c_ptr) :: method = c_null_ptr ! text
+    integer(c_int) :: nz_m = 0
+    integer(c_int) :: nloss_percent = 0
+    integer(c_int) :: nhalf_width_percent = 0
+    type(c_ptr) :: z_m = c_null_ptr ! real
+    type(c_ptr) :: loss_percent = c_null_ptr ! real
+    type(c_ptr) :: half_width_percent = c_null_ptr ! real
+    real(c_double) :: gain_percent = 0
+  end type rotid_sensor_plan
+
+  type, bind(C) :: rotid_sensor_count
+    integer(c_int) :: sensors = 0
+    real(c_double) :: half_width_percent = 0
+    real(c_double) :: gain_percent = 0
+  end type rotid_sensor_count
+
+  type, bind(C) :: rotid_sensor_place
+    real(c_double) :: z_m = 0
+    real(c_double) :: worth_percent = 0
+    real(c_double) :: margin_percent = 0
+  end type rotid_sensor_place
+
+  type, bind(C) :: rotid_rival
+    type(c_ptr) :: label = c_null_ptr ! text
+    integer(c_int) :: ncauses = 0
+    type(c_ptr) :: causes = c_null_ptr ! rotid_cause
+    real(c_double) :: chi2 = 0
+    real(c_double) :: score = 0
+    real(c_double) :: share = 0
+  end type rotid_rival
+
+  type, bind(C) :: rotid_expected_margin
+    integer(c_int) :: truth = 0
+    integer(c_int) :: rival = 0
+    real(c_double) :: before = 0
+    real(c_double) :: distance = 0
+    real(c_double) :: expected = 0
+    real(c_double) :: refitted = 0
+    real(c_double) :: chance = 0
+  end type rotid_expected_margin
+
+  type, bind(C) :: rotid_suggested_test
+    type(c_ptr) :: id = c_null_ptr ! text
+    type(c_ptr) :: text = c_null_ptr ! text
+    real(c_double) :: cost = 0
+    integer(c_int) :: setups = 0
+    integer(c_int) :: points = 0
+    integer(c_int) :: modes = 0
+    integer(c_int) :: nsensors_m = 0
+    type(c_ptr) :: sensors_m = c_null_ptr ! real
+    real(c_double) :: mass_kg = 0
+    real(c_double) :: z_m = 0
+    real(c_double) :: chance = 0
+    real(c_double) :: wrong = 0
+    integer(c_int) :: nmargins = 0
+    type(c_ptr) :: margins = c_null_ptr ! rotid_expected_margin
+    type(c_ptr) :: cards = c_null_ptr ! text
+  end type rotid_suggested_test
+
+  type, bind(C) :: rotid_suggestion
+    integer(c_int) :: nparameters = 0
+    type(c_ptr) :: parameters = c_null_ptr ! rotid_fitted_parameter
+    type(rotid_noise) :: noise = rotid_noise()
+    real(c_double) :: wanted_percent = 0
+    integer(c_int) :: modes_needed = 0
+    integer(c_int) :: sensors_needed = 0
+    integer(c_int) :: plan_modes = 0
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr ! rotid_expected_modes
+    integer(c_int) :: nplans = 0
+    type(c_ptr) :: plans = c_null_ptr ! rotid_sensor_plan
+    integer(c_int) :: ncounts = 0
+    type(c_ptr) :: counts = c_null_ptr ! rotid_sensor_count
+    integer(c_int) :: nplaces = 0
+    type(c_ptr) :: places = c_null_ptr ! rotid_sensor_place
+    integer(c_int) :: ndetectable = 0
+    type(c_ptr) :: detectable = c_null_ptr ! rotid_detectable
+    type(c_ptr) :: verdict = c_null_ptr ! text
+    integer(c_int) :: nrivals = 0
+    type(c_ptr) :: rivals = c_null_ptr ! rotid_rival
+    integer(c_int) :: ntests = 0
+    type(c_ptr) :: tests = c_null_ptr ! rotid_suggested_test
+    real(c_double) :: set_up_cost = 0
+    type(c_ptr) :: sentence = c_null_ptr ! text
+    type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
+    integer(c_int) :: nmessage = 0
+    type(c_ptr) :: message = c_null_ptr ! rotid_message
+    type(c_ptr) :: memory = c_null_ptr
+  end type rotid_suggestion
+
   ! ---- types: end of results
 
   type, bind(C) :: rotid_diagnose_options
@@ -760,6 +859,13 @@ module rotid
     type(c_ptr) :: before = c_null_ptr ! text
     type(c_ptr) :: after = c_null_ptr ! text
   end type rotid_diagnose_options
+
+  type, bind(C) :: rotid_suggest_options
+    integer(c_size_t) :: size = 64
+    real(c_double) :: wanted_percent = 0, frequency_noise = 0, shape_noise = 0, set_up_cost = 0
+    integer(c_int) :: sensors = 0, modes = 0, threads = 0, replicates = 0
+    integer(c_long) :: seed = 0
+  end type rotid_suggest_options
 
   ! ------------------------------------------------------------------------------------------------ types: your own model
 
@@ -975,7 +1081,7 @@ module rotid
     end function rotid_status_name
 
     ! ---- run a deck; with strings and optional arguments: rotid_read_deck, rotid_read_deck_text, rotid_check_deck,
-    ! rotid_compute_spectrum, rotid_identify_deck, rotid_diagnose_deck, rotid_free
+    ! rotid_compute_spectrum, rotid_identify_deck, rotid_diagnose_deck, rotid_suggest_deck, rotid_free
 
     function rotid_deck_read(path, noverride, override, environment, failure, deck) result(status) bind(C, name="rotid_deck_read")
       import :: c_char, c_ptr, c_int
@@ -1071,6 +1177,19 @@ module rotid
       import :: c_ptr
       type(c_ptr), value :: result
     end subroutine rotid_diagnosis_free
+
+    function rotid_suggest(deck, options, environment, failure, result) result(status) bind(C, name="rotid_suggest")
+      import :: c_ptr, c_int
+      type(c_ptr), value :: deck
+      type(c_ptr), value :: options, environment, failure
+      type(c_ptr), intent(out) :: result
+      integer(c_int) :: status
+    end function rotid_suggest
+
+    subroutine rotid_suggestion_free(result) bind(C, name="rotid_suggestion_free")
+      import :: c_ptr
+      type(c_ptr), value :: result
+    end subroutine rotid_suggestion_free
 
     function rotid_verdict_name(kind) result(text) bind(C, name="rotid_verdict_name")
       import :: c_ptr, c_int
@@ -1326,7 +1445,7 @@ module rotid
 
   ! Frees a deck or a result and nullifies its pointer; a null pointer is allowed.
   interface rotid_free
-    module procedure free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_fit
+    module procedure free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_suggestion, free_fit
   end interface rotid_free
 
   ! rotid_reals(member, n), rotid_reals(member, m, n): the array behind a member; null where the member is.
@@ -1342,7 +1461,8 @@ module rotid
     end function c_length
   end interface
 
-  private :: free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_fit, real_vector, real_matrix, &
+  private :: free_deck, free_check, free_spectrum, free_identification, free_diagnosis, free_suggestion, free_fit, &
+             real_vector, real_matrix, &
              c_length, &
              c_string, c_strings, ones_to_zeros
 
@@ -1635,6 +1755,28 @@ contains
     if (c_associated(c_found)) call c_f_pointer(c_found, found)
   end function rotid_diagnose_deck
 
+  ! rotid_suggest; environment as above.
+  function rotid_suggest_deck(deck, found, options, environment, failure) result(status)
+    type(rotid_deck), intent(in), target :: deck
+    type(rotid_suggestion), pointer, intent(out) :: found
+    type(rotid_suggest_options), intent(in), optional :: options
+    type(rotid_environment), intent(in), optional, target :: environment
+    type(rotid_environment), target :: given
+    character(len=:), allocatable, intent(out), optional :: failure
+    integer(c_int) :: status
+    type(rotid_suggest_options), target :: how
+    character(kind=c_char), target :: why(ROTID_FAILURE_LENGTH)
+    type(c_ptr) :: c_found
+    if (present(environment)) given = environment
+    given%size = c_sizeof(given)
+    nullify (found)
+    if (present(options)) how = options
+    how%size = c_sizeof(how)
+    status = rotid_suggest(c_loc(deck), c_loc(how), c_loc(given), c_loc(why), c_found)
+    if (present(failure)) failure = rotid_string(c_loc(why))
+    if (c_associated(c_found)) call c_f_pointer(c_found, found)
+  end function rotid_suggest_deck
+
   ! ---- your own model
 
   ! rotid_fit with arrays. Of `model` n, kd, nrigid, matrices, derivatives and user are used; the number of parameters is the size
@@ -1761,6 +1903,12 @@ contains
     if (associated(found)) call rotid_diagnosis_free(c_loc(found))
     nullify (found)
   end subroutine free_diagnosis
+
+  subroutine free_suggestion(found)
+    type(rotid_suggestion), pointer, intent(inout) :: found
+    if (associated(found)) call rotid_suggestion_free(c_loc(found))
+    nullify (found)
+  end subroutine free_suggestion
 
   subroutine free_fit(fit)
     type(rotid_fit_result), pointer, intent(inout) :: fit

@@ -849,6 +849,116 @@ typedef struct rotid_diagnosis {
     const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
 } rotid_diagnosis;
 
+/* ---- suggestion: what to measure next */
+
+/* What the frequencies and shapes of the lowest modes would say of the parameters of *IDENTIFY, in their order. Half-widths are
+ * half of a 95 % interval over the value, NaN where the parameter stays undetermined. */
+typedef struct rotid_expected_modes {
+    int modes; /* measured: the first ones */
+    int nfrequencies_percent, nshapes_percent;
+    double *frequencies_percent; /* half-width by the frequencies alone [%] */
+    double *shapes_percent;      /* half-width by frequencies and shapes at the sensors of the first plan [%] */
+} rotid_expected_modes;
+
+/* Where sensors could stand, and what they would be worth there. */
+typedef struct rotid_sensor_plan {
+    const char *method; /* deck, optimal (Bayesian D-optimal), or effective_independence (Kammer 1991) */
+    int nz_m, nloss_percent, nhalf_width_percent;
+    double *z_m;                /* positions from the left end [m] */
+    double *loss_percent;       /* per entry of z_m: by how much the standard deviations of moduli and causes grow without it,
+                                   geometric mean [%] */
+    double *half_width_percent; /* of each parameter, as in the modes [%] */
+    double gain_percent; /* by how much these standard deviations are below those of the frequencies alone, geometric mean [%] */
+} rotid_sensor_plan;
+
+/* How far a number of sensors leads, the best places taken one after the other. */
+typedef struct rotid_sensor_count {
+    int sensors;               /* how many */
+    double half_width_percent; /* the widest of the parameters [%] */
+    double gain_percent;       /* as in the plans [%] */
+} rotid_sensor_count;
+
+/* One more sensor at a place. */
+typedef struct rotid_sensor_place {
+    double z_m;            /* from the left end [m] */
+    double worth_percent;  /* by how much it lowers the standard deviations of moduli and causes, geometric mean [%] */
+    double margin_percent; /* by how much it raises what tells the rivals apart in the same test again, mean [%]; NaN without
+                              rivals */
+} rotid_sensor_place;
+
+/* One of the explanations that a diagnosis cannot tell apart. */
+typedef struct rotid_rival {
+    const char *label; /* such as joint of core|right */
+    int ncauses;
+    rotid_cause *causes; /* none of the model as it is */
+    double chi2;         /* of its fit to what was measured [1] */
+    double score;        /* chi2 and the penalty of its parameters, as the decision counts them [1] */
+    double share; /* of the chances that it is the true one, exp(-score/2) over the sum of all; 0 of the model as it is [1] */
+} rotid_rival;
+
+/* What tells two rivals apart if the first of them is true. */
+typedef struct rotid_expected_margin {
+    int truth;       /* index of the rivals, from 0 */
+    int rival;       /* the one that it is to be told from, likewise */
+    double before;   /* lead of the truth by what is measured already [1] */
+    double distance; /* chi2 by which the best fit of the rival to all states fails, without noise [1] */
+    double expected; /* lead by all states, on the average over noise and over what is not known of the truth [1] */
+    double refitted; /* before and distance by a nonlinear fit of the rival to all states; NaN where that was not made [1] */
+    double chance;   /* that the lead suffices */
+} rotid_expected_margin;
+
+/* A test that could be made next, and what it promises. */
+typedef struct rotid_suggested_test {
+    const char *id;   /* again, modes, sensors, shapes, noise, mass, stiff_support, free or moved_support */
+    const char *text; /* what to do */
+    double cost;      /* in points: the set-ups times their cost and the points [1] */
+    int setups;       /* what has to be hung, mounted or moved */
+    int points;       /* measured at each sensor, repeated where the noise asks for it */
+    int modes;        /* measured */
+    int nsensors_m;
+    double *sensors_m; /* positions of the sensors; empty where frequencies alone are measured [m] */
+    double mass_kg;    /* of the known mass [kg]; NaN without */
+    double z_m;        /* where it goes, or the support [m]; NaN without */
+    double chance;     /* that the true one of the rivals is named afterwards */
+    double wrong;      /* that another one is named */
+    int nmargins;
+    rotid_expected_margin *margins;
+    const char *cards; /* of the deck: the *STATE of this test, with comments where its measurements go */
+} rotid_suggested_test;
+
+/* What to measure, before a test and after an ambiguous diagnosis. */
+typedef struct rotid_suggestion {
+    int nparameters;
+    rotid_fitted_parameter *parameters; /* of *IDENTIFY at the values that all of this holds for: std and ci95 as measured, NaN
+                                           where nothing is */
+    rotid_noise noise;                  /* that is expected of the tests */
+    double wanted_percent;              /* half-width that is asked for [%] */
+    int modes_needed;                   /* modes whose frequencies alone reach it; null: none of the numbers below */
+    int sensors_needed;                 /* sensors that reach it with the modes of the plans; null: none of the numbers below */
+    int plan_modes;                     /* modes of the plans */
+    int nmodes;
+    rotid_expected_modes *modes;
+    int nplans;
+    rotid_sensor_plan *plans; /* that of the deck first, where it has sensors; then the best places, then the classic */
+    int ncounts;
+    rotid_sensor_count *counts;
+    int nplaces;
+    rotid_sensor_place *places; /* one more sensor beside those of the first plan, along the axis */
+    int ndetectable;
+    rotid_detectable *detectable; /* what the first plan would show of each cause */
+    const char *verdict;          /* of the diagnosis in a sentence; NULL where nothing is measured */
+    int nrivals;
+    rotid_rival *rivals; /* best first; empty where nothing is open. The last is the model as it is */
+    int ntests;
+    rotid_suggested_test *tests; /* by chance, then by cost */
+    double set_up_cost;          /* of a set-up, in points [1] */
+    const char *sentence;        /* what to do next */
+    rotid_geometry *geometry;    /* the model that all of this holds for */
+    int nmessage;
+    const rotid_message *message;
+    void *memory; /* internal */
+} rotid_suggestion;
+
 /* ---- the runs */
 
 /* What `rotid check` says of a deck, of which the model is taken as the deck states it. Statuses as for rotid_spectrum_compute.
@@ -896,6 +1006,29 @@ ROTID_API int rotid_diagnose(const rotid_deck *deck, const rotid_diagnose_option
 ROTID_API void rotid_diagnosis_free(rotid_diagnosis *result);
 /* "adequate", "named", "ambiguous", "unexplained". */
 ROTID_API const char *rotid_verdict_name(int kind);
+
+/* ---- suggestion: what to measure next */
+
+/* Zero takes the default in brackets. */
+typedef struct rotid_suggest_options {
+    size_t size;
+    double wanted_percent;  /* [2] half of a 95 % interval over the value */
+    double frequency_noise; /* [that of the deck, else 0.003] relative */
+    double shape_noise;     /* [that of the deck, else 0.02] relative to the largest component */
+    double set_up_cost;     /* [20] of a set-up, where a point costs 1 */
+    int sensors;            /* [those of the deck, else 8] of a plan */
+    int modes;              /* [those of the deck, else 5] of a plan */
+    int threads;            /* [1] of the diagnosis */
+    int replicates;         /* [1000] of bootstrap and draws */
+    long seed;              /* [1] >= 0 */
+} rotid_suggest_options;
+
+/* What `rotid suggest` does: without measured modes what sensors and modes would tell of the parameters of *IDENTIFY, at their
+ * starts; with them a diagnosis, and where it is ambiguous the tests that could end that. options may be NULL. Allocator,
+ * statuses, failure and *result as for rotid_diagnose; cancelled: ROTID_STOP_CANCELLED and *result NULL. */
+ROTID_API int rotid_suggest(const rotid_deck *deck, const rotid_suggest_options *options, const rotid_environment *environment,
+                            char *failure, rotid_suggestion **result);
+ROTID_API void rotid_suggestion_free(rotid_suggestion *result);
 
 /* ------------------------------------------------------------------------------------------------ bring your own model */
 

@@ -85,6 +85,22 @@ static void free_diagnosis(void *result)
     rotid_diagnosis_free(result);
 }
 
+static int try_suggest(const rotid_deck *deck, const rotid_environment *environment, void **result)
+{
+    const rotid_suggest_options options = {.size = sizeof options, .replicates = 100, .sensors = 3, .modes = 3};
+    char failure[512];
+    rotid_suggestion *made = (void *)1;
+    int status = rotid_suggest(deck, &options, environment, failure, &made);
+    assert_string_equal(failure, status ? rotid_status_text(status) : "");
+    *result = made;
+    return status;
+}
+
+static void free_suggestion(void *result)
+{
+    rotid_suggestion_free(result);
+}
+
 /* One run whose n-th allocation fails, 0: none. Returns how many it was served. */
 static long run_once(const rotid_deck *deck, attempt try_it, void (*release)(void *result), long n)
 {
@@ -126,6 +142,7 @@ static void every_allocation_may_fail(void **state)
     sweep("rotid_spectrum_compute", bar, try_spectrum, free_spectrum, 100000, 1);
     sweep("rotid_identify", bar, try_identify, free_identification, 200, 1.02);
     sweep("rotid_diagnose", deck, try_diagnose, free_diagnosis, 150, 1.3);
+    sweep("rotid_suggest", bar, try_suggest, free_suggestion, 60, 1.2);
     rotid_deck_free(deck);
     rotid_deck_free(bar);
 }

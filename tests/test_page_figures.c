@@ -315,6 +315,25 @@ static void sensitivities_are_plotted_as_they_are(void **state)
     close_bench();
 }
 
+static void the_worth_of_sensors_is_plotted_as_it_is(void **state)
+{
+    (void)state;
+    static const struct expected expected[] = {
+        {"sensor-worth", "places", "z [m]", "places[].z_m", 1},
+        {"sensor-worth", "places", "worth of one more sensor [%]", "places[].worth_percent", 1},
+        {"sensor-worth", "places", "rise of the margins by it [%]", "places[].margin_percent", 1},
+    };
+    static double loss[PLOTTED_MOST], z[PLOTTED_MOST];
+    open_bench("suggest", PAPER);
+    compare(sizeof expected / sizeof *expected, expected);
+    int n = numbers_at(bench.json, "plans[0].loss_percent[]", loss);
+    assert_true(n > 3);
+    assert_true(plotted(script_of("sensor-worth"), "sensors", "loss without this sensor [%]", z) > n);
+    for (int i = 0; i < n; i++)
+        assert_close(z[i], loss[i], 1e-6, 0);
+    close_bench();
+}
+
 /* Fewer lines than the picture has room for are all drawn; the functions of one damping stand for measured ones of another. */
 static void transfer_functions_are_plotted_as_they_are(void **state)
 {
@@ -508,6 +527,7 @@ int main(void)
         cmocka_unit_test(a_diagnosis_is_plotted_as_it_is),
         cmocka_unit_test(bars_of_the_evidence_are_as_long_as_the_drops),
         cmocka_unit_test(sensitivities_are_plotted_as_they_are),
+        cmocka_unit_test(the_worth_of_sensors_is_plotted_as_it_is),
         cmocka_unit_test(transfer_functions_are_plotted_as_they_are),
         cmocka_unit_test(studies_are_plotted_as_they_are),
         cmocka_unit_test(verdicts_are_plotted_as_they_are),

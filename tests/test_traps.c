@@ -230,8 +230,10 @@ static void decks(void)
     rotid_check *check;
     rotid_identification *found;
     rotid_diagnosis *diagnosis;
+    rotid_suggestion *suggestion;
     char failure[ROTID_FAILURE_LENGTH];
     static const rotid_diagnose_options quick = {.size = sizeof quick, .replicates = 20};
+    static const rotid_suggest_options brief = {.size = sizeof brief, .replicates = 20};
     failed |= rotid_deck_read(SOLID, 0, NULL, NULL, failure, &deck);
     rotid_deck_free(deck);
     failed |= rotid_deck_read_text(strlen(rotor_text), rotor_text, NULL, NULL, 0, NULL, NULL, failure, &deck);
@@ -245,6 +247,8 @@ static void decks(void)
     rotid_identification_free(found);
     failed |= rotid_diagnose(deck, &quick, NULL, failure, &diagnosis);
     rotid_diagnosis_free(diagnosis);
+    failed |= rotid_suggest(deck, &brief, NULL, failure, &suggestion);
+    rotid_suggestion_free(suggestion);
     rotid_deck_free(deck);
     failed |= rotid_deck_read("/nowhere", 0, NULL, NULL, failure, &deck) != ROTID_ERROR_IO;
     rotid_deck_free(deck);
@@ -265,7 +269,7 @@ static const struct {
     {fits, "rotid_check_model rotid_fit_defaults rotid_fit rotid_fit_states rotid_fit_free "},
     {decks, "rotid_deck_read rotid_deck_read_text rotid_deck_free rotid_deck_check rotid_check_free rotid_spectrum_compute "
             "rotid_spectrum_beside rotid_spectrum_free rotid_identify "
-            "rotid_identification_free rotid_diagnose rotid_diagnosis_free "},
+            "rotid_identification_free rotid_diagnose rotid_diagnosis_free rotid_suggest rotid_suggestion_free "},
 };
 enum { CALLS = sizeof table / sizeof *table };
 

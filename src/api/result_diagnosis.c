@@ -6,7 +6,7 @@
 #include "api/result_identification.h"
 #include "diagnose/items.h"
 
-static rotid_cause cause_of(struct pool *pool, const struct candidate *c)
+rotid_cause result_cause(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
     rotid_cause out = {
@@ -26,7 +26,7 @@ static int fill_causes(struct pool *pool, int count, const struct candidate *can
 {
     int room = POOL_LIST(pool, *list, count);
     for (int i = 0; i < room; i++)
-        (*list)[i] = cause_of(pool, &candidate[i]);
+        (*list)[i] = result_cause(pool, &candidate[i]);
     return room;
 }
 
@@ -57,9 +57,9 @@ static void fill_rounds(struct pool *pool, const struct diagnosis *d, rotid_diag
             const struct candidate *with = round->candidate[k].with;
             rotid_candidate *candidate = &out->candidates[out->ncandidates++];
             *candidate = round->candidate[k].result;
-            candidate->cause = cause_of(pool, &round->candidate[k]);
+            candidate->cause = result_cause(pool, &round->candidate[k]);
             if (with && (candidate->with = POOL_NEW(pool, rotid_cause)))
-                *candidate->with = cause_of(pool, with);
+                *candidate->with = result_cause(pool, with);
         }
     }
 }

@@ -8,4 +8,7 @@
  * messages and the extended deck. The result of `d`; where memory is out the pool says so. */
 rotid_diagnosis *result_diagnosis(struct pool *pool, const struct states *deck, struct diagnosis *d);
 
+/* A candidate at its best values; where memory is out the pool says so. */
+rotid_cause result_cause(struct pool *pool, const struct candidate *candidate);
+
 #endif

@@ -27,6 +27,13 @@ struct study_arguments {
     double timeout; /* s, 0: none */
 };
 
+/* Of `suggest`: what is wanted of a test, and what it costs; 0: the default of the library. */
+struct suggest_arguments {
+    double interval, frequency_noise, shape_noise; /* percent */
+    double set_up_cost;
+    int sensors, modes;
+};
+
 struct given_option {
     const char *name, *value; /* value: "" where it has none */
 };
@@ -40,6 +47,7 @@ struct command {
     int format; /* of --output: enum export_format, or a word of uff */
     unsigned long seed;
     double step, range;
+    struct suggest_arguments suggest;
     int ngiven, noverride;
     struct given_option *given; /* [ngiven] in their order */
     struct override *override;
@@ -129,6 +137,7 @@ int command_modes(struct command *command);
 int command_sensitivity(struct command *command);
 int command_identify(struct command *command);
 int command_diagnose(struct command *command);
+int command_suggest(struct command *command);
 int command_frf(struct command *command);
 int command_ema(struct command *command);
 int command_uff(struct command *command);

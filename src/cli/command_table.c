@@ -22,6 +22,10 @@ const struct command_entry command_table[] = {
      "rotid diagnose rotor.inp\n"
      "rotid diagnose rotor.inp --extended extended.inp --json result.json",
      "inp", command_diagnose, READS_DECK | PARALLEL},
+    {"suggest", "what to measure next: sensors, modes and intervals before a test, tests that end an ambiguous diagnosis",
+     "rotid suggest plan.inp --sensors 10 --interval 1\n"
+     "rotid suggest rotor.inp --extended next.inp",
+     "inp", command_suggest, READS_DECK | PARALLEL},
     {"frf", "synthesised transfer functions with measured damping, beside measured ones",
      "rotid frf rotor.inp\n"
      "rotid frf rotor.inp --set FRF.FILE=measured.unv -o synthesised.unv",

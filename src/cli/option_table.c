@@ -6,7 +6,7 @@
 #include "result/ema.h"
 #include "result/export.h"
 
-#define DECKS       "check modes sensitivity identify diagnose frf export"
+#define DECKS       "check modes sensitivity identify diagnose suggest frf export"
 #define UNIVERSAL   "unv|uff|uf"
 #define AT(MEMBER)  .offset = offsetof(struct command, MEMBER)
 #define FROM(A, B)  .least = (A), .most = (B)
@@ -22,9 +22,9 @@ const struct option_row option_table[] = {
      .help = "more in the tables: shapes (modes), iterations (identify), every pole and channel (ema), every set (uff)",
      .more = "What was skipped in universal files is listed as well."},
     {.name = "threads", .commands = DECKS " ema study", .kind = OPTION_WHOLE, AT(threads), FROM(1, THREADS_MOST), .value = "N",
-     .help = "threads of diagnose and ema, processes of study (default: the processors); else of the BLAS (default: 1)",
+     .help = "threads of diagnose, suggest and ema, processes of study (default: the processors); else of the BLAS (default: 1)",
      .more = "The result does not depend on it."},
-    {.name = "seed", .commands = "sensitivity diagnose study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0), .standard = 1, .value = "N",
+    {.name = "seed", .commands = "sensitivity diagnose suggest study", .kind = OPTION_SEED, AT(seed), FROM(0, 4294967295.0), .standard = 1, .value = "N",
      .help = "of the random numbers", .more = "Without it a study takes that of its plan. It stands in every result."},
     {.name = "version", .kind = OPTION_VERSION, .help = "version, commit and BLAS, and whether NLopt is missing"},
     {.name = "help", .letter = 'h', .kind = OPTION_HELP, .help = "the commands; behind a command: its options and examples"},
@@ -60,7 +60,21 @@ const struct option_row option_table[] = {
      .help = "a deck with what was found, as cards, and with the fitted values as starts"},
     {.name = "changed", .commands = "diagnose", .kind = OPTION_TEXT, AT(changed), .value = "BEFORE,AFTER",
      .help = "what changed between two states of the deck, whatever the model lacks in both"},
-    {.name = "replicates", .commands = "diagnose", .kind = OPTION_WHOLE, AT(replicates), FROM(100, 1000000), .value = "N",
+    {.name = "extended", .commands = "suggest", .kind = OPTION_WRITES, AT(extended), .value = "FILE", .files = "inp",
+     .help = "the deck with the first of the tests as a *STATE more, ready for its measurements"},
+    {.name = "interval", .commands = "suggest", .kind = OPTION_REAL, AT(suggest.interval), FROM(1e-3, 100), .standard = 2,
+     .value = "PERCENT", .help = "wanted of every parameter: half of its 95 % interval over its value"},
+    {.name = "sensors", .commands = "suggest", .kind = OPTION_WHOLE, AT(suggest.sensors), FROM(1, 1000), .value = "N",
+     .help = "of a plan (default: those of the deck, else 8)"},
+    {.name = "modes", .commands = "suggest", .kind = OPTION_WHOLE, AT(suggest.modes), FROM(2, 100), .value = "N",
+     .help = "of a plan (default: those measured, else 5)"},
+    {.name = "frequency-noise", .commands = "suggest", .kind = OPTION_REAL, AT(suggest.frequency_noise), FROM(1e-6, 100),
+     .value = "PERCENT", .help = "of the frequencies of tests to come (default: that of the deck, else 0.3)"},
+    {.name = "shape-noise", .commands = "suggest", .kind = OPTION_REAL, AT(suggest.shape_noise), FROM(1e-4, 100),
+     .value = "PERCENT", .help = "of their shapes, of the largest component (default: that of the deck, else 2)"},
+    {.name = "set-up-cost", .commands = "suggest", .kind = OPTION_REAL, AT(suggest.set_up_cost), FROM(1e-3, 1e6), .standard = 20,
+     .value = "POINTS", .help = "of hanging, mounting or moving something, where measuring a point costs 1"},
+    {.name = "replicates", .commands = "diagnose suggest", .kind = OPTION_WHOLE, AT(replicates), FROM(100, 1000000), .value = "N",
      .help = "of the bootstrap that tells a cause from chance (default: 1000)"},
 
     {OUTPUT(.commands = "frf", .value = "FILE", .files = UNIVERSAL, .help = "the synthesised functions as a universal file")},

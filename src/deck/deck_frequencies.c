@@ -123,6 +123,8 @@ void deck_settle_noise(struct deck_reader *reader)
     struct job *job = reader->job;
     ptrdiff_t components = job->measurement.shape ? (ptrdiff_t)job->rotor.nsensor * job->measurement.nmode : 0;
     job->measurement.has_noise_floor = reader->floor_shape > 0;
+    job->measurement.stated_frequency_noise = reader->noise_frequency > 0 ? reader->noise_frequency : 0;
+    job->measurement.stated_shape_noise = reader->noise_shape > 0 ? reader->noise_shape : 0;
     for (int k = 0; k < job->measurement.nmode && job->measurement.point_frequency_hz && !reader->out_of_memory; k++)
         settle_mode(reader, k);
     for (int k = 0; k < job->measurement.nmode; k++)

@@ -194,6 +194,8 @@ void answer_plain(struct document *document, const struct result *result)
         text =
             pool_format(pool, "%d bending modes from %s to %s\xc2\xa0Hz", result->modes->nmodes,
                         human_trimmed(pool, mode[0].full_hz, 5), human_trimmed(pool, mode[result->modes->nmodes - 1].full_hz, 5));
+    } else if (result->suggest) {
+        text = result->suggest->sentence;
     } else if (result->sensitivity) {
         text = pool_format(pool, "How %d modes depend on %d %s", result->sensitivity->nfrequency_hz,
                            result->sensitivity->nparameters,

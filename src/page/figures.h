@@ -36,6 +36,8 @@ void figure_meridian_modes(struct document *document, const struct result *resul
 void figure_sensitivity(struct document *document, const struct result *result);
 void figure_sensitivity_curves(struct document *document, const struct result *result);
 void figure_growth(struct document *document, const struct result *result);
+/* What one more sensor is worth along the axis, and the places of the plans of `suggest`. */
+void figure_sensor_worth(struct document *document, const struct result *result);
 /* Synthesised and measured transfer functions (15), a figure each, the telling ones of many. */
 void figure_transfer(struct document *document, const struct result *result);
 

@@ -90,6 +90,8 @@ void page_compose(struct document *document, int count, const struct result *res
             section_fit(document, &result[i]);
         if (result[i].diagnose)
             section_diagnose(document, &result[i]);
+        if (result[i].suggest)
+            section_suggest(document, &result[i]);
         if (result[i].studied)
             section_study(document, &result[i]);
     }

@@ -25,6 +25,7 @@ void section_agreement(struct document *document, const struct result *result);
 void section_states(struct document *document, const struct result *result);
 void section_fit(struct document *document, const struct result *result);
 void section_diagnose(struct document *document, const struct result *result);
+void section_suggest(struct document *document, const struct result *result);
 void section_study(struct document *document, const struct result *result);
 void section_modes(struct document *document, const struct result *result);
 void section_sensitivity(struct document *document, const struct result *result);

@@ -136,9 +136,13 @@ extern const struct record identification_record; /* rotid_identification as par
 extern const struct record identification_alone_record; /* these two */
 extern const struct record noise_record;                /* rotid_noise */
 extern const struct record diagnosis_record;            /* rotid_diagnosis */
+extern const struct record suggestion_record;           /* rotid_suggestion */
+extern const struct record fitted_parameter_record;     /* rotid_fitted_parameter */
+extern const struct record cause_record;                /* rotid_cause */
+extern const struct record detectable_record;           /* rotid_detectable */
 
 extern const struct record message_record; /* the texts of a rotid_message, which no file has */
 /* The same with the members that no file has, but for the fits: what a host is given. */
-extern const struct record spectrum_whole_record, identification_whole_record, diagnosis_whole_record;
+extern const struct record spectrum_whole_record, identification_whole_record, diagnosis_whole_record, suggestion_whole_record;
 
 #endif

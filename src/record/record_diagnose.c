@@ -23,7 +23,7 @@ static const struct field cause_fields[] = {
     TEXT(rotid_cause, state, MAY_BE_NULL | SINCE_LATER),
     {0},
 };
-static const struct record cause_record = RECORD(rotid_cause, cause_fields);
+const struct record cause_record = RECORD(rotid_cause, cause_fields);
 
 static const struct field verdict_fields[] = {
     WORD(rotid_verdict, kind, MAY_BE_NULL, verdict_words),
@@ -169,7 +169,7 @@ static const struct field detectable_fields[] = {
     FLAG(rotid_detectable, beyond, 0),
     {0},
 };
-static const struct record detectable_record = RECORD(rotid_detectable, detectable_fields);
+const struct record detectable_record = RECORD(rotid_detectable, detectable_fields);
 
 static const struct field step_fields[] = {
     TEXT(rotid_step, name, 0),

@@ -21,7 +21,7 @@ static const struct field parameter_fields[] = {
     FLAG(rotid_fitted_parameter, identifiable, 0),
     {0},
 };
-static const struct record parameter_record = RECORD(rotid_fitted_parameter, parameter_fields);
+const struct record fitted_parameter_record = RECORD(rotid_fitted_parameter, parameter_fields);
 
 static const struct field mode_fields[] = {
     INTEGER(rotid_compared_mode, mode, FROM_1),
@@ -146,7 +146,7 @@ static const struct field identification_fields[] = {
     INTEGER(rotid_identification, evaluations, FROM_1),
     INTEGER(rotid_identification, jacobians, FROM_0),
     TEXT(rotid_identification, stop_reason, 0),
-    STRUCTS(rotid_identification, parameters, 0, parameter_record),
+    STRUCTS(rotid_identification, parameters, 0, fitted_parameter_record),
     MATRIX(rotid_identification, correlation, ELEMENTS_MAY_BE_NULL, nparameters, nparameters),
     NUMBER(rotid_identification, condition_number, MAY_BE_NULL | FROM_0),
     MAPS(rotid_identification, undetermined_directions, 0, nparameters),

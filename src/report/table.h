@@ -16,6 +16,8 @@ void table_state(FILE *out, int i, const char *name);
 void table_check(FILE *out, const struct result *result, const struct job *const *job);
 /* shapes: with the shape of every mode at every sensor. */
 void table_modes(FILE *out, const struct result *result, int shapes);
+/* all: every pair of rivals of every test. */
+void table_suggest(FILE *out, const struct result *result, int all);
 void table_sensitivity(FILE *out, const struct result *result);
 /* baseline: NLopt was asked for; history: with the iterations. */
 void table_identify(FILE *out, const struct result *result, int baseline, int history);

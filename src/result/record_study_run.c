@@ -90,14 +90,14 @@ static const struct field cause_fields[] = {
     STRUCTS(struct run_cause, parameters, 0, cause_parameter_record),
     {0},
 };
-static const struct record cause_record = RECORD(struct run_cause, cause_fields);
+static const struct record run_cause_record = RECORD(struct run_cause, cause_fields);
 
 static const struct field verdict_fields[] = {
     WORD(struct run_verdict, kind, 0, verdict_words),
     FLAG(struct run_verdict, adequate_after, 0),
     NUMBER(struct run_verdict, p_value, MAY_BE_NULL | PROBABILITY),
-    STRUCTS(struct run_verdict, causes, 0, cause_record),
-    STRUCTS(struct run_verdict, alternatives, 0, cause_record),
+    STRUCTS(struct run_verdict, causes, 0, run_cause_record),
+    STRUCTS(struct run_verdict, alternatives, 0, run_cause_record),
     {0},
 };
 static const struct record verdict_record = RECORD(struct run_verdict, verdict_fields);

@@ -28,6 +28,7 @@ static const struct field modes_fields[] = {HEAD, OWN(modes, spectrum_record), S
 static const struct field identify_fields[] = {
     HEAD, OWN(identify, identification_record), OWN(identify, identification_alone_record), WARNINGS, {0}};
 static const struct field diagnose_fields[] = {HEAD, OWN(diagnose, diagnosis_record), WARNINGS, {0}};
+static const struct field suggest_fields[] = {HEAD, OWN(suggest, suggestion_record), WARNINGS, {0}};
 static const struct field sensitivity_fields[] = {HEAD, OWN(sensitivity, sensitivity_record), STATES(sensitivity), {0}};
 static const struct field frf_fields[] = {HEAD, OWN(frf, transfer_record), STATES(frf), WARNINGS, {0}};
 static const struct field ema_fields[] = {PROVENANCE, OWN(ema, ema_record), WARNINGS, {0}};
@@ -47,6 +48,7 @@ static const struct {
     {"modes", RECORD(struct result, modes_fields), 1},
     {"identify", RECORD(struct result, identify_fields), 1},
     {"diagnose", RECORD(struct result, diagnose_fields), 1},
+    {"suggest", RECORD(struct result, suggest_fields), 1},
     {"sensitivity", RECORD(struct result, sensitivity_fields), 1},
     {"frf", RECORD(struct result, frf_fields), 1},
     {"ema", RECORD(struct result, ema_fields), 0},
@@ -97,6 +99,7 @@ const rotid_geometry *geometry_of_result(const struct result *result)
 {
     return result->identify   ? result->identify->geometry
            : result->diagnose ? result->diagnose->geometry
+           : result->suggest  ? result->suggest->geometry
            : result->modes    ? result->modes->geometry
            : result->check    ? result->check->geometry
                               : NULL;
@@ -109,5 +112,5 @@ const rotid_identification *fit_of_result(const struct result *result)
 
 const rotid_noise *noise_of_result(const struct result *result)
 {
-    return result->diagnose ? &result->diagnose->noise : result->identify ? result->identify->noise : NULL;
+    return result->diagnose ? &result->diagnose->noise : result->suggest ? &result->suggest->noise : result->identify ? result->identify->noise : NULL;
 }

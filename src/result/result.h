@@ -30,6 +30,7 @@ struct result {
     rotid_spectrum *modes;
     rotid_identification *identify;
     rotid_diagnosis *diagnose;
+    rotid_suggestion *suggest;
     const struct sensitivity *sensitivity;
     const struct transfer_result *frf;
     const struct ema_result *ema;

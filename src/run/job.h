@@ -62,6 +62,7 @@ struct job_measurement {
     double *frequency_std; /* [nmode] relative, NaN where there is none; the NOISE card is already applied */
     double *shape;         /* [nsensor * nmode] NaN where not measured, or NULL */
     double *shape_std;     /* [nsensor * nmode] relative to the largest component, NaN where there is none; or NULL */
+    double stated_frequency_noise, stated_shape_noise; /* of the NOISE card for all modes, relative; 0: not stated */
     int has_noise_floor;   /* the user allows for more than the scatter of the test: that is not taken for overstated noise */
     int *holdout;          /* [nmode] */
     /* With the accelerometer at one sensor after the other, [nsensor * nmode] in Hz, NaN where not known; NULL where the deck has

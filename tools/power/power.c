@@ -19,14 +19,16 @@ static const char usage[] =
     "  --changed        pairs of states with an error of the model in both: what changed between them\n"
     "  --log FILE       a line of JSON a case; goes on with what the file holds\n"
     "  --keep FOLDER    leaves there the deck of a case and its truth: case_N.inp, case_N.json\n"
+    "  --suggest        makes the tests that rotid suggest proposes of ambiguous cases, and counts what becomes of its promises\n"
     "Interrupted, it shows what is finished. Exit code: 0 all requirements hold, 1 one does not, 2 wrong usage, 3 a file or "
     "memory.\n";
 
-enum { CASES = 256, FIRST, SEED, JOBS, ONLY, CHANGED, LOG, KEEP, HELP };
+enum { CASES = 256, FIRST, SEED, JOBS, ONLY, CHANGED, LOG, KEEP, SUGGEST, HELP };
 
-static const struct option long_options[] = {{"cases", 1, NULL, CASES}, {"first", 1, NULL, FIRST}, {"seed", 1, NULL, SEED},
-                                             {"jobs", 1, NULL, JOBS},   {"only", 1, NULL, ONLY},   {"changed", 0, NULL, CHANGED},
-                                             {"log", 1, NULL, LOG},     {"keep", 1, NULL, KEEP},   {"help", 0, NULL, HELP},
+static const struct option long_options[] = {{"cases", 1, NULL, CASES}, {"first", 1, NULL, FIRST},     {"seed", 1, NULL, SEED},
+                                             {"jobs", 1, NULL, JOBS},   {"only", 1, NULL, ONLY},       {"changed", 0, NULL, CHANGED},
+                                             {"log", 1, NULL, LOG},     {"keep", 1, NULL, KEEP},       {"suggest", 0, NULL, SUGGEST},
+                                             {"help", 0, NULL, HELP},
                                              {NULL, 0, NULL, 0}};
 
 static volatile sig_atomic_t interrupted;
@@ -74,6 +76,9 @@ static int take(int option, struct power_options *o)
     case KEEP:
         o->keep = optarg;
         return 0;
+    case SUGGEST:
+        o->suggest = 1;
+        return 0;
     default:
         return 1;
     }
@@ -100,5 +105,7 @@ int main(int argc, char **argv)
     set_blas_threads(1);
     signal(SIGINT, interrupt);
     signal(SIGTERM, interrupt);
-    return o.changed ? power_changed(&o, &interrupted, stdout) : power_run(&o, &interrupted, stdout);
+    return o.changed   ? power_changed(&o, &interrupted, stdout)
+           : o.suggest ? power_suggest(&o, &interrupted, stdout)
+                       : power_run(&o, &interrupted, stdout);
 }

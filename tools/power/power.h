@@ -13,6 +13,7 @@ struct power_options {
     uint64_t seed;
     const char *only; /* kind of effect of `hide --random`, or NULL: the mixture */
     const char *log;  /* a line of JSON a case; what it holds is not done again. NULL: none */
+    int suggest;      /* what becomes of the tests that are proposed, in place of the diagnosis alone */
     const char *keep; /* directory for decks and truths, NULL: they are removed */
 };
 
@@ -59,6 +60,10 @@ int power_interrupted(void *context);
 /* The same rotors measured before and after an effect came, with another one in both: what the diagnosis says of the change, a
  * pair a paragraph, and how often it is right. 0 where it is in nine of ten, 1 where not, 3 memory or interrupted. */
 int power_changed(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
+
+/* Of cases with one physical effect, or of the kind `only`, those that stay ambiguous: makes the test that `rotid suggest` ranks first
+ * and the same test again, and counts names beside what was promised. Exit codes as above. */
+int power_suggest(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
 
 /* Tables and requirements of what is done; 0 where all of these hold. */
 int power_report(FILE *out, int count, const struct power_result *result);

@@ -117,7 +117,7 @@ static int is_true(const struct job *job, const struct candidate *c, const cJSON
 }
 
 /* The number of the true effect that a candidate is, or -1. */
-static int which(const struct job *job, const struct candidate *c, const cJSON *truth)
+int hidden_which(const struct job *job, const struct candidate *c, const cJSON *truth)
 {
     const cJSON *effects = cJSON_GetObjectItem(truth, "effects");
     for (int i = 0; i < cJSON_GetArraySize(effects); i++)
@@ -286,7 +286,7 @@ static int measure_chi2(struct pool *pool, const struct diagnosis *d, const stru
 /* How many of the causes of a candidate, one or two, are there. */
 static int true_causes(const struct diagnosis *d, const struct candidate *c, const cJSON *truth)
 {
-    return (which(&d->job, c, truth) >= 0) + (c->with && which(&d->job, c->with, truth) >= 0);
+    return (hidden_which(&d->job, c, truth) >= 0) + (c->with && hidden_which(&d->job, c->with, truth) >= 0);
 }
 
 /* A pair of which one is true neither leads nor is led. */
@@ -360,7 +360,7 @@ static enum hidden_outcome judge_verdict(const struct diagnosis *d, const cJSON 
     int found[2] = {0, 0}, wrong = 0, noise = 0;
     const cJSON *effect = cJSON_GetArrayItem(cJSON_GetObjectItem(truth, "effects"), 0);
     for (int i = 0; i < d->ncause; i++) {
-        int n = which(&d->job, &d->cause[i], truth);
+        int n = hidden_which(&d->job, &d->cause[i], truth);
         if (n >= 0)
             found[n & 1] = 1;
         else if (!wrong++)
@@ -369,7 +369,7 @@ static enum hidden_outcome judge_verdict(const struct diagnosis *d, const cJSON 
     if (wrong)
         return HIDDEN_WRONG;
     for (int i = 0; i < d->nalternative; i++) {
-        int n = which(&d->job, &d->alternative[i], truth);
+        int n = hidden_which(&d->job, &d->alternative[i], truth);
         if (n >= 0)
             found[n & 1] = 1;
         noise |= s->class == HIDDEN_NOISE && is(effect, d->alternative[i].cause->id);

@@ -62,6 +62,9 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *diagnosis, cons
                       struct hidden_score *score);
 struct hidden_score hidden_score_none(void);
 
+/* The number of the true physical effect that a candidate is, or -1. */
+int hidden_which(const struct job *job, const struct candidate *candidate, const cJSON *truth);
+
 /* The drop of the data of `truth`, of the same rotor with the same noise and as many modes: NaN where
  * the fit fails. ROTID_OK or ROTID_ERROR_MEMORY. */
 int hidden_drop(struct pool *pool, const struct diagnosis *diagnosis, const struct job *read, const cJSON *truth, double *drop);

@@ -1,0 +1,91 @@
+/* What to measure next, for hosts. */
+#include "api/deck_handle.h"
+#include "api/keep.h"
+#include "api/result_diagnosis.h"
+#include "api/result_geometry.h"
+#include "base/parallel.h"
+#include "base/sized.h"
+#include "deck/deck_proposed.h"
+
+static int take_options(const rotid_suggest_options *given, char *failure, rotid_suggest_options *o)
+{
+    *o = (rotid_suggest_options){.size = sizeof *o};
+    int status = given ? sized_take(SIZED_SUGGEST_OPTIONS, given, failure, o) : ROTID_OK;
+    if (status)
+        return status;
+    const struct {
+        const char *name;
+        double value;
+    } number[] = {{"wanted_percent", o->wanted_percent},
+                  {"frequency_noise", o->frequency_noise},
+                  {"shape_noise", o->shape_noise},
+                  {"set_up_cost", o->set_up_cost},
+                  {"sensors", o->sensors},
+                  {"modes", o->modes},
+                  {"threads", o->threads},
+                  {"replicates", o->replicates},
+                  {"seed", (double)o->seed}};
+    for (size_t i = 0; i < sizeof number / sizeof *number; i++)
+        if (!(number[i].value >= 0 && number[i].value <= 1e12))
+            return refuse(failure, "options->%s is %g, expected 0 or more", number[i].name, number[i].value);
+    if (o->modes == 1)
+        return refuse(failure, "options->modes is 1, expected 2 or more");
+    if (o->threads > PARALLEL_MOST)
+        o->threads = PARALLEL_MOST;
+    return ROTID_OK;
+}
+
+static rotid_suggestion *make_result(struct call *call, struct suggestion *s)
+{
+    struct pool *pool = &call->entry.scratch;
+    rotid_suggestion *made = &s->result;
+    made->geometry = result_geometry(pool, &s->job.rotor, s->spectrum.model);
+    for (int i = 0; i < made->nrivals; i++) {
+        const struct rival *rival = &s->rivals.rival[i];
+        made->rivals[i].ncauses = POOL_LIST(pool, made->rivals[i].causes, rival->ncause);
+        for (int c = 0; c < made->rivals[i].ncauses; c++)
+            made->rivals[i].causes[c] = result_cause(pool, &rival->cause[c]);
+    }
+    for (int i = 0; i < made->ntests; i++) {
+        char *cards = NULL;
+        (void)deck_write_test(pool, &s->rivals.rival[s->rivals.n - 1].job, &s->test[i], &cards);
+        made->tests[i].cards = cards;
+    }
+    made->nmessage = (int)call->notes.count;
+    made->message = call->notes.item;
+    return call_keep(call, &suggestion_whole_record, made, &made->memory);
+}
+
+static int suggest(struct call *call, const rotid_deck *deck, const rotid_suggest_options *given, rotid_suggestion **result)
+{
+    rotid_suggest_options options;
+    const struct job *job = deck_job(deck, call);
+    struct suggestion *s = POOL_NEW(&call->entry.scratch, struct suggestion);
+    int status = job ? take_options(given, call->entry.failure, &options) : ROTID_ERROR_ARGUMENT;
+    if (status || !s)
+        return status ? status : ROTID_ERROR_MEMORY;
+    status = suggest_run(&call->entry.scratch, job, &options, &call->environment, &call->notes, s);
+    if (!status)
+        *result = make_result(call, s);
+    suggest_free(s);
+    return status ? status : *result ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+int rotid_suggest(const rotid_deck *deck, const rotid_suggest_options *options, const rotid_environment *environment,
+                  char *failure, rotid_suggestion **result)
+{
+    struct call call;
+    int status = call_open(&call, environment, failure, result, "result");
+    if (!result)
+        return call_close(&call, status);
+    *result = NULL;
+    if (!status)
+        status = suggest(&call, deck, options, result);
+    return call_close(&call, status);
+}
+
+void rotid_suggestion_free(rotid_suggestion *result)
+{
+    if (result)
+        pool_free(result->memory);
+}

@@ -1,0 +1,81 @@
+#include <string.h>
+
+#include "cli/command.h"
+#include "deck/deck_proposed.h"
+#include "file/open.h"
+#include "report/table.h"
+
+#define MOST_BYTES (64L << 20) /* beyond what a deck may have */
+
+/* The text of the deck as its user wrote it; NULL where it is no plain file any more, or memory is out. */
+static char *read_deck(struct pool *pool, const char *path)
+{
+    struct stat about;
+    FILE *file = file_open_regular(path, &about);
+    size_t length = file && about.st_size > 0 && about.st_size < MOST_BYTES ? (size_t)about.st_size : 0;
+    char *text = length ? pool_get(pool, length + 1, 1) : NULL;
+    if (text && fread(text, 1, length, file) != length)
+        text = NULL;
+    if (file)
+        (void)fclose(file);
+    return text && strlen(text) == length ? text : NULL;
+}
+
+static int write_extended(struct command *command, const rotid_suggestion *s, int code)
+{
+    char *text = NULL, *deck;
+    if (!command->extended)
+        return code;
+    if (!s->ntests || !s->tests[0].cards) {
+        terminal_say("rotid: %s is not written: %s\n", command->extended,
+                     s->ntests ? "no deck can say the first of the tests: name its supports" : "there is no test to propose");
+        return EXIT_DOUBTFUL;
+    }
+    deck = read_deck(&command->pool, command->deck);
+    if (!deck) {
+        terminal_say("rotid: %s is not written: cannot read %s again\n", command->extended, command->deck);
+        return EXIT_INTERNAL;
+    }
+    if (deck_add_state(&command->pool, deck, s->tests[0].cards, &text))
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    return command_write_file(command, command->extended, text, code);
+}
+
+int command_suggest(struct command *command)
+{
+    const struct suggest_arguments *given = &command->suggest;
+    char failure[ROTID_FAILURE_LENGTH];
+    double last = 0;
+    if (!command->seed)
+        command->head.seed = (double)(command->seed = 1);
+    const rotid_suggest_options options = {.size = sizeof options,
+                                           .wanted_percent = given->interval,
+                                           .frequency_noise = given->frequency_noise / 100,
+                                           .shape_noise = given->shape_noise / 100,
+                                           .set_up_cost = given->set_up_cost,
+                                           .sensors = given->sensors,
+                                           .modes = given->modes,
+                                           .threads = command->threads,
+                                           .replicates = command->replicates,
+                                           .seed = (long)command->seed};
+    const rotid_environment environment = command_environment(command, &last);
+    rotid_suggestion *suggestion;
+    int status = rotid_suggest(command->read, &options, &environment, failure, &suggestion);
+    if (environment.progress)
+        terminal_progress_end();
+    if (status == ROTID_STOP_CANCELLED) {
+        terminal_say("rotid: interrupted; there is no result\n");
+        return EXIT_DOUBTFUL;
+    }
+    if (status)
+        return command_fail_with(command, status, failure);
+    struct result result = {.head = command->head, .suggest = suggestion};
+    command_take_messages(command, NULL, suggestion->nmessage, suggestion->message);
+    if (command_wants_table(command)) {
+        table_suggest(terminal_out(), &result, command->verbose);
+        table_notes(terminal_out(), &command->messages);
+    }
+    int written = command_write_result(command, &result, EXIT_DONE), code = write_extended(command, suggestion, written);
+    rotid_suggestion_free(suggestion);
+    return code > written ? code : written;
+}

@@ -1,0 +1,292 @@
+#include "suggest/margin.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "diagnose/columns.h"
+#include "linalg/cholesky.h"
+#include "linalg/product.h"
+
+static const struct effect_kind nothing = {.id = "none"};
+
+struct side { /* a rival in the state of a test */
+    int nrow, n, nscale;
+    double *j;      /* [nrow * n] relative parameters that are not pressed against a bound */
+    double *unit;   /* [nrow * nscale] directions of the scales, orthonormal */
+    double *d;      /* [nrow] */
+    double *factor; /* [n * n] of H */
+    double *spread; /* [n * n] factor of J1'J1 + I */
+    double *work;   /* [nrow + n] */
+    double trace;   /* of H^-1 J2'J2 */
+};
+
+/* ------------------------------------------------------------------------------------------------ a rival in a state */
+
+static int take_columns(struct columns *c, const struct rival *rival, const double *x_test, struct side *side)
+{
+    int status = ROTID_OK, n = 0, row = c->nmode;
+    for (int p = 0; p < rival->fit->n && !status; p++) {
+        if (!rival_uses(rival, p))
+            continue;
+        double *column = side->j + (ptrdiff_t)n++ * side->nrow;
+        status = columns_parameter(c, p, column);
+        for (int i = 0; i < side->nrow; i++)
+            column[i] *= x_test[p];
+    }
+    for (int k = 0; k < c->nmode; k++) {
+        const struct columns_mode *mode = &c->mode[k];
+        if (mode->square > 0) {
+            double *unit = side->unit + (ptrdiff_t)side->nscale++ * side->nrow;
+            for (int i = 0; i < mode->sensors; i++)
+                unit[row + i] = mode->weighted[i] / sqrt(mode->square);
+        }
+        row += mode->sensors;
+    }
+    return status;
+}
+
+static int factor_both(struct pool *pool, const struct rival *rival, const int *own, struct side *s)
+{
+    size_t cells = (size_t)s->n * (size_t)s->n;
+    double *gram = POOL_ARRAY(pool, double, cells), *column = POOL_ARRAY(pool, double, s->n);
+    s->factor = POOL_ARRAY(pool, double, cells);
+    s->spread = POOL_ARRAY(pool, double, cells);
+    if (!gram || !column || !s->factor || !s->spread)
+        return ROTID_ERROR_MEMORY;
+    rival_gram(rival, own, s->n, s->spread);
+    for (int j = 0; j < s->n; j++)
+        for (int i = 0; i < s->n; i++)
+            gram[i + (ptrdiff_t)j * s->n] = product_dot(s->nrow, s->j + (ptrdiff_t)i * s->nrow, s->j + (ptrdiff_t)j * s->nrow);
+    for (size_t i = 0; i < cells; i++)
+        s->factor[i] = s->spread[i] + gram[i];
+    for (int i = 0; i < s->n; i++) {
+        s->spread[i + (ptrdiff_t)i * s->n] += 1;
+        s->factor[i + (ptrdiff_t)i * s->n] *= 1 + 1e-12; /* a parameter that neither state feels */
+        if (!(s->factor[i + (ptrdiff_t)i * s->n] > 0))
+            s->factor[i + (ptrdiff_t)i * s->n] = 1;
+    }
+    if (cholesky_factor(s->n, s->factor) || cholesky_factor(s->n, s->spread))
+        return ROTID_ERROR_RANK;
+    for (int j = 0; j < s->n; j++) {
+        memcpy(column, gram + (ptrdiff_t)j * s->n, (size_t)s->n * sizeof *column);
+        cholesky_solve(s->n, s->factor, 1, column);
+        s->trace += column[j];
+    }
+    return ROTID_OK;
+}
+
+/* Rival b where `measured` is what rival a would give in that state. ROTID_OK, memory, or a status that says that it has no
+ * model or no partner there. */
+static int side_open(struct pool *pool, const struct rival *b, const struct test *test, const struct job_measurement *measured,
+                     struct side *s)
+{
+    struct effect none = {.kind = &nothing};
+    struct columns *c = POOL_NEW(pool, struct columns);
+    int nparameter = b->job.unknowns.nparameter;
+    double *x = POOL_ARRAY(pool, double, nparameter);
+    int *own = POOL_ARRAY(pool, int, nparameter);
+    struct job job;
+    *s = (struct side){0};
+    if (!c || !x || !own)
+        return ROTID_ERROR_MEMORY;
+    int status = test_apply(pool, test, &b->job, b->fit->x, &job, x, own);
+    if (status)
+        return status;
+    job.measurement = *measured;
+    status = columns_open(pool, &job, measured->number, measured->holdout, &none, x, c);
+    if (!status)
+        status = columns_prepare(c);
+    if (status)
+        return status;
+    for (int p = 0; p < nparameter; p++)
+        s->n += rival_uses(b, p);
+    s->nrow = c->nrow;
+    s->j = POOL_ARRAY(pool, double, (size_t)s->nrow *(size_t)s->n);
+    s->unit = POOL_ARRAY(pool, double, (size_t)s->nrow *(size_t)c->nmode);
+    s->d = POOL_ARRAY(pool, double, s->nrow);
+    s->work = POOL_ARRAY(pool, double, s->nrow + s->n);
+    if (!s->j || !s->unit || !s->d || !s->work)
+        return ROTID_ERROR_MEMORY;
+    memcpy(s->d, c->r, (size_t)s->nrow * sizeof *s->d);
+    status = take_columns(c, b, x, s);
+    return status ? status : factor_both(pool, b, own, s);
+}
+
+/* Q(z) */
+static double remainder_of(struct side *s, const double *z)
+{
+    double *left = s->work, *along = s->work + s->nrow;
+    memcpy(left, z, (size_t)s->nrow * sizeof *left);
+    for (int k = 0; k < s->nscale; k++) {
+        const double *unit = s->unit + (ptrdiff_t)k * s->nrow;
+        double length = product_dot(s->nrow, unit, left);
+        for (int i = 0; i < s->nrow; i++)
+            left[i] -= length * unit[i];
+    }
+    for (int p = 0; p < s->n; p++)
+        along[p] = product_dot(s->nrow, s->j + (ptrdiff_t)p * s->nrow, left);
+    cholesky_forward(s->n, s->factor, 1, along);
+    return fmax(0, product_dot(s->nrow, left, left) - product_dot(s->n, along, along));
+}
+
+/* ------------------------------------------------------------------------------------------------ all rivals */
+
+/* side [n]: every rival where `truth` is true; none where the state is not feasible. */
+static int open_sides(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, struct side *side,
+                      int *feasible)
+{
+    const struct rival *a = &rivals->rival[truth];
+    const struct planned plan = {test->modes, test->number, test->frequency_std, test->nsensor ? test->shape_std : 0};
+    int nparameter = a->job.unknowns.nparameter;
+    double *x = POOL_ARRAY(pool, double, nparameter);
+    int *own = POOL_ARRAY(pool, int, nparameter);
+    struct job job;
+    if (!x || !own)
+        return ROTID_ERROR_MEMORY;
+    int status = test_apply(pool, test, &a->job, a->fit->x, &job, x, own);
+    if (!status)
+        status = planned_measure(pool, &job, x, &plan, &job);
+    for (int b = 0; b < rivals->n && !status; b++)
+        status = side_open(pool, &rivals->rival[b], test, &job.measurement, &side[b]);
+    *feasible = !status;
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED ? status : ROTID_OK;
+}
+
+int margin_distances(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, double *distance,
+                     int *feasible)
+{
+    struct side *side = POOL_ARRAY(pool, struct side, rivals->n);
+    int status = side ? open_sides(pool, rivals, test, truth, side, feasible) : ROTID_ERROR_MEMORY;
+    for (int b = 0; b < rivals->n && !status && *feasible; b++)
+        distance[b] = b == truth ? 0 : remainder_of(&side[b], side[b].d);
+    return status;
+}
+
+int margin_suffices(const struct rivals *rivals, int truth, const double *lead)
+{
+    for (int b = 0; b < rivals->n; b++)
+        if (b != truth && !(lead[b] > (b == rivals->n - 1 ? rivals->base_margin : rivals->margin)))
+            return 0;
+    return 1;
+}
+
+/* The lead expected: noise is white, and what is not known of the truth lies along the columns of J_a2 C_a^(1/2). */
+static double expected(struct side *a, struct side *b, const double *spread, double before)
+{
+    double sum = before + remainder_of(b, b->d) + a->trace - b->trace;
+    for (int p = 0; p < a->n; p++) {
+        const double *w = spread + (ptrdiff_t)p * a->nrow;
+        sum += remainder_of(b, w) - remainder_of(a, w);
+    }
+    return sum;
+}
+
+/* spread [nrow * n] := J2 C^(1/2), C^(1/2) = L^-T of the factor L of C^-1: column p is J2 times that of L^-T */
+static void make_spread(const struct side *a, double *spread)
+{
+    for (int p = 0; p < a->n; p++) {
+        double *column = a->work, *to = spread + (ptrdiff_t)p * a->nrow;
+        memset(column, 0, (size_t)a->n * sizeof *column);
+        column[p] = 1;
+        cholesky_backward_leading(a->n, a->n, a->spread, column);
+        for (int i = 0; i < a->nrow; i++) {
+            to[i] = 0;
+            for (int q = 0; q < a->n; q++)
+                to[i] += a->j[i + (ptrdiff_t)q * a->nrow] * column[q];
+        }
+    }
+}
+
+struct counts {
+    int named, wrong;
+};
+
+/* *count over the draws; won [n] how often the lead over each rival suffices */
+static int draw_all(struct pool *pool, const struct rivals *rivals, int truth, struct side *side, const double *spread, int draws,
+                    unsigned long seed, struct counts *count, int *won)
+{
+    struct side *a = &side[truth];
+    int n = rivals->n;
+    struct random_stream stream = {seed};
+    double *w = POOL_ARRAY(pool, double, a->nrow), *z = POOL_ARRAY(pool, double, a->nrow), *chi2 = POOL_ARRAY(pool, double, n),
+           *lead = POOL_ARRAY(pool, double, n);
+    if (!w || !z || !chi2 || !lead)
+        return ROTID_ERROR_MEMORY;
+    for (int draw = 0; draw < draws; draw++) {
+        for (int i = 0; i < a->nrow; i++)
+            w[i] = random_normal(&stream);
+        for (int p = 0; p < a->n; p++) {
+            double size = random_normal(&stream);
+            for (int i = 0; i < a->nrow; i++)
+                w[i] += size * spread[i + (ptrdiff_t)p * a->nrow];
+        }
+        for (int b = 0; b < n; b++) {
+            for (int i = 0; i < a->nrow; i++)
+                z[i] = w[i] - (b == truth ? 0 : side[b].d[i]);
+            chi2[b] = rivals->rival[b].score + remainder_of(&side[b], z);
+        }
+        for (int named = 0; named + 1 < n; named++) {
+            for (int b = 0; b < n; b++)
+                lead[b] = chi2[b] - chi2[named];
+            if (margin_suffices(rivals, named, lead))
+                *(named == truth ? &count->named : &count->wrong) += 1;
+        }
+        for (int b = 0; b < n; b++)
+            won[b] += chi2[b] - chi2[truth] > (b == n - 1 ? rivals->base_margin : rivals->margin);
+    }
+    return ROTID_OK;
+}
+
+static int judge_truth(struct pool *pool, const struct rivals *rivals, const struct test *test, int truth, int draws,
+                       unsigned long seed, rotid_suggested_test *out, int *feasible)
+{
+    int n = rivals->n, *won = POOL_ARRAY(pool, int, n);
+    struct side *side = POOL_ARRAY(pool, struct side, n);
+    struct counts count = {0};
+    if (!side || !won)
+        return ROTID_ERROR_MEMORY;
+    int status = open_sides(pool, rivals, test, truth, side, feasible);
+    if (status || !*feasible)
+        return status;
+    struct side *a = &side[truth];
+    double *spread = POOL_ARRAY(pool, double, (size_t)a->nrow *(size_t)a->n);
+    if (!spread)
+        return ROTID_ERROR_MEMORY;
+    make_spread(a, spread);
+    status = draw_all(pool, rivals, truth, side, spread, draws, seed, &count, won);
+    const struct rival *true_one = &rivals->rival[truth];
+    out->chance += true_one->share * count.named / draws;
+    out->wrong += true_one->share * count.wrong / draws;
+    for (int b = 0; b < n && !status; b++) {
+        double before = rivals->rival[b].score - true_one->score;
+        if (b != truth)
+            out->margins[out->nmargins++] = (rotid_expected_margin){.truth = truth,
+                                                                    .rival = b,
+                                                                    .before = before,
+                                                                    .distance = remainder_of(&side[b], side[b].d),
+                                                                    .expected = expected(a, &side[b], spread, before),
+                                                                    .refitted = NAN,
+                                                                    .chance = (double)won[b] / draws};
+    }
+    return status;
+}
+
+int margin_judge(struct pool *pool, const struct rivals *rivals, const struct test *test, int draws, unsigned long seed,
+                 rotid_suggested_test *out, int *feasible)
+{
+    int status = ROTID_OK, n = rivals->n;
+    out->chance = out->wrong = 0;
+    out->nmargins = 0;
+    *feasible = POOL_LIST(pool, out->margins, (size_t)n * (size_t)n) > 0;
+    if (!*feasible)
+        return ROTID_ERROR_MEMORY;
+    for (int a = 0; a + 1 < n && !status && *feasible; a++) {
+        struct pool scratch; /* models of every rival */
+        pool_open(&scratch, pool->allocator);
+        status = judge_truth(&scratch, rivals, test, a, draws, seed, out, feasible);
+        status = scratch.out_of_memory ? ROTID_ERROR_MEMORY : status;
+        pool_close(&scratch);
+    }
+    return status;
+}

@@ -1,0 +1,232 @@
+#include "suggest/rivals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "diagnose/decide.h"
+#include "diagnose/refit.h"
+#include "linalg/product.h"
+
+#define SAME_CHI2  1.0 /* of a fit on a mesh that may be finer */
+#define SAME_MODEL 2.0 /* times chi2: beyond that the fit did not find what the diagnosis had found */
+#define CLEAR      2.0 /* times the threshold of the scan: the drop that a name needs, as in decide.c */
+
+struct sources {            /* of rivals */
+    const struct job *base; /* the model with what is named */
+    const double *x;        /* [nparameter] its values */
+    const int *number, *holdout;
+    const rotid_environment *environment;
+};
+
+static int is_model(const struct candidate *c)
+{
+    return c->cause->class == CAUSE_PHYSICAL && c->cause->effect && !c->cause->solid && isfinite(c->result.chi2);
+}
+
+/* The causes [count] of a rival in the job, its own parameters from x (NULL: their starts), the first cause at another place
+ * where that is finite; held: at their values. */
+static int add_causes(struct pool *pool, const struct sources *from, const double *x, int count, const struct candidate *cause,
+                      double other_place, int held, struct job *to)
+{
+    static const int all[EFFECT_MOST_PARAMETERS] = {1, 1, 1, 1};
+    int status = ROTID_OK;
+    for (int i = 0; i < count && !status; i++) {
+        struct effect effect = cause[i].effect;
+        if (i && !(effect.name = scan_free_name(pool, &to->rotor, cause[i].cause->id)))
+            return ROTID_ERROR_MEMORY;
+        if (!i && isfinite(other_place))
+            effect.value[cause->cause->place] = other_place;
+        status =
+            job_with_effect(pool, i ? to : from->base, i ? NULL : x, &effect, cause[i].cause, held ? all : cause[i].fixed, to);
+    }
+    return status;
+}
+
+static int is_fatal(int status)
+{
+    return status == ROTID_ERROR_MEMORY || status == ROTID_STOP_CANCELLED;
+}
+
+/* refit_keep of a job that is the only state. */
+static int keep(struct pool *pool, const struct job *job, rotid_fit_result *fit, struct refit *refit)
+{
+    struct state state;
+    const struct states states = states_of(job, &state);
+    return refit_keep(pool, &states, fit, refit);
+}
+
+/* The fit from there, kept in *refit where it is better. Statuses of memory and cancellation. */
+static int fit_from(struct pool *pool, const struct sources *from, const double *x, int count, const struct candidate *cause,
+                    double other_place, struct refit *refit)
+{
+    struct job job;
+    rotid_fit_result *held = NULL, *fit = NULL;
+    int status = add_causes(pool, from, x, count, cause, other_place, 1, &job);
+    if (!status && job.unknowns.nparameter) /* the rest follows first: it may be far from where the causes were found */
+        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &held);
+    if (!status)
+        status = add_causes(pool, from, held ? held->x : x, count, cause, other_place, 0, &job);
+    rotid_fit_free(held);
+    if (!status)
+        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &fit);
+    if (status)
+        return is_fatal(status) ? status : ROTID_OK;
+    if (fit->chi2 < refit->chi2)
+        return keep(pool, &job, fit, refit);
+    rotid_fit_free(fit);
+    return ROTID_OK;
+}
+
+static const char *label_of(struct pool *pool, int count, const struct candidate *cause, double other_place)
+{
+    const char *text = candidate_label(pool, cause), *second = count > 1 ? candidate_label(pool, cause + 1) : NULL;
+    if (!text || (count > 1 && !second))
+        return NULL;
+    return second                  ? pool_format(pool, "%s with %s", text, second)
+           : isfinite(other_place) ? pool_format(pool, "%s near %.3g m", text, other_place)
+                                   : text;
+}
+
+/* Fits a rival; one that cannot be fitted is none. */
+static int add(struct pool *pool, const struct sources *from, int count, const struct candidate *cause, double other_place,
+               struct rivals *rivals)
+{
+    struct rival *rival = &rivals->rival[rivals->n];
+    struct refit refit = {.chi2 = INFINITY};
+    int status = fit_from(pool, from, from->x, count, cause, other_place, &refit);
+    if (!status && !(refit.chi2 < cause->result.chi2 + SAME_CHI2)) /* the base may end at a bound, far away */
+        status = fit_from(pool, from, NULL, count, cause, other_place, &refit);
+    if (!status && !(refit.chi2 < SAME_MODEL * cause->result.chi2 + SAME_CHI2)) {
+        rotid_fit_free(refit.fit);
+        rivals->left_out++;
+        return ROTID_OK;
+    }
+    if (status)
+        return status;
+    *rival = (struct rival){.label = label_of(pool, count, cause, other_place),
+                            .ncause = count,
+                            .cause = cause,
+                            .job = refit.states.state->job,
+                            .fit = refit.fit,
+                            .score = refit.chi2};
+    for (int i = 0; i < count; i++)
+        rival->score += candidate_score(&cause[i]) - cause[i].result.chi2;
+    rivals->n++;
+    return rival->label ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+static int add_base(struct pool *pool, const struct sources *from, struct rivals *rivals)
+{
+    struct job job;
+    struct refit refit = {0};
+    rotid_fit_result *fit = NULL;
+    int status = job_started_at(pool, from->base, from->x, &job);
+    if (!status)
+        status = refit_job(pool, &job, from->number, from->holdout, from->environment, &fit);
+    if (!status)
+        status = keep(pool, &job, fit, &refit);
+    if (status)
+        return status;
+    rivals->rival[rivals->n++] =
+        (struct rival){.label = "the model as it is", .job = refit.states.state->job, .fit = refit.fit, .score = refit.chi2};
+    return ROTID_OK;
+}
+
+static int by_score(const void *left, const void *right)
+{
+    double a = ((const struct rival *)left)->score, b = ((const struct rival *)right)->score;
+    return (a > b) - (a < b);
+}
+
+static void share(struct rivals *rivals)
+{
+    double least = INFINITY, sum = 0;
+    if (rivals->n > 1)
+        qsort(rivals->rival, (size_t)rivals->n - 1, sizeof *rivals->rival, by_score);
+    for (int i = 0; i + 1 < rivals->n; i++)
+        least = fmin(least, rivals->rival[i].score);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i + 1 < rivals->n; i++) {
+            double weight = exp(-(rivals->rival[i].score - least) / 2);
+            if (pass)
+                rivals->rival[i].share = weight / sum;
+            else
+                sum += weight;
+        }
+}
+
+int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_environment *environment, struct rivals *rivals)
+{
+    const struct diagnosis_round *last = d->nround ? &d->round[d->nround - 1] : NULL;
+    *rivals = (struct rivals){0};
+    if (!last || !d->nalternative || !d->base.fit)
+        return ROTID_OK;
+    int named = d->extended.fit != NULL, status = ROTID_OK;
+    const struct identification *fitted = named ? &d->extended : &d->base;
+    const struct sources from = {.base = named ? &d->extended_job : &d->job,
+                                 .x = fitted->fit->x,
+                                 .number = fitted->compared.number,
+                                 .environment = environment,
+                                 .holdout = (named ? &d->extended_job : &d->job)->measurement.holdout};
+    int nmode = from.base->measurement.nmode;
+    rivals->rival = POOL_ARRAY(pool, struct rival, MOST_RIVALS + 1);
+    rivals->number = POOL_ARRAY(pool, int, nmode);
+    if (!rivals->rival || !rivals->number)
+        return ROTID_ERROR_MEMORY;
+    for (int k = 0; k < nmode; k++)
+        if (!from.holdout[k])
+            rivals->number[rivals->nmode++] = from.number[k];
+    rivals->margin = fmax(LEAST_MARGIN, isfinite(last->result.required_margin) ? last->result.required_margin : 0);
+    rivals->base_margin = fmax(rivals->margin, CLEAR * last->result.threshold);
+    for (int i = 0, count; i < d->nalternative && !status; i += count) {
+        const struct candidate *c = &d->alternative[i];
+        count = 1 + (i + 1 < d->nalternative && c[1].set == c->set); /* a pair has one number */
+        if (!is_model(c) || !is_model(&c[count - 1]) || rivals->n >= MOST_RIVALS) {
+            rivals->left_out++;
+            continue;
+        }
+        status = add(pool, &from, count, c, NAN, rivals);
+        int elsewhere =
+            count == 1 && c->cause->place >= 0 && !c->fixed[c->cause->place] && c->other_chi2 - c->result.chi2 < rivals->margin;
+        if (!status && elsewhere && rivals->n < MOST_RIVALS)
+            status = add(pool, &from, count, c, c->other_place, rivals);
+    }
+    if (!status && rivals->n)
+        status = add_base(pool, &from, rivals);
+    if (status)
+        rivals_free(rivals);
+    else
+        share(rivals);
+    return status;
+}
+
+void rivals_free(struct rivals *rivals)
+{
+    for (int i = 0; i < rivals->n; i++)
+        rotid_fit_free(rivals->rival[i].fit);
+    rivals->n = 0;
+}
+
+int rival_uses(const struct rival *rival, int p)
+{
+    return !rival->fit->at_bound[p] && rival->fit->x[p] != 0;
+}
+
+void rival_gram(const struct rival *rival, const int *own, int n, double *gram)
+{
+    const rotid_fit_result *fit = rival->fit;
+    int rows = fit->nresidual, a = 0;
+    for (int p = 0; p < fit->n; p++) {
+        int b = 0;
+        if (!rival_uses(rival, p))
+            continue;
+        for (int q = 0; q < fit->n; q++) {
+            if (!rival_uses(rival, q))
+                continue;
+            double product = product_dot(rows, fit->jacobian + (ptrdiff_t)p * rows, fit->jacobian + (ptrdiff_t)q * rows);
+            int alone = own && (own[p] || own[q]);
+            gram[a + (ptrdiff_t)b++ * n] = alone ? (double)(p == q) : product * fit->x[p] * fit->x[q];
+        }
+        a++;
+    }
+}

@@ -1,0 +1,527 @@
+/* What is expected of tests that nobody has made, beside what comes out when they are made: intervals beside closed forms and
+ * identifications, detection limits beside diagnoses, places of sensors beside all choices there are, margins beside fits to
+ * second states, simulated here and by tools/hide (exact dynamic stiffness, no code of the library). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/random.h"
+#include "deck/deck.h"
+#include "deck/deck_proposed.h"
+#include "hide/hide.h"
+#include "linalg/cholesky.h"
+#include "suggest/design.h"
+#include "suggest/joint_fit.h"
+#include "suggest/margin.h"
+#include "suggest/suggest.h"
+#include "support.h"
+
+static const char shaft[] = "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8e10, 0.30\n*DENSITY\n7850\n"
+                            "*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.05, 0, 10\n"
+                            "*SHAFT, NAME=core, MATERIAL=steel\n0.5, 0.08, 0, 20\n"
+                            "*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.05, 0, 10\n"
+                            "*IDENTIFY\ncore.E, 1e10, 6e11, 2.1e11\ncore.G, 1e9, 3e11, 8e10\n";
+
+static rotid_deck *read_text(const char *text)
+{
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_deck *deck;
+    if (rotid_deck_read_text(strlen(text), text, NULL, NULL, 0, NULL, NULL, failure, &deck))
+        fail_msg("%s", failure);
+    return deck;
+}
+
+static rotid_suggestion *suggest_text(const char *text, const rotid_suggest_options *options)
+{
+    char failure[ROTID_FAILURE_LENGTH];
+    rotid_deck *deck = read_text(text);
+    rotid_suggestion *s;
+    if (rotid_suggest(deck, options, NULL, failure, &s))
+        fail_msg("%s", failure);
+    rotid_deck_free(deck);
+    return s;
+}
+
+/* ---- before a test */
+
+/* Where E alone is free and G follows, every frequency goes with the root of E: 196 2 s / sqrt(m) percent. */
+static void an_interval_of_e_alone_has_a_closed_form(void **state)
+{
+    static const char text[] = "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n*SHAFT, NAME=bar, MATERIAL=steel\n"
+                               "0.8, 0.03, 0, 30\n*NOISE, FREQUENCY=0.004\n*IDENTIFY\nbar.E, 1e10, 6e11, 2.1e11\n*FIT, TIE=E:G\n";
+    const rotid_suggest_options options = {.size = sizeof options, .wanted_percent = 0.8, .replicates = 100};
+    rotid_suggestion *s = suggest_text(text, &options);
+    (void)state;
+    assert_int_equal(s->noise.frequency_assumed, 0);
+    assert_int_equal(s->noise.shape_assumed, 1);
+    for (int i = 0; i < s->nmodes; i++)
+        assert_close(s->modes[i].frequencies_percent[0], 196 * 2 * 0.004 / sqrt(s->modes[i].modes), 1e-6, 0);
+    assert_int_equal(s->modes_needed, 4); /* 196 2 0.004 / 0.8 squared is 3.84 */
+    rotid_suggestion_free(s);
+}
+
+static char *measured_deck(const rotid_deck *deck, int modes, const char *cards)
+{
+    char failure[ROTID_FAILURE_LENGTH], *text = pool_format(&test_pool, "%s%s*MODES\n", shaft, cards);
+    rotid_spectrum *s;
+    if (rotid_spectrum_compute(deck, NULL, modes, NULL, failure, &s))
+        fail_msg("%s", failure);
+    for (int k = 0; k < modes; k++)
+        text = pool_format(&test_pool, "%s%d, %.17g\n", text, k + 1, s->modes[k].full_hz);
+    for (int k = 0; k < modes; k++) {
+        text = pool_format(&test_pool, "%s*SHAPE, MODE=%d\n", text, k + 1);
+        for (int i = 0; i < s->nsensor_z_m; i++)
+            text = pool_format(&test_pool, "%s%d, %.17g\n", text, i + 1, s->modes[k].shape[i]);
+    }
+    rotid_spectrum_free(s);
+    return text;
+}
+
+static const char seven[] = "*SENSORS\n1, 0.05\n2, 0.2\n3, 0.35\n4, 0.5\n5, 0.7\n6, 0.9\n7, 1.05\n*NOISE, FREQUENCY=0.001, "
+                            "SHAPE=0.005\n";
+
+/* The data that were expected, measured without error: identification states the intervals, diagnosis the limits. */
+static void intervals_and_limits_are_those_of_the_test_that_is_made(void **state)
+{
+    const rotid_suggest_options options = {.size = sizeof options, .modes = 5, .replicates = 1000};
+    char failure[ROTID_FAILURE_LENGTH], *before = pool_format(&test_pool, "%s%s", shaft, seven);
+    rotid_suggestion *s = suggest_text(before, &options);
+    rotid_deck *bare = read_text(before), *deck = read_text(measured_deck(bare, 5, seven));
+    rotid_identification *fit;
+    rotid_diagnosis *d;
+    (void)state;
+    if (rotid_identify(deck, 0, NULL, failure, &fit) || rotid_diagnose(deck, NULL, NULL, failure, &d))
+        fail_msg("%s", failure);
+    assert_string_equal(s->plans[0].method, "deck");
+    for (int p = 0; p < 2; p++)
+        assert_close(s->plans[0].half_width_percent[p], 196 * fit->parameters[p].std / fit->parameters[p].value, 2e-3, 0);
+    int compared = 0;
+    for (int i = 0; i < s->ndetectable; i++)
+        for (int k = 0; k < d->ndetectable; k++)
+            if (!strcmp(s->detectable[i].id, d->detectable[k].id) && !strcmp(s->detectable[i].target, d->detectable[k].target) &&
+                !d->detectable[k].beyond) {
+                assert_close(s->detectable[i].smallest, d->detectable[k].smallest, 0.05, 0);
+                compared++;
+            }
+    assert_true(compared >= 10);
+    rotid_diagnosis_free(d);
+    rotid_identification_free(fit);
+    rotid_suggestion_free(s);
+    rotid_deck_free(deck);
+    rotid_deck_free(bare);
+}
+
+/* ---- places of sensors */
+
+#define PLACES 9
+#define MODES  3
+
+static struct design random_design(int nparam, int ntarget)
+{
+    struct random_stream stream = {7};
+    struct design d;
+    assert_int_equal(design_new(&test_pool, MODES, PLACES, nparam, ntarget, &d), 0);
+    for (int i = 0; i < MODES * (1 + PLACES) * (nparam + ntarget); i++)
+        d.column[i] = random_normal(&stream);
+    for (int i = 0; i < MODES * PLACES; i++) {
+        d.scale[i] = random_normal(&stream);
+        d.largest[i] = 1;
+    }
+    for (int p = 0; p < nparam; p++)
+        d.prior[p + p * nparam] = 1;
+    return d;
+}
+
+/* Columns with the scales projected out one place after the other, as vectors: c - u (u'c)/(u'u). */
+static double product(const struct design *d, const int *taken, int i, int j)
+{
+    int rows = MODES * (1 + PLACES);
+    double sum = 0;
+    for (int k = 0; k < MODES; k++) {
+        const double *a = d->column + i * rows, *b = d->column + j * rows, *u = d->scale + k * PLACES;
+        double uu = 0, ua = 0;
+        sum += a[k] * b[k];
+        for (int s = 0; s < PLACES; s++)
+            if (taken[s]) {
+                uu += u[s] * u[s];
+                ua += u[s] * a[MODES + k * PLACES + s];
+            }
+        for (int s = 0; s < PLACES; s++)
+            if (taken[s])
+                sum += (a[MODES + k * PLACES + s] - u[s] * ua / uu) * b[MODES + k * PLACES + s];
+    }
+    return sum;
+}
+
+/* With one parameter and one target determinants are written out. */
+static void the_value_of_places_is_that_of_their_projected_columns(void **state)
+{
+    const struct design d = random_design(1, 1);
+    const int taken[PLACES] = {1, 0, 1, 1, 0, 0, 1, 0, 0};
+    struct information found = {0};
+    double g = product(&d, taken, 0, 0), q;
+    (void)state;
+    q = product(&d, taken, 1, 1) - product(&d, taken, 0, 1) * product(&d, taken, 0, 1) / (1 + g);
+    assert_int_equal(design_information(&test_pool, &d, MODES, taken, 0, &found), 0);
+    assert_close(found.target, log1p(q), 1e-12, 0);
+    assert_close(found.value, log1p(g) + log1p(q), 1e-12, 0);
+}
+
+/* All 84 choices of three places beside the one that is made. */
+static void no_choice_of_three_places_is_much_better(void **state)
+{
+    const struct design d = random_design(2, 3);
+    static const double z[PLACES] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+    double best = -INFINITY, found;
+    int taken[PLACES] = {0};
+    (void)state;
+    for (int a = 0; a < PLACES; a++)
+        for (int b = a + 1; b < PLACES; b++)
+            for (int c = b + 1; c < PLACES; c++) {
+                int set[PLACES] = {0};
+                double value;
+                set[a] = set[b] = set[c] = 1;
+                assert_int_equal(design_value(&test_pool, 1, &d, MODES, set, &value), 0);
+                best = fmax(best, value);
+            }
+    assert_int_equal(design_choose(&test_pool, 1, &d, MODES, z, 0.5, 3, NULL, NULL, taken), 0);
+    assert_int_equal(design_value(&test_pool, 1, &d, MODES, taken, &found), 0);
+    assert_close(found, best, 0.02, 0);
+    int apart[PLACES] = {0};
+    assert_int_equal(design_choose(&test_pool, 1, &d, MODES, z, 2.5, 3, NULL, NULL, apart), 0);
+    for (int i = 0, last = -9; i < PLACES; i++)
+        if (apart[i]) {
+            assert_true(i - last >= 3);
+            last = i;
+        }
+}
+
+static double determinant(int n, double a[3][3])
+{
+    return n == 2 ? a[0][0] * a[1][1] - a[0][1] * a[1][0]
+                  : a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) - a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+                        a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+}
+
+/* To lose the place of the least leverage is to lose the least of det(Phi'Phi): det(F - f f') = det F (1 - f'F^-1 f). */
+static void effective_independence_keeps_the_determinant(void **state)
+{
+    struct random_stream stream = {3};
+    double shape[PLACES * MODES], best = -1;
+    int taken[PLACES], lost = -1, left = 0;
+    (void)state;
+    for (int i = 0; i < PLACES * MODES; i++)
+        shape[i] = random_normal(&stream);
+    for (int out = 0; out < PLACES; out++) {
+        double fisher[3][3] = {{0}};
+        for (int i = 0; i < PLACES; i++)
+            for (int a = 0; a < MODES && i != out; a++)
+                for (int b = 0; b < MODES; b++)
+                    fisher[a][b] += shape[i + a * PLACES] * shape[i + b * PLACES];
+        if (determinant(3, fisher) > best) {
+            best = determinant(3, fisher);
+            lost = out;
+        }
+    }
+    for (int i = 0; i < PLACES; i++)
+        taken[i] = 1;
+    assert_int_equal(effective_independence(&test_pool, PLACES, MODES, shape, PLACES - 1, taken), 0);
+    assert_int_equal(taken[lost], 0);
+    assert_int_equal(effective_independence(&test_pool, PLACES, MODES, shape, MODES, taken), 0);
+    for (int i = 0; i < PLACES; i++)
+        left += taken[i];
+    assert_int_equal(left, MODES);
+}
+
+/* ---- after an ambiguous diagnosis */
+
+static char directory[] = "/tmp/suggest.XXXXXX";
+
+/* A job of data that tools/hide makes of a deck. */
+static void make_job(const char *deck, const char *effect, double frequency_noise, unsigned seed, struct job *job)
+{
+    static const char *const truth[] = {"core.E=2.2e11", "core.G=8.2e10"};
+    struct hide_request request = hide_request_default();
+    struct message_list messages;
+    char message[300] = "", *text, *json, *path = pool_format(&test_pool, "%s/case.inp", directory);
+    request.deck = deck;
+    request.name = "case";
+    request.seed = seed;
+    request.modes = 5;
+    request.sensors = 12;
+    request.frequency_noise = frequency_noise;
+    request.truths = 2;
+    request.truth = truth;
+    request.effects = 1;
+    request.effect = &effect;
+    if (hide_case(&request, &text, &json, message, sizeof message))
+        fail_msg("%s", message);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    message_open(&messages, &test_pool);
+    if (deck_read(&test_pool, path, 0, NULL, &messages, job))
+        fail_msg("%s", messages.count ? messages.item[0].text : "no deck");
+    remove(path);
+    free(text);
+    free(json);
+}
+
+static double penalty(const struct rival *r)
+{
+    return r->score - r->fit->chi2;
+}
+
+/* The lead of rival a over b by a test with these measurements. */
+static double lead(const struct rival *a, const struct rival *b, const struct test *test, const struct job_measurement *measured)
+{
+    double of_a, of_b;
+    assert_int_equal(joint_chi2(&test_pool, a, test, measured, NULL, &of_a), 0);
+    assert_int_equal(joint_chi2(&test_pool, b, test, measured, NULL, &of_b), 0);
+    return of_b + penalty(b) - of_a - penalty(a);
+}
+
+/* Noise on what is measured, as the test states it. */
+static void add_noise(struct random_stream *stream, struct job_measurement *m, int nsensor)
+{
+    for (int k = 0; k < m->nmode; k++)
+        m->frequency_hz[k] *= 1 + m->frequency_std[k] * random_normal(stream);
+    for (int i = 0; i < nsensor * m->nmode && m->shape; i++)
+        m->shape[i] += m->shape_std[i] * random_normal(stream);
+}
+
+/* x := a truth as likely as any other by what is measured. */
+static void draw_truth(struct random_stream *stream, const struct rival *a, double *x)
+{
+    int n = 0;
+    double gram[64] = {0}, move[8];
+    for (int p = 0; p < a->fit->n; p++)
+        n += rival_uses(a, p);
+    assert_true(n <= 8);
+    rival_gram(a, NULL, n, gram);
+    for (int p = 0; p < n; p++) {
+        gram[p + p * n] += 1;
+        move[p] = random_normal(stream);
+    }
+    assert_int_equal(cholesky_factor(n, gram), 0);
+    cholesky_backward_leading(n, n, gram, move);
+    for (int p = 0, q = 0; p < a->fit->n; p++)
+        x[p] = a->fit->x[p] * (rival_uses(a, p) ? 1 + move[q++] : 1);
+}
+
+static const struct {
+    const char *effect;
+    double noise;
+    unsigned seed;
+    double nonlinear; /* of the distance: beside a zone whose place and width are open, columns at its best place are no more */
+    int draws;
+} ambiguous[] = {{"density:group=left,factor=1.04", 0.001, 1, 0.02, 6}, {"stiffness:group=right,factor=0.93", 0.002, 5, 0.45, 4}};
+#define CASES ((int)(sizeof ambiguous / sizeof *ambiguous))
+#define DRAWS 6 /* at most */
+
+/* Twice the size of d decides: the lead is nearly normal about what is expected, with deviation 2 |d| and what the truth leaves
+ * open. */
+static double normal_chance(const struct rivals *rivals, const rotid_expected_margin *m)
+{
+    double needed = m->rival == rivals->n - 1 ? rivals->base_margin : rivals->margin;
+    return 0.5 * erfc((needed - m->expected) / (2 * sqrt(m->distance) * sqrt(2)));
+}
+
+static void numbers_agree(const struct suggestion *s)
+{
+    const struct rival *rival = s->rivals.rival;
+    double last = INFINITY;
+    for (int r = 0; r + 1 < s->rivals.n; r++)
+        assert_close(rival[r].share / rival[0].share, exp(-(rival[r].score - rival[0].score) / 2), 1e-9, 0);
+    for (int t = 0; t < s->result.ntests; t++) {
+        const rotid_suggested_test *test = &s->result.tests[t];
+        double least = 1;
+        assert_close(test->cost, 20 * test->setups + test->points, 1e-12, 0);
+        assert_true(test->chance <= last + 0.05); /* ranked, in steps of that */
+        last = test->chance;
+        for (int i = 0; i < test->nmargins; i++) {
+            const rotid_expected_margin *m = &test->margins[i];
+            if (m->truth == 0) {
+                least = fmin(least, m->chance);
+                assert_close(m->chance, normal_chance(&s->rivals, m), 0, 0.15);
+            }
+        }
+        assert_true(test->chance <= least * rival[0].share + (1 - rival[0].share) + 1e-12);
+    }
+}
+
+static const rotid_expected_margin *first_margin(const rotid_suggested_test *t)
+{
+    for (int i = 0; i < t->nmargins; i++)
+        if (t->margins[i].truth == 0 && t->margins[i].rival == 1)
+            return &t->margins[i];
+    fail();
+    return NULL;
+}
+
+static double mean_of(int n, const double *value, double *error)
+{
+    double mean = 0, square = 0;
+    for (int i = 0; i < n; i++)
+        mean += value[i] / n;
+    for (int i = 0; i < n; i++)
+        square += (value[i] - mean) * (value[i] - mean) / (n - 1);
+    *error = sqrt(square / n);
+    return mean;
+}
+
+/* The same with data of the true structure by the oracle: the same test again, and one with a known mass, which the deck of the
+ * oracle has as a disk. What is expected holds over all that the truth may be, the oracle has one truth: its leads scatter about
+ * their mean, which lies within two deviations of what is expected. */
+static void the_oracle_keeps_the_promise(const struct suggestion *s)
+{
+    int compared = 0;
+    double heavy = 0;
+    for (int t = 0; t < s->result.ntests; t++) {
+        const struct test *test = &s->test[t];
+        const rotid_expected_margin *m = first_margin(&s->result.tests[t]);
+        double value[DRAWS], error;
+        const char *deck = shaft;
+        if (test->kind != TEST_AGAIN && (test->kind != TEST_MASS || !(m->distance > heavy)))
+            continue;
+        heavy = test->kind == TEST_MASS ? INFINITY : heavy; /* one of them is enough */
+        if (test->kind == TEST_MASS)
+            deck = pool_format(&test_pool, "%s*DISK\n%.17g, %.17g\n", shaft, test->z, test->mass);
+        for (int i = 0; i < DRAWS; i++) {
+            struct job second;
+            make_job(deck, ambiguous[0].effect, ambiguous[0].noise, 100 + (unsigned)i, &second);
+            value[i] = lead(&s->rivals.rival[0], &s->rivals.rival[1], test, &second.measurement);
+        }
+        double mean = mean_of(DRAWS, value, &error), deviation = 2 * sqrt(m->distance) + 3;
+        if (fabs(mean - m->expected) > 2 * deviation)
+            fail_msg("%s: expected %g +- %g, found %g +- %g", s->result.tests[t].text, m->expected, deviation, mean, error);
+        compared++;
+    }
+    assert_int_equal(compared, 2);
+}
+
+/* The promise: leads that are expected by linear columns, beside those of nonlinear fits to both states over draws. */
+static void a_lead_that_is_promised_is_found(void **state)
+{
+    (void)state;
+    for (int c = 0; c < CASES; c++) {
+        const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};
+        struct suggestion s;
+        struct message_list notes;
+        struct random_stream stream = {17};
+        struct job job;
+        make_job(shaft, ambiguous[c].effect, ambiguous[c].noise, ambiguous[c].seed, &job);
+        message_open(&notes, &test_pool);
+        assert_int_equal(suggest_run(&test_pool, &job, &options, NULL, &notes, &s), 0);
+        assert_true(s.rivals.n >= 3);
+        assert_true(s.result.ntests >= 5);
+        numbers_agree(&s);
+        double shares = 0;
+        for (int r = 0; r + 1 < s.rivals.n; r++)
+            shares += s.rivals.rival[r].share;
+        assert_close(shares, 1, 1e-12, 0);
+        for (int t = 0; t < 3; t++) { /* those that are refitted */
+            const rotid_expected_margin *m = first_margin(&s.result.tests[t]);
+            const struct rival *a = &s.rivals.rival[0], *b = &s.rivals.rival[1];
+            double value[DRAWS], x[8], error;
+            assert_close(m->distance, m->refitted - m->before, ambiguous[c].nonlinear, 0.1);
+            if (t == 1 || !ambiguous[c].draws)
+                continue;
+            for (int i = 0; i < ambiguous[c].draws; i++) {
+                struct job_measurement measured;
+                draw_truth(&stream, a, x);
+                assert_int_equal(joint_measurement(&test_pool, a, x, &s.test[t], &measured), 0);
+                add_noise(&stream, &measured, s.test[t].nsensor);
+                value[i] = lead(a, b, &s.test[t], &measured);
+            }
+            double mean = mean_of(ambiguous[c].draws, value, &error);
+            if (fabs(mean - m->expected) > 3.5 * error + ambiguous[c].nonlinear * m->distance)
+                fail_msg("case %d, %s: expected %g, found %g +- %g", c, s.result.tests[t].text, m->expected, mean, error);
+        }
+        if (c == 0)
+            the_oracle_keeps_the_promise(&s);
+        suggest_free(&s);
+    }
+}
+
+/* ---- the deck of a test */
+
+static void the_deck_of_a_test_is_the_deck_and_a_state(void **state)
+{
+    static const char old[] = "** my shaft\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=bar, "
+                              "MATERIAL=steel\n0.8, 0.03, 0, 10\n*MODES\n1, 200\n2, 550\n** soft\n*SPRING, NAME=foam\n0.1, 500\n"
+                              "*IDENTIFY\nbar.E, 1e10, 6e11, 2.1e11\nfoam.k, 10, 1e5, 500\n";
+    static const enum test_kind kinds[] = {TEST_MASS, TEST_STIFF, TEST_FREE, TEST_MOVED};
+    int number[] = {1, 2};
+    double z[] = {0.1, 0.4, 0.7};
+    rotid_deck *deck = read_text(old);
+    struct job job;
+    struct message_list messages;
+    const struct deck_memory memory = {.name = "old", .text = old, .length = sizeof old - 1};
+    struct states states;
+    (void)state;
+    message_open(&messages, &test_pool);
+    assert_int_equal(deck_read_states(&test_pool, memory.name, &memory, 0, NULL, &messages, &states), 0);
+    job = states.state[0].job;
+    rotid_deck_free(deck);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const struct test test = {.kind = kinds[i],
+                                  .modes = 2,
+                                  .number = number,
+                                  .nsensor = 3,
+                                  .sensor = z,
+                                  .frequency_std = 0.001,
+                                  .shape_std = 0.01,
+                                  .mass = 0.5,
+                                  .z = 0.25,
+                                  .averages = 1};
+        char *cards, *text, failure[ROTID_FAILURE_LENGTH];
+        assert_int_equal(deck_write_test(&test_pool, &job, &test, &cards), 0);
+        assert_int_equal(deck_add_state(&test_pool, old, cards, &text), 0);
+        assert_int_equal(strncmp(text, "** my shaft\n", 12), 0);
+        assert_non_null(strstr(text, "*STATE, NAME=measured\n*MODES\n1, 200\n"));
+        /* with its measurements in it, it is fitted; a support that was changed has a stiffness of its own */
+        text = pool_format(&test_pool, "%s*MODES\n1, 199\n2, 548\n", text);
+        deck = read_text(text);
+        assert_int_equal(deck->nstate, 2);
+        assert_int_equal(deck->state[0]->nmode, 2);
+        assert_int_equal(deck->state[1]->nsensor, 3);
+        assert_close(deck->state[1]->mass - deck->state[0]->mass, kinds[i] == TEST_MASS ? 0.5 : 0, 1e-9, 1e-12);
+        rotid_identification *fit;
+        if (rotid_identify(deck, 0, NULL, failure, &fit))
+            fail_msg("%s", failure);
+        assert_int_equal(fit->nparameters, kinds[i] == TEST_MASS ? 2 : 3);
+        rotid_identification_free(fit);
+        rotid_deck_free(deck);
+    }
+}
+
+static int open_directory(void **state)
+{
+    (void)state;
+    return mkdtemp(directory) == NULL;
+}
+
+static int close_directory(void **state)
+{
+    (void)state;
+    return rmdir(directory);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_test_pool, close_test_pool)
+    const struct CMUnitTest tests[] = {
+        TEST(an_interval_of_e_alone_has_a_closed_form),
+        TEST(intervals_and_limits_are_those_of_the_test_that_is_made),
+        TEST(the_value_of_places_is_that_of_their_projected_columns),
+        TEST(no_choice_of_three_places_is_much_better),
+        TEST(effective_independence_keeps_the_determinant),
+        TEST(a_lead_that_is_promised_is_found),
+        TEST(the_deck_of_a_test_is_the_deck_and_a_state),
+    };
+    return cmocka_run_group_tests(tests, open_directory, close_directory);
+}
