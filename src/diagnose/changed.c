@@ -244,7 +244,7 @@ static int correct(struct pool *pool, const struct job *before, const struct ide
             left_out++;
             continue;
         }
-        double ratio = found->fit->predicted_hz[j] / before->measurement.frequency_hz[j],
+        double ratio = found->spectrum.full_hz[number - 1] / before->measurement.frequency_hz[j],
                moved = 2 * log(job->measurement.frequency_hz[k] / before->measurement.frequency_hz[j]), other = moved * moved;
         if (shapes)
             correct_shape(before, found, j, k, work, &other, job);
