@@ -221,7 +221,7 @@ static void wrong_usage_is_refused(void **state)
         {"bar.uff -o ./bar.uff", "is the file that is read"},
         {"bar.uff --json bar.uff", "is the file that is read"},
         {"bar.uff -o same --json same", "is the file of --json as well"},
-        {"bar.uff --extended x.inp", "--extended is an option of diagnose alone"},
+        {"bar.uff --extended x.inp", "--extended is no option of ema, but of diagnose suggest"},
         {"bar.uff more.uff", "more.uff is one argument too many"},
         {"", "no file given"},
         {"missing.uff", "missing.uff:1:1: cannot be opened"},

@@ -78,8 +78,8 @@ static void wrong_usage_is_told(void **state)
     says("sound.uff -o sound.uff", 2, "--output sound.uff is the file that is read");
     says("sound.uff -o ./../../$PWD/sound.uff", 2, "is the file that is read");
     says("sound.uff --json out.uff -o out.uff", 2, "is the file of --json as well");
-    says("sound.uff --extended out.inp", 2, "--extended is an option of diagnose alone");
-    says("../x --replicates 100", 2, "--replicates is an option of diagnose alone");
+    says("sound.uff --extended out.inp", 2, "--extended is no option of uff, but of diagnose suggest");
+    says("../x --replicates 100", 2, "--replicates is no option of uff, but of diagnose suggest");
     assert_false(is_there("out.uff"));
     char *text = read_file("sound.uff", &length);
     assert_true(length > 1000);

@@ -807,8 +807,8 @@ static void no_option_lets_a_file_of_the_user_be_lost(void **state)
         {"diagnose " DECK " --extended /tmp/none.x --json /tmp/../tmp/none.x", "is the file of --json as well"},
         {"diagnose " DECK " --extended -", "--extended -: expected a file"},
         {"diagnose " DECK " --replicates 3", "--replicates 3: expected a whole number from 100"},
-        {"identify " DECK " --extended /tmp/none.x", "--extended is an option of diagnose alone"},
-        {"check " DECK " --replicates 500", "--replicates is an option of diagnose alone"},
+        {"identify " DECK " --extended /tmp/none.x", "--extended is no option of identify, but of diagnose suggest"},
+        {"check " DECK " --replicates 500", "--replicates is no option of check, but of diagnose suggest"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_int_equal(run(wrong[i][0]), 2);

@@ -113,19 +113,18 @@ static int collect(struct command *command, int argc, char **argv)
 }
 
 /* An option that another command has. */
-static int refuse_option(const struct command *command, const char *name)
+static int refuse_option(struct command *command, const char *name)
 {
-    const struct option_row *of = NULL;
-    int rows = 0;
+    const char *of = NULL;
     for (const struct option_row *row = option_table; row->name; row++)
-        if (!strcmp(row->name, name)) {
-            of = row;
-            rows++;
-        }
-    if (!of || rows > 1 || strchr(of->commands, ' '))
-        terminal_say("rotid: --%s is no option of %s\n", name, command->name);
+        if (!strcmp(row->name, name))
+            of = pool_format(&command->pool, "%s%s%s", of ? of : "", of ? " " : "", row->commands);
+    if (!of)
+        return command_fail(command, ROTID_ERROR_MEMORY);
+    if (strchr(of, ' '))
+        terminal_say("rotid: --%s is no option of %s, but of %s\n", name, command->name, of);
     else
-        terminal_say("rotid: --%s is an option of %s alone\n", name, of->commands);
+        terminal_say("rotid: --%s is an option of %s alone\n", name, of);
     return EXIT_USAGE;
 }
 

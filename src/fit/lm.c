@@ -311,7 +311,7 @@ static int creeps(const struct lm *lm, double *objective)
     int now = lm->result->iterations;
     double *before = &objective[now % CREEP], then = *before;
     *before = lm->result->objective;
-    return now >= CREEP && then - *before < lm->options.decrease_tolerance * *before;
+    return now >= CREEP && lm->options.decrease_tolerance > 0 && then - *before < lm->options.decrease_tolerance * *before;
 }
 
 static int minimise(struct lm *lm)
