@@ -264,6 +264,10 @@ static void cells_keep_their_width(void **state)
     assert_string_equal(cell_text(signed_cell, 9, 1, -2.5e20), " -2.5e+20");
     assert_string_equal(cell_text(number_cell, 0, 2, 123456.789), "123456.79");
     assert_string_equal(cell_text(digits_cell, 5, 3, NAN), "    -");
+    assert_string_equal(cell_text(digits_cell, 8, 4, 44459), "   44459"); /* 4.446e+04 would touch its neighbour */
+    assert_string_equal(cell_text(digits_cell, 8, 4, -4445900), "-4.4e+06");
+    assert_string_equal(cell_text(digits_cell, 10, 4, 44459), " 4.446e+04");
+    assert_string_equal(cell_text(digits_cell, 9, 4, 1.2346e-7), "1.235e-07");
 }
 
 int main(void)

@@ -36,7 +36,10 @@ void signed_cell(FILE *out, int width, int decimals, double value)
 void digits_cell(FILE *out, int width, int digits, double value)
 {
     char text[64];
-    put_number(out, width, layout_number(text, digits, value));
+    (void)layout_number(text, digits, value);
+    if (strlen(text) >= (size_t)width && strchr(text, 'e') && fabs(value) >= 1) /* else it touches its neighbour: 4.446e+04 */
+        (void)snprintf(text, sizeof text, fabs(value) < 1e6 ? "%.0f" : "%.1e", value);
+    put_number(out, width, text);
 }
 
 void power_cell(FILE *out, int width, int decimals, double value)
