@@ -100,7 +100,8 @@ static void find_difference(const struct job *job, int s, const int *number, con
     }
 }
 
-/* The members of a set whose frequencies can be foreseen in all states, two of them, and where these differ most. */
+/* The members of a set whose frequencies can be foreseen in all states, two of them, and where these differ most. -1 where memory
+ * is out. */
 static int compare_two(struct engine *engine, const struct diagnosis_round *round, const struct round_result *last,
                        const struct candidate *member[2], struct difference *most)
 {
@@ -121,8 +122,11 @@ static int compare_two(struct engine *engine, const struct diagnosis_round *roun
             pool_open(&scratch, engine->pool->allocator);
             const struct state *state = &refit[m]->states.state[s];
             double *x = state_values(&scratch, state, refit[m]->fit->x);
-            known = x && !foresee(&scratch, &state->job, x, modes, &future[m]);
+            int status = x ? foresee(&scratch, &state->job, x, modes, &future[m]) : ROTID_ERROR_MEMORY;
             pool_close(&scratch);
+            known = !status;
+            if (status == ROTID_ERROR_MEMORY)
+                return -1;
         }
         if (known)
             find_difference(&states->state[s].job, s, engine->number + mode, engine->holdout + mode, future, modes, most);
@@ -135,6 +139,8 @@ const char *advise(struct engine *engine, const struct diagnosis_round *round, c
     const struct candidate *member[2];
     struct difference most;
     int count = compare_two(engine, round, last, member, &most);
+    if (count < 0)
+        return NULL;
     if (count < 2 || !round->result.set)
         return pool_format(engine->pool, "%smore modes and more points along the rotor; %s", shapes_missing(engine->job),
                            count ? member[0]->cause->check : "the geometry, masses and materials of the deck are worth checking");
