@@ -224,23 +224,27 @@ figures: all
 	@sh tools/figures $(BUILD)/rotid $(BUILD)/figures
 
 # WITHOUT: names of programs that are left out. The longest first, else the others wait for them at the end.
-LONGEST := $(addprefix $(BUILD)/tests/test_,chain hidden_effects diagnose diagnose_cases diagnose_bounds limits embedding held_mesh \
-           ema_statistics accelerometer study_run page_input hidden_faults api_cancel install sensor_check)
-# Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all rows of hidden_effects.
+LONGEST := $(addprefix $(BUILD)/tests/test_,chain hidden_effects diagnose diagnose_cases api_memory limits page_input host \
+           diagnose_states study_run held_mesh ema_statistics diagnose_bounds page_figures accelerometer embedding study_program \
+           solid_attached hidden_faults api_cancel install sensor_check run)
+# Dozens of diagnoses each, minutes in all: make test-long, once for each change of the diagnosis, and there all
+# rows of hidden_effects and chain.
 LONG := hidden_numbers hidden_rivals hidden_pairs power
 TESTED = $(filter-out $(addprefix $(BUILD)/tests/test_,$(WITHOUT) $(LONG)),$(filter $(TEST_PROGRAMS),$(LONGEST)) $(filter-out $(LONGEST),$(TEST_PROGRAMS)))
 test: all $(TESTED)
 	@sh tools/run-tests $(TESTED)
 .PHONY: test-long
-test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects)
-	@ROTID_LONG=1 sh tools/run-tests $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects)
+test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
+	@ROTID_LONG=1 sh tools/run-tests $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
 
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
 
-# without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases: what they call is in the others
-DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds stiff_supports held_mesh suggest chain
-COUNT_MANY := ema_statistics accelerometer hide
+# without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, fine meshes or figures: what
+# they call is in the others
+DIAGNOSE_MANY := diagnose hidden_effects hidden_faults hidden_structures diagnose_cases diagnose_bounds diagnose_states \
+                 diagnose_solid stiff_supports held_mesh suggest chain
+COUNT_MANY := ema_statistics accelerometer hide sensor_check solid_frequencies page_figures
 check-asan:
 	@ROTID_CHAIN_RUNS=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/asan LDFLAGS='-fsanitize=address,undefined' \
 	    CFLAGS='-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' \

@@ -350,9 +350,12 @@ static void three_faults(struct hammer_options *options)
     options->double_hits = 0.1;
 }
 
+/* A minute, for faults that test_hidden_faults looks at without records: only with ROTID_LONG (make test-long). */
 static void faults_of_channels_are_seen_on_the_way(void **state)
 {
     (void)state;
+    if (!getenv("ROTID_LONG"))
+        skip();
     struct hammer_bench bench;
     struct hammer_test test;
     struct passage c;
