@@ -25,9 +25,11 @@
 enum { TAG_RUN = 1, TAG_LINE };
 
 const struct command_entry command_table[] = {
-    {"study", "many runs from one plan over MPI: mpirun -n N rotid-study PLAN -o RESULTS", "inp|jsonl", command_study,
-     PARALLEL | SEVERAL_FILES},
-    {NULL, NULL, NULL, NULL, 0},
+    {"study", "many runs from one plan over MPI: mpirun -n N rotid-study PLAN -o RESULTS",
+     "mpirun -n 4 rotid-study plan.inp -o results.jsonl\n"
+     "rotid-study part1.jsonl part2.jsonl -o results.jsonl --merge",
+     "inp|jsonl", command_study, PARALLEL | SEVERAL_FILES},
+    {NULL, NULL, NULL, NULL, NULL, 0},
 };
 
 /* MPI_Probe and MPI_Recv keep a processor busy while they wait. */
