@@ -36,26 +36,19 @@ static int choose_masters(struct pool *pool, struct rotor_model *model)
     return ROTID_OK;
 }
 
-/* Of the rotor without its causes: measured modes were numbered once, and a spring that a cause adds or makes stiffer must not turn
- * a suspension mode into the first bending mode from one fit to the next, or in the deck that the fit leads to. Of a solid on the
- * coarse mesh: a suspension needs no fine one. */
-static int count_rigid(struct pool *pool, struct models *models, const struct rotor *rotor, int refine, int *nrigid)
+/* Of a solid on the coarse mesh: a suspension needs no fine one. */
+static int count_rigid(struct pool *pool, struct models *models, const struct rotor *rotor, struct rotor_model *model)
 {
-    struct rotor bare = *rotor;
-    struct discrete discrete;
-    int known, failed;
-    bare.neffect = 0;
-    if (models_discretisation(models) == AS_SOLID)
-        refine = COARSE_MESH;
-    int status = models_discretise(pool, models, &bare, 0, NULL, refine, &discrete, &known, &failed);
-    if (status || known >= 0) {
-        *nrigid = known;
-        return status;
-    }
-    status = discrete_count_rigid(pool, &discrete, NULL, nrigid);
-    if (!status)
-        models_keep_rigid(models, &bare, refine, *nrigid);
-    return status;
+    int nparameter = model->equations.nparam, known, failed, status = ROTID_OK;
+    struct discrete coarse = model->discrete;
+    double *x = POOL_ARRAY(pool, double, nparameter);
+    if (!x)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < nparameter; p++)
+        x[p] = *parameter_value(model->rotor, model->parameter[p]);
+    if (coarse.as == AS_SOLID)
+        status = models_discretise(pool, models, rotor, nparameter, model->parameter, COARSE_MESH, &coarse, &known, &failed);
+    return status ? status : discrete_count_rigid(pool, &coarse, x, &model->equations.nrigid);
 }
 
 int model_open(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
@@ -83,7 +76,7 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
     status = choose_masters(pool, model);
     if (status || nrigid >= 0)
         return status;
-    status = count_rigid(pool, models, rotor, refine, &model->equations.nrigid);
+    status = count_rigid(pool, models, rotor, model);
     if (!status)
         models_keep_rigid(models, rotor, refine, model->equations.nrigid);
     return status;

@@ -43,15 +43,17 @@ static struct entry *find(const struct models *models, const struct rotor *rotor
     return found;
 }
 
-/* What has been counted, -1: nothing. Causes do not count (model.c), nor, of a solid, where counting costs as much as its modes,
- * does the mesh. */
+/* What has been counted, -1: nothing. Of a solid, where counting costs as much as its modes: with any mesh, and whatever causes
+ * are in the rotor, which make no suspension of a bending mode. */
 static int counted(const struct models *models, const struct rotor *rotor, int refine)
 {
     for (; models; models = models->older)
         for (const struct entry *e = models->first; e; e = e->next) {
+            int solid = models->as == AS_SOLID;
             struct rotor known = e->rotor, asked = *rotor;
-            known.neffect = asked.neffect = 0;
-            if (e->nrigid >= 0 && (models->as == AS_SOLID || e->refine == refine) && rotor_same_shape(&known, &asked) &&
+            if (solid)
+                known.neffect = asked.neffect = 0;
+            if (e->nrigid >= 0 && (solid || e->refine == refine) && rotor_same_shape(&known, &asked) &&
                 rotor_same_values(&known, &asked))
                 return e->nrigid;
         }
