@@ -6,6 +6,8 @@
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/scan.h"
 
+#define SAME_LENGTH 1e-9 /* relative: lengths of two states that are one */
+
 static int is_identified(const struct job *job, int group)
 {
     for (int p = 0; p < job->unknowns.nparameter; p++)
@@ -143,6 +145,14 @@ static int applies_in(const struct listing *l, const struct cause_kind *cause, i
            (!cause->applies || cause->applies(&job->rotor, target, l->identified[state]));
 }
 
+/* Between states of one length a place stays where it is; where the length differs nobody says whether it does so from the left end
+ * or from the right one, as a mass at a free end. */
+static int has_same_places(const struct states *states, int a, int b)
+{
+    double length = rotor_length(&states->state[a].job.rotor);
+    return fabs(rotor_length(&states->state[b].job.rotor) - length) <= SAME_LENGTH * length;
+}
+
 /* A cause at the targets that state `home` has and no state before it: the same target has one place in the list and one name. */
 static int add_cause(struct listing *l, const struct cause_kind *cause, int home)
 {
@@ -153,7 +163,7 @@ static int add_cause(struct listing *l, const struct cause_kind *cause, int home
         int status = add(l, cause, home, t);
         const struct scan_candidate *c = &l->scan->candidate[l->scan->ncandidate - 1];
         for (int s = home + 1; s < states->nstate && !status; s++) {
-            if (!applies_in(l, cause, s, t))
+            if (!applies_in(l, cause, s, t) || (cause->place >= 0 && !has_same_places(states, home, s)))
                 continue;
             const char *name = cause_target_name(l->pool, &states->state[s].job.rotor, cause, t);
             if (!name)
