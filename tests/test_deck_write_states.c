@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "deck/deck.h"
 #include "deck/deck_write.h"
 #include "folder.h"
+#include "read_states.h"
 #include "same_job.h"
 
 #define BAR                                                                                                                      \
@@ -16,18 +16,6 @@
     "*SPRING, NAME=left\n0, 1e6\n*CAUSE, NAME=soft, TYPE=stiffness_local\nz, 0.4\nwidth, 0.05\ndepth, 0.2\n"
 #define UNKNOWN "*IDENTIFY\nbar.E, 1e10, 1e12, 1e11\n"
 #define FREE    "*STATE, NAME=free\n*MODES\n1, 225\n2, 610\n"
-
-static struct states read_states(const char *text)
-{
-    struct message_list messages;
-    struct states states;
-    message_open(&messages, &test_pool);
-    int status = deck_read_states(&test_pool, folder_write("states.inp", text), NULL, 0, NULL, &messages, &states);
-    for (size_t i = 0; i < messages.count && status; i++)
-        print_error("%d:%d: %s\n%s\n", messages.item[i].line, messages.item[i].column, messages.item[i].text, text);
-    assert_status(status, ROTID_OK);
-    return states;
-}
 
 static void assert_same_unknowns(const struct states *a, const struct states *b)
 {

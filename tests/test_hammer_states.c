@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/deck.h"
 #include "exact.h"
 #include "folder.h"
 #include "hammer/hammer.h"
 #include "hide/hide_states.h"
+#include "read_states.h"
 
 #define COMMON                                                                                                                   \
     "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.06e11, 0.795e11, 0.30\n*DENSITY\n7850\n"                                     \
@@ -41,14 +41,11 @@ static void a_state_has_the_modes_of_its_own_rotor(void **state)
     for (int s = 0; s < 2; s++) {
         char message[600] = "", *text = text_of(DECK, name[s], message, sizeof message);
         struct hammer_test test;
-        struct message_list messages;
-        struct states states;
         struct exact exact;
         double hz[4];
         if (hammer_open(text, "deck", 1, truth, 1, &options, &test, message, sizeof message))
             fail_msg("%s", message);
-        message_open(&messages, &test_pool);
-        assert_status(deck_read_states(&test_pool, folder_write("own.inp", own[s]), NULL, 0, NULL, &messages, &states), ROTID_OK);
+        const struct states states = read_states(own[s]);
         exact_open(&states.state[0].job.rotor, &exact);
         exact_hz(&exact, 3, 4, hz);
         assert_int_equal(test.points, 4);

@@ -7,9 +7,9 @@
 
 #include <cjson/cJSON.h>
 
-#include "deck/deck.h"
 #include "folder.h"
 #include "hide/hide.h"
+#include "read_states.h"
 #include "run/identify.h"
 #include "support.h"
 
@@ -37,18 +37,6 @@ static void make(const struct hide_request *request, char **deck, char **truth)
     char message[600] = "";
     if (hide_case(request, deck, truth, message, sizeof message))
         fail_msg("%s", message);
-}
-
-static struct states read_states(const char *text)
-{
-    struct message_list messages;
-    struct states states;
-    message_open(&messages, &test_pool);
-    int status = deck_read_states(&test_pool, folder_write("states.inp", text), NULL, 0, NULL, &messages, &states);
-    for (size_t i = 0; i < messages.count && status; i++)
-        print_error("%d: %s\n", messages.item[i].line, messages.item[i].text);
-    assert_status(status, ROTID_OK);
-    return states;
 }
 
 static void assert_data(const struct job *a, const struct job *b)

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "deck/deck.h"
 #include "exact.h"
 #include "folder.h"
+#include "read_states.h"
 #include "rotid.h"
 
 #define E_TRUE 1.9e11
@@ -23,12 +23,8 @@ static const char *const cards[] = {"", "*DISK\n0.45, 1.5, 0.002, 0.004\n", "*SP
 /* The first three elastic modes of a state as the oracle has them. */
 static void measure(int state, double *hz)
 {
-    struct message_list messages;
-    struct states states;
     struct exact exact;
-    const char *text = pool_format(&test_pool, ROTOR "%s", cards[state]);
-    message_open(&messages, &test_pool);
-    assert_status(deck_read_states(&test_pool, folder_write("truth.inp", text), NULL, 0, NULL, &messages, &states), ROTID_OK);
+    const struct states states = read_states(pool_format(&test_pool, ROTOR "%s", cards[state]));
     exact_open(&states.state[0].job.rotor, &exact);
     exact_hz(&exact, state == 2 ? 1 : 3, 3, hz); /* free: behind two motions as a rigid body */
 }

@@ -17,6 +17,14 @@ struct number_table *table_new(struct pool *pool, int rows, int columns)
     return table;
 }
 
+struct number_table *table_headed(struct pool *pool, int rows, int columns, const char *const *head)
+{
+    struct number_table *table = table_new(pool, rows, columns);
+    for (int j = 0; j < columns; j++)
+        table_head(table, j, head[j]);
+    return table;
+}
+
 void table_head(struct number_table *table, int column, const char *text)
 {
     if (table)

@@ -30,6 +30,8 @@ struct figure {
 
 /* A table with room for as many cells, all "" (pool); NULL where memory is out. */
 struct number_table *table_new(struct pool *pool, int rows, int columns);
+/* The same under the heads [columns]. */
+struct number_table *table_headed(struct pool *pool, int rows, int columns, const char *const *head);
 /* text NULL: memory was out when it was made; becomes "". */
 void table_head(struct number_table *table, int column, const char *text);
 void table_cell(struct number_table *table, int row, int column, const char *text);

@@ -184,9 +184,7 @@ static void bijection_script(struct document *document, struct plot *plot, const
 static struct number_table *bounds_table(struct pool *pool, const rotid_identification *fit)
 {
     static const char *const head[] = {"parameter", "unit", "lower bound", "start", "end", "upper bound", "place [%]"};
-    struct number_table *table = table_new(pool, fit->nparameters, 7);
-    for (int j = 0; j < 7; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, fit->nparameters, 7, head);
     for (int p = 0; p < fit->nparameters; p++) {
         const rotid_fitted_parameter *parameter = &fit->parameters[p];
         struct human_unit unit = human_unit(parameter->value, parameter->unit);

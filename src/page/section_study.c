@@ -125,9 +125,7 @@ static struct number_table *cells_table(struct pool *pool, const struct study_ou
         "cell",       "runs", "failed", "at a bound", "not converged", "at the best", "error, fitted [%]", "error, held out [%]",
         "evaluations"};
     enum { COLUMNS = sizeof head / sizeof *head };
-    struct number_table *table = table_new(pool, s->is.ncells, COLUMNS);
-    for (int j = 0; j < COLUMNS; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, s->is.ncells, COLUMNS, head);
     for (int i = 0; i < s->is.ncells; i++) {
         const struct told_cell *cell = &s->cell[i];
         const double number[] = {cell->is.runs, cell->is.failed, cell->is.at_bound, cell->is.not_converged,
@@ -150,9 +148,7 @@ static struct number_table *parameters_table(struct pool *pool, const struct stu
     int rows = 0, row = 0;
     for (int i = 0; i < s->is.ncells; i++)
         rows += s->cell[i].is.nparameters;
-    struct number_table *table = table_new(pool, rows, COLUMNS);
-    for (int j = 0; j < COLUMNS; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, rows, COLUMNS, head);
     for (int i = 0; i < s->is.ncells; i++)
         for (int p = 0; p < s->cell[i].is.nparameters; p++, row++) {
             const struct cell_parameter *q = &s->cell[i].is.parameters[p];

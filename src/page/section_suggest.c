@@ -8,9 +8,7 @@
 static struct number_table *tests_table(struct pool *pool, const rotid_suggestion *s)
 {
     static const char *const head[] = {"test", "chance [1]", "wrong name [1]", "cost [points]", "set-ups", "points", "modes"};
-    struct number_table *table = table_new(pool, s->ntests, 7);
-    for (int j = 0; j < 7; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, s->ntests, 7, head);
     for (int i = 0; i < s->ntests; i++) {
         const rotid_suggested_test *t = &s->tests[i];
         table_cell(table, i, 0, t->text);
@@ -27,9 +25,7 @@ static struct number_table *tests_table(struct pool *pool, const rotid_suggestio
 static struct number_table *rivals_table(struct pool *pool, const rotid_suggestion *s)
 {
     static const char *const head[] = {"rival", "chi2 [1]", "score [1]", "share [1]"};
-    struct number_table *table = table_new(pool, s->nrivals, 4);
-    for (int j = 0; j < 4; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, s->nrivals, 4, head);
     for (int i = 0; i < s->nrivals; i++) {
         table_cell(table, i, 0, s->rivals[i].label);
         table_cell(table, i, 1, human_fixed(pool, s->rivals[i].chi2, 2));

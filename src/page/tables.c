@@ -9,9 +9,7 @@ struct number_table *tables_parameters(struct pool *pool, const rotid_identifica
 {
     static const char *const head[] = {"parameter",          "unit",  "value",       "95 % from",   "to",
                                        "standard deviation", "start", "lower bound", "upper bound", "remark"};
-    struct number_table *table = table_new(pool, fit->nparameters, 10);
-    for (int j = 0; j < 10; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, fit->nparameters, 10, head);
     for (int p = 0; p < fit->nparameters; p++) {
         const rotid_fitted_parameter *parameter = &fit->parameters[p];
         struct human_unit unit = human_unit(parameter->value, parameter->unit);
@@ -42,9 +40,7 @@ struct number_table *tables_fitted_modes(struct pool *pool, const struct result 
     const rotid_reference *hz = head_reference(&result->head, "predicted_hz"),
                           *error = head_reference(&result->head, "error_percent");
     int columns = hz || error ? 13 : 11;
-    struct number_table *table = table_new(pool, fit->nmodes, columns);
-    for (int j = 0; j < columns; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, fit->nmodes, columns, head);
     for (int k = 0; k < fit->nmodes; k++) {
         const rotid_compared_mode *mode = &fit->modes[k];
         const char *state = fit_state_of_mode(fit, k);
@@ -71,9 +67,7 @@ struct number_table *tables_states(struct pool *pool, const rotid_identification
 {
     static const char *const head[] = {"state",        "modes",           "residuals in the fit", "rms error, fitted [%]",
                                        "held out [%]", "chi-squared [1]", "length [m]",           "mass [kg]"};
-    struct number_table *table = table_new(pool, fit->nstates, 8);
-    for (int j = 0; j < 8; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, fit->nstates, 8, head);
     for (int s = 0; s < fit->nstates; s++) {
         const rotid_identification own = fit_of_state(fit, s);
         table_cell(table, s, 0, fit->states[s].name);
@@ -118,9 +112,7 @@ struct number_table *tables_modes(struct pool *pool, const rotid_spectrum *modes
 {
     static const char *const head[] = {"mode",          "full model [Hz]", "condensed [Hz]", "condensation [%]", "mesh [%]",
                                        "measured [Hz]", "error [%]",       "MAC [1]",        "NCO [1]"};
-    struct number_table *table = table_new(pool, modes->nmodes, 9);
-    for (int j = 0; j < 9; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, modes->nmodes, 9, head);
     for (int k = 0; k < modes->nmodes; k++) {
         const rotid_model_mode *mode = &modes->modes[k];
         table_cell(table, k, 0, human_fixed(pool, mode->mode, 0));
@@ -141,9 +133,7 @@ struct number_table *tables_beside(struct pool *pool, const rotid_beam_beside_so
 {
     static const char *const head[] = {"mode",    "solid [Hz]", "mode of the beam",  "beam [Hz]",       "difference [%]",
                                        "NCO [1]", "MAC [1]",    "mesh of solid [%]", "mesh of beam [%]"};
-    struct number_table *table = table_new(pool, beside->nmodes, 9);
-    for (int j = 0; j < 9; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, beside->nmodes, 9, head);
     for (int k = 0; k < beside->nmodes; k++) {
         const rotid_beside_mode *mode = &beside->modes[k];
         table_cell(table, k, 0, human_fixed(pool, mode->mode, 0));
@@ -162,9 +152,7 @@ struct number_table *tables_beside(struct pool *pool, const rotid_beam_beside_so
 struct number_table *tables_beside_moduli(struct pool *pool, const rotid_beam_beside_solid *beside)
 {
     static const char *const head[] = {"modulus", "solid", "fitted beam", "change [%]"};
-    struct number_table *table = table_new(pool, beside->nmoduli, 4);
-    for (int j = 0; j < 4; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, beside->nmoduli, 4, head);
     for (int p = 0; p < beside->nmoduli; p++) {
         const rotid_beside_modulus *modulus = &beside->moduli[p];
         table_cell(table, p, 0, modulus->name);
@@ -183,9 +171,7 @@ struct number_table *tables_transfer_modes(struct pool *pool, const struct trans
     int shown = 0, row = 0;
     for (int m = 0; m < out->nmodes; m++)
         shown += out->modes[m].model_hz <= out->high_hz;
-    struct number_table *table = table_new(pool, shown, 8);
-    for (int j = 0; j < 8; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, shown, 8, head);
     for (int m = 0; m < out->nmodes && row < shown; m++) {
         const struct transfer_mode *mode = &out->modes[m];
         const struct transfer_mode_agreement *agreement = mode->agreement ? mode->agreement : &none;

@@ -42,9 +42,7 @@ struct number_table *tables_candidates(struct pool *pool, const rotid_diagnosis 
     const rotid_candidate *candidate = diagnosis_candidates(d, round, &count);
     static const char *const head[] = {"cause", "drop expected", "drop reached", "p-value", "what became of it"};
     enum { COLUMNS = sizeof head / sizeof *head };
-    struct number_table *table = table_new(pool, count, COLUMNS);
-    for (int j = 0; j < COLUMNS; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, count, COLUMNS, head);
     for (int i = 0; i < count; i++) {
         const rotid_candidate *c = &candidate[i];
         table_cell(table, i, 0, label_of(pool, d, c));
@@ -164,9 +162,7 @@ struct number_table *tables_detection_limits(struct pool *pool, const rotid_diag
 {
     static const char *const head[] = {"cause", "parameter", "smallest that would have shown", "where it shows best",
                                        "at the worst place"};
-    struct number_table *table = table_new(pool, d->ndetectable, 5);
-    for (int j = 0; j < 5; j++)
-        table_head(table, j, head[j]);
+    struct number_table *table = table_headed(pool, d->ndetectable, 5, head);
     for (int i = 0; i < d->ndetectable; i++) {
         const rotid_detectable *size = &d->detectable[i];
         int none = size->beyond || !isfinite(size->smallest);

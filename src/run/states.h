@@ -9,7 +9,8 @@ struct state {
     const char *name; /* NULL in a deck without *STATE */
     struct job job;
     int ncommon;  /* the first of its unknowns: those of the common cards */
-    int *unknown; /* [job.unknowns.nparameter] which of the unknowns of all states each of its own is */
+    int *unknown; /* [job.unknowns.nparameter] which of the unknowns of all states each of its own is;
+                     NULL: the first ones */
 };
 
 struct states {

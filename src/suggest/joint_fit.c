@@ -66,13 +66,9 @@ int joint_chi2(struct pool *pool, const struct rival *b, const struct test *test
     message_open(&quiet, pool);
     if (!states.state || !states.bounds || !out)
         return ROTID_ERROR_MEMORY;
-    states.state[0] = (struct state){.name = "measured", .job = b->job, .ncommon = n, .unknown = POOL_ARRAY(pool, int, n)};
-    if (!states.state[0].unknown)
-        return ROTID_ERROR_MEMORY;
-    for (int p = 0; p < n; p++) {
-        states.state[0].unknown[p] = p;
+    states.state[0] = (struct state){.name = "measured", .job = b->job, .ncommon = n};
+    for (int p = 0; p < n; p++)
         states.bounds[p] = b->job.unknowns.bounds[p];
-    }
     int status = open_state(pool, b, test, measured, &states);
     if (!status)
         status = identify_states(pool, &states, 0, environment, &quiet, out, &fit);
