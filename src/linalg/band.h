@@ -1,11 +1,11 @@
 /* Factors of a narrow band and their solutions, in LAPACK's storage. A beam's band is so narrow that LAPACK, which calls a BLAS
  * routine for every column, would spend its time on calls. Wide bands: wide.h.
- * Right-hand sides are interleaved, b[i * lanes + lane], lanes = 1, 2, 4 or 8: the recurrences of one wait for each other; those
- * of eight fill the arithmetic units. What is computed in a lane does not depend on their number. */
+ * Right-hand sides are interleaved, b[i * lanes + lane], lanes = 1, 2 or 4: the recurrences of one wait for each other; those
+ * of four are one vector. What is computed in a lane does not depend on their number. */
 #ifndef ROTID_LINALG_BAND_H
 #define ROTID_LINALG_BAND_H
 
-#define BAND_LANES 8 /* most */
+#define BAND_LANES 4 /* most */
 
 /* A = L L', lower triangle A(i, j) = band[(i - j) + j * (kd + 1)], overwritten by L. Returns 0, or 1 when A is not positive
  * definite. */

@@ -10,6 +10,8 @@
 #include "linalg/band.h"
 #include "linalg/factor_gather.h"
 
+#define WIDE_COLUMNS 8 /* right-hand sides that are solved together, of wide bands */
+
 int factor_is_wide(const rotid_matrix *structure)
 {
     return structure->kd >= FACTOR_WIDE;
@@ -43,8 +45,8 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->x = POOL_ARRAY(pool, double, (size_t)n *outer);
     f->schur = POOL_ARRAY(pool, double, outer *outer);
     f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
-    f->work = POOL_ARRAY(pool, double, BAND_LANES *(size_t)n);
-    f->outer_work = POOL_ARRAY(pool, double, BAND_LANES *outer);
+    f->work = POOL_ARRAY(pool, double, WIDE_COLUMNS *(size_t)n);
+    f->outer_work = POOL_ARRAY(pool, double, WIDE_COLUMNS *outer);
     f->first = POOL_ARRAY(pool, int, outer);
     f->last = POOL_ARRAY(pool, int, outer);
     f->schur_pivot = POOL_ARRAY(pool, int, outer);
@@ -67,7 +69,7 @@ static void inner_solve(struct factor *f, int lanes, double *b)
 /* columns left to solve, rounded up to what the kernels have */
 static int lanes_for(int columns)
 {
-    return columns >= 5 ? BAND_LANES : columns >= 3 ? 4 : columns;
+    return columns >= 3 ? BAND_LANES : columns;
 }
 
 /* S := A_ff - A_fr X */
@@ -186,14 +188,38 @@ static void solve_border(struct factor *f, int columns, int lanes, double *b)
             outer[p + c * f->nf] = sum;
         }
     outer_solve(f, columns, outer);
-    for (int p = 0; p < f->nf; p++) {
-        const double *restrict x = f->x + (ptrdiff_t)p * f->nr;
-        double row[BAND_LANES] = {0};
-        for (int c = 0; c < columns; c++)
-            b[f->outer[p] + (ptrdiff_t)c * f->n] = row[c] = outer[p + c * f->nf];
+    for (int c = 0; c < columns; c++)
+        for (int p = 0; p < f->nf; p++)
+            b[f->outer[p] + (ptrdiff_t)c * f->n] = outer[p + c * f->nf];
+}
+
+/* inner [nr * lanes] := the inner rows of b [n * columns], interleaved */
+static void interleave(const struct factor *f, int columns, int lanes, const double *b, double *inner)
+{
+    if (columns < lanes)
+        memset(inner, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
+    for (int c = 0; c < columns; c++) {
+        const double *restrict column = b + (ptrdiff_t)c * f->n;
+        double *restrict to = inner + c;
         for (int i = 0; i < f->nr; i++)
-            for (int c = 0; c < lanes; c++)
-                inner[(ptrdiff_t)i * lanes + c] -= x[i] * row[c];
+            to[(ptrdiff_t)i * lanes] = column[f->inner[i]];
+    }
+}
+
+/* inner rows of b [n * columns] := inner less X times the outer ones */
+static void spread(const struct factor *f, int columns, int lanes, const double *inner, double *b)
+{
+    for (int c = 0; c < columns; c++) {
+        double *restrict column = b + (ptrdiff_t)c * f->n;
+        const double *restrict from = inner + c;
+        for (int i = 0; i < f->nr; i++)
+            column[f->inner[i]] = from[(ptrdiff_t)i * lanes];
+        for (int p = 0; p < f->nf; p++) {
+            const double *restrict x = f->x + (ptrdiff_t)p * f->nr;
+            double outer = column[f->outer[p]];
+            for (int i = 0; i < f->nr; i++)
+                column[f->inner[i]] -= x[i] * outer;
+        }
     }
 }
 
@@ -201,18 +227,11 @@ static void solve_border(struct factor *f, int columns, int lanes, double *b)
 static void solve_together(struct factor *f, int columns, double *b)
 {
     int lanes = lanes_for(columns);
-    double *inner = f->work;
-    if (columns < lanes)
-        memset(inner, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
-    for (int c = 0; c < columns; c++)
-        for (int i = 0; i < f->nr; i++)
-            inner[(ptrdiff_t)i * lanes + c] = b[f->inner[i] + (ptrdiff_t)c * f->n];
-    inner_solve(f, lanes, inner);
+    interleave(f, columns, lanes, b, f->work);
+    inner_solve(f, lanes, f->work);
     if (f->nf)
         solve_border(f, columns, lanes, b);
-    for (int c = 0; c < columns; c++)
-        for (int i = 0; i < f->nr; i++)
-            b[f->inner[i] + (ptrdiff_t)c * f->n] = inner[(ptrdiff_t)i * lanes + c];
+    spread(f, columns, lanes, f->work, b);
 }
 
 /* As solve_together, by level 3 */
@@ -247,9 +266,9 @@ void factor_solve(struct factor *f, int columns, double *b)
         wide_solve(&f->wide, columns, f->n, b);
         return;
     }
-    for (int c = 0; c < columns; c += BAND_LANES)
-        (f->is_wide ? solve_wide : solve_together)(f, columns - c < BAND_LANES ? columns - c : BAND_LANES,
-                                                   b + (ptrdiff_t)c * f->n);
+    int together = f->is_wide ? WIDE_COLUMNS : BAND_LANES;
+    for (int c = 0; c < columns; c += together)
+        (f->is_wide ? solve_wide : solve_together)(f, columns - c < together ? columns - c : together, b + (ptrdiff_t)c * f->n);
 }
 
 /* LDL' of the inner band in its own storage (unit lower L below, D on the diagonal); returns the number of negative pivots. A
