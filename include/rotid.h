@@ -1057,6 +1057,10 @@ typedef struct rotid_model {
      * ones */
     int (*derivatives)(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass);
     void *user;
+    int nmodes;          /* vectors in modes, 0 for none */
+    const double *modes; /* [n * nmodes] vectors near the lowest modes, rigid ones included, from which the first solution of the full
+                            model begins where they are as many as it needs: of a model nearby, say. The result is the same but for
+                            rounding. NULL: none */
 } rotid_model;
 
 /* The measured modes. Shapes are optional; their scale and sign are free, each mode is scaled to a largest component of 1

@@ -59,6 +59,9 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
+/* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
+void eigen_band_begin(struct eigen_band *e, const double *phi);
+
 /* ---- whichever is the fastest one: dense, of narrow bands, of wide ones (eigen_wide.h), on the matrices of the full model */
 
 struct eigen_full {
@@ -75,6 +78,9 @@ struct eigen_full {
 int eigen_full_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e);
 /* The dense one in any case. */
 int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e);
+
+/* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale; the dense solver needs none. */
+void eigen_full_begin(struct eigen_full *e, const double *phi);
 
 /* As eigen_band_solve. The dense solver is followed by one step of inverse iteration and Rayleigh-Ritz with K and M as they are:
  * the reduction to standard form costs the lowest pairs of a fine mesh some digits. */

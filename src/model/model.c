@@ -69,6 +69,7 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
                                      .matrices = matrices,
                                      .derivatives = derivatives,
                                      .user = model};
+    model->equations.modes = models_modes(models, structure.n, &model->equations.nmodes);
     model->rotor = discrete_rotor(&model->discrete);
     model->parameter = parameter;
     model->naxis = discrete_places(&model->discrete);
