@@ -2,17 +2,11 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
+
+#include "linalg/machine.h"
 
 #define INLINE static inline __attribute__((always_inline))
-
-/* Compiled for vectors of four as well where the compiler and the loader choose at start; the numbers are the same on all machines,
- * since products and sums stay two operations. */
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define EACH_MACHINE __attribute__((target_clones("avx", "default")))
-#else
-#define EACH_MACHINE
-#endif
 
 INLINE int least(int a, int b)
 {
@@ -157,4 +151,38 @@ EACH_MACHINE void band_lu_solve(int n, int kd, const double *band, const int *pi
         lu_solve(n, 3, band, pivot, lanes, b);
     else
         lu_solve(n, kd, band, pivot, lanes, b);
+}
+
+EACH_MACHINE void band_subtract(int n, int count, const double *x, int lanes, const double *r, double *b)
+{
+    if (lanes == 4)
+        subtract_4(n, count, x, (const lanes4 *)r, (lanes4 *)b);
+    else if (lanes == 2)
+        subtract_2(n, count, x, (const lanes2 *)r, (lanes2 *)b);
+    else
+        subtract_1(n, count, x, r, b);
+}
+
+void band_gather(int n, const int *row, int columns, int length, const double *x, int lanes, double *b)
+{
+    if (lanes == 4 && columns == 4)
+        gather_4(n, row, 4, length, x, b);
+    else if (lanes == 4)
+        gather_4(n, row, columns, length, x, b);
+    else if (lanes == 2)
+        gather_2(n, row, 2, length, x, b);
+    else
+        gather_1(n, row, 1, length, x, b);
+}
+
+void band_scatter(int n, const int *row, int columns, int length, int lanes, const double *b, double *x)
+{
+    if (lanes == 4 && columns == 4)
+        scatter_4(n, row, 4, length, b, x);
+    else if (lanes == 4)
+        scatter_4(n, row, columns, length, b, x);
+    else if (lanes == 2)
+        scatter_2(n, row, 2, length, b, x);
+    else
+        scatter_1(n, row, 1, length, b, x);
 }

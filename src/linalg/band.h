@@ -17,4 +17,11 @@ void band_cholesky_solve(int n, int kd, const double *band, int lanes, double *b
 int band_lu(int n, int kd, double *band, int *pivot);
 void band_lu_solve(int n, int kd, const double *band, const int *pivot, int lanes, double *b);
 
+/* B := B - X R for B [n], R [count] interleaved, X [n * count] by columns */
+void band_subtract(int n, int count, const double *x, int lanes, const double *r, double *b);
+
+/* B [n] interleaved := rows row [n] of `columns` columns X, each of this length; lanes: columns, or 4 for 3. And back. */
+void band_gather(int n, const int *row, int columns, int length, const double *x, int lanes, double *b);
+void band_scatter(int n, const int *row, int columns, int length, int lanes, const double *b, double *x);
+
 #endif

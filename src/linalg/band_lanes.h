@@ -64,3 +64,40 @@ INLINE void NAMED(lu_solve)(int n, int kd, const double *restrict band, const in
     for (; j >= 0; j--)
         NAMED(above)(2 * kd, lda - 1, diagonal + j * lda, b + j);
 }
+
+/* B := B - X R, X [n * count] by columns, R [count] interleaved as B is */
+INLINE void NAMED(subtract)(int n, int count, const double *restrict x, const LANES *restrict r, LANES *restrict b)
+{
+    for (int i = 0; i < n; i++) {
+        LANES sum = b[i];
+        for (int p = 0; p < count; p++)
+            sum -= x[i + (ptrdiff_t)p * n] * r[p];
+        b[i] = sum;
+    }
+}
+
+/* B [n] := rows row[i] of `columns` columns of length `length`, and zeros behind them */
+INLINE void NAMED(gather)(int n, const int *restrict row, int columns, ptrdiff_t length, const double *restrict x, double *restrict b)
+{
+    enum { WIDTH = sizeof(LANES) / sizeof(double) };
+    if (columns < WIDTH)
+        memset(b, 0, (size_t)n * sizeof(LANES));
+    for (int i = 0; i < n; i++) {
+        const double *at = x + row[i];
+#pragma GCC unroll 4
+        for (int c = 0; c < columns; c++)
+            b[i * (ptrdiff_t)WIDTH + c] = at[c * length];
+    }
+}
+
+/* The way back */
+INLINE void NAMED(scatter)(int n, const int *restrict row, int columns, ptrdiff_t length, const double *restrict b, double *restrict x)
+{
+    enum { WIDTH = sizeof(LANES) / sizeof(double) };
+    for (int i = 0; i < n; i++) {
+        double *at = x + row[i];
+#pragma GCC unroll 4
+        for (int c = 0; c < columns; c++)
+            at[c * length] = b[i * (ptrdiff_t)WIDTH + c];
+    }
+}

@@ -46,13 +46,16 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->schur = POOL_ARRAY(pool, double, outer *outer);
     f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
     f->work = POOL_ARRAY(pool, double, WIDE_COLUMNS *(size_t)n);
-    f->outer_work = POOL_ARRAY(pool, double, WIDE_COLUMNS *outer);
+    f->outer_work = POOL_ARRAY(pool, double, WIDE_COLUMNS *outer); /* >= 2 BAND_LANES */
+    f->same = POOL_ARRAY(pool, int, n);
     f->first = POOL_ARRAY(pool, int, outer);
     f->last = POOL_ARRAY(pool, int, outer);
     f->schur_pivot = POOL_ARRAY(pool, int, outer);
-    if (!f->position || !f->inner || !f->outer || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work ||
+    if (!f->position || !f->inner || !f->outer || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work || !f->same ||
         !f->outer_work || !f->first || !f->last || !f->schur_pivot)
         return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n; i++)
+        f->same[i] = i;
     factor_keep(f, structure, n, kept);
     return f->is_wide ? new_wide(pool, n, kd, f) : new_narrow(pool, n, f);
 }
@@ -103,14 +106,10 @@ static void solve_coupling(struct factor *f)
     }
     for (int q = 0; q < f->nf; q += BAND_LANES) {
         int columns = f->nf - q < BAND_LANES ? f->nf - q : BAND_LANES, lanes = lanes_for(columns);
-        memset(f->work, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
-        for (int c = 0; c < columns; c++)
-            for (int i = 0; i < f->nr; i++)
-                f->work[(ptrdiff_t)i * lanes + c] = f->coupling[i + (ptrdiff_t)(q + c) * f->nr];
+        ptrdiff_t at = (ptrdiff_t)q * f->nr;
+        band_gather(f->nr, f->same, columns, f->nr, f->coupling + at, lanes, f->work);
         inner_solve(f, lanes, f->work);
-        for (int c = 0; c < columns; c++)
-            for (int i = 0; i < f->nr; i++)
-                f->x[i + (ptrdiff_t)(q + c) * f->nr] = f->work[(ptrdiff_t)i * lanes + c];
+        band_scatter(f->nr, f->same, columns, f->nr, lanes, f->work, f->x + at);
     }
 }
 
@@ -175,10 +174,10 @@ static void outer_solve(struct factor *f, int columns, double *b)
         (void)LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', f->nf, columns, f->schur, f->nf, f->schur_pivot, b, f->nf);
 }
 
-/* outer [nf * columns] := A_ff part of b less A_fr inner, solved; inner := inner - X outer */
+/* outer rows of b [n * columns] := A_ff^-1 of those less A_fr inner; inner := inner - X outer */
 static void solve_border(struct factor *f, int columns, int lanes, double *b)
 {
-    double *inner = f->work, *outer = f->outer_work;
+    double *inner = f->work, *outer = f->outer_work, *row = outer + BAND_LANES * (ptrdiff_t)f->nf;
     for (int c = 0; c < columns; c++)
         for (int p = 0; p < f->nf; p++) {
             const double *coupling = f->coupling + (ptrdiff_t)p * f->nr;
@@ -188,50 +187,24 @@ static void solve_border(struct factor *f, int columns, int lanes, double *b)
             outer[p + c * f->nf] = sum;
         }
     outer_solve(f, columns, outer);
-    for (int c = 0; c < columns; c++)
-        for (int p = 0; p < f->nf; p++)
-            b[f->outer[p] + (ptrdiff_t)c * f->n] = outer[p + c * f->nf];
-}
-
-/* inner [nr * lanes] := the inner rows of b [n * columns], interleaved */
-static void interleave(const struct factor *f, int columns, int lanes, const double *b, double *inner)
-{
-    if (columns < lanes)
-        memset(inner, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
-    for (int c = 0; c < columns; c++) {
-        const double *restrict column = b + (ptrdiff_t)c * f->n;
-        double *restrict to = inner + c;
-        for (int i = 0; i < f->nr; i++)
-            to[(ptrdiff_t)i * lanes] = column[f->inner[i]];
-    }
-}
-
-/* inner rows of b [n * columns] := inner less X times the outer ones */
-static void spread(const struct factor *f, int columns, int lanes, const double *inner, double *b)
-{
-    for (int c = 0; c < columns; c++) {
-        double *restrict column = b + (ptrdiff_t)c * f->n;
-        const double *restrict from = inner + c;
-        for (int i = 0; i < f->nr; i++)
-            column[f->inner[i]] = from[(ptrdiff_t)i * lanes];
-        for (int p = 0; p < f->nf; p++) {
-            const double *restrict x = f->x + (ptrdiff_t)p * f->nr;
-            double outer = column[f->outer[p]];
-            for (int i = 0; i < f->nr; i++)
-                column[f->inner[i]] -= x[i] * outer;
+    for (int p = 0; p < f->nf; p++)
+        for (int c = 0; c < lanes; c++) {
+            row[p * lanes + c] = c < columns ? outer[p + c * f->nf] : 0;
+            if (c < columns)
+                b[f->outer[p] + (ptrdiff_t)c * f->n] = row[p * lanes + c];
         }
-    }
+    band_subtract(f->nr, f->nf, f->x, lanes, row, inner);
 }
 
 /* `columns` columns of b, at most BAND_LANES */
 static void solve_together(struct factor *f, int columns, double *b)
 {
     int lanes = lanes_for(columns);
-    interleave(f, columns, lanes, b, f->work);
+    band_gather(f->nr, f->inner, columns, f->n, b, lanes, f->work);
     inner_solve(f, lanes, f->work);
     if (f->nf)
         solve_border(f, columns, lanes, b);
-    spread(f, columns, lanes, f->work, b);
+    band_scatter(f->nr, f->inner, columns, f->n, lanes, f->work, b);
 }
 
 /* As solve_together, by level 3 */
