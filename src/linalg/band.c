@@ -98,7 +98,7 @@ int band_lu(int n, int kd, double *band, int *pivot)
 
 /* as many right-hand sides as a vector has components, at any address of a double */
 typedef double lanes2 __attribute__((vector_size(16), aligned(8), may_alias));
-typedef double lanes4 __attribute__((vector_size(32), aligned(8), may_alias));
+typedef four lanes4;
 
 #define LANES       double
 #define NAMED(name) name##_1

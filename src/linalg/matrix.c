@@ -10,9 +10,6 @@
 #define BLOCK   64 /* rows whose diagonals are laid out at once */
 #define INLINE  static inline __attribute__((always_inline))
 
-typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
-#define FOUR(from) (*(const four *)(from))
-
 int matrix_new(struct pool *pool, int n, int kd, int nfar, const int *far, rotid_matrix *a)
 {
     *a = (rotid_matrix){.n = n, .kd = kd, .nfar = nfar, .far = far};
