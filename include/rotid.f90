@@ -910,7 +910,7 @@ module rotid
   end type rotid_state
 
   type, bind(C) :: rotid_fit_options
-    integer(c_size_t) :: size = 64
+    integer(c_size_t) :: size = 72
     integer(c_int) :: functional = 0, reduction = 0, derivative = 0
     integer(c_int) :: baseline = 0
     integer(c_int) :: max_iterations = 0
@@ -918,6 +918,7 @@ module rotid
     real(c_double) :: step_tolerance = 0
     real(c_double) :: bijection_chi = 0
     real(c_double) :: decrease_tolerance = 0
+    real(c_double) :: objective_tolerance = 0
   end type rotid_fit_options
 
   type, bind(C) :: rotid_fit_iteration
