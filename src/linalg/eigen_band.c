@@ -31,7 +31,7 @@ static int is_narrow(const rotid_matrix *structure, int count)
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e)
 {
     int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
-    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH};
+    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH, .to = count};
     e->failures = is_narrow(structure, count) ? 0 : FAILURES;
     int width = block * DEPTH;
     e->all = POOL_ARRAY(pool, int, n);
@@ -235,6 +235,12 @@ static int attempt(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
         status = ROTID_ERROR_EIGEN;
     e->known = e->plain ? e->block : e->count;
     return status || none_missed(e, k, m) ? status : ROTID_ERROR_EIGEN;
+}
+
+void eigen_band_want(struct eigen_band *e, int from, int to)
+{
+    e->from = from;
+    e->to = to;
 }
 
 void eigen_band_begin(struct eigen_band *e, const double *phi)

@@ -39,6 +39,12 @@ int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int c
     return eigen_dense_new(pool, structure->n, count, &e->solver);
 }
 
+void eigen_full_want(struct eigen_full *e, int from, int to)
+{
+    if (!e->dense && !e->wide)
+        eigen_band_want(&e->band, from, to);
+}
+
 void eigen_full_begin(struct eigen_full *e, const double *phi)
 {
     if (e->wide)

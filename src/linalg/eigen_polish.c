@@ -11,6 +11,7 @@
 #define ROUNDS    4     /* the error is cubed in each */
 #define TOLERANCE 1e-12 /* of the residual */
 #define CLUSTER   1e-3  /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
+#define NEAR      1e-2 /* of the residual of a pair that is not wanted */
 #define OFFSET    1e-7  /* of that shift below the lowest of them */
 
 double eigen_rounding(const struct eigen_band *e)
@@ -114,12 +115,17 @@ static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
     return 0;
 }
 
+static int is_wanted(const struct eigen_band *e, int pair)
+{
+    return pair >= e->from && pair < e->to;
+}
+
 /* Pairs that are not at the tolerance, nor at the rounding with no more to expect: they are open again. */
 static int count_open(struct eigen_band *e, double rounding, double *expected)
 {
     int open = 0;
     for (int j = 0; j < e->count; j++) {
-        if (e->residual[j] <= TOLERANCE || (expected[j] <= TOLERANCE && e->residual[j] <= rounding))
+        if (e->residual[j] <= (is_wanted(e, j) ? TOLERANCE : NEAR) || (expected[j] <= TOLERANCE && e->residual[j] <= rounding))
             continue;
         expected[j] = INFINITY;
         open++;
@@ -131,7 +137,7 @@ int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
 {
     double rounding = eigen_rounding(e) / 100, *expected = e->shifts + 2 * (ptrdiff_t)e->count;
     for (int j = 0; j < e->count; j++)
-        expected[j] = INFINITY;
+        expected[j] = is_wanted(e, j) ? INFINITY : 0;
     for (int round = 0; round < ROUNDS; round++) {
         if (iterate(e, k, m, expected))
             return 1;

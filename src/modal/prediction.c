@@ -78,6 +78,8 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     int status = new_matrices(pool, model, p);
     if (!status)
         status = new_solvers(pool, model, with_vectors, p);
+    if (!status && full && with_vectors) /* rigid motions have no number, and the neighbour is looked at from afar */
+        eigen_full_want(&p->full, model->nrigid < count ? model->nrigid : 0, count);
     if (!status && full && model->modes && model->nmodes >= p->count)
         eigen_full_begin(&p->full, model->modes);
     return status;
