@@ -55,3 +55,11 @@ void product_gram(int n, int k, const double *a, double *c)
         for (int i = j + 1; i < n; i++)
             c[j + (ptrdiff_t)i * n] = c[i + (ptrdiff_t)j * n];
 }
+
+void product_combine(int m, int k, double part, const double *a, const double *x, double *y)
+{
+    for (int i = 0; i < m; i++)
+        y[i] = 0;
+    if (m && k)
+        cblas_dgemv(CblasColMajor, CblasNoTrans, m, k, part, a, m, x, 1, 0, y, 1);
+}
