@@ -69,16 +69,20 @@ static double solve_shifted(struct eigen_band *e, const rotid_matrix *k, const r
 }
 
 /* expected [count] := residual that is left of each pair, whose shift and distance to the rest of the spectrum were sigma and gap
- * (NaN: it was not iterated): the angle by which the vector has turned times |lambda - sigma|/gap. M times the vectors before is in
- * mass_basis. */
+ * (NaN: it was not iterated): the angle by which the vector has turned out of its cluster, the pairs with the same shift, times
+ * |lambda - sigma|/gap. M times the vectors before is in mass_basis. */
 static void expect(struct eigen_band *e, const double *sigma, const double *gap, double *expected)
 {
     for (int j = 0; j < e->count; j++) {
         if (isnan(sigma[j]))
             continue;
-        double cosine = cblas_ddot(e->n, e->ritz + (ptrdiff_t)j * e->n, 1, e->mass_basis + (ptrdiff_t)j * e->n, 1),
-               angle = sqrt(fmax(1 - cosine * cosine, 4 * DBL_EPSILON));
-        expected[j] = angle * fabs(e->value[j] - sigma[j]) / gap[j];
+        double inside = 0;
+        for (int i = 0; i < e->count; i++)
+            if (sigma[i] == sigma[j]) {
+                double cosine = cblas_ddot(e->n, e->ritz + (ptrdiff_t)j * e->n, 1, e->mass_basis + (ptrdiff_t)i * e->n, 1);
+                inside += cosine * cosine;
+            }
+        expected[j] = sqrt(fmax(1 - inside, 4 * DBL_EPSILON)) * fabs(e->value[j] - sigma[j]) / gap[j];
     }
 }
 
@@ -135,21 +139,20 @@ static int count_open(struct eigen_band *e, double rounding, double *expected)
 
 int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
-    double rounding = eigen_rounding(e) / 100, *expected = e->shifts + 2 * (ptrdiff_t)e->count;
-    for (int j = 0; j < e->count; j++)
-        expected[j] = is_wanted(e, j) ? INFINITY : 0;
-    for (int round = 0; round < ROUNDS; round++) {
-        if (iterate(e, k, m, expected))
-            return 1;
-        double worst = 0;
-        for (int j = 0; j < e->count; j++)
-            worst = fmax(worst, expected[j]);
-        if (worst > TOLERANCE && round + 1 < ROUNDS)
-            continue;
+    double rounding = eigen_rounding(e) / 100, *expected = e->shifts + 2 * (ptrdiff_t)e->count, worst;
+    memset(expected, 0, (size_t)e->count * sizeof *expected);
+    for (int round = 0; round <= ROUNDS;) {
         if (!isfinite(eigen_residuals(e, m, e->count, e->count)))
             return 1;
-        if (!count_open(e, rounding, expected))
+        if (!count_open(e, round ? rounding : 0, expected))
             return 0;
+        do { /* the residuals are asked again when all are expected to be small */
+            if (round++ == ROUNDS || iterate(e, k, m, expected))
+                return 1;
+            worst = 0;
+            for (int j = 0; j < e->count; j++)
+                worst = fmax(worst, expected[j]);
+        } while (worst > TOLERANCE && round < ROUNDS);
     }
     return 1;
 }
