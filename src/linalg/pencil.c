@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "linalg/machine.h"
 #include "linalg/matrix.h"
 
 #define LANES  8
@@ -53,27 +54,53 @@ int pencil_take(struct pencil *p, const rotid_matrix *k, const rotid_matrix *m)
     return same;
 }
 
-/* y += A x for `lanes` columns, compiled for each number of them as a constant */
-INLINE void multiply_lanes(const struct pencil *p, const double *restrict value, int lanes, const double *restrict x,
-                           double *restrict y)
+/* y += A x for 4 `fours` columns, interleaved; compiled for each number of them as a constant */
+INLINE void multiply_fours(const struct pencil *p, const double *restrict value, int fours, const four *restrict x,
+                           four *restrict y)
 {
     for (int j = 0; j < p->n; j++) {
-        double from[LANES], sum[LANES];
+        four from[LANES / 4], sum[LANES / 4];
         int at = p->start[j];
-        for (int c = 0; c < lanes; c++) {
-            from[c] = x[(ptrdiff_t)j * lanes + c];
-            sum[c] = value[at] * from[c];
+#pragma GCC unroll 2
+        for (int c = 0; c < fours; c++) {
+            from[c] = x[(ptrdiff_t)j * fours + c];
+            sum[c] = y[(ptrdiff_t)j * fours + c] + value[at] * from[c];
         }
         while (++at < p->start[j + 1]) {
-            const double a = value[at], *restrict xi = x + (ptrdiff_t)p->row[at] * lanes;
-            double *restrict yi = y + (ptrdiff_t)p->row[at] * lanes;
-            for (int c = 0; c < lanes; c++) {
-                sum[c] += a * xi[c];
-                yi[c] += a * from[c];
+            const double a = value[at];
+            ptrdiff_t i = (ptrdiff_t)p->row[at] * fours;
+#pragma GCC unroll 2
+            for (int c = 0; c < fours; c++) {
+                sum[c] += a * x[i + c];
+                y[i + c] += a * from[c];
             }
         }
-        for (int c = 0; c < lanes; c++)
-            y[(ptrdiff_t)j * lanes + c] += sum[c];
+#pragma GCC unroll 2
+        for (int c = 0; c < fours; c++)
+            y[(ptrdiff_t)j * fours + c] = sum[c];
+    }
+}
+
+EACH_MACHINE static void multiply_8(const struct pencil *p, const double *value, const double *x, double *y)
+{
+    multiply_fours(p, value, 2, (const four *)x, (four *)y);
+}
+
+EACH_MACHINE static void multiply_4(const struct pencil *p, const double *value, const double *x, double *y)
+{
+    multiply_fours(p, value, 1, (const four *)x, (four *)y);
+}
+
+static void multiply_1(const struct pencil *p, const double *restrict value, const double *restrict x, double *restrict y)
+{
+    for (int j = 0; j < p->n; j++) {
+        int at = p->start[j];
+        double sum = value[at] * x[j];
+        while (++at < p->start[j + 1]) {
+            sum += value[at] * x[p->row[at]];
+            y[p->row[at]] += value[at] * x[j];
+        }
+        y[j] += sum;
     }
 }
 
@@ -86,7 +113,7 @@ INLINE void multiply_together(struct pencil *p, const double *value, const rotid
     for (int c = 0; c < lanes; c++)
         for (ptrdiff_t i = 0; i < n; i++)
             p->x[i * lanes + c] = c < columns ? x[i + c * n] : 0;
-    multiply_lanes(p, value, lanes, p->x, p->y);
+    (lanes == LANES ? multiply_8 : lanes == 4 ? multiply_4 : multiply_1)(p, value, p->x, p->y);
     for (int g = 0; g < a->nfar; g++)
         for (int f = 0; f < a->nfar; f++)
             for (int c = 0; c < lanes; c++)
