@@ -6,7 +6,8 @@
 #   make test       builds and runs the tests; ends with one line "N passed, N failed"; make test-long: the rest, effects hidden by dozens
 #   make power      hides effects in a thousand random rotors and counts what the diagnosis makes of them
 #   make power-solid, coverage-solid   the same of solids of revolution by other elements
-#   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only
+#   make bench      speed beside SciPy and NLopt in one run; make bench-quick: its correctness part only;
+#                   make bench-check: instructions of fixed runs, by valgrind, beside those recorded
 #   make check-asan, make check-valgrind    the tests under the address and undefined-behaviour sanitizers, under valgrind
 #   make check-tsan   calls from several threads under the thread sanitizer
 #   make check-peers   against SciPy, pyuff, sdypy-EMA and jsonschema, installed into build/venv
@@ -239,6 +240,11 @@ test-long: all $(addprefix $(BUILD)/tests/test_,$(LONG) hidden_effects chain)
 
 bench bench-quick: all $(BUILD)/hide
 	@sh tools/bench/run $(@:bench-%=%) $(BUILD)
+
+# instructions of fixed runs, by callgrind, beside those of tools/bench/instructions.txt; RECORD=--record writes them anew
+.PHONY: bench-check
+bench-check: all $(BUILD)/hide
+	@$(PYTHON) tools/bench/instructions.py $(BUILD)/rotid $(BUILD)/hide $(BUILD) $(RECORD)
 
 # without the programs that diagnose dozens of rotors, and those that count over hundreds of random cases, fine meshes or figures: what
 # they call is in the others

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/host.h"
+#include "linalg/machine.h"
 #include "rotid.h"
 
 /* A power of two that takes the largest finite component to about 1, without rounding: neither criterion depends on the scale of
@@ -42,13 +43,18 @@ double rotid_mac(int n, const double *a, const double *b)
 }
 
 /* y := M x, x times `unit`, with its components that are not finite taken as zero; returns x' y */
-static double mass_product(int n, const double *mass, double unit, const double *x, double *y)
+static double mass_product(int n, const double *mass, double unit, const double *x, double *restrict y)
 {
     double sum = 0;
     memset(y, 0, (size_t)n * sizeof *y);
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < n && isfinite(x[j]); i++)
-            y[i] += mass[i + (ptrdiff_t)j * n] * (unit * x[j]);
+    for (int j = 0; j < n; j++) {
+        const double *restrict column = mass + (ptrdiff_t)j * n, part = unit * x[j];
+        int i = isfinite(part) ? 0 : n;
+        for (; i + 4 <= n; i += 4)
+            *(four *)(y + i) += FOUR(column + i) * part;
+        for (; i < n; i++)
+            y[i] += column[i] * part;
+    }
     for (int i = 0; i < n; i++)
         if (isfinite(x[i]))
             sum += unit * x[i] * y[i];
