@@ -16,7 +16,7 @@ static const char layout[] =
     ".subtitle{color:var(--muted);margin:0;overflow-wrap:anywhere}\n"
     ".answer{margin:1.25rem 0;padding:.9rem 1.1rem;background:var(--band);border-left:6px solid var(--tone);border-radius:2px}\n"
     ".answer p{margin:0}\n.answer .tone{font-weight:bold;color:var(--tone);margin-bottom:.25rem}\n.answer "
-    ".says{font-size:1.1rem}\n"
+    ".says{font-size:1.1rem}\n.answer .of{font-size:.875rem;color:var(--muted);overflow-wrap:anywhere}\n"
     ".answer .next{margin-top:.5rem}\n"
     ".plain{--tone:var(--blue)}\n.good{--tone:var(--green)}\n.care{--tone:var(--ochre)}\n.bad{--tone:var(--vermilion)}\n"
     ".hint{border:1px solid var(--ochre);padding:.1rem 1rem;margin:1rem 0}\n"

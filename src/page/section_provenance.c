@@ -3,6 +3,7 @@
 
 #include "page/geometry.h"
 #include "page/human.h"
+#include "page/plain.h"
 #include "page/sections.h"
 
 #define KEYS_SINCE "0.3.0" /* the version whose results hold what a page asks for beyond those of 0.2 */
@@ -60,7 +61,66 @@ static const char *model_of(struct pool *pool, const struct result *result)
     return geometry || fit ? pool_format(pool, "%s%s", size ? size : "", how ? how : "") : NULL;
 }
 
-#define FACTS 8
+/* Facts of a result, and of a further one those that are not the same again. */
+static void add_facts(struct document *document, int count, const char *const name[], const char *value[], const char *first[])
+{
+    int told = 0;
+    for (int i = 0; i < count; i++) { /* a model said in fewer words is no other one */
+        if (first && value[i] && first[i] && !strncmp(value[i], first[i], strlen(value[i])))
+            value[i] = NULL;
+        told += value[i] != NULL;
+    }
+    if (told)
+        document_facts(document, count, name, value);
+}
+
+#define BASICS 3
+
+static void basics_of(struct pool *pool, const struct result *result, const char *value[BASICS])
+{
+    value[0] = data_of(pool, result);
+    value[1] = noise_of(pool, result);
+    value[2] = model_of(pool, result);
+}
+
+void section_rests_on(struct document *document, int count, const struct result *result)
+{
+    static const char *const name[BASICS] = {"Data", "Noise", "Model"};
+    const char *value[BASICS], *first[BASICS];
+    document_section(document, "basis", "What it rests on");
+    basics_of(document->pool, result, first);
+    for (int i = 0; i < count; i++) {
+        basics_of(document->pool, &result[i], value);
+        add_facts(document, BASICS, name, value, i ? first : NULL);
+        for (int k = 1; k < result[i].head.nheading && !i; k++)
+            document_paragraph(document, "%s", result[i].head.heading[k]);
+    }
+    for (int i = 0; i < count; i++)
+        if (result[i].nwarnings) {
+            document_heading(document, "What rotid notes");
+            document_list(document, result[i].nwarnings, result[i].warnings);
+        }
+}
+
+/* "soft zone: stiffness_local", of every cause that a diagnosis tried or has a limit for and whose name in words is another one. */
+static const char *ids_of(struct pool *pool, const struct result *result)
+{
+    const rotid_diagnosis *d = result->diagnose;
+    const char *text = "";
+    for (int r = 0; d && r < d->nrounds; r++) {
+        int count;
+        const rotid_candidate *candidate = diagnosis_candidates(d, r, &count);
+        for (int i = 0; i < count && text; i++) {
+            const char *id = candidate[i].cause.id,
+                       *pair = strchr(id, '_') ? pool_format(pool, "%s: %s", plain_cause(pool, id), id) : NULL;
+            if (pair && !strstr(text, pair))
+                text = pool_format(pool, "%s%s%s", text, *text ? "; " : "", pair);
+        }
+    }
+    return text && *text ? text : NULL;
+}
+
+#define FACTS 6
 
 static void facts_of(struct pool *pool, const struct result *result, const char *value[FACTS])
 {
@@ -71,37 +131,23 @@ static void facts_of(struct pool *pool, const struct result *result, const char 
                                                   human_plural(result->head.threads, "thread", "threads"))
                                     : pool_format(pool, "seed %.0f", result->head.seed);
     value[4] = result->head.blas;
-    value[5] = data_of(pool, result);
-    value[6] = noise_of(pool, result);
-    value[7] = model_of(pool, result);
+    value[5] = ids_of(pool, result);
 }
 
-/* Facts of a result, and of a further one those that are not the same again. */
-static void add_facts(struct document *document, const struct result *result, const struct result *main_result)
+void section_provenance(struct document *document, int count, const struct result *result)
 {
-    static const char *const name[FACTS] = {"Result",         "Deck", "Program", "Seed, threads",
-                                            "Linear algebra", "Data", "Noise",   "Model"};
+    static const char *const name[FACTS] = {"Result",        "Deck",           "Program",
+                                            "Seed, threads", "Linear algebra", "Causes on cards"};
     const char *value[FACTS], *first[FACTS];
-    facts_of(document->pool, result, value);
-    facts_of(document->pool, main_result, first);
-    for (int i = 1; i < FACTS && result != main_result; i++) /* a model said in fewer words is no other one */
-        if (value[i] && first[i] && (!strcmp(value[i], first[i]) || !strncmp(value[i], first[i], strlen(value[i]))))
-            value[i] = NULL;
-    document_facts(document, FACTS, name, value);
-    for (int i = 1; i < result->head.nheading && result == main_result; i++)
-        document_paragraph(document, "%s", result->head.heading[i]);
-}
-
-void section_rests_on(struct document *document, int count, const struct result *result)
-{
-    document_section(document, "basis", "What it rests on");
-    for (int i = 0; i < count; i++)
-        add_facts(document, &result[i], result);
+    document->of = NULL;
+    document->verbatim = 1;
+    document_section(document, "provenance", "Provenance");
+    facts_of(document->pool, result, first);
     for (int i = 0; i < count; i++) {
-        if (result[i].nwarnings) {
-            document_heading(document, "What rotid notes");
-            document_list(document, result[i].nwarnings, result[i].warnings);
-        }
+        facts_of(document->pool, &result[i], value);
+        add_facts(document, FACTS, name, value, i ? first : NULL);
+    }
+    for (int i = 0; i < count; i++)
         for (int k = 0; k < result[i].nlacking; k++)
             document_paragraph(
                 document,
@@ -109,5 +155,5 @@ void section_rests_on(struct document *document, int count, const struct result 
                 "%s %s --json %s makes a new one.",
                 result[i].lacking[k].shows, result[i].file, result[i].head.rotid, result[i].lacking[k].key, KEYS_SINCE,
                 result[i].head.command, result[i].head.deck ? result[i].head.deck : "DECK", result[i].file);
-    }
+    document->verbatim = 0;
 }
