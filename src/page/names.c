@@ -69,8 +69,8 @@ static void draw_name(struct plot *plot, const struct name_rows *names, int l, i
     double step = LINE_PX / names->height[l], row = names->rows - i;
     int count = name_line_count(text, names->room[l]);
     /* of the first line, beside the middle of the row or over what is drawn in it */
-    double y = l == WIDE ? row + 0.5 * (count - 1) * step
-                         : row - 0.5 + 0.76 * names->single[l] / names->height[l] + (count - 1) * step;
+    double y =
+        l == WIDE ? row + 0.5 * (count - 1) * step : row - 0.5 + 0.76 * names->single[l] / names->height[l] + (count - 1) * step;
     for (int k = 0; k < count; k++) {
         size_t bytes = name_line(text, names->room[l]);
         const char *line = pool_format(plot->pool, "%.*s", (int)bytes, text);

@@ -4,20 +4,16 @@
 
 #include "page/plain.h"
 #include "page/sections.h"
+#include "result/ema.h"
 
-/* What a result is, in words, and how much the answer of a page rests on it: of several results that with the least rank gives the
- * page its title, wherever it was given. */
+/* What a result is, in words, and how much the answer of a page rests on it: of several results that with the least rank gives
+ * the page its title, wherever it was given. */
 static const struct {
     const char *command, *words;
     int judged; /* it says how far it can be relied on */
-} kinds[] = {{"diagnose", "Diagnosis", 1},
-             {"identify", "Identification", 1},
-             {"study", "Study", 1},
-             {"suggest", "Next measurement", 0},
-             {"modes", "Modes", 0},
-             {"frf", "Transfer functions", 0},
-             {"sensitivity", "Sensitivity", 0},
-             {"check", "Check", 0}};
+} kinds[] = {{"diagnose", "Diagnosis", 1},     {"identify", "Identification", 1},  {"study", "Study", 1},
+             {"ema", "Modal analysis", 1},     {"suggest", "Next measurement", 0}, {"modes", "Modes", 0},
+             {"frf", "Transfer functions", 0}, {"sensitivity", "Sensitivity", 0},  {"check", "Check", 0}};
 #define KINDS (int)(sizeof kinds / sizeof *kinds)
 
 static int rank_of(const struct result *result)
@@ -30,7 +26,9 @@ static int rank_of(const struct result *result)
 
 static const char *source_of(const struct result *result)
 {
-    return plain_file(result->head.deck && *result->head.deck ? result->head.deck : result->file);
+    return plain_file(result->ema                               ? result->ema->source.file
+                      : result->head.deck && *result->head.deck ? result->head.deck
+                                                                : result->file);
 }
 
 /* "Diagnosis of rotor.inp" */
@@ -87,6 +85,8 @@ static void answer(struct document *document, const struct result *result)
         answer_diagnose(document, result);
     else if (result->studied)
         answer_study(document, result);
+    else if (result->ema)
+        answer_ema(document, result);
     else
         answer_plain(document, result);
 }
@@ -190,6 +190,8 @@ void page_compose(struct document *document, int count, const struct result *giv
             section_suggest(document, &result[i]);
         if (result[i].studied)
             section_study(document, &result[i]);
+        if (result[i].ema)
+            section_ema(document, &result[i]);
     }
     section_provenance(document, count, given);
 }

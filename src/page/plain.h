@@ -8,9 +8,9 @@
  * pool; "" where memory is out. */
 const char *plain_cause(struct pool *pool, const char *id);
 
-/* The text with the name in words of every cause whose id has a _ and stands as a word of its own, and of every absolute path with
- * a folder its last part: "added_mass of /a/b/rotor.inp" is "added mass of rotor.inp". On the pool, or the text itself where there
- * is nothing to change or memory is out. NULL of NULL. */
+/* The text with the name in words of every cause whose id has a _ and stands as a word of its own, and of every absolute path
+ * with a folder its last part: "added_mass of /a/b/rotor.inp" is "added mass of rotor.inp". On the pool, or the text itself where
+ * there is nothing to change or memory is out. NULL of NULL. */
 const char *plain_text(struct pool *pool, const char *text);
 
 /* The last part of an absolute path; another path as it is. */

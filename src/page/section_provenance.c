@@ -5,6 +5,7 @@
 #include "page/human.h"
 #include "page/plain.h"
 #include "page/sections.h"
+#include "result/ema.h"
 
 #define KEYS_SINCE "0.3.0" /* the version whose results hold what a page asks for beyond those of 0.2 */
 
@@ -24,10 +25,22 @@ static const char *noise_of(struct pool *pool, const struct result *result)
     return pool_format(pool, "%s; %s", frequency ? frequency : "", shape ? shape : "");
 }
 
+static const char *records_of(struct pool *pool, const struct ema_source *source)
+{
+    const char *impacts = source->from_time_records ? pool_format(pool, ", from %d impacts of which %d are used", source->impacts,
+                                                                  source->impacts_used)
+                                                    : "";
+    return pool_format(pool, "%d transfer %s of %d lines from %s to %s\xc2\xa0Hz%s", source->transfer_functions,
+                       human_plural(source->transfer_functions, "function", "functions"), source->lines,
+                       human_trimmed(pool, source->low_hz, 4), human_trimmed(pool, source->high_hz, 5), impacts ? impacts : "");
+}
+
 static const char *data_of(struct pool *pool, const struct result *result)
 {
     const rotid_identification *fit = fit_of_result(result);
     int shapes = 0;
+    if (result->ema)
+        return records_of(pool, &result->ema->source);
     if (!fit || !fit->nmodes)
         return NULL;
     for (int k = 0; fit->shapes && k < fit->shapes->nmodes; k++)
@@ -87,6 +100,13 @@ void section_rests_on(struct document *document, int count, const struct result 
 {
     static const char *const name[BASICS] = {"Data", "Noise", "Model"};
     const char *value[BASICS], *first[BASICS];
+    int told = 0;
+    for (int i = 0; i < count; i++) {
+        basics_of(document->pool, &result[i], value);
+        told |= value[0] || value[1] || value[2] || result[i].nwarnings;
+    }
+    if (!told && result->head.nheading < 2)
+        return;
     document_section(document, "basis", "What it rests on");
     basics_of(document->pool, result, first);
     for (int i = 0; i < count; i++) {
@@ -125,7 +145,7 @@ static const char *ids_of(struct pool *pool, const struct result *result)
 static void facts_of(struct pool *pool, const struct result *result, const char *value[FACTS])
 {
     value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->head.command);
-    value[1] = result->head.deck;
+    value[1] = result->ema ? result->ema->source.file : result->head.deck;
     value[2] = pool_format(pool, "rotid %s, commit %s", result->head.rotid, result->head.commit);
     value[3] = result->head.threads ? pool_format(pool, "seed %.0f, %d %s", result->head.seed, result->head.threads,
                                                   human_plural(result->head.threads, "thread", "threads"))
@@ -136,7 +156,7 @@ static void facts_of(struct pool *pool, const struct result *result, const char 
 
 void section_provenance(struct document *document, int count, const struct result *result)
 {
-    static const char *const name[FACTS] = {"Result",        "Deck",           "Program",
+    static const char *const name[FACTS] = {"Result",        "Deck or file",   "Program",
                                             "Seed, threads", "Linear algebra", "Causes on cards"};
     const char *value[FACTS], *first[FACTS];
     document->of = NULL;

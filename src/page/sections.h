@@ -12,6 +12,8 @@ void answer_identify(struct document *document, const struct result *result, con
 void answer_diagnose(struct document *document, const struct result *result);
 /* What a study says as a whole. */
 void answer_study(struct document *document, const struct result *result);
+/* Modes of a test and whether any of them is doubtful. */
+void answer_ema(struct document *document, const struct result *result);
 /* Another result in a sentence, without a judgement. */
 void answer_plain(struct document *document, const struct result *result);
 
@@ -32,6 +34,7 @@ void section_suggest(struct document *document, const struct result *result);
 void section_study(struct document *document, const struct result *result);
 void section_modes(struct document *document, const struct result *result);
 void section_sensitivity(struct document *document, const struct result *result);
+void section_ema(struct document *document, const struct result *result);
 void section_transfer(struct document *document, const struct result *result);
 
 #endif
