@@ -127,6 +127,13 @@ static int keep(const struct folder *folder, int figures, const char *name, stru
     return ROTID_OK;
 }
 
+/* A link is nothing of its own that could be lost. */
+static int is_regular(int folder, const char *name)
+{
+    struct stat is;
+    return fstatat(folder, name, &is, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(is.st_mode);
+}
+
 int files_prepare(const struct folder *folder, int figures, struct message_list *messages)
 {
     struct stat is;
@@ -150,7 +157,7 @@ int files_prepare(const struct folder *folder, int figures, struct message_list 
             script = length > 3 && !strcmp(all[i] + length - 3, ".gp");
         if (!again && belongs == OURS)
             (void)unlinkat(figures, all[i], 0);
-        if (again && (belongs == UNKNOWN || (belongs == CHANGED && script)))
+        if (again && is_regular(figures, all[i]) && (belongs == UNKNOWN || (belongs == CHANGED && script)))
             status = keep(folder, figures, all[i], messages);
     }
     return status;

@@ -49,7 +49,8 @@ int human_decimals(double value, double spread)
 {
     double size = isfinite(spread) && spread > 0 ? log10(spread) - 2 : value != 0 ? log10(fabs(value)) - 3 : 0;
     int decimals = (int)ceil(-floor(size) - 1e-9);
-    return decimals < 0 ? 0 : decimals > 8 ? 8 : decimals;
+    int most = value != 0 && fabs(value) < SMALL ? 20 : 8; /* a small one is shown with a power of ten */
+    return decimals < 0 ? 0 : decimals > most ? most : decimals;
 }
 
 /* 1.0e-8 as decks have it: text is what %e makes of the magnitude. */

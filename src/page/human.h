@@ -13,7 +13,7 @@ struct human_unit {
 };
 struct human_unit human_unit(double value, const char *unit);
 
-/* Decimals that show three significant digits of `spread` (0 ... 8); four significant digits of value where there is no spread.
+/* Decimals that show three significant digits of `spread` (0 ... 8, of a value below 0.001 to 20); four significant digits of value where there is no spread.
  */
 int human_decimals(double value, double spread);
 

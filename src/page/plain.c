@@ -67,7 +67,8 @@ static const char *next_change(struct pool *pool, const char *text, char before,
         if (in_word(before))
             continue;
         *words = "";
-        *takes = *text == '/' ? folders_at(text) : cause_at(pool, text, words);
+        *takes = *text == '/' ? (before == ':' ? 0 : folders_at(text)) /* https: */
+                              : cause_at(pool, text, words);
         if (*takes)
             return text;
     }
