@@ -6,6 +6,7 @@
 #include "page/palette.h"
 #include "page/series.h"
 
+#define LEAST_RANGE 1e-4
 #define MOST_CURVES 10 /* of parameters: as many styles as there are */
 #define MOST_PANELS 12 /* of bijections */
 #define PLOT_HEIGHT 230.0
@@ -56,6 +57,8 @@ static void iterates_script(struct plot *plot, struct series *series, const roti
     double height[MOST_CURVES], widest = 0;
     const char *name[MOST_CURVES], *color[MOST_CURVES];
     struct plot_range range = plot_range_of(count * n, series_values(series, 1 + count), 0.06);
+    if (range.to - range.from < LEAST_RANGE) /* a fit that started at its end: the axis has no digits for less */
+        range = (struct plot_range){1 - LEAST_RANGE / 2, 1 + LEAST_RANGE / 2};
     double tic = plot_tic(range.to - range.from, 6);
     for (int p = 0; p < count; p++) {
         name[p] = fit->parameters[p].name;

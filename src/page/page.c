@@ -57,7 +57,7 @@ static void name_page(struct document *document, int count, const struct result 
         const char *own = title_of(by_rank[i]), *words = words_of(pool, by_rank[i]);
         if (!strstr(subtitle, words))
             subtitle = pool_format(pool, "%s%s%s", subtitle, *subtitle ? "; " : "", words);
-        if (strstr(title, own))
+        if (strstr(title, own) || (*title && own == source_of(by_rank[i]))) /* a file is no title beside one */
             continue;
         if (titles++ < 2)
             title = pool_format(pool, "%s%s%s", title, *title ? "; " : "", own);
