@@ -4,7 +4,6 @@
 
 #include "page/plain.h"
 #include "page/sections.h"
-#include "result/ema.h"
 
 /* What a result is, in words, and how much the answer of a page rests on it: of several results that with the least rank gives
  * the page its title, wherever it was given. */
@@ -24,17 +23,10 @@ static int rank_of(const struct result *result)
     return k;
 }
 
-static const char *source_of(const struct result *result)
-{
-    return plain_file(result->ema                               ? result->ema->source.file
-                      : result->head.deck && *result->head.deck ? result->head.deck
-                                                                : result->file);
-}
-
 /* "Diagnosis of rotor.inp" */
 static const char *words_of(struct pool *pool, const struct result *result)
 {
-    const char *text = pool_format(pool, "%s of %s", kinds[rank_of(result)].words, source_of(result));
+    const char *text = pool_format(pool, "%s of %s", kinds[rank_of(result)].words, page_source(result));
     return text ? text : "";
 }
 
@@ -44,7 +36,7 @@ static const char *title_of(const struct result *result)
     for (int i = 0; i < result->head.nheading; i++)
         if (result->head.heading[i][strspn(result->head.heading[i], " \t")])
             return result->head.heading[i];
-    return source_of(result);
+    return page_source(result);
 }
 
 /* The names of all results, each once; of more than two decks the first two titles stand over the page. */
@@ -57,7 +49,7 @@ static void name_page(struct document *document, int count, const struct result 
         const char *own = title_of(by_rank[i]), *words = words_of(pool, by_rank[i]);
         if (!strstr(subtitle, words))
             subtitle = pool_format(pool, "%s%s%s", subtitle, *subtitle ? "; " : "", words);
-        if (strstr(title, own) || (*title && own == source_of(by_rank[i]))) /* a file is no title beside one */
+        if (strstr(title, own) || (*title && own == page_source(by_rank[i]))) /* a file is no title beside one */
             continue;
         if (titles++ < 2)
             title = pool_format(pool, "%s%s%s", title, *title ? "; " : "", own);
@@ -71,9 +63,12 @@ static void name_page(struct document *document, int count, const struct result 
 /* Whether the results are of more than one deck. */
 static int several_decks(int count, const struct result *result)
 {
-    for (int i = 1; i < count; i++)
-        if (result[i].head.deck && result[0].head.deck && strcmp(result[i].head.deck, result[0].head.deck) != 0)
+    const char *deck = NULL;
+    for (int i = 0; i < count; i++) {
+        if (deck && result[i].head.deck && strcmp(result[i].head.deck, deck) != 0)
             return 1;
+        deck = deck ? deck : result[i].head.deck;
+    }
     return 0;
 }
 
@@ -98,7 +93,7 @@ static void answer_all(struct document *document, int count, const struct result
     for (int i = 0; i < count; i++) {
         if (judged && !kinds[rank_of(by_rank[i])].judged)
             continue;
-        document->of = decks ? source_of(by_rank[i]) : NULL;
+        document->of = decks ? page_source(by_rank[i]) : NULL;
         answer(document, by_rank[i]);
         document_answer(document, count > 1 ? words_of(document->pool, by_rank[i]) : NULL);
     }
@@ -174,7 +169,7 @@ void page_compose(struct document *document, int count, const struct result *giv
     if (first < count && !page_state_count(&result[first]))
         section_rotor(document, &result[first], fit_of_result(&result[first]));
     for (int i = 0; i < count; i++) {
-        document->of = decks ? source_of(&result[i]) : NULL;
+        document->of = decks ? page_source(&result[i]) : NULL;
         if (page_state_count(&result[i])) {
             if (result[i].identify)
                 section_states(document, &result[i]);

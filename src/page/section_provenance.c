@@ -27,9 +27,9 @@ static const char *noise_of(struct pool *pool, const struct result *result)
 
 static const char *records_of(struct pool *pool, const struct ema_source *source)
 {
-    const char *impacts = source->from_time_records ? pool_format(pool, ", from %d impacts of which %d are used", source->impacts,
-                                                                  source->impacts_used)
-                                                    : "";
+    const char *impacts = source->from_time_records
+                              ? pool_format(pool, ", from %d impacts of which %d are used", source->impacts, source->impacts_used)
+                              : "";
     return pool_format(pool, "%d transfer %s of %d lines from %s to %s\xc2\xa0Hz%s", source->transfer_functions,
                        human_plural(source->transfer_functions, "function", "functions"), source->lines,
                        human_trimmed(pool, source->low_hz, 4), human_trimmed(pool, source->high_hz, 5), impacts ? impacts : "");
@@ -74,22 +74,46 @@ static const char *model_of(struct pool *pool, const struct result *result)
     return geometry || fit ? pool_format(pool, "%s%s", size ? size : "", how ? how : "") : NULL;
 }
 
-/* Facts of a result, and of a further one those that are not the same again. */
-static void add_facts(struct document *document, int count, const char *const name[], const char *value[], const char *first[])
+#define MOST_FACTS 6
+
+/* What one section says of a result: names and values, NULL where it has none. */
+struct facts {
+    int count;
+    const char *const *name;
+    void (*of)(struct pool *pool, const struct result *result, const char *value[MOST_FACTS]);
+};
+
+/* The values of a result that none before it has: a model said in fewer words is no other one. Their number. */
+static int new_facts(struct pool *pool, const struct facts *facts, const struct result *result, int i,
+                     const char *value[MOST_FACTS])
 {
+    const char *before[MOST_FACTS] = {NULL};
     int told = 0;
-    for (int i = 0; i < count; i++) { /* a model said in fewer words is no other one */
-        if (first && value[i] && first[i] && !strncmp(value[i], first[i], strlen(value[i])))
-            value[i] = NULL;
-        told += value[i] != NULL;
+    facts->of(pool, &result[i], value);
+    for (int j = 0; j < i; j++) {
+        facts->of(pool, &result[j], before);
+        for (int k = 0; k < facts->count; k++)
+            if (value[k] && before[k] && !strncmp(value[k], before[k], strlen(value[k])))
+                value[k] = NULL;
     }
-    if (told)
-        document_facts(document, count, name, value);
+    for (int k = 0; k < facts->count; k++)
+        told += value[k] != NULL;
+    return told;
 }
 
-#define BASICS 3
+static void add_facts(struct document *document, const struct facts *facts, int count, const struct result *result)
+{
+    const char *value[MOST_FACTS] = {NULL};
+    for (int i = 0; i < count; i++) {
+        if (!new_facts(document->pool, facts, result, i, value))
+            continue;
+        if (count > 1)
+            document_heading(document, page_source(&result[i]));
+        document_facts(document, facts->count, facts->name, value);
+    }
+}
 
-static void basics_of(struct pool *pool, const struct result *result, const char *value[BASICS])
+static void basics_of(struct pool *pool, const struct result *result, const char *value[MOST_FACTS])
 {
     value[0] = data_of(pool, result);
     value[1] = noise_of(pool, result);
@@ -98,23 +122,18 @@ static void basics_of(struct pool *pool, const struct result *result, const char
 
 void section_rests_on(struct document *document, int count, const struct result *result)
 {
-    static const char *const name[BASICS] = {"Data", "Noise", "Model"};
-    const char *value[BASICS], *first[BASICS];
-    int told = 0;
-    for (int i = 0; i < count; i++) {
-        basics_of(document->pool, &result[i], value);
-        told |= value[0] || value[1] || value[2] || result[i].nwarnings;
-    }
-    if (!told && result->head.nheading < 2)
+    static const char *const name[] = {"Data", "Noise", "Model"};
+    static const struct facts basics = {3, name, basics_of};
+    const char *value[MOST_FACTS] = {NULL};
+    int told = result->head.nheading > 1;
+    for (int i = 0; i < count; i++)
+        told |= result[i].nwarnings > 0 || new_facts(document->pool, &basics, result, i, value) > 0;
+    if (!told)
         return;
     document_section(document, "basis", "What it rests on");
-    basics_of(document->pool, result, first);
-    for (int i = 0; i < count; i++) {
-        basics_of(document->pool, &result[i], value);
-        add_facts(document, BASICS, name, value, i ? first : NULL);
-        for (int k = 1; k < result[i].head.nheading && !i; k++)
-            document_paragraph(document, "%s", result[i].head.heading[k]);
-    }
+    add_facts(document, &basics, count, result);
+    for (int k = 1; k < result->head.nheading; k++)
+        document_paragraph(document, "%s", result->head.heading[k]);
     for (int i = 0; i < count; i++)
         if (result[i].nwarnings) {
             document_heading(document, "What rotid notes");
@@ -122,7 +141,8 @@ void section_rests_on(struct document *document, int count, const struct result 
         }
 }
 
-/* "soft zone: stiffness_local", of every cause that a diagnosis tried or has a limit for and whose name in words is another one. */
+/* "soft zone: stiffness_local", of every cause that a diagnosis tried or has a limit for and whose name in words is another one.
+ */
 static const char *ids_of(struct pool *pool, const struct result *result)
 {
     const rotid_diagnosis *d = result->diagnose;
@@ -140,9 +160,7 @@ static const char *ids_of(struct pool *pool, const struct result *result)
     return text && *text ? text : NULL;
 }
 
-#define FACTS 6
-
-static void facts_of(struct pool *pool, const struct result *result, const char *value[FACTS])
+static void origin_of(struct pool *pool, const struct result *result, const char *value[MOST_FACTS])
 {
     value[0] = pool_format(pool, "%s (rotid %s)", result->file, result->head.command);
     value[1] = result->ema ? result->ema->source.file : result->head.deck;
@@ -156,17 +174,12 @@ static void facts_of(struct pool *pool, const struct result *result, const char 
 
 void section_provenance(struct document *document, int count, const struct result *result)
 {
-    static const char *const name[FACTS] = {"Result",        "Deck or file",   "Program",
-                                            "Seed, threads", "Linear algebra", "Causes on cards"};
-    const char *value[FACTS], *first[FACTS];
+    static const char *const name[] = {"Result", "Deck or file", "Program", "Seed, threads", "Linear algebra", "Causes on cards"};
+    static const struct facts origin = {MOST_FACTS, name, origin_of};
     document->of = NULL;
     document->verbatim = 1;
     document_section(document, "provenance", "Provenance");
-    facts_of(document->pool, result, first);
-    for (int i = 0; i < count; i++) {
-        facts_of(document->pool, &result[i], value);
-        add_facts(document, FACTS, name, value, i ? first : NULL);
-    }
+    add_facts(document, &origin, count, result);
     for (int i = 0; i < count; i++)
         for (int k = 0; k < result[i].nlacking; k++)
             document_paragraph(
