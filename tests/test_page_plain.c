@@ -95,6 +95,14 @@ static const char *before_provenance(const char *html)
 static void folders_ids_and_builds_stand_in_the_last_section(void **state)
 {
     (void)state;
+    assert_int_equal(
+        page_run("cd %s && mkdir -p 'a b' && cp %s 'a b/paper.inp' && %s identify \"$PWD/a b/paper.inp\" --quiet --json "
+                 "blank.json",
+                 page_path(""), PAPER, ROTID_PROGRAM),
+        0);
+    report("blank.json", "blank");
+    assert_null(strstr(before_provenance(page_read("blank/index.html")), "b/paper.inp"));
+    assert_null(strstr(before_provenance(page_read("blank/index.html")), "/a"));
     make_result("identify", PAPER, "paper.json");
     make_result("diagnose", BEAM " --replicates 200", "beam.json");
     static const char *const results[] = {"paper.json", "beam.json"};

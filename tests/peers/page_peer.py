@@ -133,7 +133,7 @@ def pages(folder):
     yield make(folder, "suspected", ("diagnose", INPUT / "brake_reuss_lap.inp", *least))
     yield make(folder, "starts", ("study", INPUT / "paper_study.plan"))
     yield make(folder, "nasty", ("identify", deck), ("diagnose", deck, *least))
-    yield make(folder, "typefaces", ("frf", paper), text=("m/(s2 N)", '{/X"><script>console.log(1)</script> y}'))
+    yield make(folder, "typefaces", ("identify", paper), text=("core.E", '{/X"><script>console.log(1)</script> y}'))
     yield make(folder, "without-gnuplot", ("diagnose", paper, *least), gnuplot="/nowhere/gnuplot")
 
 
