@@ -184,7 +184,7 @@ static void labels_at_the_end_of_lines_do_not_overlap(void **state)
         struct plot plot;
         double y[6];
         assert_status(plot_open(&plot, &test_pool, &figure, "test"), ROTID_OK);
-        plot_begin(&plot, &(struct plot_layout){.panels = 1, .columns = {1, 1}, .height = 260, .top = 10, .bottom = 50});
+        plot_begin(&plot, &(struct plot_layout){.panels = 1, .columns = {1, 1}, .height = 260, .right = 80, .top = 10, .bottom = 50});
         plot_panel(&plot, 0);
         plot_end_labels(&plot, 6, text, heights[c], color);
         assert_status(plot_close(&plot), ROTID_OK);

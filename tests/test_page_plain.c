@@ -8,6 +8,7 @@
 #include <cJSON.h>
 
 #include "json_value.h"
+#include "page/document.h"
 #include "page/names.h"
 #include "page/plain.h"
 #include "page_bench.h"
@@ -48,6 +49,53 @@ static void ids_become_words_and_paths_names(void **state)
     assert_string_equal(plain_file("/a/b.inp"), "b.inp");
     assert_string_equal(plain_file("a/b.inp"), "a/b.inp");
     assert_string_equal(plain_cause(&test_pool, "step_stiffness"), "step stiffness");
+}
+
+/* Whoever adds a text to a page: outside of the section on provenance it is shown so. */
+static void every_text_of_a_page_is_shown_so(void **state)
+{
+    (void)state;
+    struct document document;
+    char *html = NULL;
+    size_t length;
+    FILE *out = open_memstream(&html, &length);
+    static const char *const text[] = {"list: added_mass of /a/b/c1.inp"}, *const name[] = {"fact"};
+    document_open(&document, &test_pool);
+    document.title = document.subtitle = "";
+    document.answer = "answer: beam_theory";
+    document.headline = "headline: support_extra";
+    document.next = "next: rotid diagnose /a/b/c2.inp";
+    document_answer(&document, NULL);
+    document_section(&document, "one", "One");
+    document_paragraph(&document, "paragraph: %s", "stiffness_local");
+    document_heading(&document, "heading: step_stiffness");
+    document_list(&document, 1, text);
+    document_facts(&document, 1, name, text);
+    struct number_table *table = table_headed(&test_pool, 1, 1, (const char *const[]){"head: tie_shear"});
+    table_cell(table, 0, 0, "cell: tie_tension");
+    document_table(&document, "caption: layer_slip", table);
+    document.verbatim = 1;
+    document_section(&document, "provenance", "Provenance");
+    document_paragraph(&document, "as it is: added_inertia /a/b/c3.inp");
+    document.verbatim = 0;
+    assert_false(document.failed);
+    document_write(out, &document, "made", NULL);
+    assert_int_equal(fclose(out), 0);
+    static const char *const shown[] = {"answer: error of beam theory",
+                                        "headline: extra support",
+                                        "next: rotid diagnose c2.inp",
+                                        "paragraph: soft zone",
+                                        "heading: step stiffness",
+                                        "<li>list: added mass of c1.inp",
+                                        "<dd>list: added mass of c1.inp",
+                                        "head: tie shear",
+                                        "cell: tie tension",
+                                        "caption: layer slip",
+                                        "as it is: added_inertia /a/b/c3.inp"};
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        if (!strstr(html, shown[i]))
+            fail_msg("'%s' is not on the page:\n%s", shown[i], html);
+    free(html);
 }
 
 static void names_go_on_in_further_lines(void **state)
@@ -102,7 +150,7 @@ static void folders_ids_and_builds_stand_in_the_last_section(void **state)
         0);
     report("blank.json", "blank");
     assert_null(strstr(before_provenance(page_read("blank/index.html")), "b/paper.inp"));
-    assert_null(strstr(before_provenance(page_read("blank/index.html")), "/a"));
+    assert_null(strstr(before_provenance(page_read("blank/index.html")), page_path("a")));
     make_result("identify", PAPER, "paper.json");
     make_result("diagnose", BEAM " --replicates 200", "beam.json");
     static const char *const results[] = {"paper.json", "beam.json"};
@@ -264,6 +312,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(ids_become_words_and_paths_names, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(every_text_of_a_page_is_shown_so, open_test_pool, close_test_pool),
         cmocka_unit_test(names_go_on_in_further_lines),
         cmocka_unit_test(folders_ids_and_builds_stand_in_the_last_section),
         cmocka_unit_test(the_gravest_answer_comes_first),
