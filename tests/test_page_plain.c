@@ -143,13 +143,15 @@ static const char *before_provenance(const char *html)
 static void folders_ids_and_builds_stand_in_the_last_section(void **state)
 {
     (void)state;
+    assert_int_equal(page_run("mkdir -p '%s'", page_path("a b")), 0);
+    page_write_file("a b/noisy.inp", "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850\n"
+                                     "*SHAFT, NAME=bar, MATERIAL=steel\n1, 0.05, 0, 20\n*MODES\n1, 200\n2, 640\n3, 1300\n"
+                                     "*NOISE, FREQUENCY=0.001\n*IDENTIFY\nbar.E, 1e10, 1e12, 2e11\n");
     assert_int_equal(
-        page_run("cd %s && mkdir -p 'a b' && cp %s 'a b/paper.inp' && %s identify \"$PWD/a b/paper.inp\" --quiet --json "
-                 "blank.json",
-                 page_path(""), PAPER, ROTID_PROGRAM),
-        0);
+        page_run("cd '%s' && %s identify \"$PWD/a b/noisy.inp\" --quiet --json blank.json", page_path(""), ROTID_PROGRAM), 0);
     report("blank.json", "blank");
-    assert_null(strstr(before_provenance(page_read("blank/index.html")), "b/paper.inp"));
+    assert_null(strstr(before_provenance(page_read("blank/index.html")), "b/noisy.inp"));
+    page_says(page_read("blank/index.html"), "rotid diagnose noisy.inp looks for the cause");
     assert_null(strstr(before_provenance(page_read("blank/index.html")), page_path("a")));
     make_result("identify", PAPER, "paper.json");
     make_result("diagnose", BEAM " --replicates 200", "beam.json");
