@@ -196,6 +196,9 @@ $(BUILD)/tests/%.o: ALL_CFLAGS += -Itests -Itools -DROTID_SOURCE_DIR='"$(CURDIR)
 $(TEST_PROGRAMS): %: %.o $(SUPPORT) $(ROOMS) $(OBJECTS)
 	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(ROOMS) $(OBJECTS) -lcmocka $(PROGRAM_LIBS) -o $@
 
+# These go from records of a hammer test on, which that program makes.
+$(BUILD)/tests/test_page_plain $(BUILD)/tests/test_tutorial: | $(BUILD)/hammer
+
 chain: $(BUILD)/tests/test_chain
 	@ROTID_CHAIN_RUNS=100 OPENBLAS_NUM_THREADS=1 $<
 

@@ -77,7 +77,8 @@ int page_count(const char *folder, const char *prefix)
     struct dirent *entry;
     int count = 0;
     while (list && (entry = readdir(list)))
-        count += !strncmp(entry->d_name, prefix, strlen(prefix)) && strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..");
+        count += !strncmp(entry->d_name, prefix, strlen(prefix)) && strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..") &&
+                 strcmp(entry->d_name, ".files");
     if (list)
         (void)closedir(list);
     return count;

@@ -22,7 +22,7 @@ void page_write_json(const char *name, const cJSON *json);
 void page_make_study(const char *name, const char *plan);
 /* The runs of a file of results, without its header; to be deleted. */
 cJSON *page_runs(const char *name);
-/* Entries of the folder whose names begin with `prefix`. */
+/* Entries of the folder whose names begin with `prefix`, without the list of what rotid wrote there. */
 int page_count(const char *folder, const char *prefix);
 
 /* Exit code of a shell command; page_out and page_err hold what it wrote. */

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "cli/options.h"
+#include "deck/card_table.h"
+#include "diagnose/causes/catalogue.h"
 #include "shell.h"
 #include "support.h"
 #include "tables/generated.h"
@@ -278,6 +280,35 @@ static void generated_parts_are_those_of_the_tables(void **state)
     }
 }
 
+/* One page: no command, card or cause is missing, and what is there stands in one screen of a wide window each. */
+static void the_reference_card_has_every_command_card_and_cause(void **state)
+{
+    (void)state;
+    const char *text = shell_file(&test_pool, ROTID_SOURCE_DIR "/docs/reference.md");
+    struct words commands = commands_of_the_program();
+    int cards = 0, lines = 0;
+    for (int i = 0; i < commands.count; i++)
+        assert_non_null(strstr(text, pool_format(&test_pool, "\n| `%s FILE", commands.word[i])));
+    for (const struct option_row *row = option_table; row->name; row++)
+        assert_non_null(strstr(text, pool_format(&test_pool, "--%s", row->name)));
+    for (const struct deck_card *card = deck_card_table; card->name; card++, cards++) {
+        const char *line = strstr(text, pool_format(&test_pool, "\n| `*%s` |", card->name));
+        if (!line)
+            fail_msg("*%s is not on the reference card", card->name);
+        for (const struct deck_row *row = card->row; !deck_row_is_last(row); row++)
+            if (row->option) {
+                const char *at = strstr(line + 1, pool_format(&test_pool, "`%s", row->option));
+                assert_true(at && at < line + 1 + strcspn(line + 1, "\n"));
+            }
+    }
+    assert_true(cards > 25);
+    for (int i = 0; i < catalogue_count(); i++)
+        assert_non_null(strstr(text, pool_format(&test_pool, "\n| `%s` |", catalogue_item(i)->id)));
+    for (const char *at = text; *at; at++)
+        lines += *at == '\n';
+    assert_true(lines < 150);
+}
+
 /* Words for people, names for getopt: what the compiler does not see in a row. */
 static void rows_are_sound(void **state)
 {
@@ -361,6 +392,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(bash_offers_what_a_command_takes, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(bash_completes_values_and_files, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(generated_parts_are_those_of_the_tables, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(the_reference_card_has_every_command_card_and_cause, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(rows_are_sound, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(an_option_of_another_command_is_refused, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(an_old_name_is_taken, open_test_pool, close_test_pool),

@@ -296,7 +296,7 @@ static int judge_figures(void)
         char name[400];
         const char *ending = strrchr(entry->d_name, '.');
         (void)snprintf(name, sizeof name, "hostile/figures/%s", entry->d_name);
-        if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, ".."))
+        if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") || !strcmp(entry->d_name, ".files"))
             continue;
         if (!is_of_a_figure(entry->d_name)) {
             print_error("a file that nobody asked for: %s\n", name);

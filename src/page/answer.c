@@ -105,7 +105,8 @@ static void on_misfit(struct reasons *reasons, const rotid_identification *fit, 
             pool_format(pool,
                         "The model leaves an error of %s\xc2\xa0%% rms in the frequencies that were fitted, and of %s\xc2\xa0%% "
                         "in mode %d%s%s.",
-                        human_digits(pool, rms, 2), human_signed(pool, fit->modes[worst].error_percent, 2),
+                        human_digits(pool, rms, 2),
+                        human_signed(pool, fit->modes[worst].error_percent, fabs(fit->modes[worst].error_percent) < 0.01 ? 5 : 2),
                         fit->modes[worst].mode, state ? " of state " : "", state ? state : ""));
     if (isfinite(held))
         say(reasons, held > 2 * rms && held > POOR_PERCENT / 2 ? TONE_CARE : TONE_GOOD,

@@ -6,6 +6,7 @@
 
 #include "diagnose/causes/catalogue.h"
 #include "page/human.h"
+#include "page/plain.h"
 #include "result/judgement.h"
 
 static const char *or_nothing(const char *text)
@@ -29,11 +30,12 @@ const char *cause_check(const char *id)
 const char *cause_name(struct pool *pool, const char *id, const char *target)
 {
     int left = (int)strcspn(target, "|");
+    const char *name = plain_cause(pool, id);
     if (!*target)
-        return id;
+        return name;
     if (target[left])
-        return or_nothing(pool_format(pool, "%s between %.*s and %s", id, left, target, target + left + 1));
-    return or_nothing(pool_format(pool, strncmp(target, "at ", 3) ? "%s of %s" : "%s %s", id, target));
+        return or_nothing(pool_format(pool, "%s between %.*s and %s", name, left, target, target + left + 1));
+    return or_nothing(pool_format(pool, strncmp(target, "at ", 3) ? "%s of %s" : "%s %s", name, target));
 }
 
 const char *cause_label(struct pool *pool, const rotid_diagnosis *d, const rotid_cause *cause)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "page/html.h"
+#include "page/plain.h"
 #include "page/style.h"
 
 /* Nothing runs and nothing is loaded, whatever should get into a page: its style and its pictures stand in it. */
@@ -65,6 +66,41 @@ void document_section(struct document *document, const char *id, const char *hea
     document->last = section;
 }
 
+/* The text as the current section shows it. */
+static const char *shown(const struct document *document, const char *text)
+{
+    return document->verbatim ? text : plain_text(document->pool, text);
+}
+
+static void show_table(const struct document *document, struct number_table *table)
+{
+    for (int j = 0; j < table->columns && !document->verbatim; j++) {
+        table->head[j] = shown(document, table->head[j]);
+        for (int i = 0; i < table->rows; i++)
+            table->cell[i * table->columns + j] = shown(document, table->cell[i * table->columns + j]);
+    }
+}
+
+void document_answer(struct document *document, const char *of)
+{
+    struct page_answer *made = POOL_NEW(document->pool, struct page_answer), **at = &document->answers;
+    document->failed |= !made;
+    if (made && *document->answer) {
+        *made = (struct page_answer){.tone = document->tone,
+                                     .of = of,
+                                     .headline = shown(document, document->headline),
+                                     .answer = shown(document, document->answer),
+                                     .next = shown(document, document->next)};
+        while (*at && (*at)->tone >= made->tone)
+            at = &(*at)->following;
+        made->following = *at;
+        *at = made;
+    }
+    document->tone = TONE_NONE;
+    document->headline = document->next = NULL;
+    document->answer = "";
+}
+
 static struct page_block *add_block(struct document *document)
 {
     struct page_block *block = POOL_NEW(document->pool, struct page_block);
@@ -118,7 +154,7 @@ void document_paragraph(struct document *document, const char *format, ...)
     (void)vfprintf(plain, format, arguments);
     va_end(arguments);
     if (fclose(plain) == 0 && open_piece(document, &piece)) {
-        html_element(piece.out, "p", text);
+        html_element(piece.out, "p", shown(document, text));
         close_piece(document, &piece);
     }
     free(text);
@@ -129,7 +165,7 @@ void document_heading(struct document *document, const char *text)
     struct piece piece;
     if (!open_piece(document, &piece))
         return;
-    html_element(piece.out, "h3", text);
+    html_element(piece.out, "h3", shown(document, text));
     close_piece(document, &piece);
 }
 
@@ -140,7 +176,7 @@ void document_list(struct document *document, int count, const char *const text[
         return;
     (void)fputs("<ul>\n", piece.out);
     for (int i = 0; i < count; i++)
-        html_element(piece.out, "li", text[i] ? text[i] : "");
+        html_element(piece.out, "li", text[i] ? shown(document, text[i]) : "");
     (void)fputs("</ul>\n", piece.out);
     close_piece(document, &piece);
 }
@@ -155,14 +191,14 @@ void document_facts(struct document *document, int count, const char *const name
         if (value[i]) {
             (void)fputs("<div>", piece.out);
             html_element(piece.out, "dt", name[i]);
-            html_element(piece.out, "dd", value[i]);
+            html_element(piece.out, "dd", shown(document, value[i]));
             (void)fputs("</div>\n", piece.out);
         }
     (void)fputs("</dl>\n", piece.out);
     close_piece(document, &piece);
 }
 
-void document_table(struct document *document, const char *caption, const struct number_table *table)
+void document_table(struct document *document, const char *caption, struct number_table *table)
 {
     struct piece piece;
     char id[32];
@@ -171,7 +207,8 @@ void document_table(struct document *document, const char *caption, const struct
         return;
     }
     (void)snprintf(id, sizeof id, "table-%d", ++document->ntable);
-    html_table(piece.out, id, caption, table);
+    show_table(document, table);
+    html_table(piece.out, id, caption ? shown(document, caption) : "", table);
     close_piece(document, &piece);
 }
 
@@ -218,24 +255,45 @@ static void write_head(FILE *out, const struct document *document)
     (void)fputs("</style>\n</head>\n<body>\n", out);
 }
 
-static void write_answer(FILE *out, const struct document *document)
+static void write_answer(FILE *out, const struct page_answer *answer)
 {
     static const char *const words[] = {"plain", "good", "care", "bad"};
     static const char *const says[] = {NULL, "Can be relied on", "To be used with care", "Not to be relied on as it stands"};
+    (void)fprintf(out, "<section class=\"answer %s\" aria-label=\"Answer", words[answer->tone]);
+    if (answer->of) {
+        (void)fputs(": ", out);
+        html_text(out, answer->of);
+    }
+    (void)fputs("\">\n", out);
+    if (answer->of)
+        html_element(out, "p class=\"of\"", answer->of);
+    const char *headline = answer->headline ? answer->headline : says[answer->tone];
+    if (headline)
+        html_element(out, "p class=\"tone\"", headline);
+    html_element(out, "p class=\"says\"", answer->answer);
+    if (answer->next)
+        html_element(out, "p class=\"next\"", answer->next);
+    (void)fputs("</section>\n", out);
+}
+
+static void write_answers(FILE *out, const struct document *document)
+{
     (void)fputs("<header>\n", out);
     html_element(out, "h1", document->title);
     html_element(out, "p class=\"subtitle\"", document->subtitle);
     (void)fputs("</header>\n<main>\n", out);
-    if (!*document->answer)
-        return;
-    (void)fprintf(out, "<section class=\"answer %s\" aria-label=\"Answer\">\n", words[document->tone]);
-    const char *headline = document->headline ? document->headline : says[document->tone];
-    if (headline)
-        html_element(out, "p class=\"tone\"", headline);
-    html_element(out, "p class=\"says\"", document->answer);
-    if (document->next)
-        html_element(out, "p class=\"next\"", document->next);
-    (void)fputs("</section>\n", out);
+    for (const struct page_answer *answer = document->answers; answer; answer = answer->following)
+        write_answer(out, answer);
+}
+
+/* The texts of a figure, which its maker has filled in since it was added. */
+static void show_figure(const struct document *document, struct figure *figure)
+{
+    figure->title = shown(document, figure->title);
+    figure->caption = shown(document, figure->caption);
+    figure->alt = shown(document, figure->alt);
+    if (figure->table)
+        show_table(document, figure->table);
 }
 
 static void write_contents(FILE *out, const struct document *document)
@@ -253,7 +311,7 @@ void document_write(FILE *out, const struct document *document, const char *made
 {
     int number = 0;
     write_head(out, document);
-    write_answer(out, document);
+    write_answers(out, document);
     if (hint) {
         (void)fputs("<aside class=\"hint\" aria-label=\"Figures\">", out);
         html_element(out, "p", hint);
@@ -264,10 +322,12 @@ void document_write(FILE *out, const struct document *document, const char *made
         (void)fprintf(out, "<section id=\"%s\">\n", section->id);
         html_element(out, "h2", section->heading);
         for (const struct page_block *block = section->first; block; block = block->next) {
-            if (block->figure)
+            if (block->figure) {
+                show_figure(document, block->figure);
                 html_figure(out, ++number, block->figure);
-            else if (block->html)
+            } else if (block->html) {
                 (void)fputs(block->html, out);
+            }
         }
         (void)fputs("</section>\n", out);
     }

@@ -40,5 +40,10 @@ void figure_growth(struct document *document, const struct result *result);
 void figure_sensor_worth(struct document *document, const struct result *result);
 /* Synthesised and measured transfer functions (15), a figure each, the telling ones of many. */
 void figure_transfer(struct document *document, const struct result *result);
+/* The figure of one function, with the modes and the band of `out`; places that are NaN are not told. why: ", the best of all", "" */
+void figure_transfer_function(struct document *document, const char *source, const struct transfer_result *out,
+                              const struct transfer_function *f, const char *why);
+/* The poles of a modal analysis over the orders, the modes that were taken, the magnitude of all functions. */
+void figure_stabilisation(struct document *document, const struct result *result);
 
 #endif

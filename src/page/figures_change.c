@@ -63,6 +63,12 @@ static int collect(struct document *document, const rotid_diagnosis *d, const st
     return count;
 }
 
+static const char *axis_of(struct pool *pool, const struct moved *m)
+{
+    const char *axis = pool_format(pool, "%s [%s]", m->parameter->name, *m->unit.text ? m->unit.text : "1");
+    return axis ? axis : "";
+}
+
 static void draw(struct plot *plot, const struct moved *m, int i, const struct states *states)
 {
     struct plot_range range = {INFINITY, -INFINITY};
@@ -74,8 +80,7 @@ static void draw(struct plot *plot, const struct moved *m, int i, const struct s
     pad = pad > 0 ? pad : 0.1 * fabs(range.from) + 1e-12;
     plot_line(plot, "set xrange [%.8g:%.8g]\nset yrange [0.4:%g]\nunset ytics\nset border 1\nset xtics %g", range.from - pad,
               range.to + pad, n + 0.6, plot_tic(range.to - range.from + 2 * pad, 3));
-    const char *axis = pool_format(plot->pool, "%s [%s]", m->parameter->name, *m->unit.text ? m->unit.text : "1");
-    plot_axes(plot, axis ? axis : "", NULL);
+    plot_axes(plot, axis_of(plot->pool, m), NULL);
     for (int s = 0; s < n; s++) {
         char where[96];
         (void)snprintf(where, sizeof where, "graph 0, first %d", n - s);
@@ -98,13 +103,21 @@ static void script(struct plot *plot, int count, const struct moved *moved, cons
 {
     for (int i = 0; i < count; i++)
         plot_series(plot, moved[i].series);
-    plot_begin(plot, &(struct plot_layout){.panels = count,
-                                           .columns = {count > 1 ? 2 : 1, 1},
-                                           .height = 66 + ROW_PX * states->count,
-                                           .left = NAMES_PX,
-                                           .right = 20,
-                                           .top = 10,
-                                           .bottom = 48});
+    struct plot_layout layout = {.panels = count,
+                                 .columns = {count > 1 ? 2 : 1, 1},
+                                 .height = 66 + ROW_PX * states->count,
+                                 .left = NAMES_PX,
+                                 .right = 20,
+                                 .top = 10,
+                                 .bottom = 48};
+    double more = 0;
+    for (int i = 0; i < count; i++) {
+        const char *axis = axis_of(plot->pool, &moved[i]);
+        more = fmax(more, plot_lines_px(1, &axis, plot_axis_px(&layout)));
+    }
+    layout.bottom += more;
+    layout.height += more;
+    plot_begin(plot, &layout);
     for (int i = 0; i < count; i++) {
         plot_panel(plot, i);
         if (moved[i].series)

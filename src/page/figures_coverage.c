@@ -74,7 +74,7 @@ static struct series *series_of(struct document *document, const struct coverage
 
 static void draw(struct plot *plot, const struct series *series, const struct coverage *c)
 {
-    struct plot_layout layout = rows_layout(c->rows);
+    struct plot_layout layout = rows_layout(c->rows, c->name);
     struct plot_entry entry[MOST_DOTS + 1];
     for (int k = 0; k < c->ndot; k++)
         entry[k] = (struct plot_entry){.text = c->dot[k].name, .style = k + 1, .keys = KEY_MARK};

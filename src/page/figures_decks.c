@@ -92,7 +92,6 @@ static struct series *series_of(struct document *document, const struct decks *d
 
 static void draw(struct plot *plot, const struct series *series, const struct decks *decks)
 {
-    struct plot_layout layout = rows_layout(decks->count);
     const char *name[ROWS_MOST] = {NULL};
     struct plot_range range = {INFINITY, -INFINITY};
     for (int i = 0; i < decks->count; i++) {
@@ -102,6 +101,7 @@ static void draw(struct plot *plot, const struct series *series, const struct de
         plot_range_join(&range, row->ci[0]);
         plot_range_join(&range, row->ci[1]);
     }
+    struct plot_layout layout = rows_layout(decks->count, name);
     plot_series(plot, series);
     plot_begin(plot, &layout);
     plot_panel(plot, 0);

@@ -5,11 +5,10 @@
 #include "page/cause_words.h"
 #include "page/figures_diagnosis.h"
 #include "page/human.h"
+#include "page/names.h"
 #include "page/series.h"
 
 #define MOST_BARS 14
-#define WIDE_ROW  24.0
-#define TALL_ROW  38.0 /* where the names stand over the bars */
 #define NAMES_PX  216.0
 #define EDGE_PX   14.0
 #define NUMBER_PX 62.0 /* behind a bar */
@@ -105,9 +104,6 @@ static void draw_bars(struct plot *plot, const struct bar_list *bars, double mos
         for (int i = 0; i < n; i++) {
             const struct bar *bar = &bars->bar[i];
             char where[80];
-            (void)snprintf(where, sizeof where, l == WIDE ? "graph 0, first %d" : "graph 0, first %d+0.26", n - i);
-            plot_label(plot, bar->label, where, bar->fate <= FATE_POSSIBLE ? fate_color[bar->fate] : "INK",
-                       l == WIDE ? "right offset char -0.7, 0" : "left");
             const char *number = human_digits(plot->pool, bar->drop, 3);
             (void)snprintf(where, sizeof where, "first %.6g, first %d-LIFT", behind(bar->drop, most, number, l, line), n - i);
             plot_label(plot, number, where, "INK", "left offset char 0.5, 0");
@@ -157,10 +153,17 @@ static void script(struct plot *plot, const struct series *series, const rotid_r
     struct plot_entry entry[FATES + 2];
     int n = bars->count, nentry = legend_of(bars, round, isfinite(margin_at), entry);
     double most = fmax(bars->bar[0].drop, isfinite(round->threshold) ? round->threshold : 0);
+    const char *name[MOST_BARS], *color[MOST_BARS];
+    for (int i = 0; i < n; i++) {
+        name[i] = bars->bar[i].label;
+        color[i] = bars->bar[i].fate <= FATE_POSSIBLE ? fate_color[bars->bar[i].fate] : "INK";
+    }
+    struct name_rows names = names_measure(n, name, (const double[]){NAMES_PX - 12, NARROW_PX - 2 * EDGE_PX},
+                                           (const double[]){24, 38}); /* names stand over the bars of a narrow page */
     struct plot_layout layout = {.panels = 1,
                                  .columns = {1, 1},
-                                 .height = 10 + WIDE_ROW * n + 52,
-                                 .narrow_height = 10 + TALL_ROW * n + 52,
+                                 .height = 10 + names.height[WIDE] * n + 52,
+                                 .narrow_height = 10 + names.height[NARROW] * n + 52,
                                  .left = NAMES_PX,
                                  .right = NUMBER_PX,
                                  .top = 10,
@@ -171,14 +174,13 @@ static void script(struct plot *plot, const struct series *series, const rotid_r
     plot_series(plot, series);
     plot_begin(plot, &layout);
     plot_panel(plot, 0);
-    plot_line(plot,
-              "# of a row: width of a bar, and how far it lies under the middle\nBAR = narrow ? 0.36 : 0.62; LIFT = narrow ? "
-              "0.2 : 0");
     plot_line(plot, "if (narrow) { set lmargin at screen %g/W }", EDGE_PX);
     plot_line(plot, "set xrange [0:%.6g]\nset yrange [0.5:%g]\nunset ytics\nset border 1\nset xtics %g", most * 1.02, n + 0.5,
               plot_tic(most, 5));
     plot_legend(plot, entry, nentry);
     plot_axes(plot, "drop of the misfit \xcf\x87\xc2\xb2 [1]", NULL);
+    names_draw(plot, &names, color);
+    plot_line(plot, "BAR = SHARE*(narrow ? 0.36 : 0.62) # width of a bar over that of its row");
     draw_bars(plot, bars, most, (const double[]){round->threshold, margin_at});
     upright(plot, round->threshold, n, 11);
     upright(plot, margin_at, n, 12);

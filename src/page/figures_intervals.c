@@ -27,6 +27,18 @@ static struct series *collect(struct document *document, const rotid_identificat
     return series;
 }
 
+static const char *text_of(struct pool *pool, struct series *series, const rotid_identification *fit, int p)
+{
+    const rotid_fitted_parameter *parameter = &fit->parameters[p];
+    const char *text =
+        pool_format(pool, "%s = %s%s", parameter->name, human_interval(pool, parameter->value, parameter->ci95, parameter->unit),
+                    parameter->at_bound                                 ? ", at its bound"
+                    : !isfinite(parameter->ci95[0])                     ? ", no interval"
+                    : fabs(series_values(series, 2)[p]) >= MOST_PERCENT ? ", wider than drawn"
+                                                                        : "");
+    return text ? text : "";
+}
+
 static void draw(struct plot *plot, struct series *series, const rotid_identification *fit)
 {
     int n = fit->nparameters;
@@ -35,24 +47,22 @@ static void draw(struct plot *plot, struct series *series, const rotid_identific
         plot_range_join(&range, series_values(series, 1)[p]);
         plot_range_join(&range, series_values(series, 2)[p]);
     }
-    plot_begin(plot,
-               &(struct plot_layout){
-                   .panels = 1, .columns = {1, 1}, .height = 58 + ROW_PX * n, .left = 16, .right = 16, .top = 10, .bottom = 48});
+    struct plot_layout layout = {.panels = 1, .columns = {1, 1}, .left = 16, .right = 16, .top = 10, .bottom = 48};
+    double room = plot_panel_px(&layout), more = 0;
+    for (int p = 0; p < n; p++) {
+        const char *text = text_of(plot->pool, series, fit, p);
+        more = fmax(more, plot_lines_px(1, &text, room));
+    }
+    layout.height = 58 + (ROW_PX + more) * n;
+    plot_begin(plot, &layout);
     plot_panel(plot, 0);
     plot_line(plot, "set xrange [%g:%g]\nset yrange [0.6:%g]\nunset ytics\nset border 1", 1.1 * range.from, 1.1 * range.to,
               n + 0.6);
     plot_axes(plot, "deviation from the identified value [%]", NULL);
     for (int p = 0; p < n; p++) {
-        const rotid_fitted_parameter *parameter = &fit->parameters[p];
-        const char *text = pool_format(plot->pool, "%s = %s%s", parameter->name,
-                                       human_interval(plot->pool, parameter->value, parameter->ci95, parameter->unit),
-                                       parameter->at_bound                                 ? ", at its bound"
-                                       : !isfinite(parameter->ci95[0])                     ? ", no interval"
-                                       : fabs(series_values(series, 2)[p]) >= MOST_PERCENT ? ", wider than drawn"
-                                                                                           : "");
         char where[48];
-        (void)snprintf(where, sizeof where, "graph 0.01, first %g", n - p + 0.32);
-        plot_label(plot, text ? text : "", where, "INK", "left");
+        (void)snprintf(where, sizeof where, "graph 0.01, first %g", n - p + 0.32 * ROW_PX / (ROW_PX + more));
+        plot_label_over(plot, text_of(plot->pool, series, fit, p), room, where, 0, "INK");
     }
     plot_line(plot, "plot $intervals using 2:1:($3-$2):(0) with vectors heads size screen 0.008,90 ls 1 lw 2 dt 1, \\\n"
                     "    $intervals using (0):1 with points ls 1 ps 1");

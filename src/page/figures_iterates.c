@@ -6,10 +6,12 @@
 #include "page/palette.h"
 #include "page/series.h"
 
+#define LEAST_RANGE 1e-4
 #define MOST_CURVES 10 /* of parameters: as many styles as there are */
 #define MOST_PANELS 12 /* of bijections */
 #define PLOT_HEIGHT 230.0
 #define END_PX      14.0 /* beside a label */
+#define MOST_NAME_PX 120.0 /* of a label; longer ones have more lines */
 
 /* The iterates, then x/x(end) of each, NaN where one ends at zero. */
 static struct series *collect(struct document *document, const rotid_identification *fit, int count)
@@ -56,6 +58,8 @@ static void iterates_script(struct plot *plot, struct series *series, const roti
     double height[MOST_CURVES], widest = 0;
     const char *name[MOST_CURVES], *color[MOST_CURVES];
     struct plot_range range = plot_range_of(count * n, series_values(series, 1 + count), 0.06);
+    if (range.to - range.from < LEAST_RANGE) /* a fit that started at its end: the axis has no digits for less */
+        range = (struct plot_range){1 - LEAST_RANGE / 2, 1 + LEAST_RANGE / 2};
     double tic = plot_tic(range.to - range.from, 6);
     for (int p = 0; p < count; p++) {
         name[p] = fit->parameters[p].name;
@@ -68,7 +72,7 @@ static void iterates_script(struct plot *plot, struct series *series, const roti
                                            .columns = {1, 1},
                                            .height = PLOT_HEIGHT + 60,
                                            .left = plot_left(&range, tic),
-                                           .right = END_PX + widest,
+                                           .right = END_PX + fmin(widest, MOST_NAME_PX),
                                            .top = 12,
                                            .bottom = 48});
     plot_panel(plot, 0);
@@ -131,19 +135,25 @@ static double share(const rotid_fitted_parameter *p, double x)
     return (x - p->lower) / (p->upper - p->lower);
 }
 
+static const char *bijection_title(struct pool *pool, const rotid_identification *fit, int p)
+{
+    const rotid_fitted_parameter *parameter = &fit->parameters[p];
+    const char *title = pool_format(pool, "%s: %s \xe2\x86\x92 %s", parameter->name,
+                                    human_value(pool, fit->history[0].x[p], parameter->unit),
+                                    human_value(pool, parameter->value, parameter->unit));
+    return title ? title : "";
+}
+
 static void bijection_panel(struct plot *plot, const rotid_identification *fit, int p, double most)
 {
     const rotid_fitted_parameter *parameter = &fit->parameters[p];
     struct pool *pool = plot->pool;
-    const char *title = pool_format(pool, "%s: %s \xe2\x86\x92 %s", parameter->name,
-                                    human_value(pool, fit->history[0].x[p], parameter->unit),
-                                    human_value(pool, parameter->value, parameter->unit)),
-               *upper = pool_format(pool, "1: upper bound %s", human_value(pool, parameter->upper, parameter->unit)),
+    const char *upper = pool_format(pool, "1: upper bound %s", human_value(pool, parameter->upper, parameter->unit)),
                *lower = pool_format(pool, "0: lower bound %s", human_value(pool, parameter->lower, parameter->unit));
     plot_panel(plot, p);
     plot_line(plot, "set xrange [%g:%g]\nset yrange [-0.03:1.03]\nset ytics 0.25", -most, most);
     plot_axes(plot, isfinite(fit->bijection_chi) ? "unbounded variable y [1]" : "\xcf\x87 y [1]", "share of the way [1]");
-    plot_label(plot, title ? title : "", "graph 0, graph 1.08", "INK", "left");
+    plot_label_over(plot, bijection_title(pool, fit, p), plot_panel_px(&plot->layout), "graph 0, graph 1", 0.9, "INK");
     plot_label(plot, upper ? upper : "", "graph 0.98, graph 0.93", "MUTED", "right");
     plot_label(plot, lower ? lower : "", "graph 0.02, graph 0.08", "MUTED", "left");
     plot_line(
@@ -170,13 +180,21 @@ static void bijection_script(struct document *document, struct plot *plot, const
         plot_series(plot, series);
     }
     plot_line(plot, "chi = %g\nshare(y) = 1 / (1 + exp(chi * y))", chi);
-    plot_begin(plot, &(struct plot_layout){.panels = count,
-                                           .columns = {count > 1 ? 2 : 1, 1},
-                                           .height = PLOT_HEIGHT + 20,
-                                           .left = 58,
-                                           .right = 14,
-                                           .top = 30,
-                                           .bottom = 48});
+    struct plot_layout layout = {.panels = count,
+                                 .columns = {count > 1 ? 2 : 1, 1},
+                                 .height = PLOT_HEIGHT + 20,
+                                 .left = 58,
+                                 .right = 14,
+                                 .top = 30,
+                                 .bottom = 48};
+    double more = 0;
+    for (int p = 0; p < count; p++) {
+        const char *title = bijection_title(plot->pool, fit, p);
+        more = fmax(more, plot_lines_px(1, &title, plot_panel_px(&layout)));
+    }
+    layout.top += more;
+    layout.height += more;
+    plot_begin(plot, &layout);
     for (int p = 0; p < count; p++)
         bijection_panel(plot, fit, p, most / chi);
 }

@@ -89,12 +89,17 @@ static void draw(struct plot *plot, const struct series *series, int count, cons
     plot_head(entry, 3, layout.head);
     plot_line(plot, "set style line 11 lc rgb INK lw 1 dt (8,4)");
     plot_series(plot, series);
+    double more = 0;
+    for (int p = 0; p < count; p++)
+        more = fmax(more, plot_lines_px(1, &h[p].parameter->name, plot_panel_px(&layout)));
+    layout.top += more;
+    layout.height += more;
     plot_begin(plot, &layout);
     for (int p = 0; p < count; p++) {
         plot_panel(plot, p);
         if (!p)
             plot_legend(plot, entry, 3);
-        plot_label(plot, h[p].parameter->name, "graph 0, graph 1 offset 0, char 0.7", "INK", "left");
+        plot_label_over(plot, h[p].parameter->name, plot_panel_px(&layout), "graph 0, graph 1", 0.7, "INK");
         plot_line(plot, "set xrange [-%g:%g]\nset yrange [0:*]\nset xtics 1", REACH, REACH);
         plot_axes(plot, "value less truth over its stated deviation [1]", "runs [1]");
         for (int side = 0; side < 2; side++)

@@ -165,6 +165,11 @@ static void draw_curves(struct plot *plot, struct series *series, const struct s
     range.to = range.to > 0 ? 1.05 * range.to : 1;
     double tic = plot_tic(range.to, 5);
     layout.left = plot_left(&range, tic);
+    double more = 0;
+    for (int p = 0; p < count; p++)
+        more = fmax(more, plot_lines_px(1, &s->parameters[p].name, plot_panel_px(&layout)));
+    layout.top += more;
+    layout.height += more;
     plot_begin(plot, &layout);
     for (int p = 0; p < count; p++) {
         plot_panel(plot, p);
@@ -173,7 +178,7 @@ static void draw_curves(struct plot *plot, struct series *series, const struct s
         plot_line(plot, "set xrange [%.4g:%.4g]\nset yrange [0:%.4g]\nset xtics %g\nset ytics %g", s->relative_value[0],
                   s->relative_value[n - 1], range.to, plot_tic(s->relative_value[n - 1] - s->relative_value[0], 3), tic);
         plot_axes(plot, "value over reference [1]", "E\xc2\xb2/2 [1]");
-        plot_label(plot, s->parameters[p].name, "graph 0, graph 1 offset 0, char 0.7", "INK", "left");
+        plot_label_over(plot, s->parameters[p].name, plot_panel_px(&layout), "graph 0, graph 1", 0.7, "INK");
         plot_line(plot, "plot for [k = 1:%d] $curves using 1:(column(%d+k)) with lines ls k", modes, 1 + p * modes);
     }
 }

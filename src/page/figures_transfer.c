@@ -140,13 +140,18 @@ static void draw(struct plot *plot, const struct transfer_result *out, struct se
 
 static const char *caption(struct pool *pool, const struct transfer_result *out, const struct transfer_function *f)
 {
-    const char *where = pool_format(pool, "Point %d (%s\xc2\xa0m) over a force at point %d (%s\xc2\xa0m), %s per newton.",
-                                    f->response, human_trimmed(pool, f->response_z_m, 4), f->reference,
-                                    human_trimmed(pool, f->reference_z_m, 4), out->quantity),
+    const char *where = !isfinite(f->response_z_m)
+                            ? pool_format(pool, "Point %d over a force at point %d, %s per newton.", f->response, f->reference,
+                                          out->quantity)
+                            : pool_format(pool, "Point %d (%s\xc2\xa0m) over a force at point %d (%s\xc2\xa0m), %s per newton.",
+                                          f->response, human_trimmed(pool, f->response_z_m, 4), f->reference,
+                                          human_trimmed(pool, f->reference_z_m, 4), out->quantity),
                *agree = "";
     if (!where)
         return NULL;
-    if (isfinite(frac(f)))
+    if (isfinite(frac(f)) && !isfinite(f->beside->agreement.frac_at_measured_frequencies))
+        agree = pool_format(pool, " FRAC with the measured function is %s.", human_fixed(pool, frac(f), 4));
+    else if (isfinite(frac(f)))
         agree = pool_format(
             pool, " FRAC with the measured function is %s, and %s with the measured frequencies put in for the model's.",
             human_fixed(pool, frac(f), 3), human_fixed(pool, f->beside->agreement.frac_at_measured_frequencies, 3));
@@ -204,10 +209,10 @@ static struct series *collect_peaks(struct document *document, const struct tran
     return series;
 }
 
-static void add(struct document *document, const struct result *result, const struct transfer_function *f, const char *why)
+void figure_transfer_function(struct document *document, const char *source, const struct transfer_result *out,
+                              const struct transfer_function *f, const char *why)
 {
     struct pool *pool = document->pool;
-    const struct transfer_result *out = result->frf;
     const char *id = pool_format(pool, "transfer-%d-%d", f->response < 0 ? -f->response : f->response,
                                  f->reference < 0 ? -f->reference : f->reference),
                *title = pool_format(pool, "Transfer function between points %d and %d%s", f->response, f->reference, why);
@@ -223,7 +228,7 @@ static void add(struct document *document, const struct result *result, const st
     struct plot plot;
     document->failed |= !id || !title;
     figure->table = series_table(collect_peaks(document, out, f));
-    if (!synthesised || !measured || !figure_begin(document, figure, result->file, &plot))
+    if (!synthesised || !measured || !figure_begin(document, figure, source, &plot))
         return;
     draw(&plot, out, synthesised, measured);
     figure_end(document, &plot);
@@ -254,7 +259,7 @@ void figure_transfer(struct document *document, const struct result *result)
         return;
     if (n <= MOST_FIGURES) {
         for (int i = 0; i < n; i++)
-            add(document, result, &out->functions[i], "");
+            figure_transfer_function(document, result->file, out, &out->functions[i], "");
         return;
     }
     document_paragraph(document, "Of %d functions %s are drawn; the result has all.", n,
@@ -263,10 +268,10 @@ void figure_transfer(struct document *document, const struct result *result)
     sort_by_agreement(n, out, order);
     if (!isfinite(frac(&out->functions[order[0]]))) {
         for (int i = 0; i < MOST_FIGURES; i++)
-            add(document, result, &out->functions[i], "");
+            figure_transfer_function(document, result->file, out, &out->functions[i], "");
         return;
     }
-    add(document, result, &out->functions[order[n - 1]], ", the best of all");
-    add(document, result, &out->functions[order[n / 2]], ", the middle one");
-    add(document, result, &out->functions[order[0]], ", the worst of all");
+    figure_transfer_function(document, result->file, out, &out->functions[order[n - 1]], ", the best of all");
+    figure_transfer_function(document, result->file, out, &out->functions[order[n / 2]], ", the middle one");
+    figure_transfer_function(document, result->file, out, &out->functions[order[0]], ", the worst of all");
 }

@@ -112,9 +112,11 @@ static struct series *series_of(struct document *document, const struct verdicts
 
 static void draw(struct plot *plot, const struct series *series, const struct verdicts *v)
 {
-    struct plot_layout layout = rows_layout(v->rows);
     struct plot_entry entry[STUDY_SCORES];
     const char *name[ROWS_MOST] = {NULL};
+    for (int i = 0; i < v->rows; i++)
+        name[i] = label_of(v->cell[i]);
+    struct plot_layout layout = rows_layout(v->rows, name);
     for (int k = 0; k < v->nshown; k++)
         entry[k] = (struct plot_entry){.text = v->part[v->shown[k]].text, .keys = KEY_FACE, .face = v->part[v->shown[k]].color};
     plot_head(entry, v->nshown, layout.head);
@@ -123,8 +125,6 @@ static void draw(struct plot *plot, const struct series *series, const struct ve
     plot_panel(plot, 0);
     plot_legend(plot, entry, v->nshown);
     plot_line(plot, "set xrange [0:100]\nset xtics 20");
-    for (int i = 0; i < v->rows; i++)
-        name[i] = label_of(v->cell[i]);
     rows_draw(plot, v->rows, name);
     plot_axes(plot, "share of the runs [%]", NULL);
     draw_bars(plot, v);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "page/document.h"
+#include "page/folder_files.h"
 
 #define PAGE      "index.html"
 #define FIGURES   "figures"
@@ -188,14 +189,15 @@ static void open_up(int folder)
 }
 
 /* Into the folder that exists: 1 with errno where something failed. */
-static int move_all(const struct folder *folder)
+static int move_all(const struct folder *folder, struct message_list *messages)
 {
     if (mkdirat(folder->final, FIGURES, 0777) != 0 && errno != EEXIST)
         return 1;
     int figures = open_in(folder->final, FIGURES);
     if (figures < 0)
         return 1;
-    int failed = each(folder->figures, figures, move_file) || move_file(folder->work, PAGE, folder->final) != 0, reason = errno;
+    errno = ENOMEM;
+    int failed = files_prepare(folder, figures, messages) || each(folder->figures, figures, move_file) || move_file(folder->work, PAGE, folder->final) != 0, reason = errno;
     (void)close(figures);
     errno = reason;
     return failed;
@@ -218,7 +220,7 @@ int folder_close(struct folder *folder, struct message_list *messages)
         open_up(folder->work);
         failed = rename(folder->beside, folder->path) != 0;
     } else {
-        failed = move_all(folder);
+        failed = move_all(folder, messages);
     }
     if (failed)
         (void)say(messages, folder->path, strerror(errno), ROTID_ERROR_IO);

@@ -1,6 +1,7 @@
 /* The folder of a page: whole or not there. Everything is written into a folder beside it (or in it, where it exists), and takes
- * its names at the end. Nothing that is not a page of rotid is written over. The name of the folder itself may be a symbolic
- * link; within it none is followed, and what was looked at once is known by its descriptor, so nobody puts another in its place.
+ * its names at the end. Nothing that is not a page of rotid is written over, and what an earlier page left goes (folder_files.h).
+ * The name of the folder itself may be a symbolic link; within it none is followed, and what was looked at once is known by its
+ * descriptor, so nobody puts another in its place.
  */
 #ifndef ROTID_PAGE_FOLDER_H
 #define ROTID_PAGE_FOLDER_H

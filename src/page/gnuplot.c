@@ -76,13 +76,22 @@ static int take(struct pool *pool, int folder, struct figure *figure)
     return figure->picture[WIDE] != NULL;
 }
 
-/* The lines of its errors that say something. */
+/* The first line of its errors that says something; a warning only where there is nothing else. */
 static const char *complaint(struct pool *pool, const struct process_result *run)
 {
     if (run->timed_out)
         return "gnuplot did not end and was stopped";
     const char *text = run->err;
     text += strspn(text, " \t\r\n^");
+    for (const char *line = text; *line; line += strspn(line, " \t\r\n^")) {
+        size_t length = strcspn(line, "\r\n");
+        const char *warning = strstr(line, "warning:");
+        if (!warning || warning > line + length) {
+            text = line;
+            break;
+        }
+        line += length;
+    }
     const char *says = *text            ? pool_format(pool, "%.*s", (int)strcspn(text, "\r\n"), text)
                        : run->exit_code ? pool_format(pool, "gnuplot ended with exit code %d and said nothing", run->exit_code)
                                         : "gnuplot wrote no complete picture";

@@ -117,7 +117,7 @@ void html_figure(FILE *out, int number, const struct figure *figure)
     html_text(out, figure->caption);
     (void)fputs("</figcaption>\n</figure>\n", out);
     write_numbers(out, figure);
-    (void)fprintf(out, "<p class=\"files\">%s: <a href=\"figures/%s.gp\">gnuplot script</a>", figure->id, figure->id);
+    (void)fprintf(out, "<p class=\"files\"><a href=\"figures/%s.gp\">gnuplot script</a>", figure->id);
     if (figure->picture[WIDE])
         (void)fprintf(out, ", <a href=\"figures/%s.svg\">SVG</a>", figure->id);
     if (figure->has_pdf)

@@ -7,7 +7,7 @@
 #define DASH         "\xe2\x80\x93"
 #define MINUS        "\xe2\x88\x92"
 #define NARROW_SPACE "\xc2\xa0" /* that does not break */
-#define TIMES        "\xc2\xa0\xc3\x97\xc2\xa0"
+#define SMALL        1e-3 /* below, more zeros than a reader counts */
 
 static const char *or_nothing(const char *text)
 {
@@ -49,7 +49,18 @@ int human_decimals(double value, double spread)
 {
     double size = isfinite(spread) && spread > 0 ? log10(spread) - 2 : value != 0 ? log10(fabs(value)) - 3 : 0;
     int decimals = (int)ceil(-floor(size) - 1e-9);
-    return decimals < 0 ? 0 : decimals > 8 ? 8 : decimals;
+    int most = value != 0 && fabs(value) < SMALL ? 20 : 8; /* a small one is shown with a power of ten */
+    return decimals < 0 ? 0 : decimals > most ? most : decimals;
+}
+
+/* 1.0e-8 as decks have it: text is what %e makes of the magnitude. */
+static const char *with_power(struct pool *pool, double value, const char *plus, char *text)
+{
+    char *e = strchr(text, 'e');
+    int exponent = 0;
+    (void)sscanf(e, "e%d", &exponent); /* NOLINT: of two or three digits */
+    *e = 0;
+    return or_nothing(pool_format(pool, "%s%se%d", value < 0 ? MINUS : plus, text, exponent));
 }
 
 static const char *fixed(struct pool *pool, double value, int decimals, const char *plus)
@@ -57,6 +68,11 @@ static const char *fixed(struct pool *pool, double value, int decimals, const ch
     char digits[400];
     if (!isfinite(value))
         return DASH;
+    int left = decimals + (value != 0 ? (int)floor(log10(fabs(value))) : 0); /* digits behind the first one that is not 0 */
+    if (fabs(value) < SMALL && value != 0 && decimals > 3 && left >= 0) {
+        (void)snprintf(digits, sizeof digits, "%.*e", left, fabs(value));
+        return with_power(pool, value, plus, digits);
+    }
     (void)snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
     int zero = strspn(digits, "0.") == strlen(digits); /* -0.00 is no negative number to people */
     return or_nothing(pool_format(pool, "%s%s", zero ? "" : value < 0 ? MINUS : plus, digits));
@@ -89,19 +105,17 @@ const char *human_digits(struct pool *pool, double value, int digits)
     if (value == 0)
         return "0";
     (void)snprintf(text, sizeof text, "%.*e", digits - 1, fabs(value));
-    char *e = strchr(text, 'e');
     int exponent = 0;
-    (void)sscanf(e, "e%d", &exponent); /* NOLINT: of two or three digits */
+    (void)sscanf(strchr(text, 'e'), "e%d", &exponent); /* NOLINT: of two or three digits */
     if (exponent >= -3 && exponent < 6)
         return fixed(pool, value, exponent >= digits ? 0 : digits - 1 - exponent, "");
-    *e = 0;
-    return or_nothing(pool_format(pool, "%s%s" TIMES "%s", value < 0 ? MINUS : "", text, human_power(pool, exponent)));
+    return with_power(pool, value, "", text);
 }
 
 const char *human_trimmed(struct pool *pool, double value, int digits)
 {
     char *number = pool_copy_text(pool, human_digits(pool, value, digits));
-    if (number && strchr(number, '.') && !strstr(number, TIMES)) {
+    if (number && strchr(number, '.') && !strchr(number, 'e')) {
         char *end = number + strlen(number);
         while (end[-1] == '0')
             *--end = 0;

@@ -13,16 +13,17 @@ struct human_unit {
 };
 struct human_unit human_unit(double value, const char *unit);
 
-/* Decimals that show three significant digits of `spread` (0 ... 8); four significant digits of value where there is no spread.
+/* Decimals that show three significant digits of `spread` (0 ... 8, of a value below 0.001 to 20); four significant digits of value where there is no spread.
  */
 int human_decimals(double value, double spread);
 
-/* With a number of decimals; "\u2013" where there is none (not finite). Signed: a plus in front too. */
+/* With a number of decimals; "\u2013" where there is none (not finite). Below 0.001 with more than three decimals as 1.20e-5, with the
+ * digits that the decimals show. Signed: a plus in front too. */
 const char *human_fixed(struct pool *pool, double value, int decimals);
 const char *human_signed(struct pool *pool, double value, int decimals);
 /* 10^exponent: "10\u207b\u00b3". */
 const char *human_power(struct pool *pool, int exponent);
-/* With a number of significant digits; very large and small ones as 1.2 x 10^-7. */
+/* With a number of significant digits; very large and small ones as 1.2e-7, as decks have them. */
 const char *human_digits(struct pool *pool, double value, int digits);
 
 /* The same without zeros at the end: "60" rather than "60.00". */

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "page/folder.h"
+#include "page/folder_files.h"
 #include "page/gnuplot.h"
 #include "page/page.h"
 
@@ -87,6 +88,8 @@ int page_write(struct document *document, const char *path, const char *made_by,
     status = write_scripts(document, &folder, figure, messages);
     if (!status)
         status = draw(document, &folder, figure, environment, messages, written, &hint);
+    if (!status)
+        status = files_list(&folder, messages);
     if (!status)
         status = write_page(document, &folder, made_by, hint, messages);
     if (!status && environment && environment->cancelled && environment->cancelled(environment->context))

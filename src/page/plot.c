@@ -7,10 +7,14 @@
 
 #include "base/text.h"
 #include "page/human.h"
+#include "page/names.h"
 #include "page/palette.h"
 
 #define TYPEFACE "Arial" /* Liberation Sans and Helvetica have the same widths: what fits here fits elsewhere */
 #define LABEL_PX 15.0    /* between two lines of text */
+#define LINE_CHAR    1.1 /* LABEL_PX in heights of a character */
+#define AXIS_EDGE_PX 8.0
+#define END_PX       12.0 /* between a line and its label, and behind it */
 
 /* Dashes and marks by series: no line is told by its colour alone. */
 static void styles(FILE *out)
@@ -172,12 +176,54 @@ void plot_panel(struct plot *plot, int i)
               i + 1, i);
 }
 
+double plot_lines_px(int count, const char *const *text, double room)
+{
+    int most = 1;
+    for (int i = 0; i < count; i++) {
+        int lines = text[i] ? name_line_count(text[i], room) : 1;
+        most = lines > most ? lines : most;
+    }
+    return LABEL_PX * (most - 1);
+}
+
+double plot_panel_px(const struct plot_layout *layout)
+{
+    static const double width[LAYOUTS] = {WIDE_PX, NARROW_PX};
+    double least = INFINITY;
+    for (int l = 0; l < LAYOUTS; l++)
+        least = fmin(least, width[l] / layout->columns[l]);
+    return least - layout->left - layout->right;
+}
+
+double plot_axis_px(const struct plot_layout *layout)
+{
+    /* it stands under the middle of the panel, which the margins move aside */
+    return plot_panel_px(layout) + 2 * fmin(layout->left, layout->right) - AXIS_EDGE_PX;
+}
+
+void plot_label_over(struct plot *plot, const char *text, double room, const char *where, double up, const char *color)
+{
+    for (int k = name_line_count(text, room) - 1; k >= 0; k--) {
+        size_t bytes = name_line(text, room);
+        const char *line = pool_format(plot->pool, "%.*s", (int)bytes, text);
+        char more[64];
+        (void)snprintf(more, sizeof more, "left offset 0, char %.4g", up + LINE_CHAR * k);
+        plot_label(plot, line ? line : "", where, color, more);
+        text += bytes + strspn(text + bytes, " ");
+    }
+}
+
 /* Labels where the margins have room for them, which those of gnuplot itself do not tell. */
 void plot_axes(struct plot *plot, const char *x, const char *y)
 {
-    if (x)
-        plot_line(plot, "set label %d %s at graph 0.5, screen 1-(y_of(%d)+HEIGHT-10)/H center tc rgb INK", ++plot->labels,
-                  plot_quote(plot, x), plot->panel);
+    double room = plot_axis_px(&plot->layout);
+    for (int k = x ? name_line_count(x, room) - 1 : -1; k >= 0; k--) {
+        size_t bytes = name_line(x, room);
+        const char *line = pool_format(plot->pool, "%.*s", (int)bytes, x);
+        plot_line(plot, "set label %d %s at graph 0.5, screen 1-(y_of(%d)+HEIGHT-%g)/H center tc rgb INK", ++plot->labels,
+                  plot_quote(plot, line ? line : ""), plot->panel, 10 + LABEL_PX * k);
+        x += bytes + strspn(x + bytes, " ");
+    }
     if (y)
         plot_line(plot, "set label %d %s at screen (x_of(%d)+12)/W, graph 0.5 center rotate tc rgb INK", ++plot->labels,
                   plot_quote(plot, y), plot->panel);
@@ -223,11 +269,19 @@ void plot_end_labels(struct plot *plot, int count, const char *const *text, cons
             order[k] = order[k - 1];
         order[k] = i;
     }
-    spread(count, order, y, LABEL_PX / (l->height - l->top - l->bottom));
+    double inner = l->height - l->top - l->bottom, room = l->right - END_PX, step = LABEL_PX / inner;
+    spread(count, order, y, step + plot_lines_px(count, text, room) / inner);
     for (int i = 0; i < count; i++) {
-        char where[64];
-        (void)snprintf(where, sizeof where, "graph 1, graph %.4f", y[i]);
-        plot_label(plot, text[i], where, color[i], "left offset char 0.7, 0");
+        const char *rest = text[i];
+        int lines = name_line_count(rest, room);
+        for (int k = 0; k < lines; k++) {
+            size_t bytes = name_line(rest, room);
+            const char *line = pool_format(plot->pool, "%.*s", (int)bytes, rest);
+            char where[64];
+            (void)snprintf(where, sizeof where, "graph 1, graph %.4f", y[i] + (0.5 * (lines - 1) - k) * step);
+            plot_label(plot, line ? line : "", where, color[i], "left offset char 0.7, 0");
+            rest += bytes + strspn(rest + bytes, " ");
+        }
     }
 }
 

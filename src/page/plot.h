@@ -57,7 +57,8 @@ void plot_comment(struct plot *plot, const char *text);
 void plot_begin(struct plot *plot, const struct plot_layout *layout);
 /* Room of panel i; the settings of the panel before are gone. */
 void plot_panel(struct plot *plot, int i);
-/* What the axes of the current panel show, with units. NULL where an axis has none. */
+/* What the axes of the current panel show, with units, below it in lines as wide as the panel: the layout has the room, plot_lines_px
+ * at the bottom. NULL where an axis has none. */
 void plot_axes(struct plot *plot, const char *x, const char *y);
 /* A line of the script. */
 void plot_line(struct plot *plot, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -69,7 +70,18 @@ const char *plot_quote(struct plot *plot, const char *text);
 const char *plot_quote_tick(struct plot *plot, const char *text);
 /* set label TEXT at X, Y: `where` is "graph 0, graph 1" and the like; more: "right", "offset ...", or "". */
 void plot_label(struct plot *plot, const char *text, const char *where, const char *color, const char *more);
-/* Labels of lines at the right edge, at heights 0 ... 1 of the panel, moved apart where they would overlap. */
+/* A label over another place: lines of at most `room` px, the last one `up` lines of text above `where`, which is two coordinates. */
+void plot_label_over(struct plot *plot, const char *text, double room, const char *where, double up, const char *color);
+/* px that the longest of some texts needs in such lines beyond the first. */
+double plot_lines_px(int count, const char *const *text, double room);
+/* px of the narrower of the panels of both layouts, without their margins. */
+double plot_panel_px(const struct plot_layout *layout);
+
+/* px of a line of the name of an axis. */
+double plot_axis_px(const struct plot_layout *layout);
+
+/* Labels of lines at the right edge, at heights 0 ... 1 of the panel, in lines as wide as the margin there, moved apart where they
+ * would overlap. */
 void plot_end_labels(struct plot *plot, int count, const char *const *text, const double *height, const char *const *color);
 /* Height of a legend [px] for layout.head, and the legend, over the first panel; entries go on in a new row where one is full. */
 void plot_head(const struct plot_entry *entry, int count, double head[LAYOUTS]);

@@ -1,6 +1,11 @@
+#include <string.h>
+
+#include "page/names.h"
 #include "page/plot.h"
 
 #define ROW_PX    20.0
+#define LINE_PX   14.0 /* from line to line of a text */
+#define FURTHER   1000 /* between the numbers of the labels of two lines */
 #define SAMPLE_PX 24.0 /* of a line or mark */
 #define GAP_PX    16.0 /* between entries */
 #define EDGE_PX   8.0
@@ -8,6 +13,11 @@
 struct spot { /* of an entry: its left end and its middle, px from the left and the top */
     double x, y;
 };
+
+static double text_room(double width)
+{
+    return width - 2 * EDGE_PX - SAMPLE_PX - 6;
+}
 
 static struct spot next_spot(const struct plot_entry *entry, double width, struct spot *at)
 {
@@ -18,6 +28,7 @@ static struct spot next_spot(const struct plot_entry *entry, double width, struc
     }
     struct spot here = *at;
     at->x += needs + GAP_PX;
+    at->y += LINE_PX * (name_line_count(entry->text, text_room(width)) - 1);
     return here;
 }
 
@@ -32,7 +43,7 @@ void plot_head(const struct plot_entry *entry, int count, double head[LAYOUTS])
     }
 }
 
-static void draw_entry(struct plot *plot, const struct plot_entry *entry, int number, struct spot at)
+static void draw_entry(struct plot *plot, const struct plot_entry *entry, int number, struct spot at, double room)
 {
     double y = at.y, x = at.x;
     if (entry->keys & KEY_FACE && *entry->face)
@@ -51,8 +62,14 @@ static void draw_entry(struct plot *plot, const struct plot_entry *entry, int nu
                   y, entry->style);
     if (entry->keys & KEY_MARK)
         plot_line(plot, "set label %d '' at screen %g/W, 1-%g/H point ls %d", number, x + SAMPLE_PX / 2, y, entry->style);
-    plot_line(plot, "set label %d %s at screen %g/W, 1-%g/H left tc rgb INK", number + 1, plot_quote(plot, entry->text),
-              x + SAMPLE_PX + 6, y);
+    const char *text = entry->text;
+    for (int k = 0, count = name_line_count(text, room); k < count; k++) {
+        size_t bytes = name_line(text, room);
+        const char *line = pool_format(plot->pool, "%.*s", (int)bytes, text);
+        plot_line(plot, "set label %d %s at screen %g/W, 1-%g/H left tc rgb INK", number + 1 + FURTHER * k,
+                  plot_quote(plot, line ? line : ""), x + SAMPLE_PX + 6, y + LINE_PX * k);
+        text += bytes + strspn(text + bytes, " ");
+    }
 }
 
 void plot_legend(struct plot *plot, const struct plot_entry *entry, int count)
@@ -64,7 +81,7 @@ void plot_legend(struct plot *plot, const struct plot_entry *entry, int count)
         struct spot at = {EDGE_PX, ROW_PX / 2};
         plot_line(plot, "%s", when[l]);
         for (int i = 0; i < count; i++)
-            draw_entry(plot, &entry[i], 901 + 2 * i, next_spot(&entry[i], width[l], &at));
+            draw_entry(plot, &entry[i], 901 + 2 * i, next_spot(&entry[i], width[l], &at), text_room(width[l]));
     }
     plot_line(plot, "}");
 }

@@ -1,5 +1,8 @@
 #include "page/result.h"
 
+#include "page/plain.h"
+#include "result/ema.h"
+
 static void read_study(const struct json_place *root, struct result *result)
 {
     result->studied = study_read(root);
@@ -25,6 +28,13 @@ int page_result_read(struct pool *pool, const char *file, struct message_list *m
 {
     static const struct result_reader study = {read_study, read_lines};
     return result_read(pool, file, messages, &study, result);
+}
+
+const char *page_source(const struct result *result)
+{
+    return plain_file(result->ema                                   ? result->ema->source.file
+                      : result->head.deck && *result->head.deck ? result->head.deck
+                                                                : result->file);
 }
 
 int page_state_count(const struct result *result)

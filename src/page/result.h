@@ -11,6 +11,10 @@
 /* result_read, and the results of studies. The structs hang on the pool; statuses as of result_read. */
 int page_result_read(struct pool *pool, const char *file, struct message_list *messages, struct result *result);
 
+/* What a result is of, without its folder where that is absolute: its deck, of a modal analysis the file that was measured, else the
+ * file of the result. */
+const char *page_source(const struct result *result);
+
 /* How many states a result is of, 0 where its deck is one; the name of one. */
 int page_state_count(const struct result *result);
 const char *page_state_name(const struct result *result, int s);

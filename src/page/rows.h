@@ -3,11 +3,12 @@
 #ifndef ROTID_PAGE_ROWS_H
 #define ROTID_PAGE_ROWS_H
 
-#include "page/plot.h"
+#include "page/names.h"
 
 #define ROWS_MOST 24
 
-struct plot_layout rows_layout(int rows);
+/* name [rows] from the top: rows grow with their lines. */
+struct plot_layout rows_layout(int rows, const char *const name[]);
 /* Sets the rows of the current panel, its y range and its border; name [rows] from the top. */
 void rows_draw(struct plot *plot, int rows, const char *const name[]);
 

@@ -1,5 +1,6 @@
 /* What to measure next: the tests, the rivals, the plans. */
 #include <math.h>
+#include <string.h>
 
 #include "page/figures.h"
 #include "page/human.h"
@@ -45,7 +46,7 @@ static struct number_table *plans_table(struct pool *pool, const rotid_suggestio
         table_head(table, 3 + p, pool_format(pool, "%s, half-width [%%]", s->parameters[p].name));
     for (int i = 0; i < s->nplans; i++) {
         const rotid_sensor_plan *plan = &s->plans[i];
-        table_cell(table, i, 0, plan->method);
+        table_cell(table, i, 0, strcmp(plan->method, "effective_independence") ? plan->method : "effective independence");
         table_cell(table, i, 1, human_fixed(pool, plan->nz_m, 0));
         table_cell(table, i, 2, human_fixed(pool, plan->gain_percent, 1));
         for (int p = 0; p < s->nparameters && p < plan->nhalf_width_percent; p++)

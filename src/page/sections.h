@@ -1,5 +1,5 @@
-/* Sections of a page, each of one result: text, tables and figures in the order in which they are read. The answer of the main
- * result comes first, in document->answer and document->tone. */
+/* Sections of a page, each of one result: text, tables and figures in the order in which they are read. An answer goes into
+ * document->tone, headline, answer and next. */
 #ifndef ROTID_PAGE_SECTIONS_H
 #define ROTID_PAGE_SECTIONS_H
 
@@ -12,11 +12,16 @@ void answer_identify(struct document *document, const struct result *result, con
 void answer_diagnose(struct document *document, const struct result *result);
 /* What a study says as a whole. */
 void answer_study(struct document *document, const struct result *result);
+/* Modes of a test and whether any of them is doubtful. */
+void answer_ema(struct document *document, const struct result *result);
 /* Another result in a sentence, without a judgement. */
 void answer_plain(struct document *document, const struct result *result);
 
-/* Deck, version, commit, seed, noise and data of all results, their notes, and the keys that older ones lack. */
+/* Data, noise and model of all results, the heading of the deck, and what rotid notes. */
 void section_rests_on(struct document *document, int count, const struct result *result);
+/* The last section: files, version, commit, seed, build of all results, ids of causes, and the keys that older results lack. The one
+ * place of a page with absolute paths, ids and builds. */
+void section_provenance(struct document *document, int count, const struct result *result);
 
 void section_rotor(struct document *document, const struct result *result, const rotid_identification *fit);
 /* How well model and measurement agree, of a deck that is one state or of one of its states; of all states together; what was
@@ -29,6 +34,7 @@ void section_suggest(struct document *document, const struct result *result);
 void section_study(struct document *document, const struct result *result);
 void section_modes(struct document *document, const struct result *result);
 void section_sensitivity(struct document *document, const struct result *result);
+void section_ema(struct document *document, const struct result *result);
 void section_transfer(struct document *document, const struct result *result);
 
 #endif

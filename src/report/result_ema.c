@@ -94,6 +94,89 @@ static struct ema_channel_result *channels(struct pool *pool, const struct ema_r
     return list;
 }
 
+#define MOST_LINES  10000 /* of all curves together: more makes a file of megabytes */
+#define LEAST_CURVES 3     /* the worst, the middle and the best one */
+
+/* Transfer functions by rising FRAC, without those that have none; their number. */
+static int by_frac(const struct ema *ema, int *order)
+{
+    int count = 0;
+    for (int c = 0; c < ema->nfrf; c++) {
+        int k = count;
+        if (!isfinite(ema->channel[c].fit))
+            continue;
+        for (; k > 0 && ema->channel[order[k - 1]].fit > ema->channel[c].fit; k--)
+            order[k] = order[k - 1];
+        order[k] = c;
+        count++;
+    }
+    return count;
+}
+
+/* 0 where memory is out. */
+static int add_curve(struct pool *pool, const struct ema_report *r, int c, double complex *h, struct ema_curve *curve)
+{
+    const struct frf_set *set = &r->measurement->set;
+    int n = set->nline;
+    double *part[4];
+    for (int i = 0; i < 4; i++)
+        if (!(part[i] = POOL_ARRAY(pool, double, n)))
+            return 0;
+    ema_synthesise(r->ema, set, c, 1, n, set->frequency_hz, h);
+    for (int l = 0; l < n; l++) {
+        part[0][l] = creal(set->frf[c].h[l]);
+        part[1][l] = cimag(set->frf[c].h[l]);
+        part[2][l] = creal(h[l]);
+        part[3][l] = cimag(h[l]);
+    }
+    *curve = (struct ema_curve){c + 1, n, set->frequency_hz, part[0], part[1], part[2], part[3]};
+    return 1;
+}
+
+/* Of `count` functions in this order. 0 where memory is out. */
+static int add_rms(struct pool *pool, const struct ema_report *r, int count, const int *order, double complex *h,
+                   struct ema_result *out)
+{
+    const struct frf_set *set = &r->measurement->set;
+    int n = set->nline;
+    double *measured = POOL_ARRAY(pool, double, n), *synthesised = POOL_ARRAY(pool, double, n);
+    if (!measured || !synthesised)
+        return 0;
+    for (int i = 0; i < count; i++) {
+        ema_synthesise(r->ema, set, order[i], 1, n, set->frequency_hz, h);
+        for (int l = 0; l < n; l++) {
+            measured[l] += creal(set->frf[order[i]].h[l] * conj(set->frf[order[i]].h[l])) / count;
+            synthesised[l] += creal(h[l] * conj(h[l])) / count;
+        }
+    }
+    for (int l = 0; l < n; l++) {
+        measured[l] = sqrt(measured[l]);
+        synthesised[l] = sqrt(synthesised[l]);
+    }
+    out->nrms_frequency_hz = count ? n : 0;
+    out->rms_frequency_hz = set->frequency_hz;
+    out->rms_measured = measured;
+    out->rms_synthesised = synthesised;
+    return 1;
+}
+
+/* What was measured beside what the modes make of it. 0 where memory is out. */
+static int add_functions(struct pool *pool, const struct ema_report *r, struct ema_result *out)
+{
+    int lines = r->measurement->set.nline, *order = POOL_ARRAY(pool, int, r->ema->nfrf);
+    double complex *h = POOL_ARRAY(pool, double complex, lines);
+    if (!order || !h)
+        return 0;
+    int count = by_frac(r->ema, order), taken = lines ? MOST_LINES / lines : 0;
+    taken = taken < LEAST_CURVES ? LEAST_CURVES : taken;
+    taken = taken > count ? count : taken;
+    out->curves = POOL_ARRAY(pool, struct ema_curve, taken);
+    for (int i = 0; i < taken && out->curves; i++, out->ncurves++)
+        if (!add_curve(pool, r, order[taken > 1 ? (long long)i * (count - 1) / (taken - 1) : 0], h, &out->curves[i]))
+            return 0;
+    return out->curves && add_rms(pool, r, count, order, h, out);
+}
+
 const struct ema_result *ema_result_of(struct pool *pool, const struct ema_report *r)
 {
     struct ema_result *out = POOL_NEW(pool, struct ema_result);
@@ -115,5 +198,5 @@ const struct ema_result *ema_result_of(struct pool *pool, const struct ema_repor
         .channels = channels(pool, r),
         .seconds = r->seconds,
     };
-    return out->modes && out->stabilisation && out->channels ? out : NULL;
+    return out->modes && out->stabilisation && out->channels && add_functions(pool, r, out) ? out : NULL;
 }

@@ -77,6 +77,17 @@ struct ema_channel_result {
     int doubts;              /* what is doubtful about it */
 };
 
+/* a transfer function with its values */
+struct ema_curve {
+    int channel; /* number in channels, from 1 */
+    int nfrequency_hz;
+    double *frequency_hz;   /* lines [Hz] */
+    double *measured_re;    /* measured value, real part [of the quantity per newton, SI] */
+    double *measured_im;    /* and imaginary part */
+    double *synthesised_re; /* value of the modes with what lies beyond the band, real part */
+    double *synthesised_im; /* and imaginary part */
+};
+
 struct ema_result {
     struct ema_source source; /* what was measured */
     int method;               /* as given by --method */
@@ -92,7 +103,13 @@ struct ema_result {
     struct ema_pole_result *stabilisation; /* poles of the tables, order by order, by rising frequency; empty for quadrature */
     int nchannels;
     struct ema_channel_result *channels; /* the transfer functions */
-    double seconds;                      /* time taken [s] */
+    int nrms_frequency_hz;
+    const double *rms_frequency_hz; /* lines of the two below [Hz] */
+    const double *rms_measured;     /* root mean square over the transfer functions of the magnitude of the measured values [SI] */
+    const double *rms_synthesised;  /* the same of the synthesised values [SI] */
+    int ncurves;
+    struct ema_curve *curves; /* by rising FRAC: all transfer functions, or of many lines some from the worst to the best */
+    double seconds;           /* time taken [s] */
 };
 
 #endif

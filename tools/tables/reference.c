@@ -1,0 +1,92 @@
+/* docs/reference.md: every command with its options, every card with its options and data lines, every cause, on one page. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+#include "cli/options.h"
+#include "deck/card_table.h"
+#include "diagnose/causes/catalogue.h"
+#include "generated.h"
+
+/* `-o, --output FILE`, `--method lscf|quadrature` */
+static void put_flag(FILE *out, const struct option_row *row)
+{
+    (void)fputs("`", out);
+    if (row->letter)
+        (void)fprintf(out, "-%c, ", row->letter);
+    (void)fprintf(out, "--%s", row->name);
+    if (row->words) {
+        (void)fputc(' ', out);
+        put_words(out, row, "\\|");
+    } else if (row->value) {
+        (void)fprintf(out, " %s", row->value);
+    }
+    (void)fputs("`", out);
+}
+
+/* Those of one command, or with NULL those of all. */
+static void put_flags(FILE *out, const char *command)
+{
+    int count = 0;
+    for (const struct option_row *row = option_table; row->name; row++)
+        if (row->commands ? command && option_of(row, command) : !command) {
+            (void)fputs(count++ ? ", " : "", out);
+            put_flag(out, row);
+        }
+}
+
+void write_commands(FILE *out, int section)
+{
+    (void)section;
+    (void)fputs("| `rotid` | what it does | options |\n| --- | --- | --- |\n", out);
+    for (const struct command_entry *entry = command_table; entry->name; entry++) {
+        (void)fprintf(out, "| `%s %s` | %s | ", entry->name, entry->flags & SEVERAL_FILES ? "FILE..." : "FILE", entry->text);
+        put_flags(out, entry->name);
+        (void)fputs(" |\n", out);
+    }
+    (void)fputs("| all | | ", out);
+    put_flags(out, NULL);
+    (void)fputs(" |\n", out);
+}
+
+/* `NAME`, `MODEL=RODS\|TUBE` */
+static void put_card_option(FILE *out, const struct deck_row *row)
+{
+    (void)fprintf(out, "`%s", row->option);
+    for (int i = 0; row->words && row->words[i]; i++)
+        (void)fprintf(out, "%s%s", i ? "\\|" : "=", row->words[i]);
+    (void)fputs("`", out);
+}
+
+/* Links within docs/deck.md lead there from here. */
+static void put_lines(FILE *out, const char *text)
+{
+    for (; *text; text++)
+        (void)fprintf(out, "%c%s", *text, text[0] == '(' && text[1] == '#' ? "deck.md" : "");
+}
+
+void write_card_list(FILE *out, int section)
+{
+    (void)section;
+    (void)fputs("| card | options | data lines |\n| --- | --- | --- |\n", out);
+    for (const struct deck_card *card = deck_card_table; card->name; card++) {
+        int count = 0;
+        (void)fprintf(out, "| `*%s` | ", card->name);
+        for (const struct deck_row *row = card->row; !deck_row_is_last(row); row++)
+            if (row->option) {
+                (void)fputs(count++ ? ", " : "", out);
+                put_card_option(out, row);
+            }
+        (void)fputs(count ? " | " : "| ", out);
+        put_lines(out, card->lines ? card->lines : "none");
+        (void)fputs(" |\n", out);
+    }
+}
+
+void write_causes(FILE *out, int section)
+{
+    (void)section;
+    (void)fputs("| `TYPE` | what it is |\n| --- | --- |\n", out);
+    for (int i = 0; i < catalogue_count(); i++)
+        (void)fprintf(out, "| `%s` | %s |\n", catalogue_item(i)->id, catalogue_item(i)->sentence);
+}
