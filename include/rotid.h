@@ -662,7 +662,18 @@ typedef struct rotid_cause {
     int nparameters;
     rotid_cause_value *parameters; /* at the best values found */
     const char *state; /* the one state in which it acts; NULL: in all that have its target, or the deck has no *STATE */
+    int nidentified;
+    rotid_cause_value *identified; /* the parameters of *IDENTIFY where it is in the model, alone or with the second cause of its
+                                      pair; none where it was not fitted, or was named */
 } rotid_cause;
+
+/* How far a parameter of *IDENTIFY lies apart between the causes that cannot be told apart. */
+typedef struct rotid_spread {
+    const char *name;       /* such as core.E */
+    const char *unit;       /* 1 for a pure number */
+    double lowest, highest; /* of its values with one of these causes in the model */
+    double ci95[2];         /* that hold the 95 % intervals of all of them; NaN where one of them has none */
+} rotid_spread;
 
 /* What a diagnosis says of physical causes: faults of the data and of the numbers are removed before. */
 typedef struct rotid_verdict {
@@ -681,6 +692,8 @@ typedef struct rotid_verdict {
     const char *sentence;            /* the verdict for a person; NULL where there is none */
     int undetermined_parameters;     /* parameters of the base model that the data leave open */
     int confident;                   /* modes, stated noise and reach of the sensors suffice for naming a cause */
+    int nspread;
+    rotid_spread *spread; /* over alternative_causes: what the dispute is worth in parameters; empty where nothing is open */
 } rotid_verdict;
 
 /* A fault of the measurement chain, taken out of the data. */
@@ -806,6 +819,22 @@ typedef struct rotid_detectable {
     int beyond;            /* no size within physical bounds would show */
 } rotid_detectable;
 
+/* What a cause that these data would not have shown may do to a parameter of *IDENTIFY: the fit without the cause moves the
+ * parameter by `shift` where the cause is there with `size`. The size is the smallest that shows 9 times in 10 at that place, or
+ * the largest within physical bounds where that is less. Linear. */
+typedef struct rotid_hidden {
+    const char *parameter; /* such as core.E */
+    double shift;          /* of its value, in its unit */
+    const char *unit;      /* of shift */
+    const char *id;        /* of the catalogue */
+    const char *target;    /* as in candidates */
+    const char *component; /* the parameter of the cause that is its size; presence of a cause that is there or not */
+    double size;           /* deviation from neutral, with its sign; of a cause with two signs the other one turns that of shift */
+    const char *size_unit; /* of size */
+    double z_m;            /* where on the axis it moves the parameter most [m]; NaN where the cause has no place */
+    int beyond;            /* no size within physical bounds shows there */
+} rotid_hidden;
+
 /* A step of the diagnosis. */
 typedef struct rotid_step {
     const char *name; /* of the step */
@@ -847,6 +876,8 @@ typedef struct rotid_diagnosis {
         *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
     void *memory;       /* internal */
     const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
+    int nhidden;
+    rotid_hidden *hidden; /* for each parameter of *IDENTIFY those that move it most, the largest first, three at most */
 } rotid_diagnosis;
 
 /* ---- suggestion: what to measure next */

@@ -34,6 +34,8 @@ struct candidate {
     int explains;                   /* its fit leaves no more than noise */
     struct candidate *with;         /* the second cause, NULL where this one is alone; the numbers of the fit are here */
     int set;                        /* of an alternative, from 1: two of one number are the causes of a pair */
+    int nidentified;                /* the deck's unknowns in its fit, of a pair the first member has them; 0: it has no fit */
+    rotid_cause_value *identified;
 };
 
 struct diagnosis_round {

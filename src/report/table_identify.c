@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fit/interval.h"
 #include "report/layout.h"
 #include "report/table.h"
 #include "result/judgement.h"
@@ -66,8 +67,11 @@ static void print_parameter(FILE *out, const rotid_fitted_parameter *p)
         (void)fprintf(out, "%12.*g ...%12.*g", digits, p->ci95[0], digits, p->ci95[1]);
     else
         (void)fprintf(out, "%27s", "cannot be stated");
-    (void)fprintf(out, "   %.4g%s%s\n", p->start, p->at_bound ? "   AT ITS BOUND" : "",
-                  !p->identifiable && !p->at_bound ? "   NOT DETERMINED by these data" : "");
+    (void)fprintf(out, "   %.4g%s", p->start,
+                  p->at_bound ? "   AT ITS BOUND" : !p->identifiable ? "   NOT DETERMINED by these data" : "");
+    if (p->identifiable && interval_is_wide(p->value, p->ci95[0], p->ci95[1]))
+        (void)fprintf(out, "   to %s only", percent_text(interval_half_percent(p->value, p->ci95[0], p->ci95[1]), (char[32]){""}));
+    (void)fputc('\n', out);
 }
 
 /* What the intervals rest on, and what the misfit has made of them. */
