@@ -183,21 +183,6 @@ static const struct field detectable_fields[] = {
 };
 const struct record detectable_record = RECORD(rotid_detectable, detectable_fields);
 
-static const struct field hidden_fields[] = {
-    TEXT(rotid_hidden, parameter, 0),
-    NUMBER(rotid_hidden, shift, 0),
-    TEXT(rotid_hidden, unit, 0),
-    TEXT(rotid_hidden, id, 0),
-    TEXT(rotid_hidden, target, 0),
-    TEXT(rotid_hidden, component, 0),
-    NUMBER(rotid_hidden, size, 0),
-    TEXT(rotid_hidden, size_unit, 0),
-    NUMBER(rotid_hidden, z_m, MAY_BE_NULL),
-    FLAG(rotid_hidden, beyond, 0),
-    {0},
-};
-static const struct record hidden_record = RECORD(rotid_hidden, hidden_fields);
-
 static const struct field step_fields[] = {
     TEXT(rotid_step, name, 0),
     NUMBER(rotid_step, seconds, FROM_0),
@@ -219,7 +204,7 @@ static const struct field diagnosis_fields[] = {
     STRUCTS(rotid_diagnosis, sensors, 0, sensor_residual_record),
     STRUCTS(rotid_diagnosis, localisation, 0, localisation_record),
     STRUCTS(rotid_diagnosis, detectable, 0, detectable_record),
-    STRUCTS(rotid_diagnosis, hidden, SINCE_LATER, hidden_record),
+    STRUCTS(rotid_diagnosis, hidden, SINCE_LATER, hidden_cause_record),
     STRUCT(rotid_diagnosis, noise, SINCE_LATER, noise_record),
     STRUCT(rotid_diagnosis, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
     STRUCT(rotid_diagnosis, today, MAY_BE_NULL | BEHIND_POINTER, identification_record),

@@ -93,6 +93,28 @@ static void print_intervals(FILE *out, const rotid_identification *fit)
         (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests\n", 100 * p_value);
 }
 
+/* What the intervals know nothing of: the cause that moves each parameter most, where that is more than half of its interval. */
+static void print_hidden(FILE *out, const rotid_identification *fit)
+{
+    int shown = 0;
+    struct wrap wrap;
+    for (int p = 0; p < fit->nparameters; p++) {
+        const rotid_fitted_parameter *value = &fit->parameters[p];
+        const rotid_hidden *hidden = hidden_in(fit->nhidden, fit->hidden, value);
+        if (!hidden)
+            continue;
+        if (!shown++)
+            wrap_open(&wrap, out, 2, 100, "a cause that these data would not show may move ");
+        wrap_item(&wrap, "%s%s %s", shown > 1 ? ", " : "", value->name,
+                  linear_percent_text(100 * fabs(hidden->shift / value->value), (char[32]){""}));
+        wrap_item(&wrap, "(%s%s%s)", hidden->id, *hidden->target ? " of " : "", hidden->target);
+    }
+    if (!shown)
+        return;
+    wrap_words(&wrap, ": see rotid diagnose");
+    wrap_close(&wrap);
+}
+
 static void print_parameters(FILE *out, const rotid_identification *fit)
 {
     int n = fit->nparameters;
@@ -115,6 +137,7 @@ static void print_parameters(FILE *out, const rotid_identification *fit)
         (void)fprintf(out, "\n");
     }
     print_intervals(out, fit);
+    print_hidden(out, fit);
 }
 
 static void print_history(FILE *out, const rotid_identification *fit)
