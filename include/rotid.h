@@ -465,6 +465,7 @@ typedef struct rotid_hidden {
     double size;           /* deviation from neutral, with its sign; of a cause with two signs the other one turns that of shift */
     const char *size_unit; /* of size */
     double z_m;            /* where on the axis it moves the parameter most [m]; NaN where the cause has no place */
+    double width_m;        /* its width there [m]; NaN where the cause has none */
     int beyond;            /* no size within physical bounds shows there */
 } rotid_hidden;
 

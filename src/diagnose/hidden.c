@@ -42,7 +42,7 @@ static void largest_of(const struct source *from, const struct scan_candidate *c
     const struct scan *scan = from->scan;
     const struct cause_kind *cause = c->cause;
     int nparameter = cause->effect->nparameter;
-    *row = (rotid_hidden){.z_m = NAN};
+    *row = (rotid_hidden){.z_m = NAN, .width_m = NAN};
     for (int i = c->first; i < c->first + c->count; i++) {
         const struct scan_item *item = &scan->item[i];
         int beyond;
@@ -61,6 +61,7 @@ static void largest_of(const struct source *from, const struct scan_candidate *c
                               .size_unit = nparameter ? cause->effect->parameter[cause->size].unit : "1",
                               .size = amplitude * item->unit,
                               .z_m = cause->place >= 0 ? item->effect.value[cause->place] : (double)NAN,
+                              .width_m = cause->width >= 0 ? item->effect.value[cause->width] : (double)NAN,
                               .beyond = beyond};
     }
 }

@@ -182,6 +182,7 @@ static const struct field hidden_fields[] = {
     NUMBER(rotid_hidden, size, 0),
     TEXT(rotid_hidden, size_unit, 0),
     NUMBER(rotid_hidden, z_m, MAY_BE_NULL),
+    NUMBER(rotid_hidden, width_m, MAY_BE_NULL),
     FLAG(rotid_hidden, beyond, 0),
     {0},
 };
