@@ -1,14 +1,36 @@
 #include "deck/deck_extended.h"
 
-#include "deck/deck_write.h"
+#include <string.h>
 
-/* The states to write and the values of their unknowns: the base model where nothing was named. */
-static const struct states *extended_states(const struct diagnosis *d, const double **x)
+#include "deck/deck_keep.h"
+
+/* Whether the error of the mesh of a state was found to count. */
+static int mesh_was_refined(const struct diagnosis *d, const char *state)
 {
-    const struct states *states = d->extended_states.nstate ? &d->extended_states : &d->judged;
+    for (int i = 0; i < d->result.nnumerical_findings; i++) {
+        const rotid_numerical_finding *finding = &d->result.numerical_findings[i];
+        if (!strcmp(finding->id, "mesh") && (!finding->state || !state || !strcmp(finding->state, state)))
+            return 1;
+    }
+    return 0;
+}
+
+/* The states to write and the values of their unknowns: the base model where nothing was named. The mesh is that of the deck, or
+ * where its error counts the one that was judged. */
+static int extended_states(struct pool *pool, const struct diagnosis *d, struct states *states, const double **x)
+{
+    int status = states_copy(pool, d->extended_states.nstate ? &d->extended_states : &d->judged, states);
     const rotid_fit_result *fit = d->extended.fit ? d->extended.fit : d->base.fit;
+    for (int s = 0; s < states->nstate && !status; s++) {
+        struct rotor *rotor = &states->state[s].job.rotor;
+        const struct rotor *given = s < d->given.nstate ? &d->given.state[s].job.rotor : NULL;
+        if (mesh_was_refined(d, states->state[s].name))
+            rotor->segment = d->mesh ? d->mesh[s] : rotor->segment;
+        else if (given && given->nsegment == rotor->nsegment)
+            rotor->segment = given->segment;
+    }
     *x = fit && fit->n == states->nparameter ? fit->x : NULL;
-    return states;
+    return status;
 }
 
 int deck_write_extended(struct pool *pool, const struct diagnosis *d, const char *from, char **text)
@@ -30,6 +52,9 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *d, const char
         if (!extra[i])
             return ROTID_ERROR_MEMORY;
     struct deck_write_options options = {.nextra = lines, .extra = extra};
-    const struct states *states = extended_states(d, &options.x);
-    return deck_write_states(pool, states, &options, text);
+    struct states states;
+    int status = extended_states(pool, d, &states, &options.x);
+    if (!status)
+        status = deck_write_states(pool, &states, &options, text);
+    return status ? status : deck_keep(pool, d, &states, &options, from, text);
 }

@@ -49,6 +49,8 @@ struct diagnosis {
     struct states given;         /* what was diagnosed, as it came: of what changed the second state, corrected */
     struct states judged;        /* the states that were judged: LIKELIHOOD, NONE, faults of the data taken out, noise as found */
     struct job job;              /* the first of them */
+    struct segment **mesh;       /* [judged.nstate] the segments with which each state was judged, before the last fits refined them
+                                    further; NULL before those */
     struct identification today; /* by the FIT of the deck; fit NULL where it could not be made. Of several states this, base and
                                     extended are those of the first with the fit of all, and stand for all in what follows */
     struct identification base;

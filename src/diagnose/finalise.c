@@ -271,8 +271,12 @@ static int refine_base(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
     int status = ROTID_OK, finer_mesh = 0;
+    out->mesh = POOL_ARRAY(engine->pool, struct segment *, out->judged.nstate);
+    if (!out->mesh)
+        return ROTID_ERROR_MEMORY;
     for (int s = 0, mode = 0; s < out->judged.nstate && !status; mode += out->judged.state[s].job.measurement.nmode, s++) {
         struct job *job = &out->judged.state[s].job;
+        out->mesh[s] = job->rotor.segment;
         status = base_refine(engine->pool, job, engine->number + mode, &out->state_base[s].spectrum);
         finer_mesh |= job->rotor.segment != engine->states.state[s].job.rotor.segment;
     }
