@@ -1,34 +1,17 @@
 #include "deck/deck_extended.h"
 
-#include <string.h>
-
 #include "deck/deck_keep.h"
 
-/* Whether the error of the mesh of a state was found to count. */
-static int mesh_was_refined(const struct diagnosis *d, const char *state)
-{
-    for (int i = 0; i < d->result.nnumerical_findings; i++) {
-        const rotid_numerical_finding *finding = &d->result.numerical_findings[i];
-        if (!strcmp(finding->id, "mesh") && (!finding->state || !state || !strcmp(finding->state, state)))
-            return 1;
-    }
-    return 0;
-}
-
-/* The states to write and the values of their unknowns: the base model where nothing was named. The mesh is that of the deck, or
- * where its error counts the one that was judged. */
+/* The states to write and the values of their unknowns: the base model where nothing was named, with the mesh of the deck where
+ * that suffices, and of a solid, whose mesh follows from its outline. */
 static int extended_states(struct pool *pool, const struct diagnosis *d, struct states *states, const double **x)
 {
     int status = states_copy(pool, d->extended_states.nstate ? &d->extended_states : &d->judged, states);
     const rotid_fit_result *fit = d->extended.fit ? d->extended.fit : d->base.fit;
-    for (int s = 0; s < states->nstate && !status; s++) {
-        struct rotor *rotor = &states->state[s].job.rotor;
-        const struct rotor *given = s < d->given.nstate ? &d->given.state[s].job.rotor : NULL;
-        if (mesh_was_refined(d, states->state[s].name))
-            rotor->segment = d->mesh ? d->mesh[s] : rotor->segment;
-        else if (given && given->nsegment == rotor->nsegment)
-            rotor->segment = given->segment;
-    }
+    for (int s = 0; s < states->nstate && s < d->given.nstate && !status; s++)
+        if ((d->mesh_suffices || states->state[s].job.options.solid) &&
+            d->given.state[s].job.rotor.nsegment == states->state[s].job.rotor.nsegment)
+            states->state[s].job.rotor.segment = d->given.state[s].job.rotor.segment;
     *x = fit && fit->n == states->nparameter ? fit->x : NULL;
     return status;
 }

@@ -49,8 +49,7 @@ struct diagnosis {
     struct states given;         /* what was diagnosed, as it came: of what changed the second state, corrected */
     struct states judged;        /* the states that were judged: LIKELIHOOD, NONE, faults of the data taken out, noise as found */
     struct job job;              /* the first of them */
-    struct segment **mesh;       /* [judged.nstate] the segments with which each state was judged, before the last fits refined them
-                                    further; NULL before those */
+    int mesh_suffices;           /* the meshes of the deck do: the finer ones of the last fits move nothing that counts */
     struct identification today; /* by the FIT of the deck; fit NULL where it could not be made. Of several states this, base and
                                     extended are those of the first with the fit of all, and stand for all in what follows */
     struct identification base;

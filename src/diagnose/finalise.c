@@ -266,17 +266,23 @@ static int identify_whole(struct engine *engine, const struct states *states, st
     return ROTID_STOP_CANCELLED;
 }
 
+#define SAME_FIT 0.1 /* of a standard deviation, or of chi2: what moves a fit by less is no reason to change the mesh of a deck */
+
+static int same_fit(const rotid_fit_result *a, const rotid_fit_result *b)
+{
+    int same = fabs(a->chi2 - b->chi2) < SAME_FIT;
+    for (int p = 0; p < a->n; p++)
+        same &= fabs(a->x[p] - b->x[p]) <= SAME_FIT * (isfinite(a->std[p]) ? a->std[p] : 0);
+    return same;
+}
+
 /* The base again on a mesh without error: its moduli and intervals are results. */
 static int refine_base(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
     int status = ROTID_OK, finer_mesh = 0;
-    out->mesh = POOL_ARRAY(engine->pool, struct segment *, out->judged.nstate);
-    if (!out->mesh)
-        return ROTID_ERROR_MEMORY;
     for (int s = 0, mode = 0; s < out->judged.nstate && !status; mode += out->judged.state[s].job.measurement.nmode, s++) {
         struct job *job = &out->judged.state[s].job;
-        out->mesh[s] = job->rotor.segment;
         status = base_refine(engine->pool, job, engine->number + mode, &out->state_base[s].spectrum);
         finer_mesh |= job->rotor.segment != engine->states.state[s].job.rotor.segment;
     }
@@ -286,6 +292,9 @@ static int refine_base(struct engine *engine)
     status = identify_whole(engine, &out->judged, &each, &finer);
     if (status)
         return status;
+    out->mesh_suffices = same_fit(out->base.fit, finer.fit);
+    for (int i = 0; i < out->result.nnumerical_findings; i++)
+        out->mesh_suffices &= strcmp(out->result.numerical_findings[i].id, "mesh") != 0;
     if (engine->fit == out->base.fit)
         engine->fit = finer.fit;
     rotid_fit_free(out->base.fit);

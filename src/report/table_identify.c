@@ -105,7 +105,7 @@ static void print_hidden(FILE *out, const rotid_identification *fit)
             continue;
         if (!shown++)
             wrap_open(&wrap, out, 2, 100, "a cause that these data would not show may move ");
-        wrap_item(&wrap, "%s%s %s", shown > 1 ? ", " : "", value->name,
+        wrap_item(&wrap, "%s%s by %s", shown > 1 ? ", " : "", value->name,
                   linear_percent_text(100 * fabs(hidden->shift / value->value), (char[32]){""}));
         wrap_item(&wrap, "(%s%s%s)", hidden->id, *hidden->target ? " of " : "", hidden->target);
     }
