@@ -406,6 +406,7 @@ module rotid
     real(c_double) :: size = 0
     type(c_ptr) :: size_unit = c_null_ptr ! text
     real(c_double) :: z_m = 0
+    real(c_double) :: width_m = 0
     integer(c_int) :: beyond = 0
   end type rotid_hidden
 

@@ -14,14 +14,15 @@ static rotid_identification *keep(struct call *call, rotid_identification *made)
     return call_keep(call, &identification_whole_record, made, &made->memory);
 }
 
-/* What may hide in the parameters, where the fit is one that a diagnosis makes too. It is no part of the fit: without it there is
- * still a result. */
-static void find_hidden(struct call *call, const struct states *states, const struct identification *found,
-                        const rotid_fit_result *fit, rotid_identification *out)
+/* What may hide in the parameters, where the fit is one that a diagnosis makes too. Without it there is still a result, but where
+ * memory is out. */
+static int find_hidden(struct call *call, const struct states *states, const struct identification *found,
+                       const rotid_fit_result *fit, rotid_identification *out)
 {
     struct pool *pool = &call->entry.scratch;
-    int *number = POOL_ARRAY(pool, int, states_modes(states, states->nstate));
-    int usable = number && out && fit->n && fit->converged;
+    int *number = POOL_ARRAY(pool, int, states_modes(states, states->nstate)), usable = fit->n && fit->converged;
+    if (!number || !out)
+        return ROTID_ERROR_MEMORY;
     for (int s = 0, at = 0; s < states->nstate && usable; s++) {
         const struct job *job = &states->state[s].job;
         usable = job->options.fit.functional == ROTID_LIKELIHOOD && job->options.fit.reduction == ROTID_REDUCTION_NONE &&
@@ -29,8 +30,10 @@ static void find_hidden(struct call *call, const struct states *states, const st
         for (int k = 0; k < job->measurement.nmode && usable; k++)
             number[at++] = found[s].compared.number[k];
     }
-    if (usable && hidden_of_fit(pool, states, number, fit, &call->environment, &out->nhidden, &out->hidden))
+    int status = usable ? hidden_of_fit(pool, states, number, fit, &call->environment, &out->nhidden, &out->hidden) : ROTID_OK;
+    if (status)
         out->nhidden = 0;
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
 }
 
 static rotid_identification *make_result(struct call *call, const struct job *job, const struct identification *found)
@@ -63,9 +66,8 @@ static int identify(struct call *call, const rotid_deck *deck, int baseline, rot
         comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
     rotid_identification *made =
         one ? make_result(call, &states->state[0].job, found) : result_identification_states(pool, states, found, fit);
-    if (baseline)
-        find_hidden(call, states, found, one ? found->fit : fit, made);
-    *result = keep(call, made);
+    if (!baseline || !find_hidden(call, states, found, one ? found->fit : fit, made))
+        *result = keep(call, made);
     if (*result)
         return ROTID_OK;
     rotid_fit_free(one ? found->fit : fit);
