@@ -86,7 +86,7 @@ static void drift_is_told(void **state)
         {"type(c_funptr) :: trace =", "type(c_ptr) :: trace =",
          "rotid_lm_options.trace is type(c_ptr)(), not type(c_funptr)()\n"},
         {"    integer(c_int) :: beyond = 0\n", "    integer(c_int) :: beyond = 0, more = 0\n",
-         "rotid_detectable: member 9 is more, not the end\n"},
+         "rotid_hidden: member 12 is more, not the end\n"},
         {":: nrigid_hz = 0\n", ":: nrigid_hz\n", "rotid_spectrum.nrigid_hz has no value to begin with\n"},
         {"type, bind(C) :: rotid_pair", "type, bind(C) :: rotid_goodness", "rotid_goodness is not in the header\n"},
         /* functions: missing, bound to another, another number, name, kind, passing or intent of arguments, another result */
