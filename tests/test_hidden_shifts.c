@@ -14,10 +14,10 @@
 #define DEEP      0.2  /* a zone of this depth is softer by a quarter of that than its depth says */
 
 #define MATERIALS                                                                                                                \
-    "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n"                                                              \
+    "*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.30\n*DENSITY\n7850\n"                                                            \
     "*MATERIAL, NAME=stack\n*ELASTIC, TYPE=SHEAR\n1.1e11, 0.35e11, 0.3\n*DENSITY\n7600\n"
 #define SHAFTS                                                                                                                   \
-    "*SHAFT, NAME=left, MATERIAL=steel\n0.30, 0.10, 0, 36\n*SHAFT, NAME=core, MATERIAL=stack\n0.60, 0.20, 0, 72\n"                 \
+    "*SHAFT, NAME=left, MATERIAL=steel\n0.30, 0.10, 0, 36\n*SHAFT, NAME=core, MATERIAL=stack\n0.60, 0.20, 0, 72\n"               \
     "*SHAFT, NAME=right, MATERIAL=steel\n0.25, 0.09, 0, 30\n"
 #define SPRINGS "*SPRING, NAME=sling\nstart, 4000\n*SPRING, NAME=tail\nend, 4000\n"
 #define UNKNOWN "*IDENTIFY\ncore.E, 1e10, 4e11, 1.1e11\ncore.G, 1e10, 1.3e11, 0.35e11\n"
@@ -39,12 +39,9 @@ static const struct rotor_case beam = {"beam", MATERIALS SHAFTS SPRINGS, UNKNOWN
                                          "*FIT\n",
                                          1,
                                          {""}},
-                               states = {"states",
-                                         MATERIALS SHAFTS SPRINGS,
-                                         UNKNOWN,
-                                         "*FIT\n",
-                                         2,
-                                         {"*STATE, NAME=bare\n", "*STATE, NAME=disc\n*DISK\n0.25, 8\n"}};
+                               states = {"states", MATERIALS SHAFTS SPRINGS,
+                                         UNKNOWN,  "*FIT\n",
+                                         2,        {"*STATE, NAME=bare\n", "*STATE, NAME=disc\n*DISK\n0.25, 8\n"}};
 
 static rotid_deck *read_text(const char *text)
 {
@@ -152,7 +149,7 @@ static void look(const struct rotor_case *c, int least)
     assert_int_equal(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);
     rotid_deck_free(deck);
     assert_int_equal(d->verdict.kind, ROTID_ADEQUATE);
-    assert_int_equal(d->nhidden, 3 * 2); /* three causes of each modulus */
+    assert_int_equal(d->nhidden, 3 * 2);             /* three causes of each modulus */
     rotid_identification *fit = identified(text, 1); /* on the mesh of the deck, which is that of the data */
     judge(c, d->nhidden, d->hidden, fit, least);
     assert_non_null(strstr(d->verdict.sentence, "A cause below its detection limit may be present"));

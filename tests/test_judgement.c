@@ -124,9 +124,10 @@ static void the_fit_of_today_is_shown_where_it_differs(void **state)
 static void the_spread_is_that_of_all_members(void **state)
 {
     (void)state;
-    rotid_cause_value value[3][2] = {{{"core.E", "Pa", 1.00, 0.02, {0.96, 1.04}, 0}, {"core.G", "Pa", 0.40, 0.01, {0.38, 0.42}, 0}},
-                                     {{"core.E", "Pa", 1.20, 0.02, {1.16, 1.24}, 0}, {"core.G", "Pa", 0.30, 0.01, {NAN, NAN}, 0}},
-                                     {{"core.E", "Pa", 1.10, 0.20, {0.70, 1.50}, 0}, {"core.G", "Pa", 0.35, 0.01, {0.33, 0.37}, 0}}};
+    rotid_cause_value value[3][2] = {
+        {{"core.E", "Pa", 1.00, 0.02, {0.96, 1.04}, 0}, {"core.G", "Pa", 0.40, 0.01, {0.38, 0.42}, 0}},
+        {{"core.E", "Pa", 1.20, 0.02, {1.16, 1.24}, 0}, {"core.G", "Pa", 0.30, 0.01, {NAN, NAN}, 0}},
+        {{"core.E", "Pa", 1.10, 0.20, {0.70, 1.50}, 0}, {"core.G", "Pa", 0.35, 0.01, {0.33, 0.37}, 0}}};
     struct candidate member[4] = {{.set = 1, .nidentified = 2, .identified = value[0]},
                                   {.set = 2, .nidentified = 2, .identified = value[1]},
                                   {.set = 2},
@@ -196,7 +197,8 @@ static void an_interval_is_wide_from_15_per_cent_on(void **state)
     assert_null(strstr(screen, "to 14 % only"));
     assert_ptr_equal(hidden_in(3, hidden, &p[0]), &hidden[0]);
     assert_null(hidden_in(3, hidden, &p[1])); /* within its interval */
-    assert_non_null(strstr(screen, "a cause that these data would not show may move core.E by up to 20 % (density of core): see rotid"));
+    assert_non_null(
+        strstr(screen, "a cause that these data would not show may move core.E by up to 20 % (density of core): see rotid"));
     free(screen);
 }
 

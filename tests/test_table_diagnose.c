@@ -570,8 +570,8 @@ static void a_named_cause_is_read_from_top_to_bottom(void **state)
     assert_in_range(lines, 40, 82);
 }
 
-/* Every candidate that stays has its parameters, best first, the rest with --verbose, then what the dispute is worth; what a cause
- * below its limit would move is said of a model that explains the data alone. */
+/* Every candidate that stays has its parameters, best first, the rest with --verbose, then what the dispute is worth; what a
+ * cause below its limit would move is said of a model that explains the data alone. */
 static void the_parameters_stand_at_the_top(void **state)
 {
     (void)state;
@@ -608,9 +608,11 @@ static void the_parameters_stand_at_the_top(void **state)
     s.d.result.verdict.nspread = 1;
     s.d.result.verdict.spread = spread;
     show(0, 100);
-    assert_order("PARAMETERS  model of the deck, 95 % intervals\n", "    1 (0.95 ... 1.05) e+11 Pa if it is joint of core|right\n");
+    assert_order("PARAMETERS  model of the deck, 95 % intervals\n",
+                 "    1 (0.95 ... 1.05) e+11 Pa if it is joint of core|right\n");
     assert_says("    1.01 (0.96 ... 1.06) e+11 Pa if it is joint of core|right with ");
-    assert_says("    2 more with --verbose\n    these causes leave 1e+11 to 1.08e+11 Pa, 7.7 % apart; their intervals 9e+10 to 1.2e+11\n");
+    assert_says("    2 more with --verbose\n    these causes leave 1e+11 to 1.08e+11 Pa, 7.7 % apart; their intervals 9e+10 to "
+                "1.2e+11\n");
     show(1, 100);
     assert_silent("2 more with --verbose");
     assert_says("    1.08 (1.03 ... 1.13) e+11 Pa if it is joint of core|right\n");

@@ -9,9 +9,13 @@
 rotid_cause result_cause(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
-    rotid_cause out = {
-        .id = c->cause->id, .target = c->target, .name = c->effect.name, .variant = candidate_variant(c), .state = c->state_name,
-        .nidentified = c->nidentified, .identified = c->identified};
+    rotid_cause out = {.id = c->cause->id,
+                       .target = c->target,
+                       .name = c->effect.name,
+                       .variant = candidate_variant(c),
+                       .state = c->state_name,
+                       .nidentified = c->nidentified,
+                       .identified = c->identified};
     int room = POOL_LIST(pool, out.parameters, EFFECT_MOST_PARAMETERS);
     for (int p = 0; p < room && (parameter = candidate_parameter(c, p)); p++)
         out.parameters[out.nparameters++] = (rotid_cause_value){.name = parameter->name,

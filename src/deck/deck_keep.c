@@ -16,8 +16,8 @@ struct keeping {
     const struct diagnosis *d;
     const struct job *job; /* that is written */
     const struct deck_write_options *options;
-    const char *deck; /* the user's */
-    int own_data;     /* the measured data stay as the deck states them */
+    const char *deck;  /* the user's */
+    int own_data;      /* the measured data stay as the deck states them */
     const char *noise; /* *NOISE in place of its own, up to noise_end; NULL: its own stays */
     const char *noise_end;
 };
@@ -74,8 +74,8 @@ static int names_file(const char *line)
     return 0;
 }
 
-/* The number of characters before field `number` (from 0) of a data line, -1 where it has fewer; *length without the blanks behind
- * it. The line ends before a comment. */
+/* The number of characters before field `number` (from 0) of a data line, -1 where it has fewer; *length without the blanks
+ * behind it. The line ends before a comment. */
 static int find_field(const char *line, int number, int *length)
 {
     int end = 0, begin = 0;
@@ -132,7 +132,8 @@ static void put_segment(const struct keeping *k, struct deck_writer *w, const ch
 {
     const struct rotor *given = &k->d->given.state->job.rotor, *rotor = &k->job->rotor;
     char number[16];
-    if (segment < rotor->nsegment && segment < given->nsegment && rotor->segment[segment].elements != given->segment[segment].elements) {
+    if (segment < rotor->nsegment && segment < given->nsegment &&
+        rotor->segment[segment].elements != given->segment[segment].elements) {
         (void)snprintf(number, sizeof number, "%d", rotor->segment[segment].elements);
         put_with_field(w, line, 3, number);
     } else {
@@ -249,7 +250,8 @@ static int is_named_suspect(const struct keeping *k, const char *card, const cha
     return 0;
 }
 
-static void put_card(struct keeping *k, struct deck_writer *w, const char *card, const char *end, int *segment, int *data, int *fit)
+static void put_card(struct keeping *k, struct deck_writer *w, const char *card, const char *end, int *segment, int *data,
+                     int *fit)
 {
     int identify = is_card(card, "IDENTIFY"), shaft = is_card(card, "SHAFT") || is_card(card, "BEAM"),
         heading = is_card(card, "HEADING"), continues = 1;
@@ -278,7 +280,8 @@ static void put_card(struct keeping *k, struct deck_writer *w, const char *card,
         last = is_comment(line) ? last : line;
     for (const char *line = card; line < end; line += line_length(line)) {
         size_t length = line_length(line);
-        int blank = !line[strspn(line, " \t\r\n")] || strspn(line, " \t\r") == length - 1, is_data = !continues && !is_comment(line) && !blank;
+        int blank = !line[strspn(line, " \t\r\n")] || strspn(line, " \t\r") == length - 1,
+            is_data = !continues && !is_comment(line) && !blank;
         if (identify && is_data)
             put_start(k, w, line);
         else if (shaft && is_data)
@@ -312,7 +315,8 @@ static int compose(struct keeping *k, char **text)
     }
     for (const char *end; *line; line = end) {
         end = next_card(line);
-        if (is_card(line, "INCLUDE") || is_card(line, "STATE") || is_card(line, "UNITS") || (names_file(line) && !(is_measured(line) && !k->own_data)))
+        if (is_card(line, "INCLUDE") || is_card(line, "STATE") || is_card(line, "UNITS") ||
+            (names_file(line) && !(is_measured(line) && !k->own_data)))
             return ROTID_ERROR_ARGUMENT;
         put_card(k, &w, line, end, &segment, &data, &fit);
     }

@@ -256,8 +256,8 @@ int base_prepare(struct engine *engine)
         status = weigh_accelerometer(engine);
     if (!status && one && engine->job->options.solid) /* whose mesh follows from its outline, not from elements of the deck */
         comparison_warn_of_mesh(engine->job, &out->base.spectrum, &out->base.compared, engine->notes);
-    for (int pass = 0; pass < MOST_REFINED && !status && one && !engine->job->options.solid && can_be_refined(&engine->job->rotor);
-         pass++) {
+    for (int pass = 0;
+         pass < MOST_REFINED && !status && one && !engine->job->options.solid && can_be_refined(&engine->job->rotor); pass++) {
         const struct spectrum *s = &out->base.spectrum;
         double ratio = against_noise(engine->job, engine->number, s->mesh_error_percent, s->count, &at), worth = 0;
         struct job finer = *engine->job;

@@ -129,13 +129,12 @@ static int take_identified(struct engine *engine, const struct refit *refit, str
     for (int p = 0; p < engine->nown; p++) {
         const rotid_parameter *named = &refit->states.bounds[p];
         int has = isfinite(fit->std[p]);
-        c->identified[c->nidentified++] =
-            (rotid_cause_value){.name = named->name,
-                                .unit = named->unit,
-                                .value = fit->x[p],
-                                .std = fit->std[p],
-                                .ci95 = {has ? fmax(fit->ci_lower[p], named->lower) : (double)NAN,
-                                         has ? fmin(fit->ci_upper[p], named->upper) : (double)NAN}};
+        c->identified[c->nidentified++] = (rotid_cause_value){.name = named->name,
+                                                              .unit = named->unit,
+                                                              .value = fit->x[p],
+                                                              .std = fit->std[p],
+                                                              .ci95 = {has ? fmax(fit->ci_lower[p], named->lower) : (double)NAN,
+                                                                       has ? fmin(fit->ci_upper[p], named->upper) : (double)NAN}};
     }
     return ROTID_OK;
 }
@@ -176,7 +175,8 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     }
     fitted_errors(&refit->states, engine->holdout, refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
     int status = take_identified(engine, refit, c);
-    return status ? status : sensor_out(engine->pool, &refit->states, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
+    return status ? status
+                  : sensor_out(engine->pool, &refit->states, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
 }
 
 struct leave_out {

@@ -148,8 +148,7 @@ static const char *open_parameters(struct engine *engine)
             continue; /* no interval: it lies at a bound */
         char figure[32];
         const char *how = determined ? pool_format(engine->pool, "determine %s to %s only%s", parameter[p].name,
-                                                   percent_text(half, figure),
-                                                   partner < 0 ? "" : ", and not separately from ")
+                                                   percent_text(half, figure), partner < 0 ? "" : ", and not separately from ")
                                      : pool_format(engine->pool, "do not determine %s%s", parameter[p].name,
                                                    partner < 0 ? "" : " separately from ");
         text = how ? pool_format(engine->pool, "%s The data %s%s: its 95 %% interval is %.3g to %.3g %s.", text, how,
@@ -266,7 +265,8 @@ static int identify_whole(struct engine *engine, const struct states *states, st
     return ROTID_STOP_CANCELLED;
 }
 
-#define SAME_FIT 0.1 /* of a standard deviation, or of chi2: what moves a fit by less is no reason to change the mesh of a deck */
+#define SAME_FIT 0.1 /* of a standard deviation, or of chi2: what moves a fit by less is no reason to change the mesh of a deck  \
+                      */
 
 static int same_fit(const rotid_fit_result *a, const rotid_fit_result *b)
 {

@@ -24,9 +24,11 @@ struct source {
 
 /* The largest amplitude of an item that stays hidden, with the sign that physics allows; *beyond: the physical bound is less than
  * what would show. */
-static double hidden_amplitude(const struct source *from, const struct scan_candidate *c, const struct scan_item *item, int *beyond)
+static double hidden_amplitude(const struct source *from, const struct scan_candidate *c, const struct scan_item *item,
+                               int *beyond)
 {
-    double shown = amplitude_shown(item, from->threshold), side = item->side < 0 || (!item->side && -item->lower > item->upper) ? -1 : 1,
+    double shown = amplitude_shown(item, from->threshold),
+           side = item->side < 0 || (!item->side && -item->lower > item->upper) ? -1 : 1,
            most = side < 0 ? -item->lower : item->upper;
     if (from->moving && from->moving->usable && is_moving_accelerometer(&c->effect)) /* by the frequencies at single sensors */
         shown = fmin(shown, from->moving->smallest / fabs(item->unit));

@@ -61,13 +61,14 @@ const char *hidden_sentence(struct engine *engine, const rotid_fit_result *fit)
         while (p < engine->nown && strcmp(engine->states.bounds[p].name, hidden->parameter) != 0)
             p++;
         last = hidden->parameter;
-        if (!first || !text || p == engine->nown || p >= fit->n || !(fabs(hidden->shift) > (fit->ci_upper[p] - fit->ci_lower[p]) / 2))
+        if (!first || !text || p == engine->nown || p >= fit->n ||
+            !(fabs(hidden->shift) > (fit->ci_upper[p] - fit->ci_lower[p]) / 2))
             continue;
         text = pool_format(engine->pool, "%s%s%s by %s", text, *text ? ", " : "", hidden->parameter,
                            linear_percent_text(100 * fabs(hidden->shift / fit->x[p]), figure));
     }
-    return !text || !*text ? text
-                           : pool_format(engine->pool,
-                                         " A cause below its detection limit may be present: beyond the intervals it may move %s.",
-                                         text);
+    return !text || !*text
+               ? text
+               : pool_format(engine->pool,
+                             " A cause below its detection limit may be present: beyond the intervals it may move %s.", text);
 }

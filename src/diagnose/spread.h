@@ -10,8 +10,8 @@
 int spread_of_alternatives(struct engine *engine);
 
 /* Sentences, each with a blank before it; "" where there is nothing to say, NULL where memory is out.
- * Of the spread: how far the parameters lie apart between the causes. Of what is hidden: how far a cause below its detection limit
- * may have moved each parameter, of those that it moves by more than half of their 95 % interval in `fit`. */
+ * Of the spread: how far the parameters lie apart between the causes. Of what is hidden: how far a cause below its detection
+ * limit may have moved each parameter, of those that it moves by more than half of their 95 % interval in `fit`. */
 const char *spread_sentence(struct engine *engine);
 const char *hidden_sentence(struct engine *engine, const rotid_fit_result *fit);
 

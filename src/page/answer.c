@@ -183,15 +183,17 @@ void answer_identify(struct document *document, const struct result *result, con
     const char *shifts = hidden_shifts_in_words(document->pool, fit, fit->nhidden, fit->hidden);
     if (*shifts)
         say(&reasons, hidden_is_wide(fit, fit->nhidden, fit->hidden) ? TONE_CARE : TONE_GOOD,
-            pool_format(document->pool,
-                        "A cause below its detection limit would not have shown and may be present: it may move %s. rotid diagnose "
-                        "%s says more.",
-                        hidden_causes_in_words(document->pool, fit, fit->nhidden, fit->hidden),
-                        result->head.deck ? result->head.deck : "DECK"));
+            pool_format(
+                document->pool,
+                "A cause below its detection limit would not have shown and may be present: it may move %s. rotid diagnose "
+                "%s says more.",
+                hidden_causes_in_words(document->pool, fit, fit->nhidden, fit->hidden),
+                result->head.deck ? result->head.deck : "DECK"));
     document->tone = reasons.tone;
     if (reasons.tone == TONE_GOOD)
-        document->headline = *shifts ? pool_format(document->pool, "Can be relied on, but what these data do not show may move %s", shifts)
-                                     : "Can be relied on as far as the model is right";
+        document->headline =
+            *shifts ? pool_format(document->pool, "Can be relied on, but what these data do not show may move %s", shifts)
+                    : "Can be relied on as far as the model is right";
     document_section(document, "trust", "How far to trust it");
     document_list(document, reasons.count, reasons.text);
     section_hidden(document, fit, fit->nhidden, fit->hidden);

@@ -158,7 +158,8 @@ static const char *headline(struct pool *pool, const rotid_diagnosis *d, const c
     case ROTID_ADEQUATE:
         return *shifts ? pool_format(pool, "Adequate, but what these data do not show may move %s", shifts) : "Adequate";
     case ROTID_NAMED:
-        return pool_format(pool, "Named: %s%s%s", names(pool, d), *shifts ? "; what these data do not show may move " : "", shifts);
+        return pool_format(pool, "Named: %s%s%s", names(pool, d), *shifts ? "; what these data do not show may move " : "",
+                           shifts);
     case ROTID_AMBIGUOUS:
         return verdict_sets(&d->verdict) == 1
                    ? "Ambiguous: no name can be given"
@@ -335,7 +336,8 @@ void answer_diagnose(struct document *document, const struct result *result)
         document->tone = TONE_CARE;
     document->headline =
         headline(document->pool, d, explained && fit ? hidden_shifts_in_words(document->pool, fit, d->nhidden, d->hidden) : "");
-    document->answer = or_nothing(pool_format(document->pool, "%s%s", or_nothing(verdict(document->pool, d)), values(document->pool, d)));
+    document->answer =
+        or_nothing(pool_format(document->pool, "%s%s", or_nothing(verdict(document->pool, d)), values(document->pool, d)));
     document->next = next(document->pool, d, result->head.deck ? result->head.deck : "DECK");
     on_chance(&reasons, d);
     on_lead(&reasons, d);

@@ -1,4 +1,5 @@
-/* What causes below their detection limits may do to parameters, in words. Texts are never NULL: where memory is out they are "". */
+/* What causes below their detection limits may do to parameters, in words. Texts are never NULL: where memory is out they are "".
+ */
 #ifndef ROTID_PAGE_HIDDEN_WORDS_H
 #define ROTID_PAGE_HIDDEN_WORDS_H
 

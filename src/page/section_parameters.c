@@ -73,7 +73,8 @@ static void say_spread(struct document *document, const rotid_verdict *v)
     }
 }
 
-static struct number_table *table_hidden(struct pool *pool, const rotid_identification *fit, int count, const rotid_hidden *hidden)
+static struct number_table *table_hidden(struct pool *pool, const rotid_identification *fit, int count,
+                                         const rotid_hidden *hidden)
 {
     static const char *const head[] = {"parameter", "moved by", "cause", "its size", "where"};
     struct number_table *table = table_headed(pool, count, 5, head);
@@ -89,8 +90,8 @@ static struct number_table *table_hidden(struct pool *pool, const rotid_identifi
         table_cell(table, i, 3,
                    presence ? "there or not"
                             : pool_format(pool, "%s %s%s%s", hidden[i].component,
-                                          human_digits(pool, fabs(hidden[i].size) * unit.factor, 2),
-                                          *unit.text ? "\xc2\xa0" : "", unit.text));
+                                          human_digits(pool, fabs(hidden[i].size) * unit.factor, 2), *unit.text ? "\xc2\xa0" : "",
+                                          unit.text));
         table_cell(table, i, 4,
                    isfinite(hidden[i].z_m) ? pool_format(pool, "z = %s\xc2\xa0m", human_digits(pool, hidden[i].z_m, 3)) : "");
     }
@@ -102,11 +103,11 @@ void section_hidden(struct document *document, const rotid_identification *fit, 
     if (!count)
         return;
     document_section(document, "hidden", "What may hide in the parameters");
-    document_paragraph(document,
-                       "The model explains the measurement, and so would a model with one of these causes in it, of a size below its "
-                       "detection limit. The fit without the cause moves the parameter as far as this. The size is the smallest "
-                       "that shows in 9 of 10 tests at that place, or the largest that is physical, as its distance from no effect; a "
-                       "smaller one moves the parameter less in proportion.");
+    document_paragraph(
+        document, "The model explains the measurement, and so would a model with one of these causes in it, of a size below its "
+                  "detection limit. The fit without the cause moves the parameter as far as this. The size is the smallest "
+                  "that shows in 9 of 10 tests at that place, or the largest that is physical, as its distance from no effect; a "
+                  "smaller one moves the parameter less in proportion.");
     document_table(document, "Causes below their detection limits that move the parameters most",
                    table_hidden(document->pool, fit, count, hidden));
 }

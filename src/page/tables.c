@@ -26,7 +26,7 @@ struct number_table *tables_parameters(struct pool *pool, const rotid_identifica
         table_cell(table, p, 7, human_trimmed(pool, parameter->lower * f, 5));
         table_cell(table, p, 8, human_trimmed(pool, parameter->upper * f, 5));
         table_cell(table, p, 9,
-                   parameter->at_bound       ? "at its bound"
+                   parameter->at_bound        ? "at its bound"
                    : !parameter->identifiable ? "not determined by these data"
                    : interval_is_wide(parameter->value, parameter->ci95[0], parameter->ci95[1])
                        ? pool_format(pool, "determined to %s\xc2\xa0%% only",

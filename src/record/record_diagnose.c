@@ -27,12 +27,8 @@ static const struct field cause_fields[] = {
 const struct record cause_record = RECORD(rotid_cause, cause_fields);
 
 static const struct field spread_fields[] = {
-    TEXT(rotid_spread, name, 0),
-    TEXT(rotid_spread, unit, 0),
-    NUMBER(rotid_spread, lowest, 0),
-    NUMBER(rotid_spread, highest, 0),
-    INTERVAL(rotid_spread, ci95, 0),
-    {0},
+    TEXT(rotid_spread, name, 0),      TEXT(rotid_spread, unit, 0),     NUMBER(rotid_spread, lowest, 0),
+    NUMBER(rotid_spread, highest, 0), INTERVAL(rotid_spread, ci95, 0), {0},
 };
 static const struct record spread_record = RECORD(rotid_spread, spread_fields);
 

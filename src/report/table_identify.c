@@ -68,9 +68,12 @@ static void print_parameter(FILE *out, const rotid_fitted_parameter *p)
     else
         (void)fprintf(out, "%27s", "cannot be stated");
     (void)fprintf(out, "   %.4g%s", p->start,
-                  p->at_bound ? "   AT ITS BOUND" : !p->identifiable ? "   NOT DETERMINED by these data" : "");
+                  p->at_bound        ? "   AT ITS BOUND"
+                  : !p->identifiable ? "   NOT DETERMINED by these data"
+                                     : "");
     if (p->identifiable && interval_is_wide(p->value, p->ci95[0], p->ci95[1]))
-        (void)fprintf(out, "   to %s only", percent_text(interval_half_percent(p->value, p->ci95[0], p->ci95[1]), (char[32]){""}));
+        (void)fprintf(out, "   to %s only",
+                      percent_text(interval_half_percent(p->value, p->ci95[0], p->ci95[1]), (char[32]){""}));
     (void)fputc('\n', out);
 }
 

@@ -76,8 +76,7 @@ static void print_hidden(const struct diagnosis_view *view, const rotid_fitted_p
             continue;
         if (!shown)
             wrap_open(&wrap, view->out, 6, view->width, "    unseen: ");
-        wrap_item(&wrap, "%s%s by", shown++ ? "; " : "",
-                  linear_percent_text(100 * fabs(hidden->shift / p->value), figure));
+        wrap_item(&wrap, "%s%s by", shown++ ? "; " : "", linear_percent_text(100 * fabs(hidden->shift / p->value), figure));
         wrap_item(&wrap, "%s%s%s", hidden->id, *hidden->target ? " of " : "", hidden->target);
         if (isfinite(hidden->z_m))
             wrap_item(&wrap, "at z %.3g m", hidden->z_m);
