@@ -265,8 +265,9 @@ static int identify_whole(struct engine *engine, const struct states *states, st
     return ROTID_STOP_CANCELLED;
 }
 
-#define SAME_FIT 0.1 /* of a standard deviation, or of chi2: what moves a fit by less is no reason to change the mesh of a deck  \
-                      */
+#define SAME_FIT                                                                                                                 \
+    0.1 /* of a standard deviation, or of chi2: what moves a fit by less is no reason to change the mesh of a deck               \
+         */
 
 static int same_fit(const rotid_fit_result *a, const rotid_fit_result *b)
 {

@@ -33,19 +33,21 @@ static const char *set_label(struct pool *pool, const rotid_diagnosis *d, int i)
 
 static struct number_table *table_values(struct pool *pool, const rotid_diagnosis *d)
 {
-    static const char *const head[] = {"parameter", "if it is", "unit", "value", "95 % from", "to"};
+    static const char *const head[] = {"parameter", "if it is", "unit", "value", "95 % from", "to"},
+                             *const alone[] = {"parameter", "unit", "value", "95 % from", "to"}; /* fits a telephone */
     const rotid_identification *fit = d->extended ? d->extended : d->base;
     const rotid_verdict *v = &d->verdict;
     int n = d->base->nparameters, row = 0, rows = n;
     for (int i = 0; i < v->nalternative_causes; i++)
         rows += verdict_is_pair(v, i) ? 0 : v->alternative_causes[i].nidentified;
-    struct number_table *table = table_headed(pool, rows, 6, head);
+    struct number_table *table = v->nalternative_causes ? table_headed(pool, rows, 6, head) : table_headed(pool, rows, 5, alone);
     for (int p = 0; p < n; p++) {
         const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
         table_cell(table, row, 0, d->base->parameters[p].name);
-        table_cell(table, row, 1, d->extended ? "the extended model" : v->nalternative_causes ? "the model as it is" : "");
+        if (v->nalternative_causes)
+            table_cell(table, row, 1, d->extended ? "the extended model" : "the model as it is");
         if (value)
-            value_cells(pool, table, row, 2, value->value, value->ci95, value->unit);
+            value_cells(pool, table, row, v->nalternative_causes ? 2 : 1, value->value, value->ci95, value->unit);
         row++;
         for (int i = 0; i < v->nalternative_causes; i++) {
             const rotid_cause *cause = &v->alternative_causes[i];
