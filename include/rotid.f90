@@ -396,6 +396,20 @@ module rotid
     type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
   end type rotid_identified_state
 
+  type, bind(C) :: rotid_hidden
+    type(c_ptr) :: parameter = c_null_ptr ! text
+    real(c_double) :: shift = 0
+    type(c_ptr) :: unit = c_null_ptr ! text
+    type(c_ptr) :: id = c_null_ptr ! text
+    type(c_ptr) :: target = c_null_ptr ! text
+    type(c_ptr) :: component = c_null_ptr ! text
+    real(c_double) :: size = 0
+    type(c_ptr) :: size_unit = c_null_ptr ! text
+    real(c_double) :: z_m = 0
+    real(c_double) :: width_m = 0
+    integer(c_int) :: beyond = 0
+  end type rotid_hidden
+
   type, bind(C) :: rotid_identification
     type(c_ptr) :: status = c_null_ptr ! text
     type(c_ptr) :: functional = c_null_ptr ! text
@@ -446,6 +460,8 @@ module rotid
     type(c_ptr) :: memory = c_null_ptr
     integer(c_int) :: nstates = 0
     type(c_ptr) :: states = c_null_ptr ! rotid_identified_state
+    integer(c_int) :: nhidden = 0
+    type(c_ptr) :: hidden = c_null_ptr ! rotid_hidden
   end type rotid_identification
 
   type, bind(C) :: rotid_meridian_mode
@@ -576,7 +592,17 @@ module rotid
     integer(c_int) :: nparameters = 0
     type(c_ptr) :: parameters = c_null_ptr ! rotid_cause_value
     type(c_ptr) :: state = c_null_ptr ! text
+    integer(c_int) :: nidentified = 0
+    type(c_ptr) :: identified = c_null_ptr ! rotid_cause_value
   end type rotid_cause
+
+  type, bind(C) :: rotid_spread
+    type(c_ptr) :: name = c_null_ptr ! text
+    type(c_ptr) :: unit = c_null_ptr ! text
+    real(c_double) :: lowest = 0
+    real(c_double) :: highest = 0
+    real(c_double) :: ci95(2) = 0
+  end type rotid_spread
 
   type, bind(C) :: rotid_verdict
     integer(c_int) :: kind = 0
@@ -594,6 +620,8 @@ module rotid
     type(c_ptr) :: sentence = c_null_ptr ! text
     integer(c_int) :: undetermined_parameters = 0
     integer(c_int) :: confident = 0
+    integer(c_int) :: nspread = 0
+    type(c_ptr) :: spread = c_null_ptr ! rotid_spread
   end type rotid_verdict
 
   type, bind(C) :: rotid_data_finding
@@ -748,6 +776,8 @@ module rotid
     type(c_ptr) :: memory = c_null_ptr
     type(c_ptr) :: before = c_null_ptr ! text
     type(c_ptr) :: after = c_null_ptr ! text
+    integer(c_int) :: nhidden = 0
+    type(c_ptr) :: hidden = c_null_ptr ! rotid_hidden
   end type rotid_diagnosis
 
   type, bind(C) :: rotid_expected_modes

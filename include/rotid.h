@@ -452,6 +452,23 @@ typedef struct rotid_identified_state {
     rotid_geometry *geometry; /* the model at the values of the fit */
 } rotid_identified_state;
 
+/* What a cause that these data would not have shown may do to a parameter of *IDENTIFY: the fit without the cause moves the
+ * parameter by `shift` where the cause is there with `size`. The size is the smallest that shows 9 times in 10 at that place, or
+ * the largest within physical bounds where that is less. Linear. */
+typedef struct rotid_hidden {
+    const char *parameter; /* such as core.E */
+    double shift;          /* of its value, in its unit */
+    const char *unit;      /* of shift */
+    const char *id;        /* of the catalogue */
+    const char *target;    /* as in candidates */
+    const char *component; /* the parameter of the cause that is its size; presence of a cause that is there or not */
+    double size;           /* deviation from neutral, with its sign; of a cause with two signs the other one turns that of shift */
+    const char *size_unit; /* of size */
+    double z_m;            /* where on the axis it moves the parameter most [m]; NaN where the cause has no place */
+    double width_m;        /* its width there [m]; NaN where the cause has none */
+    int beyond;            /* no size within physical bounds shows there */
+} rotid_hidden;
+
 /* A model fitted to measured modes. Of several states modes and what goes with them run over all, mass, noise and geometry are
  * those of the first, and shapes and matrices stand in states alone. */
 typedef struct rotid_identification {
@@ -511,6 +528,9 @@ typedef struct rotid_identification {
     void *memory;                 /* internal */
     int nstates;
     rotid_identified_state *states; /* of a deck with several *STATE, in its order; none of a deck that is one state */
+    int nhidden;
+    rotid_hidden *hidden; /* as that of a diagnosis, which looks for these causes; empty without stated noise, but with LIKELIHOOD
+                             and the full model, and where no baseline was asked for */
 } rotid_identification;
 
 /* A mode of a solid of revolution in the plane of bending. Four significant digits. */
@@ -662,7 +682,18 @@ typedef struct rotid_cause {
     int nparameters;
     rotid_cause_value *parameters; /* at the best values found */
     const char *state; /* the one state in which it acts; NULL: in all that have its target, or the deck has no *STATE */
+    int nidentified;
+    rotid_cause_value *identified; /* the parameters of *IDENTIFY where it is in the model, alone or with the second cause of its
+                                      pair; none where it was not fitted, or was named */
 } rotid_cause;
+
+/* How far a parameter of *IDENTIFY lies apart between the causes that cannot be told apart. */
+typedef struct rotid_spread {
+    const char *name;       /* such as core.E */
+    const char *unit;       /* 1 for a pure number */
+    double lowest, highest; /* of its values with one of these causes in the model */
+    double ci95[2];         /* that hold the 95 % intervals of all of them; NaN where one of them has none */
+} rotid_spread;
 
 /* What a diagnosis says of physical causes: faults of the data and of the numbers are removed before. */
 typedef struct rotid_verdict {
@@ -681,6 +712,8 @@ typedef struct rotid_verdict {
     const char *sentence;            /* the verdict for a person; NULL where there is none */
     int undetermined_parameters;     /* parameters of the base model that the data leave open */
     int confident;                   /* modes, stated noise and reach of the sensors suffice for naming a cause */
+    int nspread;
+    rotid_spread *spread; /* over alternative_causes: what the dispute is worth in parameters; empty where nothing is open */
 } rotid_verdict;
 
 /* A fault of the measurement chain, taken out of the data. */
@@ -847,6 +880,8 @@ typedef struct rotid_diagnosis {
         *extended_deck; /* the deck with the named causes and the fitted values in it, as text; NULL where it has no form */
     void *memory;       /* internal */
     const char *before, *after; /* the states of which it says what changed between them; NULL: it says what the model lacks */
+    int nhidden;
+    rotid_hidden *hidden; /* for each parameter of *IDENTIFY those that move it most, the largest first, three at most */
 } rotid_diagnosis;
 
 /* ---- suggestion: what to measure next */
@@ -979,7 +1014,8 @@ ROTID_API int rotid_spectrum_beside(const rotid_deck *deck, const double *x, int
 ROTID_API void rotid_spectrum_free(rotid_spectrum *spectrum);
 
 /* What `rotid identify` does: pairs, fits *IDENTIFY of the deck by its FIT, pairs again; over all states of a deck at once. With nothing to identify the model is
- * compared as it stands. baseline: nonzero, NLopt on the same objective as well. The environment's allocator must exist until
+ * compared as it stands. baseline: nonzero, checks as well: NLopt on the same objective, and what may hide in
+ * the parameters (`hidden`). The environment's allocator must exist until
  * the result is freed. Statuses: every ROTID_ERROR_ but SYNTAX and IO; ARGUMENT where the deck has errors or nothing measured.
  * Cancelled: ROTID_OK with fit->status == ROTID_STOP_CANCELLED and the best point so far. On an error *result is NULL.
  * Cancelled while NLopt runs, or without NLopt (make WITH_NLOPT=0): the fit is complete and fit->nbaseline is 0. */

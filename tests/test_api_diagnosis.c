@@ -37,6 +37,84 @@ static void the_extended_deck_is_that_of_the_program(void **state)
     free(text);
 }
 
+/* Whether `line` [length] stands in the text as a line. */
+static int has_line(const char *text, const char *line, size_t length)
+{
+    for (const char *at = text; *at; at += strcspn(at, "\n"), at += *at == '\n')
+        if (strcspn(at, "\n") == length && !strncmp(at, line, length))
+            return 1;
+    return 0;
+}
+
+static char *file_text(const char *path)
+{
+    char *text = calloc(1 << 20, 1);
+    FILE *stream = fopen(path, "rb");
+    assert_non_null(stream);
+    assert_true(fread(text, 1, (1 << 20) - 1, stream) > 0);
+    (void)fclose(stream);
+    return text;
+}
+
+/* The extended deck has every line of the user's but those that had to change, in its order, and is fitted as the diagnosis was:
+ * a suspicion that was named; a mesh that is fine enough; noise that was assumed; measured data in a file. */
+static void the_extended_deck_keeps_the_words_of_the_user(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *deck, *gone[6]; /* beginnings of lines that change */
+        int in_file;
+    } table[] = {
+        {"brake_reuss_lap.inp", {"*FIT", "*CAUSE, NAME=lap, ", "width, 0.12"}, 0},
+        {"roving_hammer_beam.inp", {"*FIT", "beam.E", "beam.G"}, 0},
+        {"foam_bar_supports.inp", {"*FIT", "bar.E"}, 0},
+        {"solid_rotor.inp", {"*FIT", "core.E", "core.G", "*MEASURED", "*NOISE"}, 1},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        char path[512], failure[ROTID_FAILURE_LENGTH];
+        (void)snprintf(path, sizeof path, ROTID_SOURCE_DIR "/input/%s", table[i].deck);
+        rotid_deck *deck = bench_deck(path);
+        rotid_diagnosis *d;
+        rotid_identification *fit;
+        assert_status(rotid_diagnose(deck, NULL, NULL, failure, &d), ROTID_OK);
+        rotid_deck_free(deck);
+        char *text = file_text(path);
+        int comments = 0;
+        for (const char *line = text; *line; line += strcspn(line, "\n"), line += *line == '\n') {
+            size_t length = strcspn(line, "\n");
+            int goes = !length;
+            for (int g = 0; g < 6 && table[i].gone[g]; g++)
+                goes |= !strncmp(line, table[i].gone[g], strlen(table[i].gone[g]));
+            if (goes)
+                continue;
+            comments += !strncmp(line, "**", 2);
+            if (!has_line(d->extended_deck, line, length))
+                print_error("%s lacks: %.*s\n", table[i].deck, (int)length, line);
+            assert_true(has_line(d->extended_deck, line, length));
+        }
+        assert_true(comments > 2);
+        assert_true(!table[i].in_file || !strstr(d->extended_deck, "FILE=")); /* it may be read from anywhere */
+        free(text);
+        /* what it gives is what the diagnosis found */
+        const rotid_identification *found = d->extended ? d->extended : d->base;
+        FILE *stream = fopen(extended_path, "wb");
+        assert_non_null(stream);
+        (void)fputs(d->extended_deck, stream);
+        (void)fclose(stream);
+        deck = bench_deck(extended_path);
+        assert_status(rotid_identify(deck, 0, NULL, failure, &fit), ROTID_OK);
+        rotid_deck_free(deck);
+        assert_int_equal(fit->nparameters, found->nparameters);
+        for (int p = 0; p < fit->nparameters; p++) {
+            double half = (found->parameters[p].ci95[1] - found->parameters[p].ci95[0]) / 2;
+            assert_string_equal(fit->parameters[p].name, found->parameters[p].name);
+            assert_close(fit->parameters[p].value, found->parameters[p].value, 1e-4, isfinite(half) ? 0.05 * half : 0);
+        }
+        rotid_identification_free(fit);
+        rotid_diagnosis_free(d);
+    }
+}
+
 static double rms_of_fitted(const rotid_identification *fit)
 {
     double sum = 0;
@@ -125,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_extended_deck_is_that_of_the_program),
+        cmocka_unit_test(the_extended_deck_keeps_the_words_of_the_user),
         cmocka_unit_test(what_was_hidden_is_named),
     };
     return cmocka_run_group_tests_name("api diagnosis", tests, open_directory, remove_directory);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "diagnose/spread.h"
+#include "fit/interval.h"
 #include "report/table.h"
 #include "result/judgement.h"
 #include "support.h"
@@ -118,9 +120,93 @@ static void the_fit_of_today_is_shown_where_it_differs(void **state)
     assert_null(diagnosis_today(&d));
 }
 
+/* Over sets of causes, a pair counting once by its first member; one interval that is missing leaves none. */
+static void the_spread_is_that_of_all_members(void **state)
+{
+    (void)state;
+    rotid_cause_value value[3][2] = {
+        {{"core.E", "Pa", 1.00, 0.02, {0.96, 1.04}, 0}, {"core.G", "Pa", 0.40, 0.01, {0.38, 0.42}, 0}},
+        {{"core.E", "Pa", 1.20, 0.02, {1.16, 1.24}, 0}, {"core.G", "Pa", 0.30, 0.01, {NAN, NAN}, 0}},
+        {{"core.E", "Pa", 1.10, 0.20, {0.70, 1.50}, 0}, {"core.G", "Pa", 0.35, 0.01, {0.33, 0.37}, 0}}};
+    struct candidate member[4] = {{.set = 1, .nidentified = 2, .identified = value[0]},
+                                  {.set = 2, .nidentified = 2, .identified = value[1]},
+                                  {.set = 2},
+                                  {.set = 3, .nidentified = 2, .identified = value[2]}};
+    struct diagnosis d = {.nalternative = 4, .alternative = member};
+    struct pool pool;
+    pool_open(&pool, NULL);
+    struct engine engine = {.pool = &pool, .nown = 2, .out = &d};
+    assert_int_equal(spread_of_alternatives(&engine), ROTID_OK);
+    const rotid_verdict *v = &d.result.verdict;
+    assert_int_equal(v->nspread, 2);
+    assert_string_equal(v->spread[1].name, "core.G");
+    assert_close(v->spread[0].lowest, 1.00, 0, 0);
+    assert_close(v->spread[0].highest, 1.20, 0, 0);
+    assert_close(v->spread[0].ci95[0], 0.70, 0, 0);
+    assert_close(v->spread[0].ci95[1], 1.50, 0, 0);
+    assert_close(v->spread[1].lowest, 0.30, 0, 0);
+    assert_close(v->spread[1].highest, 0.40, 0, 0);
+    assert_true(isnan(v->spread[1].ci95[0]) && isnan(v->spread[1].ci95[1]));
+    assert_string_equal(spread_sentence(&engine), " Between these causes differ: core.E by 18 %, core.G by 29 %.");
+    d.nalternative = 1; /* a cause alone is no dispute */
+    assert_string_equal(spread_sentence(&engine), "");
+    d.nalternative = 0;
+    assert_int_equal(spread_of_alternatives(&engine), ROTID_OK);
+    assert_int_equal(v->nspread, 0);
+    pool_close(&pool);
+}
+
+/* One rule for a wide interval, in identify as in a diagnosis. */
+static void an_interval_is_wide_from_15_per_cent_on(void **state)
+{
+    (void)state;
+    char text[32];
+    assert_false(interval_is_wide(-2, -2.29, -1.71));
+    assert_true(interval_is_wide(-2, -2.31, -1.69));
+    assert_false(interval_is_wide(1, NAN, NAN));
+    assert_close(interval_half_percent(-2, -2.31, -1.69), 15.5, 1e-12, 0);
+    assert_string_equal(linear_percent_text(3.14, text), "up to 3.1 %");
+    assert_string_equal(linear_percent_text(50.1, text), "more than 50 %");
+    assert_string_equal(percent_text(107.3, text), "107 %");
+    rotid_fitted_parameter p[2] = {{.name = "core.E", .unit = "Pa", .value = 1, .ci95 = {0.84, 1.16}, .identifiable = 1},
+                                   {.name = "core.G", .unit = "Pa", .value = 1, .ci95 = {0.86, 1.14}, .identifiable = 1}};
+    rotid_compared_mode mode = {.mode = 1, .measured_hz = 100, .predicted_hz = 101, .error_percent = 1};
+    rotid_hidden hidden[3] = {{.parameter = "core.E", .shift = -0.2, .id = "density", .target = "core"},
+                              {.parameter = "core.E", .shift = 0.19, .id = "joint", .target = ""},
+                              {.parameter = "core.G", .shift = 0.13, .id = "added_mass", .target = ""}};
+    double error = 0, correlation[4] = {1, 0, 0, 1};
+    rotid_identification fit = {.status = "converged",
+                                .functional = "LIKELIHOOD",
+                                .reduction = "NONE",
+                                .nparameters = 2,
+                                .parameters = p,
+                                .correlation = correlation,
+                                .nmodes = 1,
+                                .modes = &mode,
+                                .reduction_error_percent = &error,
+                                .mesh_error_percent = &error,
+                                .nhidden = 3,
+                                .hidden = hidden};
+    struct result result = {.identify = &fit};
+    char *screen = NULL;
+    size_t size;
+    FILE *out = open_memstream(&screen, &size);
+    table_identify(out, &result, 0, 0);
+    (void)fclose(out);
+    assert_non_null(strstr(screen, "   to 16 % only\n"));
+    assert_null(strstr(screen, "to 14 % only"));
+    assert_ptr_equal(hidden_in(3, hidden, &p[0]), &hidden[0]);
+    assert_null(hidden_in(3, hidden, &p[1])); /* within its interval */
+    assert_non_null(
+        strstr(screen, "a cause that these data would not show may move core.E by up to 20 % (density of core): see rotid"));
+    free(screen);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_spread_is_that_of_all_members),
+        cmocka_unit_test(an_interval_is_wide_from_15_per_cent_on),
         cmocka_unit_test(errors_of_fitted_modes_and_of_those_held_out_stand_apart),
         cmocka_unit_test(noise_explains_a_misfit_or_the_model_is_not_adequate),
         cmocka_unit_test(a_lead_counts_what_was_searched_for),

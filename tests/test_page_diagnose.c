@@ -214,7 +214,21 @@ static void an_adequate_model_and_a_fault_of_the_data_are_told_apart(void **stat
     cJSON *json = page_json("adequate.json");
     const char *html = page_made("adequate.json");
     assert_string_equal(text_of(get(json, "verdict"), "kind"), "adequate");
-    page_says(html, "class=\"answer good\"");
+    /* a ring of any size at any place leaves much for others to hide in */
+    const cJSON *most = element(json, "hidden", 0), *fitted = element(get(json, "base"), "parameters", 0);
+    double percent = 100 * fabs(number_of(most, "shift") / number_of(fitted, "value")), widest = 0;
+    assert_string_equal(text_of(most, "parameter"), text_of(fitted, "name"));
+    for (int i = 0; i < cJSON_GetArraySize(get(json, "hidden")); i++)
+        for (int p = 0; p < cJSON_GetArraySize(get(get(json, "base"), "parameters")); p++) {
+            const cJSON *one = element(json, "hidden", i), *of = element(get(json, "base"), "parameters", p);
+            if (!strcmp(text_of(one, "parameter"), text_of(of, "name")))
+                widest = fmax(widest, 100 * fabs(number_of(one, "shift") / number_of(of, "value")));
+        }
+    assert_true(percent < 50 && widest > 15);
+    page_says(html, "class=\"answer care\"");
+    page_says(html, "Adequate, but what these data do not show may move %s by up to %.2g %%", text_of(fitted, "name"), percent);
+    page_says(html, "<section id=\"verdict-parameters\">");
+    page_says(html, "<section id=\"hidden\">");
     page_says(html, "The model explains the measurement within its noise");
     page_says(html, "Next: read the detection limits");
     page_says(html, "Nothing promised enough to be fitted.");

@@ -538,6 +538,7 @@ static void a_named_cause_is_read_from_top_to_bottom(void **state)
     (void)state;
     static const char *const parts[] = {"A rotor of three groups",
                                         "VERDICT  NAMED",
+                                        "PARAMETERS  extended model, 95 % intervals",
                                         "FIT AS SPECIFIED  HYBRID, reduction GUYAN",
                                         "NUMBERS",
                                         "DATA",
@@ -566,7 +567,55 @@ static void a_named_cause_is_read_from_top_to_bottom(void **state)
     int lines = 0;
     for (const char *c = screen; *c; c++)
         lines += *c == '\n';
-    assert_in_range(lines, 40, 78);
+    assert_in_range(lines, 40, 82);
+}
+
+/* Every candidate that stays has its parameters, best first, the rest with --verbose, then what the dispute is worth; what a
+ * cause below its limit would move is said of a model that explains the data alone. */
+static void the_parameters_stand_at_the_top(void **state)
+{
+    (void)state;
+    static rotid_hidden hidden[2] = {{"core.E", -2.3e9, "Pa", "added_mass", "", "mass", 0.28, "kg", 0.61, NAN, 0},
+                                     {"core.G", 4e10, "Pa", "tie_shear", "ties", "presence", 1, "1", NAN, NAN, 1}};
+    fill_named();
+    s.d.result.nhidden = 2;
+    s.d.result.hidden = hidden;
+    show(0, 100);
+    assert_order("PARAMETERS  extended model, 95 % intervals; unseen: shift by a cause below its detection limit",
+                 "  core.E             1.146 (1.123 ... 1.169) e+11 Pa\n"
+                 "    unseen: up to 2 % by added_mass at z 0.61 m (mass 0.28 kg)\n");
+    assert_says("    unseen: more than 50 % by tie_shear of ties\n");
+    s.d.result.verdict.adequate_after = 0;
+    show(0, 100);
+    assert_silent("unseen");
+
+    static rotid_cause_value value[9][1];
+    static struct candidate alternative[9];
+    static rotid_spread spread[1] = {{"core.E", "Pa", 1e11, 1.08e11, {0.9e11, 1.2e11}}};
+    for (int i = 0; i < 9; i++) { /* the second and the third are a pair */
+        value[i][0] = (rotid_cause_value){"core.E", "Pa", 1e11 + 1e9 * i, 1e9, {0.95e11 + 1e9 * i, 1.05e11 + 1e9 * i}, 0};
+        alternative[i] = s.candidate[i == 2];
+        alternative[i].with = NULL;
+        alternative[i].set = i < 2 ? i + 1 : i;
+        alternative[i].nidentified = i != 2;
+        alternative[i].identified = value[i];
+    }
+    s.d.nalternative = 9;
+    s.d.alternative = alternative;
+    s.d.ncause = 0;
+    s.d.extended.fit = NULL;
+    s.d.result.verdict.kind = ROTID_AMBIGUOUS;
+    s.d.result.verdict.nspread = 1;
+    s.d.result.verdict.spread = spread;
+    show(0, 100);
+    assert_order("PARAMETERS  model of the deck, 95 % intervals\n",
+                 "    1 (0.95 ... 1.05) e+11 Pa if it is joint of core|right\n");
+    assert_says("    1.01 (0.96 ... 1.06) e+11 Pa if it is joint of core|right with ");
+    assert_says("    2 more with --verbose\n    these causes leave 1e+11 to 1.08e+11 Pa, 7.7 % apart; their intervals 9e+10 to "
+                "1.2e+11\n");
+    show(1, 100);
+    assert_silent("2 more with --verbose");
+    assert_says("    1.08 (1.03 ... 1.13) e+11 Pa if it is joint of core|right\n");
 }
 
 static void what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause(void **state)
@@ -822,6 +871,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_named_cause_is_read_from_top_to_bottom),
+        cmocka_unit_test(the_parameters_stand_at_the_top),
         cmocka_unit_test(what_a_sensor_and_the_place_say_stands_above_the_place_of_the_cause),
         cmocka_unit_test(every_case_stays_within_its_columns),
         cmocka_unit_test(each_verdict_says_its_own),

@@ -3,6 +3,7 @@
 #include "api/keep.h"
 #include "api/result_geometry.h"
 #include "api/result_identification.h"
+#include "diagnose/hidden.h"
 
 static rotid_identification *keep(struct call *call, rotid_identification *made)
 {
@@ -13,6 +14,28 @@ static rotid_identification *keep(struct call *call, rotid_identification *made)
     return call_keep(call, &identification_whole_record, made, &made->memory);
 }
 
+/* What may hide in the parameters, where the fit is one that a diagnosis makes too. Without it there is still a result, but where
+ * memory is out. */
+static int find_hidden(struct call *call, const struct states *states, const struct identification *found,
+                       const rotid_fit_result *fit, rotid_identification *out)
+{
+    struct pool *pool = &call->entry.scratch;
+    int *number = POOL_ARRAY(pool, int, states_modes(states, states->nstate)), usable = fit->n && fit->converged;
+    if (!number || !out)
+        return ROTID_ERROR_MEMORY;
+    for (int s = 0, at = 0; s < states->nstate && usable; s++) {
+        const struct job *job = &states->state[s].job;
+        usable = job->options.fit.functional == ROTID_LIKELIHOOD && job->options.fit.reduction == ROTID_REDUCTION_NONE &&
+                 job_knows_frequency_noise(job);
+        for (int k = 0; k < job->measurement.nmode && usable; k++)
+            number[at++] = found[s].compared.number[k];
+    }
+    int status = usable ? hidden_of_fit(pool, states, number, fit, &call->environment, &out->nhidden, &out->hidden) : ROTID_OK;
+    if (status)
+        out->nhidden = 0;
+    return status == ROTID_ERROR_MEMORY ? status : ROTID_OK;
+}
+
 static rotid_identification *make_result(struct call *call, const struct job *job, const struct identification *found)
 {
     struct pool *pool = &call->entry.scratch;
@@ -21,7 +44,7 @@ static rotid_identification *make_result(struct call *call, const struct job *jo
         return NULL;
     made->noise = result_noise(pool, job, found->fit);
     made->geometry = result_geometry(pool, &job->rotor, found->spectrum.model);
-    return keep(call, made);
+    return made;
 }
 
 static int identify(struct call *call, const rotid_deck *deck, int baseline, rotid_identification **result)
@@ -41,8 +64,10 @@ static int identify(struct call *call, const rotid_deck *deck, int baseline, rot
         return status;
     for (int s = 0; s < states->nstate; s++)
         comparison_warn_of_mesh(&states->state[s].job, &found[s].spectrum, &found[s].compared, &call->notes);
-    *result = one ? make_result(call, &states->state[0].job, found)
-                  : keep(call, result_identification_states(pool, states, found, fit));
+    rotid_identification *made =
+        one ? make_result(call, &states->state[0].job, found) : result_identification_states(pool, states, found, fit);
+    if (!baseline || !find_hidden(call, states, found, one ? found->fit : fit, made))
+        *result = keep(call, made);
     if (*result)
         return ROTID_OK;
     rotid_fit_free(one ? found->fit : fit);

@@ -9,8 +9,13 @@
 rotid_cause result_cause(struct pool *pool, const struct candidate *c)
 {
     const struct effect_parameter_name *parameter;
-    rotid_cause out = {
-        .id = c->cause->id, .target = c->target, .name = c->effect.name, .variant = candidate_variant(c), .state = c->state_name};
+    rotid_cause out = {.id = c->cause->id,
+                       .target = c->target,
+                       .name = c->effect.name,
+                       .variant = candidate_variant(c),
+                       .state = c->state_name,
+                       .nidentified = c->nidentified,
+                       .identified = c->identified};
     int room = POOL_LIST(pool, out.parameters, EFFECT_MOST_PARAMETERS);
     for (int p = 0; p < room && (parameter = candidate_parameter(c, p)); p++)
         out.parameters[out.nparameters++] = (rotid_cause_value){.name = parameter->name,
@@ -33,6 +38,8 @@ static int fill_causes(struct pool *pool, int count, const struct candidate *can
 static void fill_verdict(struct pool *pool, const struct diagnosis *d, rotid_verdict *out)
 {
     out->ncauses = fill_causes(pool, d->ncause, d->cause, &out->causes);
+    for (int i = 0; i < out->ncauses; i++) /* the extended model has them */
+        out->causes[i].nidentified = 0;
     out->nalternative_causes = fill_causes(pool, d->nalternative, d->alternative, &out->alternative_causes);
     out->nalternatives = POOL_LIST(pool, out->alternatives, d->nalternative);
     for (int i = 0; i < out->nalternatives; i++)

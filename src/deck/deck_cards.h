@@ -108,7 +108,7 @@ int deck_find_material(const struct deck_reader *reader, const char *name);
 int deck_add_group(struct deck_reader *reader, const struct card *card);
 
 #define FRF_MOST_LINES     1000000
-#define DECK_MOST_ELEMENTS 10000 /* of a segment, of a bundle of rods, of the rotor with its bundles */
+#define DECK_MOST_ELEMENTS ROTOR_MOST_ELEMENTS /* of a segment, of a bundle of rods, of the rotor with its bundles */
 #define DECK_MOST_STATES   100   /* each is read with all common cards */
 #define DECK_MOST_LINES    10000 /* of a card, and sensors of the rotor: they are compared with each other */
 

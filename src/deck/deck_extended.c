@@ -1,14 +1,19 @@
 #include "deck/deck_extended.h"
 
-#include "deck/deck_write.h"
+#include "deck/deck_keep.h"
 
-/* The states to write and the values of their unknowns: the base model where nothing was named. */
-static const struct states *extended_states(const struct diagnosis *d, const double **x)
+/* The states to write and the values of their unknowns: the base model where nothing was named, with the mesh of the deck where
+ * that suffices, and of a solid, whose mesh follows from its outline. */
+static int extended_states(struct pool *pool, const struct diagnosis *d, struct states *states, const double **x)
 {
-    const struct states *states = d->extended_states.nstate ? &d->extended_states : &d->judged;
+    int status = states_copy(pool, d->extended_states.nstate ? &d->extended_states : &d->judged, states);
     const rotid_fit_result *fit = d->extended.fit ? d->extended.fit : d->base.fit;
+    for (int s = 0; s < states->nstate && s < d->given.nstate && !status; s++)
+        if ((d->mesh_suffices || states->state[s].job.options.solid) &&
+            d->given.state[s].job.rotor.nsegment == states->state[s].job.rotor.nsegment)
+            states->state[s].job.rotor.segment = d->given.state[s].job.rotor.segment;
     *x = fit && fit->n == states->nparameter ? fit->x : NULL;
-    return states;
+    return status;
 }
 
 int deck_write_extended(struct pool *pool, const struct diagnosis *d, const char *from, char **text)
@@ -30,6 +35,9 @@ int deck_write_extended(struct pool *pool, const struct diagnosis *d, const char
         if (!extra[i])
             return ROTID_ERROR_MEMORY;
     struct deck_write_options options = {.nextra = lines, .extra = extra};
-    const struct states *states = extended_states(d, &options.x);
-    return deck_write_states(pool, states, &options, text);
+    struct states states;
+    int status = extended_states(pool, d, &states, &options.x);
+    if (!status)
+        status = deck_write_states(pool, &states, &options, text);
+    return status ? status : deck_keep(pool, d, &states, &options, from, text);
 }

@@ -52,6 +52,17 @@ static double against_noise(const struct job *job, const int *number, const doub
     return largest;
 }
 
+/* Whether a deck may have twice as many. */
+static int can_be_refined(const struct rotor *rotor)
+{
+    int elements = 0;
+    for (int s = 0; s < rotor->nsegment; s++)
+        elements += 2 * rotor->segment[s].elements;
+    for (int b = 0; b < rotor->ntierod + rotor->nbars; b++)
+        elements += b < rotor->ntierod ? rotor->tierod[b].elements : rotor->bars[b - rotor->ntierod].elements;
+    return elements <= ROTOR_MOST_ELEMENTS;
+}
+
 /* Elements twice as many: the error of the mesh is taken out before anything else is blamed. */
 static int refine_mesh(struct pool *pool, struct rotor *rotor)
 {
@@ -245,7 +256,8 @@ int base_prepare(struct engine *engine)
         status = weigh_accelerometer(engine);
     if (!status && one && engine->job->options.solid) /* whose mesh follows from its outline, not from elements of the deck */
         comparison_warn_of_mesh(engine->job, &out->base.spectrum, &out->base.compared, engine->notes);
-    for (int pass = 0; pass < MOST_REFINED && !status && one && !engine->job->options.solid; pass++) {
+    for (int pass = 0;
+         pass < MOST_REFINED && !status && one && !engine->job->options.solid && can_be_refined(&engine->job->rotor); pass++) {
         const struct spectrum *s = &out->base.spectrum;
         double ratio = against_noise(engine->job, engine->number, s->mesh_error_percent, s->count, &at), worth = 0;
         struct job finer = *engine->job;
@@ -336,7 +348,7 @@ int base_refine(struct pool *pool, struct job *job, const int *number, const str
 {
     int at, status = ROTID_OK;
     double ratio = job->options.solid ? 0 : against_noise(job, number, spectrum->mesh_error_percent, spectrum->count, &at);
-    for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status; pass++, ratio /= 4)
+    for (int pass = 0; pass < MOST_REFINED && ratio > NEGLIGIBLE && !status && can_be_refined(&job->rotor); pass++, ratio /= 4)
         status = refine_mesh(pool, &job->rotor);
     return status;
 }

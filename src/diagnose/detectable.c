@@ -9,11 +9,14 @@
 
 #define POWER 1.2816 /* standard normal deviate of 90 % */
 
-/* A size s moves the whitened residual by s |c|: the score is normal about it with variance 1, so s |c| = sqrt(threshold) + 1.28.
- */
+double amplitude_shown(const struct scan_item *item, double threshold)
+{
+    return item->usable ? (sqrt(threshold) + POWER) / item->norm : INFINITY;
+}
+
 static double size_for(const struct scan_item *item, double threshold)
 {
-    return item->usable ? (sqrt(threshold) + POWER) * item->unit / item->norm : INFINITY;
+    return amplitude_shown(item, threshold) * item->unit;
 }
 
 /* Best and worst over the places, each with the width that shows best. */

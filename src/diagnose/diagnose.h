@@ -34,6 +34,8 @@ struct candidate {
     int explains;                   /* its fit leaves no more than noise */
     struct candidate *with;         /* the second cause, NULL where this one is alone; the numbers of the fit are here */
     int set;                        /* of an alternative, from 1: two of one number are the causes of a pair */
+    int nidentified;                /* the deck's unknowns in its fit, of a pair the first member has them; 0: it has no fit */
+    rotid_cause_value *identified;
 };
 
 struct diagnosis_round {
@@ -47,6 +49,7 @@ struct diagnosis {
     struct states given;         /* what was diagnosed, as it came: of what changed the second state, corrected */
     struct states judged;        /* the states that were judged: LIKELIHOOD, NONE, faults of the data taken out, noise as found */
     struct job job;              /* the first of them */
+    int mesh_suffices;           /* the meshes of the deck do: the finer ones of the last fits move nothing that counts */
     struct identification today; /* by the FIT of the deck; fit NULL where it could not be made. Of several states this, base and
                                     extended are those of the first with the fit of all, and stand for all in what follows */
     struct identification base;

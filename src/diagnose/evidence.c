@@ -119,6 +119,26 @@ static int effect_of(const struct refit *refit, const struct scan *scan, const s
     return refit->states.state[c->home].job.rotor.neffect - 1 - behind;
 }
 
+/* The unknowns of the deck as the fit has them. */
+static int take_identified(struct engine *engine, const struct refit *refit, struct candidate *c)
+{
+    const rotid_fit_result *fit = refit->fit;
+    c->identified = POOL_ARRAY(engine->pool, rotid_cause_value, engine->nown);
+    if (!c->identified)
+        return ROTID_ERROR_MEMORY;
+    for (int p = 0; p < engine->nown; p++) {
+        const rotid_parameter *named = &refit->states.bounds[p];
+        int has = isfinite(fit->std[p]);
+        c->identified[c->nidentified++] = (rotid_cause_value){.name = named->name,
+                                                              .unit = named->unit,
+                                                              .value = fit->x[p],
+                                                              .std = fit->std[p],
+                                                              .ci95 = {has ? fmax(fit->ci_lower[p], named->lower) : (double)NAN,
+                                                                       has ? fmin(fit->ci_upper[p], named->upper) : (double)NAN}};
+    }
+    return ROTID_OK;
+}
+
 /* Fit `number` of the round. No chance is stated for a pair: the bootstrap asks for the best of single columns. */
 static int fill_candidate(struct engine *engine, const struct round_result *result, int number, struct candidate *c)
 {
@@ -154,7 +174,9 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
         c->result.at_bound |= c->with->result.at_bound;
     }
     fitted_errors(&refit->states, engine->holdout, refit->fit, 1, &c->result.holdout_rms, &unused, &shape);
-    return sensor_out(engine->pool, &refit->states, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
+    int status = take_identified(engine, refit, c);
+    return status ? status
+                  : sensor_out(engine->pool, &refit->states, engine->holdout, refit->fit, &c->result.sensor_out_rms, &shape);
 }
 
 struct leave_out {

@@ -8,12 +8,14 @@
 #include "diagnose/detectable.h"
 #include "diagnose/evidence.h"
 #include "diagnose/finalise.h"
+#include "diagnose/hidden.h"
 #include "diagnose/leave_out.h"
 #include "diagnose/refit.h"
 #include "diagnose/round.h"
+#include "diagnose/spread.h"
+#include "fit/interval.h"
 
 #define LISTED   4    /* causes in a sentence: more stand in the table */
-#define WIDE     0.15 /* of a parameter, half its interval: wider says little about a modulus */
 #define SEPARATE 0.7  /* correlation beyond which two parameters are known by a combination only */
 
 static double *side(rotid_pair *pair, int is_after)
@@ -127,7 +129,7 @@ static int partner_of(const rotid_fit_result *fit, int p)
     return partner;
 }
 
-/* Parameters of the model at the end that the data leave open. */
+/* Parameters of the model at the end that the data leave open, or know to little more than their size. */
 static const char *open_parameters(struct engine *engine)
 {
     struct diagnosis *out = engine->out;
@@ -140,15 +142,20 @@ static const char *open_parameters(struct engine *engine)
                                parameter[p].name, base_bound_side(engine, p), out->base.fit->x[p], parameter[p].unit);
         if (!text)
             break;
-        double half = (fit->ci_upper[p] - fit->ci_lower[p]) / 2;
-        if (!isfinite(half) || (fit->identifiable[p] && !(half > WIDE * fabs(fit->x[p])))) /* no interval: it lies at a bound */
-            continue;
-        int partner = partner_of(fit, p);
-        text = pool_format(engine->pool, "%s The data do not determine %s%s%s: its 95 %% interval is %.3g to %.3g %s.", text,
-                           parameter[p].name, partner < 0 ? "" : " separately from ", partner < 0 ? "" : parameter[partner].name,
-                           fmax(fit->ci_lower[p], parameter[p].lower), fmin(fit->ci_upper[p], parameter[p].upper),
-                           parameter[p].unit);
-        out->result.verdict.undetermined_parameters++;
+        double half = interval_half_percent(fit->x[p], fit->ci_lower[p], fit->ci_upper[p]);
+        int determined = fit->identifiable[p], partner = partner_of(fit, p);
+        if (!isfinite(half) || (determined && !interval_is_wide(fit->x[p], fit->ci_lower[p], fit->ci_upper[p])))
+            continue; /* no interval: it lies at a bound */
+        char figure[32];
+        const char *how = determined ? pool_format(engine->pool, "determine %s to %s only%s", parameter[p].name,
+                                                   percent_text(half, figure), partner < 0 ? "" : ", and not separately from ")
+                                     : pool_format(engine->pool, "do not determine %s%s", parameter[p].name,
+                                                   partner < 0 ? "" : " separately from ");
+        text = how ? pool_format(engine->pool, "%s The data %s%s: its 95 %% interval is %.3g to %.3g %s.", text, how,
+                                 partner < 0 ? "" : parameter[partner].name, fmax(fit->ci_lower[p], parameter[p].lower),
+                                 fmin(fit->ci_upper[p], parameter[p].upper), parameter[p].unit)
+                   : NULL;
+        out->result.verdict.undetermined_parameters += !determined;
     }
     return text;
 }
@@ -189,7 +196,11 @@ static const char *verdict_sentence(struct engine *engine)
     struct pool *pool = engine->pool;
     const struct diagnosis_round *last = out->nround ? &out->round[out->nround - 1] : NULL;
     const char *causes = list(pool, out->ncause, out->cause), *others = list(pool, out->nalternative, out->alternative);
-    const char *open = open_parameters(engine), *faults = "", *solid = "";
+    int explained = verdict->kind == ROTID_ADEQUATE || verdict->adequate_after;
+    const char *undetermined = open_parameters(engine), *faults = "", *solid = "",
+               *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit)
+                                  : spread_sentence(engine),
+               *open = undetermined && worth ? pool_format(pool, "%s%s", undetermined, worth) : NULL;
     for (int c = 0; c < out->ncause; c++)
         if (out->cause[c].cause->solid)
             solid =
@@ -254,6 +265,18 @@ static int identify_whole(struct engine *engine, const struct states *states, st
     return ROTID_STOP_CANCELLED;
 }
 
+#define SAME_FIT                                                                                                                 \
+    0.1 /* of a standard deviation, or of chi2: what moves a fit by less is no reason to change the mesh of a deck               \
+         */
+
+static int same_fit(const rotid_fit_result *a, const rotid_fit_result *b)
+{
+    int same = fabs(a->chi2 - b->chi2) < SAME_FIT;
+    for (int p = 0; p < a->n; p++)
+        same &= fabs(a->x[p] - b->x[p]) <= SAME_FIT * (isfinite(a->std[p]) ? a->std[p] : 0);
+    return same;
+}
+
 /* The base again on a mesh without error: its moduli and intervals are results. */
 static int refine_base(struct engine *engine)
 {
@@ -270,6 +293,9 @@ static int refine_base(struct engine *engine)
     status = identify_whole(engine, &out->judged, &each, &finer);
     if (status)
         return status;
+    out->mesh_suffices = same_fit(out->base.fit, finer.fit);
+    for (int i = 0; i < out->result.nnumerical_findings; i++)
+        out->mesh_suffices &= strcmp(out->result.numerical_findings[i].id, "mesh") != 0;
     if (engine->fit == out->base.fit)
         engine->fit = finer.fit;
     rotid_fit_free(out->base.fit);
@@ -331,6 +357,10 @@ int finalise(struct engine *engine, const struct round_result *last)
     engine_step(engine, "gain");
     if (!status && last && last->scan.ncandidate)
         status = detectable_sizes(engine, last);
+    if (!status && last && last->scan.ncandidate)
+        status = hidden_shifts(engine, last);
+    if (!status)
+        status = spread_of_alternatives(engine);
     engine_step(engine, "detection limits");
     if (status)
         return status;

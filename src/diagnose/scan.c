@@ -149,8 +149,31 @@ static int add_unknown(const struct states *states, int p, struct part *part, do
             for (int i = 0; i < part[s].columns.nrow; i++)
                 column[part[s].row + i] += work[i];
         }
+    memcpy(work, column, (size_t)n * sizeof *work);
+    int before = scan->nbasis;
     scan->nbasis = basis_extend(n, scan->nbasis, INSEPARABLE, scan->basis);
+    scan->at[p] = scan->nbasis > before ? before : -1;
+    for (int i = 0; i <= p; i++)
+        if (scan->at[i] >= 0)
+            scan->along[i + (ptrdiff_t)p * scan->nfree] = product_dot(n, scan->basis + (ptrdiff_t)scan->at[i] * n, work);
     return ROTID_OK;
+}
+
+/* shift := R^-1 (Q'c) of each item, product [nbasis * nitem] = Q'C of the whole columns. */
+static void find_shifts(const double *product, struct scan *scan)
+{
+    int free = scan->nfree, full = 1;
+    for (int p = 0; p < free; p++)
+        full &= scan->at[p] >= 0;
+    for (int i = 0; i < scan->nitem; i++) {
+        double *shift = scan->shift + (ptrdiff_t)i * free;
+        for (int p = free - 1; p >= 0; p--) {
+            shift[p] = full ? product[scan->at[p] + (ptrdiff_t)i * scan->nbasis] : (double)NAN;
+            for (int k = p + 1; k < free && full; k++)
+                shift[p] -= scan->along[p + (ptrdiff_t)k * free] * shift[k];
+            shift[p] /= full ? scan->along[p + (ptrdiff_t)p * free] : 1;
+        }
+    }
 }
 
 /* takes the basis out of every column: C := C - Q (Q' C), twice, in blocks */
@@ -158,14 +181,19 @@ static int project(struct pool *pool, struct scan *scan, double *raw)
 {
     int n = scan->nrow, q = scan->nbasis;
     double *product = POOL_ARRAY(pool, double, (size_t)q *(size_t)scan->nitem);
-    if (!product)
+    scan->shift = POOL_ARRAY(pool, double, (size_t)scan->nfree *(size_t)scan->nitem);
+    if (!product || !scan->shift)
         return ROTID_ERROR_MEMORY;
     for (int i = 0; i < scan->nitem; i++) {
         const double *column = scan->column + (ptrdiff_t)i * n;
         raw[i] = sqrt(product_dot(n, column, column));
     }
+    if (!q)
+        find_shifts(product, scan);
     for (int pass = 0; pass < 2 && q && scan->nitem; pass++) {
         product_transposed(q, scan->nitem, n, scan->basis, scan->column, product);
+        if (!pass)
+            find_shifts(product, scan);
         product_subtract(n, scan->nitem, q, scan->basis, product, scan->column);
     }
     return ROTID_OK;
@@ -236,7 +264,9 @@ static int fill(struct pool *pool, const struct states *states, struct part *par
     scan->basis = POOL_ARRAY(pool, double, (size_t)(states->nparameter + scan->nfrequency + 1) * (size_t)scan->nrow);
     scan->r = POOL_ARRAY(pool, double, scan->nrow);
     scan->is_frequency = POOL_ARRAY(pool, char, scan->nrow);
-    if (!work || !scan->basis || !scan->r || !scan->is_frequency)
+    scan->at = POOL_ARRAY(pool, int, states->nparameter);
+    scan->along = POOL_ARRAY(pool, double, (size_t)states->nparameter *(size_t)states->nparameter);
+    if (!work || !scan->basis || !scan->r || !scan->is_frequency || !scan->at || !scan->along)
         return ROTID_ERROR_MEMORY;
     for (int s = 0; s < states->nstate; s++) {
         const struct columns *columns = &part[s].columns;

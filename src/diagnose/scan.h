@@ -42,6 +42,11 @@ struct scan {
     double *column; /* [nrow * nitem] projected, of unit length; zero where not usable */
     int nbasis;
     double *basis; /* [nrow * nbasis] orthonormal: free parameters and scales */
+    int *at;       /* [nfree] the column of the basis that a free parameter added; -1: it added none */
+    double *along; /* [nfree * nfree] upper triangle: R of J = Q R, the columns of the free parameters in the basis */
+    double *shift; /* [nfree * nitem] by how much the fit without the item moves each free parameter where the item is there with
+                      an amplitude of 1: (J'J)^-1 J'c, J and c whitened and free of the scales; NaN where J does not have full
+                      rank */
     double *r;     /* [nrow] residual, projected */
     double chi2, chi2_frequency;
     double largest; /* drop */

@@ -3,13 +3,14 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "fit/interval.h"
 #include "page/geometry.h"
+#include "page/hidden_words.h"
 #include "page/human.h"
 #include "page/sections.h"
 
 #define MOST_REASONS      12
 #define NAMED             3    /* parameters that the answer names; the table has the others */
-#define WIDE_PERCENT      20.0 /* half an interval beyond which a modulus is a guess */
 #define POOR_PERCENT      2.0  /* error of a fitted frequency that a beam need not leave */
 #define CONDENSED_PERCENT 0.5  /* as `rotid frf` warns */
 #define SAME_POINT        1e-6 /* relative difference of objectives */
@@ -145,7 +146,7 @@ static void on_intervals(struct reasons *reasons, const rotid_identification *fi
     if (none == fit->nparameters)
         say(reasons, TONE_CARE, "No interval can be stated for any parameter.");
     else
-        say(reasons, widest > WIDE_PERCENT ? TONE_CARE : TONE_GOOD,
+        say(reasons, widest > 100 * INTERVAL_WIDE ? TONE_CARE : TONE_GOOD,
             pool_format(pool, "The 95\xc2\xa0%% intervals: %s%s.%s", wide ? wide : "", none ? ", none for the others" : "",
                         isfinite(fit->chi2) ? fit->intervals_widened_by > 1
                                                   ? " They are widened because the misfit exceeds the stated noise."
@@ -180,9 +181,23 @@ void answer_identify(struct document *document, const struct result *result, con
     on_intervals(&reasons, fit);
     on_condensation(&reasons, fit);
     on_baseline(&reasons, fit);
+    const char *shifts = hidden_shifts_in_words(document->pool, fit, fit->nhidden, fit->hidden);
+    if (*shifts)
+        say(&reasons, hidden_is_wide(fit, fit->nhidden, fit->hidden) ? TONE_CARE : TONE_GOOD,
+            pool_format(
+                document->pool,
+                "A cause below its detection limit would not have shown and may be present: it may move %s. rotid diagnose "
+                "%s says more.",
+                hidden_causes_in_words(document->pool, fit, fit->nhidden, fit->hidden),
+                result->head.deck ? result->head.deck : "DECK"));
     document->tone = reasons.tone;
+    if (reasons.tone == TONE_GOOD)
+        document->headline =
+            *shifts ? pool_format(document->pool, "Can be relied on, but what these data do not show may move %s", shifts)
+                    : "Can be relied on as far as the model is right";
     document_section(document, "trust", "How far to trust it");
     document_list(document, reasons.count, reasons.text);
+    section_hidden(document, fit, fit->nhidden, fit->hidden);
 }
 
 void answer_plain(struct document *document, const struct result *result)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "page/cause_words.h"
+#include "page/hidden_words.h"
 #include "page/human.h"
 #include "page/sections.h"
 
@@ -127,13 +128,38 @@ static const char *names(struct pool *pool, const rotid_diagnosis *d)
     return or_nothing(text);
 }
 
-static const char *headline(struct pool *pool, const rotid_diagnosis *d)
+/* The parameters in a sentence, with a blank before it: "core.E = 115.7 GPa (95 %: 115.0 to 116.4)"; what cannot be told apart
+ * has its spread. */
+static const char *values(struct pool *pool, const rotid_diagnosis *d)
+{
+    const rotid_identification *fit = d->extended ? d->extended : d->base;
+    const rotid_verdict *v = &d->verdict;
+    const char *text = "";
+    int shown = 0;
+    for (int p = 0; d->base && fit && v->kind >= 0 && p < d->base->nparameters && p < LISTED && text; p++) {
+        const rotid_fitted_parameter *value = fit_parameter(fit, d->base->parameters[p].name);
+        const rotid_spread *spread = p < v->nspread && verdict_sets(v) > 1 ? &v->spread[p] : NULL;
+        if (spread) {
+            struct human_unit unit = human_unit(spread->highest, spread->unit);
+            text = pool_format(pool, "%s%s%s = %s to %s%s%s, depending on the cause", text, shown++ ? "; " : " ", spread->name,
+                               human_digits(pool, spread->lowest * unit.factor, 4),
+                               human_digits(pool, spread->highest * unit.factor, 4), *unit.text ? "\xc2\xa0" : "", unit.text);
+        } else if (value) {
+            text = pool_format(pool, "%s%s%s = %s", text, shown++ ? "; " : " ", value->name,
+                               human_interval(pool, value->value, value->ci95, value->unit));
+        }
+    }
+    return shown && text ? or_nothing(pool_format(pool, "%s.", text)) : "";
+}
+
+static const char *headline(struct pool *pool, const rotid_diagnosis *d, const char *shifts)
 {
     switch (d->verdict.kind) {
     case ROTID_ADEQUATE:
-        return "Adequate";
+        return *shifts ? pool_format(pool, "Adequate, but what these data do not show may move %s", shifts) : "Adequate";
     case ROTID_NAMED:
-        return pool_format(pool, "Named: %s", names(pool, d));
+        return pool_format(pool, "Named: %s%s%s", names(pool, d), *shifts ? "; what these data do not show may move " : "",
+                           shifts);
     case ROTID_AMBIGUOUS:
         return verdict_sets(&d->verdict) == 1
                    ? "Ambiguous: no name can be given"
@@ -304,8 +330,14 @@ void answer_diagnose(struct document *document, const struct result *result)
     const rotid_diagnosis *d = result->diagnose;
     struct reasons reasons = {.pool = document->pool};
     document->tone = tones[d->verdict.kind + 1];
-    document->headline = headline(document->pool, d);
-    document->answer = or_nothing(verdict(document->pool, d));
+    const rotid_identification *fit = d->extended ? d->extended : d->base;
+    int explained = d->verdict.kind == ROTID_ADEQUATE || d->verdict.adequate_after;
+    if (d->verdict.kind == ROTID_ADEQUATE && fit && hidden_is_wide(fit, d->nhidden, d->hidden))
+        document->tone = TONE_CARE;
+    document->headline =
+        headline(document->pool, d, explained && fit ? hidden_shifts_in_words(document->pool, fit, d->nhidden, d->hidden) : "");
+    document->answer =
+        or_nothing(pool_format(document->pool, "%s%s", or_nothing(verdict(document->pool, d)), values(document->pool, d)));
     document->next = next(document->pool, d, result->head.deck ? result->head.deck : "DECK");
     on_chance(&reasons, d);
     on_lead(&reasons, d);
@@ -319,4 +351,5 @@ void answer_diagnose(struct document *document, const struct result *result)
         return;
     document_section(document, "trust", "Why");
     document_list(document, reasons.count, reasons.text);
+    section_parameters(document, d);
 }

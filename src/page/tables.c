@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "fit/interval.h"
 #include "page/human.h"
 #include "result/judgement.h"
 
@@ -25,9 +26,12 @@ struct number_table *tables_parameters(struct pool *pool, const rotid_identifica
         table_cell(table, p, 7, human_trimmed(pool, parameter->lower * f, 5));
         table_cell(table, p, 8, human_trimmed(pool, parameter->upper * f, 5));
         table_cell(table, p, 9,
-                   parameter->at_bound       ? "at its bound"
-                   : parameter->identifiable ? "determined"
-                                             : "not determined by these data");
+                   parameter->at_bound        ? "at its bound"
+                   : !parameter->identifiable ? "not determined by these data"
+                   : interval_is_wide(parameter->value, parameter->ci95[0], parameter->ci95[1])
+                       ? pool_format(pool, "determined to %s\xc2\xa0%% only",
+                                     human_digits(pool, human_half_width_percent(parameter->value, parameter->ci95), 2))
+                       : "determined");
     }
     return table;
 }

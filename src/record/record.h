@@ -132,8 +132,10 @@ extern const struct record geometry_record;       /* rotid_geometry */
 extern const struct record sensor_record;         /* rotid_sensor */
 extern const struct record check_record;          /* rotid_check */
 extern const struct record spectrum_record;       /* rotid_spectrum */
-extern const struct record identification_record; /* rotid_identification as part of a diagnosis: without noise and geometry */
-extern const struct record identification_alone_record; /* these two */
+extern const struct record
+    identification_record; /* rotid_identification as part of a diagnosis: without noise, geometry, hidden */
+extern const struct record identification_alone_record; /* these three */
+extern const struct record hidden_cause_record;         /* rotid_hidden */
 extern const struct record noise_record;                /* rotid_noise */
 extern const struct record diagnosis_record;            /* rotid_diagnosis */
 extern const struct record suggestion_record;           /* rotid_suggestion */

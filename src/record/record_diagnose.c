@@ -21,9 +21,16 @@ static const struct field cause_fields[] = {
     TEXT(rotid_cause, variant, MAY_BE_NULL | SINCE_LATER),
     STRUCTS(rotid_cause, parameters, 0, value_record),
     TEXT(rotid_cause, state, MAY_BE_NULL | SINCE_LATER),
+    STRUCTS(rotid_cause, identified, SINCE_LATER, value_record),
     {0},
 };
 const struct record cause_record = RECORD(rotid_cause, cause_fields);
+
+static const struct field spread_fields[] = {
+    TEXT(rotid_spread, name, 0),      TEXT(rotid_spread, unit, 0),     NUMBER(rotid_spread, lowest, 0),
+    NUMBER(rotid_spread, highest, 0), INTERVAL(rotid_spread, ci95, 0), {0},
+};
+static const struct record spread_record = RECORD(rotid_spread, spread_fields);
 
 static const struct field verdict_fields[] = {
     WORD(rotid_verdict, kind, MAY_BE_NULL, verdict_words),
@@ -37,6 +44,7 @@ static const struct field verdict_fields[] = {
     TEXT(rotid_verdict, sentence, MAY_BE_NULL),
     INTEGER(rotid_verdict, undetermined_parameters, FROM_0),
     FLAG(rotid_verdict, confident, SINCE_LATER),
+    STRUCTS(rotid_verdict, spread, SINCE_LATER, spread_record),
     {0},
 };
 static const struct record verdict_record = RECORD(rotid_verdict, verdict_fields);
@@ -192,6 +200,7 @@ static const struct field diagnosis_fields[] = {
     STRUCTS(rotid_diagnosis, sensors, 0, sensor_residual_record),
     STRUCTS(rotid_diagnosis, localisation, 0, localisation_record),
     STRUCTS(rotid_diagnosis, detectable, 0, detectable_record),
+    STRUCTS(rotid_diagnosis, hidden, SINCE_LATER, hidden_cause_record),
     STRUCT(rotid_diagnosis, noise, SINCE_LATER, noise_record),
     STRUCT(rotid_diagnosis, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
     STRUCT(rotid_diagnosis, today, MAY_BE_NULL | BEHIND_POINTER, identification_record),

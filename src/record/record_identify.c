@@ -172,9 +172,26 @@ static const struct field identification_fields[] = {
 };
 const struct record identification_record = RECORD(rotid_identification, identification_fields);
 
+static const struct field hidden_fields[] = {
+    TEXT(rotid_hidden, parameter, 0),
+    NUMBER(rotid_hidden, shift, 0),
+    TEXT(rotid_hidden, unit, 0),
+    TEXT(rotid_hidden, id, 0),
+    TEXT(rotid_hidden, target, 0),
+    TEXT(rotid_hidden, component, 0),
+    NUMBER(rotid_hidden, size, 0),
+    TEXT(rotid_hidden, size_unit, 0),
+    NUMBER(rotid_hidden, z_m, MAY_BE_NULL),
+    NUMBER(rotid_hidden, width_m, MAY_BE_NULL),
+    FLAG(rotid_hidden, beyond, 0),
+    {0},
+};
+const struct record hidden_cause_record = RECORD(rotid_hidden, hidden_fields);
+
 static const struct field identification_alone_fields[] = {
     STRUCT(rotid_identification, noise, SINCE_LATER | BEHIND_POINTER, noise_record),
     STRUCT(rotid_identification, geometry, SINCE_LATER | BEHIND_POINTER, geometry_record),
+    STRUCTS(rotid_identification, hidden, SINCE_LATER, hidden_cause_record),
     {0},
 };
 const struct record identification_alone_record = RECORD(rotid_identification, identification_alone_fields);

@@ -197,6 +197,7 @@ void table_diagnose(const struct diagnosis_view *view)
 {
     print_heading(view);
     print_verdict(view);
+    table_parameters(view);
     print_today(view);
     print_numerical(view);
     print_data(view);

@@ -64,10 +64,10 @@ static int digits_for(const rotid_fitted_parameter *p)
     return digits < LEAST_DIGITS ? LEAST_DIGITS : digits > MOST_DIGITS ? MOST_DIGITS : digits;
 }
 
-/* "1.157 (1.150 ... 1.164) e+11 Pa": one power of ten for all three. p: NULL where the model has no such parameter. */
-static void value_cell(FILE *out, int width, const rotid_fitted_parameter *p)
+/* p: NULL where the model has no such parameter. */
+const char *parameter_text(const rotid_fitted_parameter *p, char text[PARAMETER_TEXT])
 {
-    char text[128] = "-", power[16] = "";
+    char power[16] = "";
     double size = p ? fabs(p->value) : 0, scale = 1;
     if (isfinite(size) && size > 0 && (size >= 1e5 || size < 1e-3)) {
         int exponent = (int)floor(log10(size));
@@ -75,13 +75,22 @@ static void value_cell(FILE *out, int width, const rotid_fitted_parameter *p)
         (void)snprintf(power, sizeof power, " e%+03d", exponent);
     }
     if (p && isfinite(p->ci95[0]) && isfinite(p->ci95[1]))
-        (void)snprintf(text, sizeof text, "%.*g (%.*g ... %.*g)%s %s", digits_for(p), p->value / scale, digits_for(p),
+        (void)snprintf(text, PARAMETER_TEXT, "%.*g (%.*g ... %.*g)%s %s", digits_for(p), p->value / scale, digits_for(p),
                        p->ci95[0] / scale, digits_for(p), p->ci95[1] / scale, power, layout_unit(p->unit));
     else if (p)
-        (void)snprintf(text, sizeof text, "%.4g%s %s (%s)", p->value / scale, power, layout_unit(p->unit),
+        (void)snprintf(text, PARAMETER_TEXT, "%.4g%s %s (%s)", p->value / scale, power, layout_unit(p->unit),
                        p->at_bound        ? "AT ITS BOUND"
                        : !p->identifiable ? "NOT DETERMINED"
                                           : "no interval");
+    else
+        (void)snprintf(text, PARAMETER_TEXT, "-");
+    return text;
+}
+
+static void value_cell(FILE *out, int width, const rotid_fitted_parameter *p)
+{
+    char text[PARAMETER_TEXT];
+    (void)parameter_text(p, text);
     if (width)
         text_cell(out, width, text);
     else

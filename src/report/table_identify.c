@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fit/interval.h"
 #include "report/layout.h"
 #include "report/table.h"
 #include "result/judgement.h"
@@ -66,8 +67,14 @@ static void print_parameter(FILE *out, const rotid_fitted_parameter *p)
         (void)fprintf(out, "%12.*g ...%12.*g", digits, p->ci95[0], digits, p->ci95[1]);
     else
         (void)fprintf(out, "%27s", "cannot be stated");
-    (void)fprintf(out, "   %.4g%s%s\n", p->start, p->at_bound ? "   AT ITS BOUND" : "",
-                  !p->identifiable && !p->at_bound ? "   NOT DETERMINED by these data" : "");
+    (void)fprintf(out, "   %.4g%s", p->start,
+                  p->at_bound        ? "   AT ITS BOUND"
+                  : !p->identifiable ? "   NOT DETERMINED by these data"
+                                     : "");
+    if (p->identifiable && interval_is_wide(p->value, p->ci95[0], p->ci95[1]))
+        (void)fprintf(out, "   to %s only",
+                      percent_text(interval_half_percent(p->value, p->ci95[0], p->ci95[1]), (char[32]){""}));
+    (void)fputc('\n', out);
 }
 
 /* What the intervals rest on, and what the misfit has made of them. */
@@ -87,6 +94,28 @@ static void print_intervals(FILE *out, const rotid_identification *fit)
         (void)fprintf(out, ", and the model is not adequate for these data\n");
     else
         (void)fprintf(out, "; noise alone does as much in %.0f %% of such tests\n", 100 * p_value);
+}
+
+/* What the intervals know nothing of: the cause that moves each parameter most, where that is more than half of its interval. */
+static void print_hidden(FILE *out, const rotid_identification *fit)
+{
+    int shown = 0;
+    struct wrap wrap;
+    for (int p = 0; p < fit->nparameters; p++) {
+        const rotid_fitted_parameter *value = &fit->parameters[p];
+        const rotid_hidden *hidden = hidden_in(fit->nhidden, fit->hidden, value);
+        if (!hidden)
+            continue;
+        if (!shown++)
+            wrap_open(&wrap, out, 2, 100, "a cause that these data would not show may move ");
+        wrap_item(&wrap, "%s%s by %s", shown > 1 ? ", " : "", value->name,
+                  linear_percent_text(100 * fabs(hidden->shift / value->value), (char[32]){""}));
+        wrap_item(&wrap, "(%s%s%s)", hidden->id, *hidden->target ? " of " : "", hidden->target);
+    }
+    if (!shown)
+        return;
+    wrap_words(&wrap, ": see rotid diagnose");
+    wrap_close(&wrap);
 }
 
 static void print_parameters(FILE *out, const rotid_identification *fit)
@@ -111,6 +140,7 @@ static void print_parameters(FILE *out, const rotid_identification *fit)
         (void)fprintf(out, "\n");
     }
     print_intervals(out, fit);
+    print_hidden(out, fit);
 }
 
 static void print_history(FILE *out, const rotid_identification *fit)

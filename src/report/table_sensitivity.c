@@ -32,7 +32,7 @@ static void print_sensitivity(FILE *out, const struct result_head *head, const s
         for (int k = 0; k < r->nfrequency_hz; k++) {
             (void)fprintf(out, "%3d", k + 1);
             number_cell(out, 16, 4, r->frequency_hz[k]);
-            signed_cell(out, 13, 4, -one->derivative[k] / 2); /* E_k = 1 - w^2/w0^2 */
+            signed_cell(out, 13, 4, one->frequency_change[k]);
             (void)fputs("  ", out);
             signed_power(out, one->sensitivity[k]);
             (void)fputc(' ', out);

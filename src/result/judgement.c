@@ -82,6 +82,14 @@ const rotid_fitted_parameter *fit_parameter(const rotid_identification *fit, con
     return NULL;
 }
 
+const rotid_hidden *hidden_in(int count, const rotid_hidden *hidden, const rotid_fitted_parameter *parameter)
+{
+    int i = 0;
+    while (i < count && strcmp(hidden[i].parameter, parameter->name) != 0)
+        i++;
+    return i < count && fabs(hidden[i].shift) > (parameter->ci95[1] - parameter->ci95[0]) / 2 ? &hidden[i] : NULL;
+}
+
 const rotid_identification *diagnosis_today(const rotid_diagnosis *d)
 {
     const rotid_identification *today = d->today, *base = d->base;

@@ -19,6 +19,10 @@ const char *fit_state_of_mode(const rotid_identification *fit, int k);
 /* The parameter of this name, or NULL; fit may be NULL. */
 const rotid_fitted_parameter *fit_parameter(const rotid_identification *fit, const char *name);
 
+/* Of what may hide in a parameter the cause that moves it most, where that is by more than half of its 95 % interval; else NULL.
+ */
+const rotid_hidden *hidden_in(int count, const rotid_hidden *hidden, const rotid_fitted_parameter *parameter);
+
 /* How many sets of causes cannot be told apart, a pair being one. */
 int verdict_sets(const rotid_verdict *verdict);
 /* Whether alternative cause i is meant together with the one before it. */

@@ -13,6 +13,7 @@ static const struct field parameter_fields[] = {
     NUMBER(struct sensitivity_parameter, reference, 0),
     NUMBERS_BY(struct sensitivity_parameter, sensitivity, 0, nfrequency_hz, "frequency_hz"),
     NUMBERS_BY(struct sensitivity_parameter, derivative, 0, nfrequency_hz, "frequency_hz"),
+    NUMBERS_BY(struct sensitivity_parameter, frequency_change, SINCE_LATER, nfrequency_hz, "frequency_hz"),
     MATRIX(struct sensitivity_parameter, curves, CURVE, nfrequency_hz, nrelative_value),
     {0},
 };

@@ -76,6 +76,8 @@ struct sensor {
 
 struct effect; /* rotor/effect.h */
 
+#define ROTOR_MOST_ELEMENTS 10000 /* with its bundles: what a deck may have, and what no mesh is refined beyond */
+
 struct rotor {
     int ngroup; /* those of the axis from left to right, then the layers */
     int nsegment, nring, ntierod, nbars, ndisk, nspring, nsensor, neffect;

@@ -30,8 +30,9 @@ static int allocate(struct pool *pool, int n, const rotid_parameter *named, cons
                                               .nrelative_value = points,
                                               .sensitivity = POOL_ARRAY(pool, double, m),
                                               .derivative = POOL_ARRAY(pool, double, m),
+                                              .frequency_change = POOL_ARRAY(pool, double, m),
                                               .curves = POOL_ARRAY(pool, double, (size_t)m *(size_t)points)};
-        if (!one->sensitivity || !one->derivative || !one->curves)
+        if (!one->sensitivity || !one->derivative || !one->frequency_change || !one->curves)
             return ROTID_ERROR_MEMORY;
     }
     return out->frequency_hz && out->relative_value && out->parameters ? ROTID_OK : ROTID_ERROR_MEMORY;
@@ -65,8 +66,11 @@ int sensitivity_run(struct pool *pool, const struct job *job, int n, const struc
     if (!status)
         status = prediction_differentiate(&p, x0, wanted, 0);
     for (int q = 0; q < n && !status; q++) {
-        for (int k = 0; k < m; k++)
-            out->parameters[q].derivative[k] = -p.dlambda[nrigid + k + (ptrdiff_t)q * p.count] * x0[q] / lambda[k];
+        struct sensitivity_parameter *one = &out->parameters[q];
+        for (int k = 0; k < m; k++) {
+            one->derivative[k] = -p.dlambda[nrigid + k + (ptrdiff_t)q * p.count] * x0[q] / lambda[k];
+            one->frequency_change[k] = -one->derivative[k] / 2; /* lambda = (2 pi f)^2 */
+        }
     }
     for (int q = 0; q < n && !status; q++) {
         memcpy(x, x0, (size_t)n * sizeof *x);
