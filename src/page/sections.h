@@ -17,13 +17,12 @@ void answer_ema(struct document *document, const struct result *result);
 /* Another result in a sentence, without a judgement. */
 void answer_plain(struct document *document, const struct result *result);
 
-/* Data, noise and model of all results, the heading of the deck, and what rotid notes. */
 /* What causes below their detection limits may do to the parameters of the fit, as a table; nothing where there is none. */
 void section_hidden(struct document *document, const rotid_identification *fit, int count, const rotid_hidden *hidden);
 /* The parameters that a diagnosis leaves, by each cause that cannot be told apart, and what may hide in them. */
 void section_parameters(struct document *document, const rotid_diagnosis *d);
 
-/* Deck, version, commit, seed, noise and data of all results, their notes, and the keys that older ones lack. */
+/* Data, noise and model of all results, the heading of the deck, and what rotid notes. */
 void section_rests_on(struct document *document, int count, const struct result *result);
 /* The last section: files, version, commit, seed, build of all results, ids of causes, and the keys that older results lack. The one
  * place of a page with absolute paths, ids and builds. */
