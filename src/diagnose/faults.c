@@ -29,7 +29,8 @@ struct rival { /* an explanation of the data */
     struct sensor_fault fault[MOST_FAULTS];
 };
 
-/* shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one */
+/* Shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one. What is fitted of a solid is
+ * the measured shape less what the coarse mesh misses, so channels that read the same differ there: `read` is as it was measured. */
 static int shape_data(struct pool *pool, const struct job *job, struct columns *columns, struct shape_data *data)
 {
     const struct rotor_model *model = &columns->model;
@@ -37,8 +38,9 @@ static int shape_data(struct pool *pool, const struct job *job, struct columns *
     int nsensor = job->rotor.nsensor, nmode = columns->nmode;
     double *z = POOL_ARRAY(pool, double, nsensor), *shape = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
            *std = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
+           *read = POOL_ARRAY(pool, double, (size_t)nsensor *(size_t)nmode),
            *axis = POOL_ARRAY(pool, double, (size_t)model->naxis *(size_t)nmode);
-    if (!z || !shape || !std || !axis)
+    if (!z || !shape || !std || !read || !axis)
         return ROTID_ERROR_MEMORY;
     for (int s = 0; s < nsensor; s++)
         z[s] = job->rotor.sensor[s].position;
@@ -47,11 +49,12 @@ static int shape_data(struct pool *pool, const struct job *job, struct columns *
         ptrdiff_t from = (ptrdiff_t)mode->k * nsensor, to = (ptrdiff_t)m * nsensor;
         memcpy(shape + to, columns->functional.shape + from, (size_t)nsensor * sizeof *shape);
         memcpy(std + to, job->measurement.shape_std + from, (size_t)nsensor * sizeof *std);
+        memcpy(read + to, job->measurement.shape + from, (size_t)nsensor * sizeof *read);
         for (int i = 0; i < model->naxis; i++)
             axis[i + (ptrdiff_t)m * model->naxis] =
                 mode->scale * model_deflection(model, i, p->phi + (ptrdiff_t)mode->pair * p->size);
     }
-    *data = (struct shape_data){nsensor, nmode, z, shape, std, model->naxis, model->z, axis};
+    *data = (struct shape_data){nsensor, nmode, z, shape, std, read, model->naxis, model->z, axis};
     return ROTID_OK;
 }
 
