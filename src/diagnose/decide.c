@@ -99,6 +99,14 @@ static int is_pattern(const struct candidate *c)
     return c->cause == c->with->cause && c->cause->width >= 0;
 }
 
+/* Beside a misfit that it leaves a cause has to be worth what is left: less for each of its parameters than is left for each
+ * degree of freedom is what any parameter gains. */
+static int is_worthless(const struct before *before, const struct candidate *c)
+{
+    int own = free_parameters(c), dof = before->dof - own;
+    return !c->explains && dof > 0 && c->cause->class == CAUSE_PHYSICAL && c->result.chi2_drop * dof < own * c->result.chi2;
+}
+
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
  * noise, and a rival too weak to be named alone still belongs into the set of what cannot be told from the best. A pair has to do
  * what it was tried for, and what no cause alone comes near: alone is their least chi2. */
@@ -114,6 +122,8 @@ static const char *reason(const struct engine *engine, const struct before *befo
         return "the model is worse with this cause";
     if (c->result.at_bound)
         return bound_met(pool, c->with && c->with->result.at_bound ? c->with : c);
+    if (is_worthless(before, c))
+        return "gains less for a parameter than it leaves for a degree of freedom";
     if (c->with && is_one_place(engine, c))
         return "two of one cause at one place are one";
     if (c->with && is_pattern(c))

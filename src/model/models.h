@@ -35,7 +35,7 @@ struct models *models_solids(struct models *models);
 void models_end_run(struct pool *pool, struct models *models, const struct models *given);
 
 /* A rotor discretised, by a mesh that is there already where there is one. *nrigid: rigid-body and suspension modes at the values
- * of the rotor, -1 where nobody has counted them. Statuses of discrete_build; *failed likewise. */
+ * of the rotor, or as they are settled there, -1 where nobody has counted them. Statuses of discrete_build; *failed likewise. */
 int models_discretise(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                       const struct parameter *parameter, int refine, struct discrete *discrete, int *nrigid, int *failed);
 
