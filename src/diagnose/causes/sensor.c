@@ -11,6 +11,19 @@ int sensor_find(const struct job *job, int id)
     return -1;
 }
 
+#define BEYOND 0.02 /* of the length: so far a line may end beyond the rotor */
+
+double sensor_line_place(const struct sensor_line *line, double length, double z)
+{
+    double from = line->shift + line->scale * z;
+    return line->flip ? length - from : from;
+}
+
+int sensor_line_reaches(double length, double z)
+{
+    return z >= -BEYOND * length && z <= (1 + BEYOND) * length;
+}
+
 static void divide_by_largest(struct job *job, int with_std)
 {
     int n = job->rotor.nsensor;
@@ -68,6 +81,24 @@ void shapes_exchange(struct job *job, int a, int b)
         exchange(&job->measurement.point_frequency_hz[a + mode], &job->measurement.point_frequency_hz[b + mode]);
         exchange(&job->measurement.point_frequency_std[a + mode], &job->measurement.point_frequency_std[b + mode]);
     }
+}
+
+static void exchange_target(struct effect *effect, int a, int b)
+{
+    if (effect->kind->at_sensor && (effect->target == a || effect->target == b))
+        effect->target = effect->target == a ? b : a;
+}
+
+void sensors_exchange(struct job *job, int a, int b)
+{
+    struct sensor kept = job->rotor.sensor[a];
+    job->rotor.sensor[a] = job->rotor.sensor[b];
+    job->rotor.sensor[b] = kept;
+    shapes_exchange(job, a, b);
+    for (int i = 0; i < job->rotor.neffect; i++)
+        exchange_target(&job->rotor.effect[i], a, b);
+    for (int i = 0; i < job->unknowns.nsuspect; i++)
+        exchange_target(&job->unknowns.suspect[i].effect, a, b);
 }
 
 /* NULL for NULL; *failed where memory is out */
