@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "diagnose/causes/catalogue.h"
 #include "diagnose/correct.h"
 #include "diagnose/data.h"
@@ -99,8 +100,25 @@ static int put_line_right(struct engine *engine, const struct rival *rival, cons
     return status;
 }
 
-/* The faults of channels that show beside the model of a rival at x, and where asked for the line. */
-static int look(struct engine *engine, const double *x, const int *id, int line, struct rival *rival)
+/* The line that the shapes as they stand show beside the model of a rival at x. */
+static int look_for_line(struct engine *engine, const double *x, const int *number, struct rival *rival)
+{
+    const struct job *job = rival->stated;
+    struct columns columns;
+    struct shape_data data;
+    for (int i = 0; i < job->measurement.ncorrection; i++) { /* once: what is left is not of the positions */
+        const struct correction *c = &job->measurement.correction[i];
+        if (same_text(c->id, "sensor_line") && (c->value != 0 || c->more[0] != 1))
+            return ROTID_OK;
+    }
+    int status = columns_open(engine->pool, job, number, engine->holdout, NULL, x, &columns);
+    if (!status)
+        status = shape_data(engine->pool, job, &columns, &data);
+    return status ? status : line_check(engine->pool, &data, rotor_length(&job->rotor), &rival->line, &rival->has_line);
+}
+
+/* The faults of channels that show beside the model of a rival at x. */
+static int look(struct engine *engine, const double *x, const int *id, struct rival *rival)
 {
     struct columns columns;
     struct shape_data data;
@@ -110,8 +128,6 @@ static int look(struct engine *engine, const double *x, const int *id, int line,
         status = columns_open(engine->pool, &job, number, engine->holdout, NULL, x, &columns);
     if (!status)
         status = shape_data(engine->pool, &job, &columns, &data);
-    if (!status && line)
-        status = line_check(engine->pool, &data, rotor_length(&job.rotor), &rival->line, &rival->has_line);
     if (!status)
         status = sensor_check(engine->pool, &data, FALSE_ALARM, MOST_FAULTS, rival->fault, &found);
     rival->nfault = 0;
@@ -169,8 +185,18 @@ static int weigh(struct engine *engine, const int *id, struct rival *rival)
 /* The faults have spoilt the fit beside which they were found: once more beside the one without them. */
 static int look_again(struct engine *engine, const int *id, struct rival *rival)
 {
-    int status = rival->right ? look(engine, rival->right->x, id, 0, rival) : ROTID_OK;
-    return status || !rival->right ? status : weigh(engine, id, rival);
+    struct job job;
+    int *number, status = ROTID_OK;
+    if (!rival->right)
+        return ROTID_OK;
+    if (rival->has_line) {
+        status = put_line_right(engine, rival, rival->right->x, &job, &number);
+        if (!status)
+            status = look_for_line(engine, rival->right->x, number, rival);
+    }
+    if (!status)
+        status = look(engine, rival->right->x, id, rival);
+    return status ? status : weigh(engine, id, rival);
 }
 
 /* The highest score within the margin of a name; where nothing explains the data, every rival has a say: what the model lacks
@@ -289,10 +315,12 @@ static void choose_line(int stated, int *count, struct rival *rival)
     *count = kept;
 }
 
-/* Takes the line out where every rival within the limit has it; *changed then. */
-static int settle_line(struct engine *engine, int count, const struct rival *rival, int best, double limit, int *changed)
+/* Takes the line out where every rival within the margin of a name has it, in units of what the best leaves: of all positions there is
+ * one fault, and what the model lacks beside it may be found once they are right. *changed then. */
+static int settle_line(struct engine *engine, int count, const struct rival *rival, int best, int *changed)
 {
     rotid_data_finding finding;
+    double rate = rival[best].dof > 0 ? rival[best].chi2 / rival[best].dof : 1, limit = rival[best].score + LEAST_MARGIN * fmax(1, rate);
     for (int i = 0; i < count; i++)
         if (rival[i].score <= limit && !(rival[i].has_line && rival[i].line.line.flip == rival[best].line.line.flip))
             return ROTID_OK;
@@ -311,7 +339,9 @@ static int settle(struct engine *engine, int count, struct rival *rival, struct 
     for (int s = 0; s < nsensor; s++)
         id[s] = engine->job->rotor.sensor[s].id;
     for (int i = 0; i < count && !status; i++) {
-        status = look(engine, rival[i].fit->x, id, 1, &rival[i]);
+        status = look(engine, rival[i].fit->x, id, &rival[i]);
+        if (!status)
+            status = look_for_line(engine, rival[i].fit->x, engine->number, &rival[i]);
         any |= rival[i].nfault || rival[i].has_line;
     }
     if (status || !any)
@@ -330,7 +360,7 @@ static int settle(struct engine *engine, int count, struct rival *rival, struct 
             status = look_again(engine, id, &rival[i]);
     limit = find_limit(count, rival, &best);
     if (!status && rival[best].has_line)
-        status = settle_line(engine, count, rival, best, limit, changed);
+        status = settle_line(engine, count, rival, best, changed);
     for (int f = 0; f < rival[best].nfault && !status && !*changed; f++) {
         int all = 1;
         for (int i = 0; i < count; i++)

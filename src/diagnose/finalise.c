@@ -91,8 +91,12 @@ static const char *describe(struct pool *pool, const struct candidate *c)
     const char *text = candidate_label(pool, c);
     if (text && isfinite(c->other_chi2) && c->other_chi2 - c->result.chi2 < LEAST_MARGIN)
         text = pool_format(pool, "%s, as well at z = %.3g m", text, c->other_place);
-    if (!cause->effect) /* a rival that is no part of a model */
-        return text ? pool_format(pool, "%s (%s %.3g)", text, cause->value.name, c->effect.value[0]) : NULL;
+    if (!cause->effect) { /* a rival that is no part of a model */
+        const struct effect_parameter_name *name;
+        for (int p = 0; (name = correction_parameter(cause, p)) && text; p++)
+            text = pool_format(pool, "%s%s%s %.3g", text, p ? ", " : " (", name->name, c->effect.value[p]);
+        return text && cause->value.name ? pool_format(pool, "%s)", text) : text;
+    }
     for (int p = 0; p < c->nparameter && text; p++) {
         const struct effect_parameter_name *parameter = &cause->effect->parameter[p];
         int has_unit = strcmp(parameter->unit, "1") != 0;

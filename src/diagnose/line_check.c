@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "diagnose/decide.h"
-
 #define LEAST_SENSORS 4
 #define LEAST_MOVE    5e-4 /* m: nobody glues a sensor more closely than that */
 #define SHIFTS        13   /* places of the grid, over a tenth of the length to either side */
@@ -14,6 +12,7 @@
 #define ITERATIONS    20
 #define HALVINGS      12
 #define STEP          1e-5 /* of the differences, over the length and 1 */
+#define COST          12.0 /* of chi2 that each of flip, shift and scale has to gain: 3.5 standard deviations */
 
 struct line_search {
     const struct shape_data *data;
@@ -58,6 +57,8 @@ static double residual(const struct line_search *search, const struct sensor_lin
 {
     const struct shape_data *data = search->data;
     double chi2 = 0;
+    if (!sensor_line_fits(line, search->length, data->nsensor, data->z))
+        return INFINITY;
     for (int k = 0; k < data->nmode; k++) {
         double square = 0, product = 0, *own = r;
         for (int s = 0; s < data->nsensor; s++) {
@@ -65,8 +66,6 @@ static double residual(const struct line_search *search, const struct sensor_lin
             double z = sensor_line_place(line, search->length, data->z[s]);
             if (!isfinite(data->shape[at]) || !isfinite(data->std[at]))
                 continue;
-            if (!sensor_line_reaches(search->length, z))
-                return INFINITY;
             double p = shape_at(data, k, fmin(fmax(z, data->axis_z[0]), data->axis_z[data->naxis - 1])) / data->std[at];
             square += p * p;
             product += p * data->shape[at] / data->std[at];
@@ -215,7 +214,7 @@ int line_check(struct pool *pool, const struct shape_data *data, double length, 
         for (int some = flip ? 0 : 1; some < 4; some++) {
             const int free[2] = {some & 1, some >> 1};
             struct line_fault one;
-            double chi2 = search_line(&search, flip, free, &one), score = chi2 + PARAMETER_PENALTY * line_parameters(&one.line);
+            double chi2 = search_line(&search, flip, free, &one), score = chi2 + COST * line_parameters(&one.line);
             if (score < best) {
                 best = score;
                 left = chi2;
@@ -224,10 +223,15 @@ int line_check(struct pool *pool, const struct shape_data *data, double length, 
         }
     if (!isfinite(best))
         return ROTID_OK;
+    const struct sensor_line turned = {.flip = 1, .scale = 1};
+    double alone = fault->line.flip ? residual(&search, &turned, search.r) : INFINITY;
+    if (before - alone > COST) { /* how long a line is, and where it begins, shows once it is the right way round */
+        *fault = (struct line_fault){.line = turned, .shift_std = NAN, .scale_std = NAN};
+        left = alone;
+    }
     int own = line_parameters(&fault->line), dof = search.nrow - data->nmode - own;
     double dispersion = dof > 0 ? fmax(1, left / dof) : 1;
     fault->chi2_drop = before - left;
-    *found = fault->chi2_drop > (LEAST_MARGIN + PARAMETER_PENALTY * own) * dispersion &&
-             largest_move(data, length, &fault->line) >= LEAST_MOVE;
+    *found = own && fault->chi2_drop > COST * own * dispersion && largest_move(data, length, &fault->line) >= LEAST_MOVE;
     return ROTID_OK;
 }

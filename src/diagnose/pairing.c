@@ -97,6 +97,14 @@ static void take_back(struct engine *engine)
     out->ndata_findings = kept;
 }
 
+int pairing_note_again(struct engine *engine)
+{
+    if (engine->dropped || engine->job->measurement.paired)
+        return ROTID_OK;
+    take_back(engine);
+    return pairing_note(engine, engine->job->measurement.number);
+}
+
 static int adopt(struct engine *engine, const struct job_measurement *measured, int *number)
 {
     struct job job = *engine->job;

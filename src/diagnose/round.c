@@ -137,7 +137,10 @@ static int settle_data(struct engine *engine, struct round_result *result, int *
             best = i;
     if (!status && !*changed)
         status = noise_settle(engine, &result->scan, best < 0 ? result->scan.r : result->refit[best].fit->r, changed);
-    return status || !*changed ? status : fit_again(engine);
+    if (status || !*changed)
+        return status;
+    status = fit_again(engine);
+    return status || engine->out->ncause ? status : pairing_note_again(engine);
 }
 
 /* The fits of a round. doubt: of the data, once they are there; *again: the data were at fault and are better now */

@@ -12,6 +12,7 @@ int sensor_find(const struct job *job, int id)
 }
 
 #define BEYOND 0.02 /* of the length: so far a line may end beyond the rotor */
+#define APART  5e-4 /* of the length: nearer than a hundredth of an element two would share a node */
 
 double sensor_line_place(const struct sensor_line *line, double length, double z)
 {
@@ -19,9 +20,19 @@ double sensor_line_place(const struct sensor_line *line, double length, double z
     return line->flip ? length - from : from;
 }
 
-int sensor_line_reaches(double length, double z)
+int sensor_line_fits(const struct sensor_line *line, double length, int n, const double *z)
 {
-    return z >= -BEYOND * length && z <= (1 + BEYOND) * length;
+    double before = -length;
+    for (int i = 0; i < n; i++) { /* from left to right */
+        double place = sensor_line_place(line, length, z[line->flip ? n - 1 - i : i]);
+        if (!(place >= -BEYOND * length && place <= (1 + BEYOND) * length))
+            return 0;
+        place = fmin(fmax(place, 0), length);
+        if (place - before < APART * length)
+            return 0;
+        before = place;
+    }
+    return 1;
 }
 
 static void divide_by_largest(struct job *job, int with_std)

@@ -10,19 +10,16 @@ static int correct(struct pool *pool, struct job *job, const struct correction *
     struct rotor *rotor = &job->rotor;
     const struct sensor_line line = {
         .shift = correction->value, .scale = correction->more[0], .flip = correction->more[1] >= 0.5};
-    double length = rotor_length(rotor), before = -1;
+    double length = rotor_length(rotor), *z = POOL_ARRAY(pool, double, rotor->nsensor);
     int n = rotor->nsensor;
-    (void)pool;
-    if (!isfinite(line.shift) || !(line.scale > 0) || !job->measurement.shape)
-        return ROTID_ERROR_ARGUMENT;
-    for (int i = 0; i < n; i++) { /* from left to right */
-        double z = sensor_line_place(&line, length, rotor->sensor[line.flip ? n - 1 - i : i].position);
-        if (!(z > before) || !sensor_line_reaches(length, z)) /* a line may end a little beyond the rotor: its error ends at the end */
-            return ROTID_ERROR_ARGUMENT;
-        before = fmin(fmax(z, 0), length);
-    }
+    if (!z)
+        return ROTID_ERROR_MEMORY;
     for (int i = 0; i < n; i++)
-        rotor->sensor[i].position = fmin(fmax(sensor_line_place(&line, length, rotor->sensor[i].position), 0), length);
+        z[i] = rotor->sensor[i].position;
+    if (!isfinite(line.shift) || !(line.scale > 0) || !sensor_line_fits(&line, length, n, z))
+        return ROTID_ERROR_ARGUMENT;
+    for (int i = 0; i < n; i++)
+        rotor->sensor[i].position = fmin(fmax(sensor_line_place(&line, length, z[i]), 0), length);
     for (int i = 0; line.flip && i < n - 1 - i; i++)
         sensors_exchange(job, i, n - 1 - i);
     return ROTID_OK;
