@@ -15,6 +15,7 @@
 #define ONE_PLACE 0.03 /* of the length: as near as a second minimum of a fit counts as the first */
 #define SURE      3.0  /* standard deviations that exclude a mass */
 #define WORSE     1.1  /* held-out modes predicted worse than this factor speak against a cause */
+#define SAME      0.02 /* of the drop: so little apart two predictions are those of one model, a cosine of 0.99 */
 #define BETTER    0.85 /* a rival that predicts the modes held out by the deck so much better wins against a better fit */
 
 static int free_parameters(const struct candidate *c)
@@ -168,6 +169,20 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
     round->ncandidate++;
 }
 
+/* Whether a rival is the best one over again with more parameters, such as a zone so narrow that it is the joint beside it: both
+ * predict the same, |r - r'|^2 being no more than what parameters without effect gain in 95 % of tests and little of the drop. As a
+ * rival that contains the best one it could never lose to it by more than its parameters cost. */
+static int is_twin(const struct candidate *best, const struct candidate *c)
+{
+    int more = free_parameters(c) - free_parameters(best);
+    double apart = 0;
+    if (more < 1 || !best->residual || !c->residual || best->nresidual != c->nresidual || best->with || c->with)
+        return 0;
+    for (int i = 0; i < c->nresidual; i++)
+        apart += (c->residual[i] - best->residual[i]) * (c->residual[i] - best->residual[i]);
+    return chi_square_tail(apart, more) > 0.05 && apart < SAME * best->result.chi2_drop;
+}
+
 static int has_cause(const struct candidate *set, const struct candidate *cause)
 {
     return (set->cause == cause->cause && set->effect.target == cause->effect.target && set->state == cause->state) ||
@@ -254,7 +269,10 @@ int decide(const struct engine *engine, const struct before *before, struct diag
         }
         if (c->result.rejected_because)
             continue;
-        if (candidate_score(c) <= limit)
+        if (c != best && candidate_score(c) <= limit && is_twin(best, c)) {
+            c->result.rejected_because = pool_format(pool, "is %s over again, with more parameters", name);
+            c->refused = 1;
+        } else if (candidate_score(c) <= limit)
             round->result.set++;
         else if (!(c->result.chi2_drop > round->result.threshold))
             c->result.rejected_because = chance(pool, c);

@@ -105,9 +105,12 @@ int pairing_note_again(struct engine *engine)
     return pairing_note(engine, engine->job->measurement.number);
 }
 
-static int adopt(struct engine *engine, const struct job_measurement *measured, int *number)
+int pairing_adopt(struct engine *engine, const struct job_measurement *measured, int *number)
 {
+    const struct job_measurement now = engine->job->measurement;
     struct job job = *engine->job;
+    if (now.nmode == measured->nmode && !memcmp(number, engine->number, (size_t)now.nmode * sizeof *number))
+        return ROTID_OK;
     job.measurement = *measured;
     int status = data_copy(engine->pool, &job);
     if (status)
@@ -216,5 +219,5 @@ int pairing_settle(struct engine *engine, const struct round_result *result, int
     if (!isfinite(best.rate) || !better)
         return ROTID_OK;
     *changed = 1;
-    return adopt(engine, measured, best.number);
+    return pairing_adopt(engine, measured, best.number);
 }

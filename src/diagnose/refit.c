@@ -245,6 +245,8 @@ static int starting_effects(const struct scan *scan, const struct scan_set *set,
         effect[s][0] = effect_of_item(scan, item[s], scan->item[item[s]].amplitude);
     if (c->cause->solid)
         effect[count++][0] = c->effect;
+    if (c->far && set->count == 1)
+        effect[count++][0] = *c->far;
     if (set->count > 1) {
         for (int m = 0; m < 2; m++)
             effect[0][m] = effect_of_item(scan, set->item[m], set->amplitude[m]);
@@ -396,7 +398,7 @@ static int fit_from(struct pool *pool, const struct states *states, const int *n
                     const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
                     struct refit *refit)
 {
-    struct effect start[STARTS][2];
+    struct effect start[STARTS + 1][2];
     const struct scan_candidate *c = &scan->candidate[set->candidate[0]];
     int count = starting_effects(scan, set, rotor_length(&states->state[c->home].job.rotor), start);
     for (int s = 0; s < count; s++) {
