@@ -24,7 +24,9 @@
 static const char hung[] = HUBS("0.1, 500", "0.8, 500"), held[] = HUBS("0.05, 2e6", "0.85, 2e6"), strip[] = STRIP(""),
                   roller[] = STRIP("*SPRING, NAME=roller\n0.3, 3e4\n"),
                   stepped[] = STEEL "*SHAFT, NAME=left, MATERIAL=steel\n0.3, 0.06, 0, 20\n*SHAFT, NAME=shaft, MATERIAL=steel\n"
-                                    "0.4, 0.10, 0, 20\n*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.07, 0, 20\n" DATA("shaft");
+                                    "0.4, 0.10, 0, 20\n*SHAFT, NAME=right, MATERIAL=steel\n0.3, 0.07, 0, 20\n" DATA("shaft"),
+                  wheel[] = STEEL "*SHAFT, NAME=shaft, MATERIAL=steel\n0.9, 0.06, 0, 60\n*DISK, NAME=wheel\n0.6, 6, 0.03, 0.05\n"
+                                  "*SPRING, NAME=front\n0.1, 1e9\n*SPRING, NAME=rear\n0.8, 5e8\n" DATA("shaft");
 
 static const struct {
     const char *deck, *effect;
@@ -44,6 +46,9 @@ static const struct {
     {roller, "support_position:at=roller,shift=0.03", 1, 1, 0.15},
     {roller, "support_extra:z=0.4,stiffness=1e5", 1, 1, 0.25},
     {stepped, "support_rotation:z=0.2,stiffness=3e6", 1, 1, 0.1}, /* so stiff that the suspension bends: no bending mode more */
+    {wheel, "support:at=rear,factor=0.05", 1, 1, 0.1}, /* modes change their order: no straight line leads there */
+    {wheel, "added_inertia:at=wheel,inertia=0.3", 1, 1, 0.1},
+    {wheel, "added_mass:mass=5,z=0.88", 1, 1, 0.1},
 };
 
 static char directory[] = "/tmp/structures.XXXXXX";

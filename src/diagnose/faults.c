@@ -372,7 +372,7 @@ static int settle(struct engine *engine, int count, struct rival *rival, struct 
     }
     for (int f = 0; f < rival[best].nfault; f++)
         *changed |= rival[best].fault[f].sensor < 0;
-    if (!status && !*changed && (rival[0].nfault || rival[0].has_line) && rival[0].score <= limit)
+    if (!status && !*changed && (rival[0].nfault || (rival[0].has_line && isfinite(limit))) && rival[0].score <= limit)
         status = keep_open(engine, &rival[0], id, result);
     return status;
 }

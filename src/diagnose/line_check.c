@@ -9,6 +9,8 @@
 #define REACH         0.12
 #define SCALES        5
 #define SCALE_STEP    0.05
+#define MOST_SHIFT    0.15 /* of the length: a line that is off by more is measured anew */
+#define MOST_SCALE    0.2
 #define ITERATIONS    20
 #define HALVINGS      12
 #define STEP          1e-5 /* of the differences, over the length and 1 */
@@ -57,7 +59,8 @@ static double residual(const struct line_search *search, const struct sensor_lin
 {
     const struct shape_data *data = search->data;
     double chi2 = 0;
-    if (!sensor_line_fits(line, search->length, data->nsensor, data->z))
+    if (fabs(line->shift) > MOST_SHIFT * search->length || fabs(line->scale - 1) > MOST_SCALE ||
+        !sensor_line_fits(line, search->length, data->nsensor, data->z))
         return INFINITY;
     for (int k = 0; k < data->nmode; k++) {
         double square = 0, product = 0, *own = r;
