@@ -486,7 +486,16 @@ static void a_name_needs_residuals_that_could_contradict_it(void **state)
         before.chi2_frequency = 66;
         struct candidate *c = add("stiffness_local", "", parameters, 64);
         c->result.chi2_frequency = 2;
+        c->explains = 1;
         conclude_as(parameters == 1 ? ROTID_NAMED : ROTID_AMBIGUOUS, 1);
+    }
+    for (int dof = 6; dof < 8; dof++) { /* what is left over needs residuals of its own */
+        open_round();
+        before.dof = dof;
+        before.chi2 = 400;
+        before.chi2_frequency = 400;
+        add("density", "left", 1, 380)->result.chi2_frequency = 20;
+        conclude_as(dof == 7 ? ROTID_NAMED : ROTID_AMBIGUOUS, 1);
     }
 }
 
