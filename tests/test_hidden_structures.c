@@ -46,7 +46,7 @@ static const struct {
     {roller, "support_position:at=roller,shift=0.03", 1, 1, 0.15},
     {roller, "support_extra:z=0.4,stiffness=1e5", 1, 1, 0.25},
     {stepped, "support_rotation:z=0.2,stiffness=3e6", 1, 1, 0.1}, /* so stiff that the suspension bends: no bending mode more */
-    {wheel, "support:at=rear,factor=0.05", 1, 1, 0.1}, /* modes change their order: no straight line leads there */
+    {wheel, "support:at=rear,factor=0.05", 1, 1, 0.1},            /* modes change their order: no straight line leads there */
     {wheel, "added_inertia:at=wheel,inertia=0.3", 1, 1, 0.1},
     {wheel, "added_mass:mass=5,z=0.88", 1, 1, 0.1},
 };

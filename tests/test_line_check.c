@@ -49,7 +49,7 @@ static void check(const struct sensor_line *line, int moved, unsigned seed, stru
 
 static void each_kind_is_found_with_its_size(void **state)
 {
-    static const struct sensor_line table[] = {{1, 0, 1},        {0, 0.02, 1},    {0, -0.05, 1},     {0, 0, 1.03},
+    static const struct sensor_line table[] = {{1, 0, 1},    {0, 0.02, 1},    {0, -0.05, 1},   {0, 0, 1.03},
                                                {0, 0, 0.95}, {0, 0.03, 0.97}, {0, -0.04, 1.05}};
     int within = 0, sized = 0;
     (void)state;

@@ -170,8 +170,8 @@ static void add_noise(const struct before *before, struct diagnosis_round *round
 }
 
 /* Whether a rival is the best one over again with more parameters, such as a zone so narrow that it is the joint beside it: both
- * predict the same, |r - r'|^2 being no more than what parameters without effect gain in 95 % of tests and little of the drop. As a
- * rival that contains the best one it could never lose to it by more than its parameters cost. */
+ * predict the same, |r - r'|^2 being no more than what parameters without effect gain in 95 % of tests and little of the drop. As
+ * a rival that contains the best one it could never lose to it by more than its parameters cost. */
 static int is_twin(const struct candidate *best, const struct candidate *c)
 {
     int more = free_parameters(c) - free_parameters(best);

@@ -8,13 +8,13 @@
 #include "diagnose/refit.h"
 #include "run/compare.h"
 
-#define FAR_RATE    3.0  /* chi2 a degree of freedom: what leaves less is near enough for a fit */
-#define FEWER       0.5  /* times what the others leave */
-#define PLACES      16   /* along the rotor */
-#define SIZES       12   /* at most, of each candidate */
-#define MOST_FITS   6    /* of the trials that come nearest */
-#define OFF_HZ      0.02 /* of a frequency, and */
-#define OFF_SHAPE   0.05 /* of 1 - MAC: what the parameters of the deck still put right */
+#define FAR_RATE  3.0  /* chi2 a degree of freedom: what leaves less is near enough for a fit */
+#define FEWER     0.5  /* times what the others leave */
+#define PLACES    16   /* along the rotor */
+#define SIZES     12   /* at most, of each candidate */
+#define MOST_FITS 6    /* of the trials that come nearest */
+#define OFF_HZ    0.02 /* of a frequency, and */
+#define OFF_SHAPE 0.05 /* of 1 - MAC: what the parameters of the deck still put right */
 static const double shares[] = {0.1, 0.2, 0.35, 0.5, 0.65, 0.85}; /* of the way from no effect to a bound; and with a place */
 static const double shares_at_places[] = {0.03, 0.1, 0.3, 0.8};
 
@@ -44,12 +44,14 @@ static int sizes_of(const struct cause_kind *cause, const struct rotor *rotor, c
             (!side && cause->parameter[cause->size].one_sided < 0))
             continue;
         for (int i = 0; i < steps; i++)
-            size[count++] = lower > 0 && neutral > 0 ? neutral * pow(bound / neutral, share[i]) : neutral + share[i] * (bound - neutral);
+            size[count++] =
+                lower > 0 && neutral > 0 ? neutral * pow(bound / neutral, share[i]) : neutral + share[i] * (bound - neutral);
     }
     return count;
 }
 
-/* How far the model with the effect is from the data, the modes paired anew: frequencies but for a factor that all have, and 1 - MAC. */
+/* How far the model with the effect is from the data, the modes paired anew: frequencies but for a factor that all have, and 1 -
+ * MAC. */
 static int cost_of(struct pool *pool, const struct trials *trials, const struct effect *effect, double *cost)
 {
     const struct engine *e = trials->engine;

@@ -59,7 +59,7 @@ int fault_finding(struct pool *pool, const struct sensor_fault *fault, const int
 
 const char *fault_target(struct pool *pool, const rotid_data_finding *finding)
 {
-    return !finding->nsensors    ? ""
+    return !finding->nsensors      ? ""
            : finding->nsensors > 1 ? pool_format(pool, "sensors %d,%d", finding->sensors[0], finding->sensors[1])
                                    : pool_format(pool, "sensor %d", finding->sensors[0]);
 }
@@ -97,9 +97,11 @@ int line_finding(struct pool *pool, const struct line_fault *fault, rotid_data_f
     finding->parameters[0] = sized("shift", "m", line->shift, fault->shift_std, 0);
     finding->parameters[1] = sized("scale", "1", line->scale, fault->scale_std, 1);
     finding->parameters[2] = sized("flip", "1", line->flip, NAN, line->flip);
-    const char *text = line->flip ? "the positions of all sensors count from the other end" : "the positions of all sensors are off";
+    const char *text =
+        line->flip ? "the positions of all sensors count from the other end" : "the positions of all sensors are off";
     if (line->scale != 1)
-        text = pool_format(pool, "%s, their distances are %.5g +- %.2g times the stated ones", text, line->scale, fault->scale_std);
+        text =
+            pool_format(pool, "%s, their distances are %.5g +- %.2g times the stated ones", text, line->scale, fault->scale_std);
     if (text && line->shift != 0)
         text = pool_format(pool, "%s, their origin is off by %+.3g +- %.2g mm", text, 1e3 * line->shift, 1e3 * fault->shift_std);
     finding->text = text ? pool_format(pool, "%s; all of them are moved", text) : NULL;

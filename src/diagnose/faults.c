@@ -33,8 +33,9 @@ struct rival { /* an explanation of the data */
     struct line_fault line;
 };
 
-/* Shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one. What is fitted of a solid is
- * the measured shape less what the coarse mesh misses, so channels that read the same differ there: `read` is as it was measured. */
+/* Shapes of the fitted model on the nodes of the axis, each times its best scale to the measured one. What is fitted of a solid
+ * is the measured shape less what the coarse mesh misses, so channels that read the same differ there: `read` is as it was
+ * measured. */
 static int shape_data(struct pool *pool, const struct job *job, const struct columns *columns, struct shape_data *data)
 {
     const struct rotor_model *model = &columns->model;
@@ -93,8 +94,8 @@ static int put_line_right(struct engine *engine, const struct rival *rival, cons
     status = correction_apply(engine->pool, job, &correction);
     message_open(&quiet, engine->pool);
     if (!status)
-        status = spectrum_compute_parts(engine->pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter, x,
-                                        ROTID_GUYAN, comparison_candidates(job), SPECTRUM_REDUCED, &spectrum);
+        status = spectrum_compute_parts(engine->pool, job->models, &job->rotor, job->unknowns.nparameter, job->unknowns.parameter,
+                                        x, ROTID_GUYAN, comparison_candidates(job), SPECTRUM_REDUCED, &spectrum);
     if (!status && !comparison_make(engine->pool, job, &spectrum, &quiet, &compared))
         *number = compared.number;
     return status;
@@ -295,8 +296,8 @@ static void add_lines(int *count, struct rival *rival)
     }
 }
 
-/* Beside one model the line and single channels explain the same shapes: the line stays where it leads by the margin of a name, else
- * it goes. */
+/* Beside one model the line and single channels explain the same shapes: the line stays where it leads by the margin of a name,
+ * else it goes. */
 static void choose_line(int stated, int *count, struct rival *rival)
 {
     int kept = stated;
@@ -315,12 +316,13 @@ static void choose_line(int stated, int *count, struct rival *rival)
     *count = kept;
 }
 
-/* Takes the line out where every rival within the margin of a name has it, in units of what the best leaves: of all positions there is
- * one fault, and what the model lacks beside it may be found once they are right. *changed then. */
+/* Takes the line out where every rival within the margin of a name has it, in units of what the best leaves: of all positions
+ * there is one fault, and what the model lacks beside it may be found once they are right. *changed then. */
 static int settle_line(struct engine *engine, int count, const struct rival *rival, int best, int *changed)
 {
     rotid_data_finding finding;
-    double rate = rival[best].dof > 0 ? rival[best].chi2 / rival[best].dof : 1, limit = rival[best].score + LEAST_MARGIN * fmax(1, rate);
+    double rate = rival[best].dof > 0 ? rival[best].chi2 / rival[best].dof : 1,
+           limit = rival[best].score + LEAST_MARGIN * fmax(1, rate);
     for (int i = 0; i < count; i++)
         if (rival[i].score <= limit && !(rival[i].has_line && rival[i].line.line.flip == rival[best].line.line.flip))
             return ROTID_OK;

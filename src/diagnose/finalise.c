@@ -200,8 +200,9 @@ static const char *only_one(struct pool *pool, const struct diagnosis *out, cons
     if (!out->nalternative || c[out->nalternative - 1].set != 1)
         return NULL;
     int explains = c->explains || c->cause->class != CAUSE_PHYSICAL;
-    return pool_format(pool, explains ? "%s would, but these data do not suffice to name a cause"
-                                      : "%s comes nearest and leaves more than noise: these data do not suffice to name a cause",
+    return pool_format(pool,
+                       explains ? "%s would, but these data do not suffice to name a cause"
+                                : "%s comes nearest and leaves more than noise: these data do not suffice to name a cause",
                        one);
 }
 
@@ -241,8 +242,8 @@ static const char *verdict_sentence(struct engine *engine)
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case ROTID_NAMED:
         if (!verdict->adequate_after && one)
-            return pool_format(pool, "The model lacks %s (%s before), and does not explain the rest; %s.%s%s%s", causes, chance, one,
-                               solid, faults, open);
+            return pool_format(pool, "The model lacks %s (%s before), and does not explain the rest; %s.%s%s%s", causes, chance,
+                               one, solid, faults, open);
         if (!verdict->adequate_after && out->nalternative)
             return pool_format(pool, "The model lacks %s (%s before); the data cannot tell which of %s causes the rest.%s%s%s",
                                causes, chance, others, solid, faults, open);

@@ -19,10 +19,11 @@ int line_parameters(const struct sensor_line *line);
  *
  *     chi2 = sum_k min_a |a P_k(z') - m_k|^2/s_k^2
  *
- * is minimised from a grid by Gauss-Newton; the one of the least chi2 + 12 a parameter counts, so that nothing is off by what the model
- * or noise may do. *found nonzero where it gains as much, in units of what is left for a degree of freedom where noise does not explain
- * that, and moves a sensor by half a millimetre. Where turning the line alone gains as much it is turned alone: shift and scale are for a
- * model that was fitted to shapes the right way round. Copies and other faults of channels are not looked at. ROTID_OK or ROTID_ERROR_MEMORY. */
+ * is minimised from a grid by Gauss-Newton; the one of the least chi2 + 12 a parameter counts, so that nothing is off by what the
+ * model or noise may do. *found nonzero where it gains as much, in units of what is left for a degree of freedom where noise does
+ * not explain that, and moves a sensor by half a millimetre. Where turning the line alone gains as much it is turned alone: shift
+ * and scale are for a model that was fitted to shapes the right way round. Copies and other faults of channels are not looked at.
+ * ROTID_OK or ROTID_ERROR_MEMORY. */
 int line_check(struct pool *pool, const struct shape_data *data, double length, struct line_fault *fault, int *found);
 
 #endif

@@ -19,8 +19,8 @@ static double inside(const rotid_parameter *bounds, double value)
     return fmin(fmax(value, bounds->lower + margin), bounds->upper - margin);
 }
 
-/* The start of a size: where the bijection moves it by a share of itself. Bounds of springs and factors span decades, and 2 % of the
- * distance between them would be a hundred times a small one. */
+/* The start of a size: where the bijection moves it by a share of itself. Bounds of springs and factors span decades, and 2 % of
+ * the distance between them would be a hundred times a small one. */
 static double start_of_size(const rotid_parameter *bounds, double value)
 {
     int open = fmin(value - bounds->lower, bounds->upper - value) > OFF * fabs(value);

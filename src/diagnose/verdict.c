@@ -152,8 +152,7 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
                 continue;
             int near = candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
             taken[i] = at_bound ? near && c->result.at_bound
-                                : i < round->result.set ||
-                                      (near && !c->refused && c->result.chi2_drop > round->result.threshold);
+                                : i < round->result.set || (near && !c->refused && c->result.chi2_drop > round->result.threshold);
             sets += taken[i];
             for (const struct candidate *member = c; taken[i] && member; member = member->with) {
                 struct candidate *listed = &out->alternative[out->nalternative++];

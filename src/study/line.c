@@ -107,8 +107,8 @@ static struct run_hidden *hidden(struct pool *pool, const struct truth *truth)
         return NULL;
     out->id = truth->cause->id;
     for (int p = 0; (parameter = truth_parameter(truth, p)); p++)
-        out->parameters[out->nparameters++] =
-            (struct run_value){parameter->name, parameter->unit, truth->effect ? truth->effect->value[p] : *correction_value(&fault, p)};
+        out->parameters[out->nparameters++] = (struct run_value){
+            parameter->name, parameter->unit, truth->effect ? truth->effect->value[p] : *correction_value(&fault, p)};
     return out;
 }
 

@@ -289,7 +289,8 @@ static int draw_line(struct draw *d, const char *id, char spec[HIDE_SPEC])
         last = fmax(last, rotor->sensor[s].z);
     }
     int fault = hide_pick(d->random, 4);
-    double scale = fault == 1 || fault == 2 ? factor(d, 0.01, 0.06) : 1, shift = fault >= 2 ? length * either_sign(d, 0.003, 0.03) : 0;
+    double scale = fault == 1 || fault == 2 ? factor(d, 0.01, 0.06) : 1,
+           shift = fault >= 2 ? length * either_sign(d, 0.003, 0.03) : 0;
     if (rotor->sensors < 4)
         return 0;
     if (shift + scale * last > length && scale > 1)

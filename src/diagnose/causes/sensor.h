@@ -18,8 +18,8 @@ struct sensor_line {
 /* Where a sensor sits that is stated at z [m]: shift + scale z from the left end, with flip from the right one. */
 double sensor_line_place(const struct sensor_line *line, double length, double z);
 
-/* Whether sensors stated at z [n], increasing, all have a place of their own on the rotor then; a line may end a little beyond it, as
- * its error does: its end is that of the rotor. */
+/* Whether sensors stated at z [n], increasing, all have a place of their own on the rotor then; a line may end a little beyond
+ * it, as its error does: its end is that of the rotor. */
 int sensor_line_fits(const struct sensor_line *line, double length, int n, const double *z);
 
 /* Index of a sensor, -1 where there is none of that id. */

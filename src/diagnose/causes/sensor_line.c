@@ -1,5 +1,5 @@
-/* All positions of the sensors at once: counted from the other end, from a wrong origin, with a wrong length. The distance from the
- * end that they are counted from is shift + scale z, z the stated position. */
+/* All positions of the sensors at once: counted from the other end, from a wrong origin, with a wrong length. The distance from
+ * the end that they are counted from is shift + scale z, z the stated position. */
 #include <math.h>
 
 #include "diagnose/causes/cause.h"
