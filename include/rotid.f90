@@ -637,6 +637,8 @@ module rotid
     real(c_double) :: chi2_drop = 0
     type(c_ptr) :: text = c_null_ptr ! text
     type(c_ptr) :: state = c_null_ptr ! text
+    integer(c_int) :: nparameters = 0
+    type(c_ptr) :: parameters = c_null_ptr ! rotid_cause_value
   end type rotid_data_finding
 
   type, bind(C) :: rotid_numerical_finding

@@ -730,6 +730,8 @@ typedef struct rotid_data_finding {
     double chi2_drop;  /* drop of chi2 by the correction [1] */
     const char *text;  /* what was found and done */
     const char *state; /* name of the state whose data these are; NULL in a deck without *STATE */
+    int nparameters;
+    rotid_cause_value *parameters; /* of sensor_line: shift, scale and flip (1: counted from the other end); none for the others */
 } rotid_data_finding;
 
 /* An error of the model's own numbers, removed. */

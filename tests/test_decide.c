@@ -145,6 +145,29 @@ static void parameters_cost(void **state)
     conclude_as(ROTID_NAMED, 1);
 }
 
+/* A zone that is the joint beside it, to the data: it can never lose to it by more than its parameters cost. */
+static void a_cause_over_again_with_more_parameters_is_no_rival(void **state)
+{
+    double joint[400] = {0}, zone[400] = {0};
+    (void)state;
+    for (int twin = 0; twin < 2; twin++) {
+        open_round();
+        add("stiffness_local", "", 3, 301)->residual = zone;
+        add("joint", "core|right", 1, 300)->residual = joint;
+        candidates[0].nresidual = candidates[1].nresidual = 400;
+        zone[7] = twin ? 2.4 : 2.5; /* squared 5.76 and 6.25: what two parameters without effect gain in 95 % of tests is 5.99 */
+        conclude_as(twin ? ROTID_NAMED : ROTID_AMBIGUOUS, twin ? 1 : 2);
+        assert_string_equal(candidates[0].cause->id, "joint");
+        if (twin)
+            assert_string_equal(candidates[1].result.rejected_because, "is joint of core|right over again, with more parameters");
+    }
+    open_round(); /* weak as it is, a zone somewhere near would look as much like it */
+    add("stiffness_local", "", 3, 61)->residual = zone;
+    add("joint", "core|right", 1, 60)->residual = joint;
+    candidates[0].nresidual = candidates[1].nresidual = 400;
+    conclude_as(ROTID_AMBIGUOUS, 2);
+}
+
 static void chance_names_nothing(void **state)
 {
     (void)state;
@@ -463,7 +486,16 @@ static void a_name_needs_residuals_that_could_contradict_it(void **state)
         before.chi2_frequency = 66;
         struct candidate *c = add("stiffness_local", "", parameters, 64);
         c->result.chi2_frequency = 2;
+        c->explains = 1;
         conclude_as(parameters == 1 ? ROTID_NAMED : ROTID_AMBIGUOUS, 1);
+    }
+    for (int dof = 6; dof < 8; dof++) { /* what is left over needs residuals of its own */
+        open_round();
+        before.dof = dof;
+        before.chi2 = 400;
+        before.chi2_frequency = 400;
+        add("density", "left", 1, 380)->result.chi2_frequency = 20;
+        conclude_as(dof == 7 ? ROTID_NAMED : ROTID_AMBIGUOUS, 1);
     }
 }
 
@@ -474,6 +506,7 @@ int main(void)
         TEST(one_that_stands_out_is_named),
         TEST(rivals_within_the_margin_are_a_set),
         TEST(parameters_cost),
+        TEST(a_cause_over_again_with_more_parameters_is_no_rival),
         TEST(chance_names_nothing),
         TEST(a_rival_too_weak_alone_still_makes_a_name_doubtful),
         TEST(what_was_not_fitted_is_no_candidate),

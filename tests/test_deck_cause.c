@@ -122,10 +122,14 @@ static void every_fault_of_the_measurement_chain_becomes_a_correction(void **sta
 {
     (void)state;
     static const struct correction expected[] = {
-        {"gain", "sensor_gain", 1, {20}, NULL, 1.5},         {"sign", "sensor_sign", 1, {50}, NULL, 1},
-        {"swap", "sensor_swap", 2, {20, 60}, NULL, 1},       {"moved", "sensor_position", 1, {30}, NULL, 0.02},
-        {"copy", "duplicate_channel", 2, {40, 30}, NULL, 1}, {"loud", "noise_level", 0, {0}, "SHAPE", 2},
-        {"quiet", "noise_level", 0, {0}, "FREQUENCY", 0.5},
+        {.name = "gain", .id = "sensor_gain", .nsensor = 1, .sensor = {20}, .value = 1.5},
+        {.name = "sign", .id = "sensor_sign", .nsensor = 1, .sensor = {50}, .value = 1},
+        {.name = "swap", .id = "sensor_swap", .nsensor = 2, .sensor = {20, 60}, .value = 1},
+        {.name = "moved", .id = "sensor_position", .nsensor = 1, .sensor = {30}, .value = 0.02},
+        {.name = "copy", .id = "duplicate_channel", .nsensor = 2, .sensor = {40, 30}, .value = 1},
+        {.name = "loud", .id = "noise_level", .block = "SHAPE", .value = 2},
+        {.name = "quiet", .id = "noise_level", .block = "FREQUENCY", .value = 0.5},
+        {.name = "line", .id = "sensor_line", .value = 0.001, .more = {0.999, 0}},
     };
     int seen[64] = {0};
     assert_int_equal(every.job.measurement.ncorrection, sizeof expected / sizeof *expected);
@@ -135,6 +139,7 @@ static void every_fault_of_the_measurement_chain_becomes_a_correction(void **sta
         assert_string_equal(c->id, expected[i].id);
         assert_true(c->value == expected[i].value && c->nsensor == expected[i].nsensor);
         assert_memory_equal(c->sensor, expected[i].sensor, sizeof c->sensor);
+        assert_memory_equal(c->more, expected[i].more, sizeof c->more);
         assert_true(!c->block == !expected[i].block && (!c->block || !strcmp(c->block, expected[i].block)));
         for (int k = 0; k < catalogue_count(); k++)
             seen[k] |= catalogue_item(k) == catalogue_find(c->id);

@@ -34,8 +34,8 @@ static void put_sensors(char *text)
 }
 
 /* Modes of the rotor, with the effect (may be NULL) in it, as a solid of a mesh twice as fine, with that share of the stated
- * noise, as cards. */
-static void put_measured(const struct effect *effect, double share, char *text)
+ * noise, as cards; where `copied` the last but one sensor is recorded in place of the last one. */
+static void put_measured(const struct effect *effect, double share, int copied, char *text)
 {
     struct message_list messages;
     struct job job;
@@ -59,17 +59,19 @@ static void put_measured(const struct effect *effect, double share, char *text)
         (void)sprintf(text + strlen(text), "%d, %.17g\n", k + 1,
                       prediction_hz(&p, rigid + k) * (1 + share * frequency_noise * random_normal(&noise)));
     for (int k = 0; k < MODES; k++) {
-        double largest = 0;
+        double largest = 0, read = 0;
         for (int s = 0; s < SENSORS; s++)
             largest = fmax(largest, fabs(prediction_at_sensor(&p, rigid + k, s)));
         (void)sprintf(text + strlen(text), "*SHAPE, MODE=%d\n", k + 1);
-        for (int s = 0; s < SENSORS; s++)
-            (void)sprintf(text + strlen(text), "%d, %.17g\n", s + 1,
-                          prediction_at_sensor(&p, rigid + k, s) / largest + share * shape_noise * random_normal(&noise));
+        for (int s = 0; s < SENSORS; s++) {
+            double own = prediction_at_sensor(&p, rigid + k, s) / largest + share * shape_noise * random_normal(&noise);
+            read = copied && s == SENSORS - 1 ? read : own;
+            (void)sprintf(text + strlen(text), "%d, %.17g\n", s + 1, read);
+        }
     }
 }
 
-static void diagnose(const struct effect *effect, const char *fit, struct diagnosis *d)
+static void diagnose(const struct effect *effect, int copied, const char *fit, struct diagnosis *d)
 {
     const struct diagnose_options options = {.threads = 2, .seed = 1, .replicates = 300};
     struct message_list messages;
@@ -77,7 +79,7 @@ static void diagnose(const struct effect *effect, const char *fit, struct diagno
     char text[16384];
     strcpy(text, rotor_text);
     put_sensors(text);
-    put_measured(effect, 1, text);
+    put_measured(effect, 1, copied, text);
     (void)sprintf(text + strlen(text), "%s*IDENTIFY\ncore.E, 1e10, 4e11, 1.8e11\ncore.G, 1e10, 1.5e11, 0.7e11\n", fit);
     message_open(&messages, &test_pool);
     assert_status(deck_read(&test_pool, folder_write("deck.inp", text), 0, NULL, &messages, &job), ROTID_OK);
@@ -99,7 +101,7 @@ static void a_beam_that_is_a_solid_is_told_so(void **state)
     struct diagnosis d;
     struct message_list messages;
     (void)state;
-    diagnose(NULL, "*FIT, REDUCTION=NONE\n", &d);
+    diagnose(NULL, 0, "*FIT, REDUCTION=NONE\n", &d);
     assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
     assert_int_equal(d.ncause, 1);
     assert_string_equal(d.cause[0].cause->id, "beam_theory");
@@ -126,7 +128,7 @@ static void a_solid_that_explains_its_data_is_adequate(void **state)
 {
     struct diagnosis d;
     (void)state;
-    diagnose(NULL, "*FIT, MODEL=SOLID\n", &d);
+    diagnose(NULL, 0, "*FIT, MODEL=SOLID\n", &d);
     assert_int_equal(d.result.verdict.kind, ROTID_ADEQUATE);
     assert_close(d.base.fit->x[0], true_e, 0.015, 0);
     assert_int_equal(d.result.nnumerical_findings, 0);
@@ -138,7 +140,7 @@ static void what_a_solid_lacks_is_named_and_sized(void **state)
     struct diagnosis d;
     struct effect ring = {.name = "ring", .kind = catalogue_find("added_mass")->effect, .target = -1, .value = {1.5, 0.5}};
     (void)state;
-    diagnose(&ring, "*FIT, MODEL=SOLID\n", &d);
+    diagnose(&ring, 0, "*FIT, MODEL=SOLID\n", &d);
     assert_int_equal(d.result.verdict.kind, ROTID_NAMED);
     assert_int_equal(d.ncause, 1);
     assert_string_equal(d.cause[0].cause->id, "added_mass");
@@ -153,6 +155,19 @@ static void what_a_solid_lacks_is_named_and_sized(void **state)
     diagnose_free(&d);
 }
 
+/* What is fitted is the measured shape less what the coarse mesh misses, another number at every sensor. */
+static void a_copied_channel_of_a_solid_is_told_by_its_digits(void **state)
+{
+    struct diagnosis d;
+    (void)state;
+    diagnose(NULL, 1, "*FIT, MODEL=SOLID\n", &d);
+    assert_int_equal(d.result.ndata_findings, 1);
+    assert_string_equal(d.result.data_findings[0].id, "duplicate_channel");
+    assert_int_equal(d.result.data_findings[0].sensors[0], SENSORS);
+    assert_int_equal(d.result.verdict.kind, ROTID_ADEQUATE);
+    diagnose_free(&d);
+}
+
 /* The coarse mesh, on which a solid is fitted, has to leave nothing that could be taken for a cause: its shapes are off by more
  * than that beside the step. */
 static void a_fit_of_exact_data_leaves_nothing(void **state)
@@ -164,7 +179,7 @@ static void a_fit_of_exact_data_leaves_nothing(void **state)
     (void)state;
     strcpy(text, rotor_text);
     put_sensors(text);
-    put_measured(NULL, 0, text);
+    put_measured(NULL, 0, 0, text);
     strcat(text, "*FIT, MODEL=SOLID\n*IDENTIFY\ncore.E, 1e10, 4e11, 1.8e11\ncore.G, 1e10, 1.5e11, 0.7e11\n");
     message_open(&messages, &test_pool);
     assert_status(deck_read(&test_pool, folder_write("exact.inp", text), 0, NULL, &messages, &job), ROTID_OK);
@@ -180,6 +195,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_beam_that_is_a_solid_is_told_so, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_fit_of_exact_data_leaves_nothing, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(a_solid_that_explains_its_data_is_adequate, open_test_pool, close_test_pool),
+        cmocka_unit_test_setup_teardown(a_copied_channel_of_a_solid_is_told_by_its_digits, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(what_a_solid_lacks_is_named_and_sized, open_test_pool, close_test_pool),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

@@ -599,6 +599,7 @@ static void messages_say_what_was_expected(void **state)
                  {"support:at=bearing,factor=2", "expected the name of a spring"},
                  {"sensor_gain:sensor=99,gain=2", "expected the id of a sensor"},
                  {"sensor_position:sensor=1,shift=-0.1", "leaves the sensor on the rotor"},
+                 {"sensor_line:scale=1.1", "leaves all sensors on the rotor"},
                  {"mode_pairing:swap=2+9", "expected two measured modes"},
                  {"mode_pairing", "one of swap=, double=, missing="},
                  {"outside:kind=nothing", "expected one of --list"},

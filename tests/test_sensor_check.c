@@ -91,7 +91,7 @@ static int check(struct scene *scene, int most, struct sensor_fault *fault)
         for (int i = 0; i < AXIS; i++)
             scene->axis[i + k * AXIS] = ab / aa * truth[RIGHT].value[k][i];
     }
-    struct shape_data data = {n, MODES, scene->z, scene->shape, scene->std, AXIS, truth[RIGHT].z, scene->axis};
+    struct shape_data data = {n, MODES, scene->z, scene->shape, scene->std, scene->shape, AXIS, truth[RIGHT].z, scene->axis};
     struct pool pool;
     pool_open(&pool, NULL);
     assert_status(sensor_check(&pool, &data, 0.005, most, fault, &count), ROTID_OK);
@@ -303,7 +303,7 @@ static void without_memory(void **state)
     (void)state;
     open_scene(&scene, RIGHT, 12, 4);
     check(&scene, 2, fault); /* fills the axis */
-    struct shape_data data = {12, MODES, scene.z, scene.shape, scene.std, AXIS, truth[RIGHT].z, scene.axis};
+    struct shape_data data = {12, MODES, scene.z, scene.shape, scene.std, scene.shape, AXIS, truth[RIGHT].z, scene.axis};
     for (long fail = 1; status == ROTID_ERROR_MEMORY; fail++) {
         struct failing_allocator failing;
         struct pool pool;

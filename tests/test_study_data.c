@@ -71,6 +71,7 @@ static void hidden_effects_do_what_exact_dynamics_says(void **state)
          "accelerometer_mass:mass=0.2,mount=fixed,sensor=23", 2e-3},
         {"*HIDE, TYPE=accelerometer_mass\nmass, 0.2\n", "accelerometer_mass:mass=0.2,mount=moving", 2e-3},
         {"*HIDE, TYPE=sensor_position, SENSOR=30\nshift, 0.037\n", "sensor_position:sensor=30,shift=0.037", 2e-3},
+        {"*HIDE, TYPE=sensor_line\nshift, 0.01\nscale, 0.99\nflip, 1\n", "sensor_line:flip=1,shift=0.01,scale=0.99", 2e-3},
         {"*HIDE, TYPE=sensor_gain, SENSOR=23\ngain, 0.6\n", "sensor_gain:sensor=23,gain=0.6", 2e-3},
         {"*HIDE, TYPE=sensor_sign, SENSOR=5\n", "sensor_sign:sensor=5", 2e-3},
         {"*HIDE, TYPE=sensor_swap, SENSOR=12,13\n", "sensor_swap:sensors=12+13", 2e-3},

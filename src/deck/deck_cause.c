@@ -219,7 +219,11 @@ static void read_physical(struct cause_card *c)
 static void read_correction(struct cause_card *c)
 {
     struct job *job = c->reader->job;
-    int given[1] = {0};
+    int given[3] = {0}, count = 0;
+    struct effect_parameter_name known[3];
+    double value[3];
+    for (const struct effect_parameter_name *name; (name = correction_parameter(c->kind, count)); count++)
+        known[count] = *name;
     c->correction.name = c->name;
     c->correction.id = c->kind->id;
     c->correction.value = 1;
@@ -229,8 +233,10 @@ static void read_correction(struct cause_card *c)
                    c->kind->id);
         return;
     }
-    if (read_values(c, c->kind->value.name != NULL, &c->kind->value, &c->correction.value, given))
+    if (read_values(c, count, known, value, given))
         return;
+    for (int p = 0; p < count; p++)
+        *correction_value(&c->correction, p) = value[p];
     if (!job->measurement.shape && c->kind->target != TARGET_BLOCK) {
         deck_error(c->reader, c->card->place, "TYPE=%s corrects measured shapes and there are none, expected *SHAPE or *MEASURED",
                    c->kind->id);

@@ -50,6 +50,10 @@ void deck_apply_corrections(struct deck_reader *reader)
         int status = correction_apply(reader->pool, job, correction);
         if (status == ROTID_ERROR_MEMORY)
             reader->out_of_memory = 1;
+        else if (status && !correction->nsensor)
+            deck_error(reader, reader->correction_place[i],
+                       "%s puts sensors beyond the rotor, expected a shift and a scale that leave all of them on it",
+                       correction->id);
         else if (status)
             deck_error(reader, reader->correction_place[i],
                        "%s leaves sensor %d no place of its own among the others, expected another shift", correction->id,

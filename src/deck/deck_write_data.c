@@ -271,14 +271,16 @@ static void write_correction(struct deck_writer *w, const struct correction *cor
     deck_put_option(w, "TYPE", kind->id);
     if (kind->target == TARGET_BLOCK)
         deck_put_option(w, "AT", correction->block);
-    else
+    else if (kind->target != TARGET_NONE)
         deck_put(w, ", SENSOR=%d", correction->sensor[0]);
     if (kind->target == TARGET_SENSORS)
         deck_put(w, ",%d", correction->sensor[1]);
     deck_put(w, "\n");
-    if (kind->value.name) {
-        deck_put(w, "%s", kind->value.name);
-        deck_put_number(w, ", ", correction->value);
+    struct correction copy = *correction;
+    const struct effect_parameter_name *name;
+    for (int p = 0; (name = correction_parameter(kind, p)); p++) {
+        deck_put(w, "%s", name->name);
+        deck_put_number(w, ", ", *correction_value(&copy, p));
         deck_put(w, "\n");
     }
 }

@@ -170,6 +170,14 @@ static int take_numbers(struct engine *engine)
     return ROTID_OK;
 }
 
+/* Measured modes keep the numbers that they have beside the base: a spring that a candidate adds or stiffens makes its suspension
+ * modes bend, and counting them anew would turn every number into that of another mode. */
+static void settle_numbers(struct engine *engine)
+{
+    for (int s = 0; s < engine->states.nstate; s++)
+        engine->states.state[s].job.rotor.settled_rigid = 1 + engine->out->state_base[s].spectrum.nrigid;
+}
+
 /* say: the notes of the fit */
 static int fit_base(struct engine *engine, int say)
 {
@@ -199,6 +207,7 @@ static int fit_base(struct engine *engine, int say)
     if (out->base.fit->status == ROTID_STOP_CANCELLED)
         return ROTID_STOP_CANCELLED;
     status = take_numbers(engine);
+    settle_numbers(engine);
     out->judged = engine->states;
     if (!status)
         status = states_started_at(engine->pool, &out->judged, engine->fit->x, &engine->states);

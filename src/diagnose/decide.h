@@ -10,7 +10,8 @@
 /* Least margin of a name, in chi2 with those penalties: noise turns a rival into the better one by so much once in a hundred
  * times at most, however well it mimics (the difference of two fits at distance d is normal with mean d^2 and deviation 2 d). */
 #define LEAST_MARGIN 6.0
-/* Residuals more than parameters, that could still contradict a name: six frequencies carry one parameter. */
+/* Residuals more than parameters, that could still contradict a name: six frequencies carry one parameter. Twice as many where
+ * the cause leaves more than noise: what else is there has parameters too, and with few residuals one cause imitates two. */
 #define LEAST_RESIDUALS 3
 
 /* The model before the round, as far as the candidates are compared with it. */

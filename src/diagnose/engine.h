@@ -6,6 +6,8 @@
 #include "diagnose/roving_accelerometer.h"
 #include "diagnose/scan.h"
 
+struct far_start; /* far_starts.h */
+
 struct engine {
     struct pool *pool;
     int threads, replicates;
@@ -28,6 +30,8 @@ struct engine {
     int user_reduction;                  /* of the deck's own FIT */
     int coloured;                        /* the noise of the shapes was raised for its smooth part */
     struct roving_accelerometer moving;  /* the accelerometer by the frequencies at single sensors; usable 0 where it has none */
+    int searched_far;                    /* far starts were looked for, once */
+    const struct far_start *far;         /* the one that led farther than the others, NULL */
     double clock;
 };
 

@@ -166,6 +166,8 @@ static int fill_candidate(struct engine *engine, const struct round_result *resu
     c->result.p_value = pair ? NAN : bootstrap_p(&result->bootstrap, c->result.chi2_drop);
     c->result.chi2_frequency = frequency_chi2(scan, refit->fit);
     c->explains = fit_explains(scan, refit->fit);
+    c->residual = refit->fit->r;
+    c->nresidual = refit->fit->nresidual;
     take_parameters(refit, &refit->states.state[c->home], effect_of(refit, scan, set, 0), c);
     mend_intervals(scan, pair ? NULL : &scan->candidate[set->candidate[0]], c);
     if (pair) {

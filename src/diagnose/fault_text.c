@@ -59,8 +59,9 @@ int fault_finding(struct pool *pool, const struct sensor_fault *fault, const int
 
 const char *fault_target(struct pool *pool, const rotid_data_finding *finding)
 {
-    return finding->nsensors > 1 ? pool_format(pool, "sensors %d,%d", finding->sensors[0], finding->sensors[1])
-                                 : pool_format(pool, "sensor %d", finding->sensors[0]);
+    return !finding->nsensors      ? ""
+           : finding->nsensors > 1 ? pool_format(pool, "sensors %d,%d", finding->sensors[0], finding->sensors[1])
+                                   : pool_format(pool, "sensor %d", finding->sensors[0]);
 }
 
 struct correction fault_correction(const struct sensor_fault *fault, const int *id)
@@ -71,4 +72,43 @@ struct correction fault_correction(const struct sensor_fault *fault, const int *
                                .nsensor = 1 + two,
                                .sensor = {id[fault->sensor], two ? id[fault->other] : 0},
                                .value = has_value(kind) ? fault->value : 1};
+}
+
+#define NORMAL_95 1.96
+
+static rotid_cause_value sized(const char *name, const char *unit, double value, double std, double neutral)
+{
+    int as_stated = value == neutral && !isfinite(std);
+    double half = as_stated ? NAN : NORMAL_95 * std;
+    return (rotid_cause_value){name, unit, value, as_stated ? NAN : std, {value - half, value + half}, 0};
+}
+
+int line_finding(struct pool *pool, const struct line_fault *fault, rotid_data_finding *finding)
+{
+    const struct sensor_line *line = &fault->line;
+    *finding = (rotid_data_finding){.id = "sensor_line",
+                                    .value = NAN,
+                                    .std = NAN,
+                                    .chi2_drop = fault->chi2_drop,
+                                    .nparameters = 3,
+                                    .parameters = POOL_ARRAY(pool, rotid_cause_value, 3)};
+    if (!finding->parameters)
+        return ROTID_ERROR_MEMORY;
+    finding->parameters[0] = sized("shift", "m", line->shift, fault->shift_std, 0);
+    finding->parameters[1] = sized("scale", "1", line->scale, fault->scale_std, 1);
+    finding->parameters[2] = sized("flip", "1", line->flip, NAN, line->flip);
+    const char *text =
+        line->flip ? "the positions of all sensors count from the other end" : "the positions of all sensors are off";
+    if (line->scale != 1)
+        text =
+            pool_format(pool, "%s, their distances are %.5g +- %.2g times the stated ones", text, line->scale, fault->scale_std);
+    if (text && line->shift != 0)
+        text = pool_format(pool, "%s, their origin is off by %+.3g +- %.2g mm", text, 1e3 * line->shift, 1e3 * fault->shift_std);
+    finding->text = text ? pool_format(pool, "%s; all of them are moved", text) : NULL;
+    return finding->text ? ROTID_OK : ROTID_ERROR_MEMORY;
+}
+
+struct correction line_correction(const struct sensor_line *line)
+{
+    return (struct correction){.id = "sensor_line", .value = line->shift, .more = {line->scale, line->flip}};
 }

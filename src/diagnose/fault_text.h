@@ -2,6 +2,7 @@
 #ifndef ROTID_DIAGNOSE_FAULT_TEXT_H
 #define ROTID_DIAGNOSE_FAULT_TEXT_H
 
+#include "diagnose/line_check.h"
 #include "diagnose/sensor_check.h"
 #include "run/job.h"
 
@@ -11,5 +12,9 @@ int fault_finding(struct pool *pool, const struct sensor_fault *fault, const int
 const char *fault_target(struct pool *pool, const rotid_data_finding *finding);
 /* Without a name; of a dead channel there is none: nothing could be put right. */
 struct correction fault_correction(const struct sensor_fault *fault, const int *id);
+
+/* The same of all positions at once: the finding with its sizes, and the card. */
+int line_finding(struct pool *pool, const struct line_fault *fault, rotid_data_finding *finding);
+struct correction line_correction(const struct sensor_line *line);
 
 #endif

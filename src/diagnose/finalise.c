@@ -93,8 +93,12 @@ static const char *describe(struct pool *pool, const struct candidate *c)
     const char *text = candidate_label(pool, c);
     if (text && isfinite(c->other_chi2) && c->other_chi2 - c->result.chi2 < LEAST_MARGIN)
         text = pool_format(pool, "%s, as well at z = %.3g m", text, c->other_place);
-    if (!cause->effect) /* a rival that is no part of a model */
-        return text ? pool_format(pool, "%s (%s %.3g)", text, cause->value.name, c->effect.value[0]) : NULL;
+    if (!cause->effect) { /* a rival that is no part of a model */
+        const struct effect_parameter_name *name;
+        for (int p = 0; (name = correction_parameter(cause, p)) && text; p++)
+            text = pool_format(pool, "%s%s%s %.3g", text, p ? ", " : " (", name->name, c->effect.value[p]);
+        return text && cause->value.name ? pool_format(pool, "%s)", text) : text;
+    }
     for (int p = 0; p < c->nparameter && text; p++) {
         const struct effect_parameter_name *parameter = &cause->effect->parameter[p];
         int has_unit = strcmp(parameter->unit, "1") != 0;
@@ -161,8 +165,8 @@ static const char *open_parameters(struct engine *engine)
 }
 
 /* The same where the question is what changed: the parts of the sentence, and what it ends with. */
-static const char *change_sentence(const struct engine *engine, const char *causes, const char *others, const char *chance,
-                                   const char *end)
+static const char *change_sentence(const struct engine *engine, const char *causes, const char *others, const char *one,
+                                   const char *chance, const char *end)
 {
     const struct diagnosis *out = engine->out;
     const rotid_verdict *verdict = &out->result.verdict;
@@ -174,10 +178,17 @@ static const char *change_sentence(const struct engine *engine, const char *caus
     case ROTID_NAMED:
         return pool_format(pool, "Between %s and %s changed: %s; %s%s (%s before).%s", from, to, causes,
                            verdict->adequate_after ? "with this the model explains the difference of the states within the noise"
+                           : one                   ? "this does not explain the rest; "
                            : out->nalternative     ? "the data cannot tell what causes the rest: "
                                                    : "the rest still exceeds the noise",
-                           !verdict->adequate_after && out->nalternative ? others : "", chance, end);
+                           verdict->adequate_after ? ""
+                           : one                   ? one
+                           : out->nalternative     ? others
+                                                   : "",
+                           chance, end);
     case ROTID_AMBIGUOUS:
+        if (one)
+            return pool_format(pool, "Something changed between %s and %s (%s); %s.%s", from, to, chance, one, end);
         return pool_format(pool, "Something changed between %s and %s (%s); the data cannot tell which of %s it is%s.%s", from,
                            to, chance, others, verdict->confident ? "" : ", nor with confidence that it is any of them", end);
     default:
@@ -187,6 +198,19 @@ static const char *change_sentence(const struct engine *engine, const char *caus
             "cost.%s",
             from, to, chance, end);
     }
+}
+
+/* One cause alone that has no name, and whether it leaves no more than noise; NULL: there are several. */
+static const char *only_one(struct pool *pool, const struct diagnosis *out, const char *one)
+{
+    const struct candidate *c = out->alternative;
+    if (!out->nalternative || c[out->nalternative - 1].set != 1)
+        return NULL;
+    int explains = c->explains || c->cause->class != CAUSE_PHYSICAL;
+    return pool_format(pool,
+                       explains ? "%s would, but these data do not suffice to name a cause"
+                                : "%s comes nearest and leaves more than noise: these data do not suffice to name a cause",
+                       one);
 }
 
 static const char *verdict_sentence(struct engine *engine)
@@ -200,7 +224,8 @@ static const char *verdict_sentence(struct engine *engine)
     const char *undetermined = open_parameters(engine), *faults = "", *solid = "",
                *worth = explained ? hidden_sentence(engine, out->extended.fit ? out->extended.fit : out->base.fit)
                                   : spread_sentence(engine),
-               *open = undetermined && worth ? pool_format(pool, "%s%s", undetermined, worth) : NULL;
+               *open = undetermined && worth ? pool_format(pool, "%s%s", undetermined, worth) : NULL,
+               *one = others ? only_one(pool, out, others) : NULL;
     for (int c = 0; c < out->ncause; c++)
         if (out->cause[c].cause->solid)
             solid =
@@ -222,12 +247,15 @@ static const char *verdict_sentence(struct engine *engine)
         return NULL;
     if (engine->before) {
         const char *end = pool_format(pool, "%s%s%s", solid, faults, open);
-        return end ? change_sentence(engine, causes, others, chance, end) : NULL;
+        return end ? change_sentence(engine, causes, others, one, chance, end) : NULL;
     }
     switch (verdict->kind) {
     case ROTID_ADEQUATE:
         return pool_format(pool, "The model explains the data within their noise (%s).%s%s", chance, faults, open);
     case ROTID_NAMED:
+        if (!verdict->adequate_after && one)
+            return pool_format(pool, "The model lacks %s (%s before), and does not explain the rest; %s.%s%s%s", causes, chance,
+                               one, solid, faults, open);
         if (!verdict->adequate_after && out->nalternative)
             return pool_format(pool, "The model lacks %s (%s before); the data cannot tell which of %s causes the rest.%s%s%s",
                                causes, chance, others, solid, faults, open);
@@ -236,10 +264,8 @@ static const char *verdict_sentence(struct engine *engine)
             verdict->adequate_after ? "the model explains the data within their noise" : "the residual still exceeds the noise",
             chance, solid, faults, open);
     case ROTID_AMBIGUOUS:
-        if (out->alternative && out->nalternative && out->alternative[out->nalternative - 1].set == 1)
-            return pool_format(
-                pool, "The model does not explain the data (%s); %s would, but these data do not suffice to name a cause.%s%s",
-                chance, others, faults, open);
+        if (one)
+            return pool_format(pool, "The model does not explain the data (%s); %s.%s%s", chance, one, faults, open);
         return pool_format(pool,
                            "The model does not explain the data (%s), and the data cannot tell which of %s is the cause%s.%s%s",
                            chance, others, verdict->confident ? "" : ", nor with confidence that any of them is", faults, open);
@@ -323,6 +349,24 @@ static int keep_open_suspects(struct pool *pool, struct job *job)
     return ROTID_OK;
 }
 
+/* Whoever reads the extended deck counts its suspension modes anew: the numbers of the measured modes in it are above those. */
+static int renumber(struct pool *pool, struct job *job)
+{
+    struct rotor rotor = job->rotor;
+    struct rotor_model model;
+    int failed, above, *number = POOL_ARRAY(pool, int, job->measurement.nmode);
+    rotor.settled_rigid = 0;
+    int status = number ? model_open(pool, job->models, &rotor, 0, NULL, 1, &model, &failed) : ROTID_ERROR_MEMORY;
+    if (status || (above = job->rotor.settled_rigid - 1 - model.equations.nrigid) == 0)
+        return status;
+    for (int k = 0; k < job->measurement.nmode; k++)
+        if ((number[k] = job->measurement.number[k] + above) < 1)
+            return ROTID_OK;
+    job->measurement.number = number;
+    job->rotor.settled_rigid = 1 + model.equations.nrigid;
+    return ROTID_OK;
+}
+
 /* The model with what was named, fitted to the end. */
 static int fit_extended(struct engine *engine)
 {
@@ -341,7 +385,11 @@ static int fit_extended(struct engine *engine)
     status = states_started_at(engine->pool, states, out->extended.fit->x, states);
     if (!status)
         status = states_at(engine->pool, states, out->extended.fit->x, states);
-    return status ? status : quality(engine, states, out->state_extended, out->extended.fit, 1);
+    if (!status)
+        status = quality(engine, states, out->state_extended, out->extended.fit, 1);
+    for (int s = 0; s < states->nstate && !status; s++)
+        status = renumber(engine->pool, &states->state[s].job);
+    return status;
 }
 
 int finalise(struct engine *engine, const struct round_result *last)

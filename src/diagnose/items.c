@@ -9,7 +9,7 @@ const struct effect_parameter_name *candidate_parameter(const struct candidate *
         return NULL;
     if (kind)
         return p < kind->nparameter ? &kind->parameter[p] : NULL;
-    return p == 0 && candidate->cause->value.name ? &candidate->cause->value : NULL;
+    return correction_parameter(candidate->cause, p);
 }
 
 const char *candidate_variant(const struct candidate *candidate)

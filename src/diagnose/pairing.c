@@ -97,9 +97,20 @@ static void take_back(struct engine *engine)
     out->ndata_findings = kept;
 }
 
-static int adopt(struct engine *engine, const struct job_measurement *measured, int *number)
+int pairing_note_again(struct engine *engine)
 {
+    if (engine->dropped || engine->job->measurement.paired)
+        return ROTID_OK;
+    take_back(engine);
+    return pairing_note(engine, engine->job->measurement.number);
+}
+
+int pairing_adopt(struct engine *engine, const struct job_measurement *measured, int *number)
+{
+    const struct job_measurement now = engine->job->measurement;
     struct job job = *engine->job;
+    if (now.nmode == measured->nmode && !memcmp(number, engine->number, (size_t)now.nmode * sizeof *number))
+        return ROTID_OK;
     job.measurement = *measured;
     int status = data_copy(engine->pool, &job);
     if (status)
@@ -208,5 +219,5 @@ int pairing_settle(struct engine *engine, const struct round_result *result, int
     if (!isfinite(best.rate) || !better)
         return ROTID_OK;
     *changed = 1;
-    return adopt(engine, measured, best.number);
+    return pairing_adopt(engine, measured, best.number);
 }

@@ -19,6 +19,14 @@ static double inside(const rotid_parameter *bounds, double value)
     return fmin(fmax(value, bounds->lower + margin), bounds->upper - margin);
 }
 
+/* The start of a size: where the bijection moves it by a share of itself. Bounds of springs and factors span decades, and 2 % of
+ * the distance between them would be a hundred times a small one. */
+static double start_of_size(const rotid_parameter *bounds, double value)
+{
+    int open = fmin(value - bounds->lower, bounds->upper - value) > OFF * fabs(value);
+    return open ? value : inside(bounds, value);
+}
+
 static void set_start(rotid_parameter *bounds, double value)
 {
     int open = value > bounds->lower && value < bounds->upper && !bounds_pressed(bounds, value);
@@ -75,7 +83,9 @@ int job_with_effect(struct pool *pool, const struct job *from, const double *x, 
         if (!bounds->name)
             return ROTID_ERROR_MEMORY;
         cause_bounds(cause, rotor, effect, p, &bounds->lower, &bounds->upper);
-        set_start(bounds, inside(bounds, effect->value[p]));
+        bounds->start = start_of_size(bounds, effect->value[p]);
+        if (bounds->start == 0) /* its size is the scale of the parameter */
+            bounds->start = 1e-3 * (bounds->upper > 0 ? bounds->upper : bounds->lower);
         to->unknowns.parameter[to->unknowns.nparameter++] =
             (struct parameter){.kind = PARAMETER_EFFECT, .index = index, .component = p};
     }
@@ -246,6 +256,8 @@ static int starting_effects(const struct scan *scan, const struct scan_set *set,
         effect[s][0] = effect_of_item(scan, item[s], scan->item[item[s]].amplitude);
     if (c->cause->solid)
         effect[count++][0] = c->effect;
+    if (c->far && set->count == 1)
+        effect[count++][0] = *c->far;
     if (set->count > 1) {
         for (int m = 0; m < 2; m++)
             effect[0][m] = effect_of_item(scan, set->item[m], set->amplitude[m]);
@@ -397,7 +409,7 @@ static int fit_from(struct pool *pool, const struct states *states, const int *n
                     const struct scan *scan, const struct scan_set *set, const rotid_environment *environment,
                     struct refit *refit)
 {
-    struct effect start[STARTS][2];
+    struct effect start[STARTS + 1][2];
     const struct scan_candidate *c = &scan->candidate[set->candidate[0]];
     int count = starting_effects(scan, set, rotor_length(&states->state[c->home].job.rotor), start);
     for (int s = 0; s < count; s++) {

@@ -7,6 +7,7 @@
 #include "diagnose/bootstrap.h"
 #include "diagnose/decide.h"
 #include "diagnose/evidence.h"
+#include "diagnose/far_starts.h"
 #include "diagnose/faults.h"
 #include "diagnose/noise_level.h"
 #include "diagnose/pairing.h"
@@ -62,7 +63,7 @@ static int choose(const struct scan *scan, double threshold, struct scan_set *se
         int taken = 0;
         for (int j = 0; j < count; j++)
             taken |= set[j].candidate[0] == i;
-        if (!taken && scan->candidate[i].suspect && scan->candidate[i].best >= 0)
+        if (!taken && ((scan->candidate[i].suspect && scan->candidate[i].best >= 0) || scan->candidate[i].far))
             set[count++] = (struct scan_set){.count = 1, .candidate = {i}};
     }
     return count;
@@ -137,7 +138,10 @@ static int settle_data(struct engine *engine, struct round_result *result, int *
             best = i;
     if (!status && !*changed)
         status = noise_settle(engine, &result->scan, best < 0 ? result->scan.r : result->refit[best].fit->r, changed);
-    return status || !*changed ? status : fit_again(engine);
+    if (status || !*changed)
+        return status;
+    status = fit_again(engine);
+    return status || engine->out->ncause ? status : pairing_note_again(engine);
 }
 
 /* The fits of a round. doubt: of the data, once they are there; *again: the data were at fault and are better now */
@@ -151,6 +155,8 @@ static int fit_round(struct engine *engine, struct diagnosis_round *round, struc
     if (!status)
         status = scan_run(pool, &engine->states, engine->number, engine->holdout, engine->fit->x, &result->scan);
     engine_step(engine, "scan");
+    if (!status)
+        far_starts_mark(engine, &result->scan);
     const struct scan *scan = &result->scan;
     if (!status)
         status =
@@ -185,7 +191,14 @@ static int fit_round(struct engine *engine, struct diagnosis_round *round, struc
     if (!status)
         status = run_refits(engine, result, single);
     engine_step(engine, "refits");
-    if (!status && !adequate)
+    if (!status && doubt && !adequate && !engine->out->ncause)
+        status = far_starts_search(engine, result, again);
+    engine_step(engine, "far starts");
+    if (!status && *again)
+        status = fit_again(engine);
+    if (status || *again)
+        return status;
+    if (!adequate)
         status = run_pairs(engine, result);
     engine_step(engine, "pairs");
     if (!status && doubt)

@@ -31,6 +31,7 @@ struct scan_candidate {     /* a cause at a target, with all its places */
     int first, count; /* items */
     int best;         /* item of the largest drop, -1: none is usable */
     double promise;   /* drop where there is no column */
+    const struct effect *far; /* where a fit starts as well (far_starts.h), NULL */
 };
 
 struct scan {

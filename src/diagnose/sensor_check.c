@@ -31,6 +31,7 @@ struct search {
     double noise_factor;
     double *limit, *left; /* [n] how suspicious a sensor is at most; -INFINITY once looked at */
     double *work;         /* of local_physics */
+    const double *digits; /* [n * nmode] as read, on the scale of the field */
 };
 
 static int sensors_left(const struct sensor_field *field)
@@ -202,7 +203,7 @@ static int is_copy(const struct search *search, int s, int t)
     int n = field->n, shared = 0;
     double chance = log(0.5 * n * n);
     for (int k = 0; k < field->nmode; k++) {
-        const double *m = field->reading + (ptrdiff_t)k * n;
+        const double *m = search->digits + (ptrdiff_t)k * n;
         const int *present = field->present + (ptrdiff_t)k * n;
         if (!present[s] || !present[t] || (m[s] == 0 && m[t] == 0)) /* two that are dead are no copies */
             continue;
@@ -299,6 +300,26 @@ static void judge_again(struct search *search, struct sensor_fault *fault, int *
     }
 }
 
+/* What was read in every mode, as large as what the field takes for its reading. */
+static const double *digits_of(struct pool *pool, const struct sensor_field *field)
+{
+    int n = field->n;
+    double *digits = POOL_ARRAY(pool, double, (size_t)n *(size_t)field->nmode);
+    for (int k = 0; k < field->nmode && digits; k++) {
+        const double *read = field->data->read + (ptrdiff_t)k * n, *reading = field->reading + (ptrdiff_t)k * n;
+        const int *present = field->present + (ptrdiff_t)k * n;
+        double largest = 0, as_read = 0;
+        for (int i = 0; i < n; i++)
+            if (present[i]) {
+                largest = fmax(largest, fabs(reading[i]));
+                as_read = fmax(as_read, fabs(read[i]));
+            }
+        for (int i = 0; i < n; i++)
+            digits[i + (ptrdiff_t)k * n] = present[i] && as_read > 0 ? read[i] * (largest / as_read) : 0;
+    }
+    return digits;
+}
+
 int sensor_check(struct pool *pool, const struct shape_data *data, double false_alarm, int most, struct sensor_fault *fault,
                  int *nfault)
 {
@@ -314,7 +335,8 @@ int sensor_check(struct pool *pool, const struct shape_data *data, double false_
     search.limit = POOL_ARRAY(pool, double, data->nsensor);
     search.left = POOL_ARRAY(pool, double, data->nsensor);
     search.work = POOL_ARRAY(pool, double, local_workspace(&search.field));
-    if (!search.limit || !search.left || !search.work)
+    search.digits = digits_of(pool, &search.field);
+    if (!search.limit || !search.left || !search.work || !search.digits)
         return ROTID_ERROR_MEMORY;
     search.threshold = 2 * log(data->nsensor * FAULT_KINDS / false_alarm) * (1 + pow(FEW_SENSORS / data->nsensor, 3));
     search.noise_factor = 1;

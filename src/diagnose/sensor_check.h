@@ -11,6 +11,7 @@ struct shape_data {
     const double *z;     /* [nsensor] positions, increasing [m] */
     const double *shape; /* [nsensor * nmode] measured, NaN where not measured */
     const double *std;   /* [nsensor * nmode] of the same scale */
+    const double *read;  /* [nsensor * nmode] the shape with the digits it was read with, of any scale */
     int naxis;
     const double *axis_z;     /* [naxis] nodes of the model, increasing */
     const double *axis_shape; /* [naxis * nmode] deflection of the model's modes there, times the best scale to the measured */

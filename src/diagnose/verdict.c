@@ -134,8 +134,8 @@ static double margin_of(const struct diagnosis_round *round)
     return margin;
 }
 
-/* The candidates of a round that lie within `margin` of the first, those refused for their size alone behind the others, and two
- * at least where there are: one alone would be a name. */
+/* The candidates of a round that lie within `margin` of the first, those refused for their size alone behind the others. One may
+ * be alone: what keeps it from a name is then not another one. */
 static int take_set(struct engine *engine, const struct diagnosis_round *round, double margin)
 {
     struct diagnosis *out = engine->out;
@@ -145,15 +145,14 @@ static int take_set(struct engine *engine, const struct diagnosis_round *round, 
     if (!out->alternative || !taken)
         return ROTID_ERROR_MEMORY;
     out->nalternative = 0;
-    for (int pass = 0; pass < 3; pass++)
+    for (int at_bound = 0; at_bound < 2; at_bound++)
         for (int i = 0; i < round->ncandidate; i++) {
             const struct candidate *c = &round->candidate[i];
             if (taken[i] || !c->result.refitted || !(c->result.chi2_drop > round->result.threshold / 2))
                 continue;
             int near = candidate_score(c) - candidate_score(&round->candidate[0]) <= margin;
-            taken[i] = pass == 0 ? i < round->result.set || (near && !c->refused && c->result.chi2_drop > round->result.threshold)
-                       : pass == 1 ? near && c->result.at_bound
-                                   : !c->refused && sets < 2;
+            taken[i] = at_bound ? near && c->result.at_bound
+                                : i < round->result.set || (near && !c->refused && c->result.chi2_drop > round->result.threshold);
             sets += taken[i];
             for (const struct candidate *member = c; taken[i] && member; member = member->with) {
                 struct candidate *listed = &out->alternative[out->nalternative++];
@@ -264,7 +263,9 @@ int reach_verdict(struct engine *engine, struct round_result *last)
         status = confirm(engine, again, &result, &doubtful);
         if (!status && doubtful >= 0) {
             withdraw(out);
-            status = take_set(engine, again, again->result.required_margin);
+            status = take_set(engine, again, isfinite(again->result.required_margin) ? again->result.required_margin : 0);
+            if (!status && !out->nalternative)
+                verdict->kind = ROTID_UNEXPLAINED;
             if (!status && !(verdict->next_measurement = advise(engine, again, &result)))
                 status = ROTID_ERROR_MEMORY;
         }

@@ -171,7 +171,7 @@ int models_discretise(struct pool *pool, struct models *models, const struct rot
     struct entry *e = find(models, rotor, refine, &same_values);
     if (takes_up && (!same_values || e->owner != models))
         status = add(models, rotor, refine, e, &e, failed);
-    *nrigid = status ? -1 : counted(models, rotor, refine);
+    *nrigid = status ? -1 : rotor->settled_rigid ? rotor->settled_rigid - 1 : counted(models, rotor, refine);
     if (takes_up)
         (void)pthread_mutex_unlock(&models->lock);
     if (status)

@@ -35,7 +35,7 @@ struct models *models_solids(struct models *models);
 void models_end_run(struct pool *pool, struct models *models, const struct models *given);
 
 /* A rotor discretised, by a mesh that is there already where there is one. *nrigid: rigid-body and suspension modes at the values
- * of the rotor, -1 where nobody has counted them. Statuses of discrete_build; *failed likewise. */
+ * of the rotor, or as they are settled there, -1 where nobody has counted them. Statuses of discrete_build; *failed likewise. */
 int models_discretise(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
                       const struct parameter *parameter, int refine, struct discrete *discrete, int *nrigid, int *failed);
 
@@ -57,9 +57,9 @@ int models_hold(struct models *models, const struct rotor *rotor, const struct h
 /* What is held for rotors of this shape, whatever causes are in them; NULL: nothing. */
 const struct held_modes *models_held(struct models *models, const struct rotor *rotor);
 
-/* Keeps a copy of vectors phi [n * count] near the lowest modes, for models of that size to begin with; those kept before stay where
- * they are as many. From one thread alone: which vectors are met must not depend on who comes first. With models that take up no
- * others nothing happens. ROTID_OK or ROTID_ERROR_MEMORY. */
+/* Keeps a copy of vectors phi [n * count] near the lowest modes, for models of that size to begin with; those kept before stay
+ * where they are as many. From one thread alone: which vectors are met must not depend on who comes first. With models that take
+ * up no others nothing happens. ROTID_OK or ROTID_ERROR_MEMORY. */
 int models_keep_modes(struct models *models, int n, int count, const double *phi);
 
 /* Those kept for models with n degrees of freedom, *count of them; NULL: none. */

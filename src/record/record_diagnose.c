@@ -60,6 +60,7 @@ static const struct field data_finding_fields[] = {
     NUMBER(rotid_data_finding, chi2_drop, MAY_BE_NULL),
     TEXT(rotid_data_finding, text, MAY_BE_NULL),
     TEXT(rotid_data_finding, state, MAY_BE_NULL | SINCE_LATER),
+    STRUCTS(rotid_data_finding, parameters, SINCE_LATER, value_record),
     {0},
 };
 static const struct record data_finding_record = RECORD(rotid_data_finding, data_finding_fields);

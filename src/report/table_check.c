@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "report/layout.h"
 #include "rotor/effect.h"
 
@@ -49,8 +50,10 @@ static void print_causes(FILE *out, const struct job *job)
         (void)fprintf(out, " taken out of the data, %s", correction->id);
         for (int s = 0; s < correction->nsensor; s++)
             (void)fprintf(out, "%s%d", s ? " and " : " of sensor ", correction->sensor[s]);
-        (void)fprintf(out, "%s%s, value %.6g\n", correction->block ? " of " : "", correction->block ? correction->block : "",
+        (void)fprintf(out, "%s%s, value %.6g", correction->block ? " of " : "", correction->block ? correction->block : "",
                       correction->value);
+        (void)fprintf(out, same_text(correction->id, "sensor_line") ? ", scale %.6g, flip %.6g\n" : "\n", correction->more[0],
+                      correction->more[1]);
     }
 }
 

@@ -17,6 +17,7 @@ struct correction {
     int nsensor, sensor[2]; /* ids */
     const char *block;      /* noise_level: "SHAPE" or "FREQUENCY", else NULL */
     double value;           /* gain, shift [m], factor; 1 where the cause has none */
+    double more[2];         /* of sensor_line behind its shift: scale, flip */
 };
 
 /* A candidate that the user wants judged: an effect of which some parameters are fixed and the others are searched. */

@@ -99,7 +99,7 @@ const struct effect_parameter_name *truth_parameter(const struct truth *truth, i
         return NULL;
     if (truth->effect)
         return p < effect_parameters(truth->effect) ? &truth->effect->kind->parameter[p] : NULL;
-    return p == 0 && truth->cause->value.name ? &truth->cause->value : NULL;
+    return correction_parameter(truth->cause, p);
 }
 
 /* Values of the hidden effect as the card behind the deck gives them. */
@@ -108,7 +108,8 @@ static void take_values(const struct job *job, struct truth *truth, double *valu
     if (truth->effect)
         memcpy(value, job->rotor.effect[job->rotor.neffect - 1].value, sizeof truth->lower);
     else if (job->measurement.ncorrection)
-        value[0] = job->measurement.correction[job->measurement.ncorrection - 1].value;
+        for (int p = 0; correction_parameter(truth->cause, p); p++)
+            value[p] = *correction_value(&job->measurement.correction[job->measurement.ncorrection - 1], p);
 }
 
 /* A component of a shape for a deck that has none: the plan makes them, and a fault of a sensor is one of shapes. */

@@ -99,6 +99,7 @@ static struct run_hidden *hidden(struct pool *pool, const struct truth *truth)
 {
     const struct effect_parameter_name *parameter;
     struct run_hidden *out = POOL_NEW(pool, struct run_hidden);
+    struct correction fault = truth->fault;
     int n = 0;
     while (truth_parameter(truth, n))
         n++;
@@ -106,8 +107,8 @@ static struct run_hidden *hidden(struct pool *pool, const struct truth *truth)
         return NULL;
     out->id = truth->cause->id;
     for (int p = 0; (parameter = truth_parameter(truth, p)); p++)
-        out->parameters[out->nparameters++] =
-            (struct run_value){parameter->name, parameter->unit, truth->effect ? truth->effect->value[p] : truth->fault.value};
+        out->parameters[out->nparameters++] = (struct run_value){
+            parameter->name, parameter->unit, truth->effect ? truth->effect->value[p] : *correction_value(&fault, p)};
     return out;
 }
 

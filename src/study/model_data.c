@@ -53,7 +53,7 @@ static void draw_values(const struct study *study, long replicate, struct truth 
         if (truth->effect)
             truth->effect->value[p] = value;
         else
-            truth->fault.value = value;
+            *correction_value(&truth->fault, p) = value;
     }
 }
 
@@ -63,7 +63,7 @@ static int place_sensors(struct pool *pool, const struct truth *truth, struct jo
     *job = truth->job;
     job->measurement.shape = job->measurement.shape_std = job->measurement.point_frequency_hz =
         job->measurement.point_frequency_std = NULL;
-    if (!truth->cause || strcmp(truth->cause->id, "sensor_position") != 0)
+    if (!truth->cause || (strcmp(truth->cause->id, "sensor_position") != 0 && strcmp(truth->cause->id, "sensor_line") != 0))
         return ROTID_OK;
     job->rotor.sensor = POOL_ARRAY(pool, struct sensor, job->rotor.nsensor);
     job->rotor.effect = POOL_ARRAY(pool, struct effect, job->rotor.neffect);

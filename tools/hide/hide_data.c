@@ -52,6 +52,9 @@ void hide_true_positions(const struct hide_physics *physics, double *z)
     for (int s = 0; s < rotor->sensors; s++)
         z[s] = rotor->sensor[s].z;
     for (int i = 0; i < physics->effects; i++)
+        for (int s = 0; s < rotor->sensors && hide_is(&physics->effect[i], "sensor_line"); s++)
+            z[s] = hide_on_line(rotor, &physics->effect[i], s);
+    for (int i = 0; i < physics->effects; i++)
         if (hide_is(&physics->effect[i], "sensor_position"))
             z[hide_get(&physics->effect[i], "sensor")->index] += hide_get(&physics->effect[i], "shift")->number;
 }

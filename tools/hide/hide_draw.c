@@ -279,6 +279,31 @@ static int draw_sensor(struct draw *d, const char *id, char spec[HIDE_SPEC])
     return 1;
 }
 
+/* One of flip, shift and scale, or shift and scale at once, by which no sensor leaves the rotor. */
+static int draw_line(struct draw *d, const char *id, char spec[HIDE_SPEC])
+{
+    const struct hide_rotor *rotor = d->rotor;
+    double first = rotor->length, last = 0, length = rotor->length;
+    for (int s = 0; s < rotor->sensors; s++) {
+        first = fmin(first, rotor->sensor[s].z);
+        last = fmax(last, rotor->sensor[s].z);
+    }
+    int fault = hide_pick(d->random, 4);
+    double scale = fault == 1 || fault == 2 ? factor(d, 0.01, 0.06) : 1,
+           shift = fault >= 2 ? length * either_sign(d, 0.003, 0.03) : 0;
+    if (rotor->sensors < 4)
+        return 0;
+    if (shift + scale * last > length && scale > 1)
+        scale = 1 / scale;
+    if (shift + scale * first < 0 || shift + scale * last > length)
+        shift = -shift;
+    if (fault == 0)
+        snprintf(spec, HIDE_SPEC, "%s:flip=1", id);
+    else
+        snprintf(spec, HIDE_SPEC, "%s:shift=%.6g,scale=%.6g", id, shift, scale);
+    return shift + scale * first >= 0 && shift + scale * last <= length;
+}
+
 static int draw_data(struct draw *d, const char *id, char spec[HIDE_SPEC])
 {
     int mode = 1 + hide_pick(d->random, d->modes), fault = hide_pick(d->random, d->no_shapes ? 2 : 3);
@@ -287,6 +312,8 @@ static int draw_data(struct draw *d, const char *id, char spec[HIDE_SPEC])
         snprintf(spec, HIDE_SPEC, "%s:block=%s,factor=%.6g", id, block, factor(d, 0.1, 1.4));
         return 1;
     }
+    if (!strcmp(id, "sensor_line"))
+        return !d->no_shapes && draw_line(d, id, spec);
     if (strcmp(id, "mode_pairing"))
         return !d->no_shapes && draw_sensor(d, id, spec);
     if (fault == 2 && d->modes > 1)
@@ -337,7 +364,7 @@ static const struct hide_kind *draw_class(struct draw *d, enum hide_class class,
                                           char spec[HIDE_SPEC])
 {
     for (int tries = 0; tries < 1000; tries++) {
-        const struct hide_kind *kind = hide_kind(hide_pick(d->random, hide_kinds()));
+        const struct hide_kind *kind = hide_kind(hide_pick(d->random, class == HIDE_DATA ? hide_kinds() : hide_kinds() - 1));
         if (kind->class == class && kind != without && draw_kind(d, kind, spec))
             return kind;
     }

@@ -173,6 +173,11 @@ static int check_together(const struct spec *spec, const struct hide_effect *eff
         if (!(z >= 0 && z <= spec->rotor->length))
             return expected(spec, "shift", "one that leaves the sensor on the rotor");
     }
+    for (int s = 0; s < spec->rotor->sensors && hide_is(effect, "sensor_line"); s++) {
+        double z = hide_on_line(spec->rotor, effect, s);
+        if (!(z >= 0 && z <= spec->rotor->length))
+            return expected(spec, "shift", "one that with scale= leaves all sensors on the rotor");
+    }
     if (hide_is(effect, "duplicate_channel") && on->index == hide_get(effect, "of")->index)
         return expected(spec, "of", "another sensor");
     if (hide_is(effect, "mode_pairing") &&

@@ -73,6 +73,8 @@ static const struct hide_kind table[] = {
     {"outside", "inertia", HIDE_OUTSIDE, {TARGET("z", HIDE_PLACE), NUMBER("inertia", 0, ANY)}},
     {"outside", "density_zone", HIDE_OUTSIDE, {NUMBER("factor", 0.01, 100), TARGET("z", HIDE_PLACE), NUMBER("width", 1e-4, ANY)}},
     {"outside", "sine", HIDE_OUTSIDE, {TARGET("group", HIDE_GROUP), NUMBER("amplitude", -0.95, 0.95), NUMBER("waves", 0.01, 20)}},
+    /* last, and no candidate for other classes: what a seed draws of those stays as it was */
+    {"sensor_line", NULL, HIDE_DATA, {OPTION("flip", 0, 0, 1), OPTION("shift", 0, -ANY, ANY), OPTION("scale", 1, 0.1, 10)}},
 };
 
 int hide_kinds(void)
@@ -106,4 +108,10 @@ void hide_word(const char *words, int i, size_t room, char *word)
         words = words ? words + 1 : NULL;
     }
     snprintf(word, room, "%.*s", words ? (int)strcspn(words, "|") : 0, words ? words : "");
+}
+
+double hide_on_line(const struct hide_rotor *rotor, const struct hide_effect *effect, int sensor)
+{
+    double z = hide_get(effect, "shift")->number + hide_get(effect, "scale")->number * rotor->sensor[sensor].z;
+    return hide_get(effect, "flip")->number > 0.5 ? rotor->length - z : z;
 }

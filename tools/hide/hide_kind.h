@@ -62,6 +62,8 @@ int hide_effect_read(const struct hide_rotor *rotor, int modes, const char *spec
                      const struct hide_message *message);
 
 int hide_is(const struct hide_effect *effect, const char *id); /* also of the kinds outside, by their name */
+/* Where a sensor (index) is with the effect sensor_line: shift + scale z from the left end, with flip from the right one. */
+double hide_on_line(const struct hide_rotor *rotor, const struct hide_effect *effect, int sensor);
 const struct hide_value *hide_get(const struct hide_effect *effect, const char *key);
 
 /* Word number i of "gaussian|box" into word[room]. */

@@ -183,6 +183,14 @@ static int finding_is_true(const rotid_data_finding *f, const cJSON *effect)
         return 0;
     if (is(effect, "mode_pairing"))
         return 1;
+    for (int p = 0; is(effect, "sensor_line") && p < f->nparameters; p++) {
+        const rotid_cause_value *found = &f->parameters[p];
+        double given = parameter_of(effect, found->name), tolerance = !strcmp(found->name, "shift") ? 2e-3 : 5e-3;
+        if (fabs(found->value - given) > fmax(VALUE_STDS * (isfinite(found->std) ? found->std : 0), tolerance))
+            return 0;
+    }
+    if (is(effect, "sensor_line"))
+        return f->nparameters > 0;
     if (is(effect, "noise_level") && strcmp(f->block ? f->block : "", text_of(effect, "target")) != 0)
         return 0;
     if (is(effect, "sensor_swap"))

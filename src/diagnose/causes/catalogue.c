@@ -12,6 +12,7 @@
     X(sensor_sign)                                                                                                               \
     X(sensor_swap)                                                                                                               \
     X(sensor_position)                                                                                                           \
+    X(sensor_line)                                                                                                               \
     X(duplicate_channel)                                                                                                         \
     X(noise_level)                                                                                                               \
     X(mode_pairing)                                                                                                              \

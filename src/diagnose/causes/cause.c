@@ -73,3 +73,14 @@ const char *cause_target_name(struct pool *pool, const struct rotor *rotor, cons
         return "";
     }
 }
+
+const struct effect_parameter_name *correction_parameter(const struct cause_kind *cause, int p)
+{
+    const struct effect_parameter_name *name = p == 0 ? &cause->value : p < 3 ? &cause->more[p - 1] : NULL;
+    return name && name->name ? name : NULL;
+}
+
+double *correction_value(struct correction *correction, int p)
+{
+    return p ? &correction->more[p - 1] : &correction->value;
+}

@@ -48,14 +48,19 @@ struct cause_kind {
     /* bounds of parameter p, lower < upper: of the size the usual ones */
     void (*bounds)(const struct rotor *rotor, const struct effect *effect, int p, double *lower, double *upper);
     double widest; /* how many times so far from no effect its size is still possible; 0: those bounds are the limit */
-    /* causes of the measurement chain: the value a CAUSE card gives ("gain", "1"), NULL where it gives none; and what takes the
-     * fault out of the data of a job, whose arrays may be changed in place. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_ARGUMENT */
-    struct effect_parameter_name value;
+    /* causes of the measurement chain: the value a CAUSE card gives ("gain", "1"), NULL where it gives none, and up to two behind
+     * it; and what takes the fault out of the data of a job, whose arrays may be changed in place. ROTID_OK, ROTID_ERROR_MEMORY,
+     * ROTID_ERROR_ARGUMENT */
+    struct effect_parameter_name value, more[2];
     int (*correct)(struct pool *pool, struct job *job, const struct correction *correction);
     /* half lines of text for reports */
     const char *sentence; /* what it is: "a zone softer than its surroundings" */
     const char *check;    /* how to tell it apart in the workshop: "weigh the end pieces" */
 };
+
+/* Name of value p of a cause of the measurement chain, NULL behind the last; where a correction has it. */
+const struct effect_parameter_name *correction_parameter(const struct cause_kind *cause, int p);
+double *correction_value(struct correction *correction, int p);
 
 /* Whether a cause is an error of beams alone, which a solid does not have. */
 int cause_of_beam(const struct cause_kind *cause);

@@ -11,6 +11,30 @@ int sensor_find(const struct job *job, int id)
     return -1;
 }
 
+#define BEYOND 0.02 /* of the length: so far a line may end beyond the rotor */
+#define APART  5e-4 /* of the length: nearer than a hundredth of an element two would share a node */
+
+double sensor_line_place(const struct sensor_line *line, double length, double z)
+{
+    double from = line->shift + line->scale * z;
+    return line->flip ? length - from : from;
+}
+
+int sensor_line_fits(const struct sensor_line *line, double length, int n, const double *z)
+{
+    double before = -length;
+    for (int i = 0; i < n; i++) { /* from left to right */
+        double place = sensor_line_place(line, length, z[line->flip ? n - 1 - i : i]);
+        if (!(place >= -BEYOND * length && place <= (1 + BEYOND) * length))
+            return 0;
+        place = fmin(fmax(place, 0), length);
+        if (place - before < APART * length)
+            return 0;
+        before = place;
+    }
+    return 1;
+}
+
 static void divide_by_largest(struct job *job, int with_std)
 {
     int n = job->rotor.nsensor;
@@ -68,6 +92,24 @@ void shapes_exchange(struct job *job, int a, int b)
         exchange(&job->measurement.point_frequency_hz[a + mode], &job->measurement.point_frequency_hz[b + mode]);
         exchange(&job->measurement.point_frequency_std[a + mode], &job->measurement.point_frequency_std[b + mode]);
     }
+}
+
+static void exchange_target(struct effect *effect, int a, int b)
+{
+    if (effect->kind->at_sensor && (effect->target == a || effect->target == b))
+        effect->target = effect->target == a ? b : a;
+}
+
+void sensors_exchange(struct job *job, int a, int b)
+{
+    struct sensor kept = job->rotor.sensor[a];
+    job->rotor.sensor[a] = job->rotor.sensor[b];
+    job->rotor.sensor[b] = kept;
+    shapes_exchange(job, a, b);
+    for (int i = 0; i < job->rotor.neffect; i++)
+        exchange_target(&job->rotor.effect[i], a, b);
+    for (int i = 0; i < job->unknowns.nsuspect; i++)
+        exchange_target(&job->unknowns.suspect[i].effect, a, b);
 }
 
 /* NULL for NULL; *failed where memory is out */

@@ -48,25 +48,6 @@ static int free_place(struct pool *pool, const struct rotor *rotor, int s, doubl
     return status ? status : alone ? ROTID_OK : ROTID_ERROR_ARGUMENT;
 }
 
-static void exchange_target(struct effect *effect, int a, int b)
-{
-    if (effect->kind->at_sensor && (effect->target == a || effect->target == b))
-        effect->target = effect->target == a ? b : a;
-}
-
-/* Sensors a and b change their indices, with all that refers to them. */
-static void exchange(struct job *job, int a, int b)
-{
-    struct sensor kept = job->rotor.sensor[a];
-    job->rotor.sensor[a] = job->rotor.sensor[b];
-    job->rotor.sensor[b] = kept;
-    shapes_exchange(job, a, b);
-    for (int i = 0; i < job->rotor.neffect; i++)
-        exchange_target(&job->rotor.effect[i], a, b);
-    for (int i = 0; i < job->unknowns.nsuspect; i++)
-        exchange_target(&job->unknowns.suspect[i].effect, a, b);
-}
-
 static int correct(struct pool *pool, struct job *job, const struct correction *correction)
 {
     struct sensor *sensor = job->rotor.sensor;
@@ -79,9 +60,9 @@ static int correct(struct pool *pool, struct job *job, const struct correction *
         return status;
     sensor[s].position = z;
     for (; s > 0 && sensor[s - 1].position > z; s--)
-        exchange(job, s - 1, s);
+        sensors_exchange(job, s - 1, s);
     for (; s + 1 < job->rotor.nsensor && sensor[s + 1].position < z; s++)
-        exchange(job, s, s + 1);
+        sensors_exchange(job, s, s + 1);
     return ROTID_OK;
 }
 
