@@ -127,12 +127,17 @@ INLINE void cholesky_solve(int n, int kd, const double *band, int lanes, double 
         cholesky_solve_1(n, kd, band, b);
 }
 
-EACH_MACHINE void band_cholesky_solve(int n, int kd, const double *band, int lanes, double *b)
+EACH_MACHINE static void cholesky_solve_here(int n, int kd, const double *band, int lanes, double *b)
 {
     if (kd == 3)
         cholesky_solve(n, 3, band, lanes, b);
     else
         cholesky_solve(n, kd, band, lanes, b);
+}
+
+void band_cholesky_solve(int n, int kd, const double *band, int lanes, double *b)
+{
+    cholesky_solve_here(n, kd, band, lanes, b);
 }
 
 INLINE void lu_solve(int n, int kd, const double *band, const int *pivot, int lanes, double *b)
@@ -145,7 +150,7 @@ INLINE void lu_solve(int n, int kd, const double *band, const int *pivot, int la
         lu_solve_1(n, kd, band, pivot, b);
 }
 
-EACH_MACHINE void band_lu_solve(int n, int kd, const double *band, const int *pivot, int lanes, double *b)
+EACH_MACHINE static void lu_solve_here(int n, int kd, const double *band, const int *pivot, int lanes, double *b)
 {
     if (kd == 3)
         lu_solve(n, 3, band, pivot, lanes, b);
@@ -153,7 +158,12 @@ EACH_MACHINE void band_lu_solve(int n, int kd, const double *band, const int *pi
         lu_solve(n, kd, band, pivot, lanes, b);
 }
 
-EACH_MACHINE void band_subtract(int n, int count, const double *x, int lanes, const double *r, double *b)
+void band_lu_solve(int n, int kd, const double *band, const int *pivot, int lanes, double *b)
+{
+    lu_solve_here(n, kd, band, pivot, lanes, b);
+}
+
+EACH_MACHINE static void subtract_here(int n, int count, const double *x, int lanes, const double *r, double *b)
 {
     if (lanes == 4)
         subtract_4(n, count, x, (const lanes4 *)r, (lanes4 *)b);
@@ -161,6 +171,11 @@ EACH_MACHINE void band_subtract(int n, int count, const double *x, int lanes, co
         subtract_2(n, count, x, (const lanes2 *)r, (lanes2 *)b);
     else
         subtract_1(n, count, x, r, b);
+}
+
+void band_subtract(int n, int count, const double *x, int lanes, const double *r, double *b)
+{
+    subtract_here(n, count, x, lanes, r, b);
 }
 
 void band_gather(int n, const int *row, int columns, int length, const double *x, int lanes, double *b)

@@ -6,7 +6,7 @@
 
 #include "linalg/machine.h"
 
-EACH_MACHINE double product_dot(int n, const double *a, const double *b)
+EACH_MACHINE static double dot(int n, const double *a, const double *b)
 {
     four sum[2] = {0};
     double rest = 0;
@@ -18,6 +18,11 @@ EACH_MACHINE double product_dot(int n, const double *a, const double *b)
         rest += a[i] * b[i];
     sum[0] += sum[1];
     return (sum[0][0] + sum[0][2]) + (sum[0][1] + sum[0][3]) + rest;
+}
+
+double product_dot(int n, const double *a, const double *b)
+{
+    return dot(n, a, b);
 }
 
 int basis_extend(int n, int count, double least, double *basis)
