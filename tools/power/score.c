@@ -385,6 +385,13 @@ static enum hidden_outcome judge_verdict(const struct diagnosis *d, const cJSON 
     return HIDDEN_UNEXPLAINED;
 }
 
+enum hidden_outcome hidden_outcome_of(const struct diagnosis *d, const cJSON *truth)
+{
+    struct hidden_score score = hidden_score_none();
+    score.class = HIDDEN_PHYSICAL;
+    return judge_verdict(d, truth, &score);
+}
+
 int hidden_score_make(struct pool *pool, const struct diagnosis *d, const struct job *read, const cJSON *truth,
                       struct hidden_score *s)
 {

@@ -62,6 +62,9 @@ int hidden_score_make(struct pool *pool, const struct diagnosis *diagnosis, cons
                       struct hidden_score *score);
 struct hidden_score hidden_score_none(void);
 
+/* The outcome alone, of physical effects. */
+enum hidden_outcome hidden_outcome_of(const struct diagnosis *diagnosis, const cJSON *truth);
+
 /* The number of the true physical effect that a candidate is, or -1. */
 int hidden_which(const struct job *job, const struct candidate *candidate, const cJSON *truth);
 
