@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/deck_handle.h"
 #include "deck/deck.h"
+#include "diagnose/causes/catalogue.h"
 #include "diagnose/changed.h"
+#include "diagnose/refit.h"
 #include "hidden_states.h"
 #include "run/spectrum.h"
 
@@ -65,6 +68,30 @@ static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidd
     rotid_deck_free(deck);
     free(text);
     return d;
+}
+
+/* States of 1.05 m and of 0.5 m share a zone: it has to be a zone of both, so the shorter one limits width and place. */
+static void what_states_share_is_possible_in_each(void **state)
+{
+    (void)state;
+    static const char text[] = ROTOR "*NOISE, FREQUENCY=0.001\n*STATE, NAME=long\n*MODES\n1, 300\n2, 800\n*STATE, NAME=short\n"
+                                     "*SET\nleft.length, 0.12\ncore.length, 0.3\nright.length, 0.08\n*MODES\n1, 900\n2, 2000\n";
+    rotid_deck *deck = read_text(text, NULL);
+    const struct states *states = deck_states_of(deck);
+    const struct cause_kind *zone_kind = catalogue_find("stiffness_local");
+    struct effect effect = {.kind = zone_kind->effect, .name = "zone", .value = {0.3, 0.2, 0.02}};
+    struct states with;
+    assert_status(states_with_effect(&test_pool, states, NULL, &effect, zone_kind, NULL, NULL, &with), ROTID_OK);
+    assert_int_equal(with.nparameter, states->nparameter + 3);
+    for (int s = 0; s < 2; s++) {
+        const struct job *job = &with.state[s].job;
+        const rotid_parameter *own = &job->unknowns.bounds[job->unknowns.nparameter - 3];
+        assert_close(own[1].upper, 0.5, 1e-12, 0);
+        assert_close(own[2].lower, 1.05 / 200, 1e-12, 0);
+        assert_close(own[2].upper, 0.5 / 14, 1e-12, 0);
+    }
+    assert_close(with.bounds[with.nparameter - 1].upper, 0.5 / 14, 1e-12, 0);
+    rotid_deck_free(deck);
 }
 
 static double value_of(const rotid_cause *cause, const char *name, double *lower, double *upper)
@@ -350,6 +377,7 @@ int main(void)
         cmocka_unit_test(a_fault_of_a_channel_goes_with_its_state),
         cmocka_unit_test(a_state_held_out_is_evidence),
         cmocka_unit_test(what_changed_is_named_and_what_stays_is_not),
+        cmocka_unit_test_setup_teardown(what_states_share_is_possible_in_each, open_test_pool, close_test_pool),
         cmocka_unit_test_setup_teardown(data_are_corrected_by_what_the_first_state_shows, open_test_pool, close_test_pool),
         cmocka_unit_test(what_the_deck_states_is_no_change),
         cmocka_unit_test(wrong_states_are_refused),

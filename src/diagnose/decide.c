@@ -90,7 +90,7 @@ static int is_one_place(const struct engine *engine, const struct candidate *c)
 {
     int place = c->cause->place;
     return c->cause == c->with->cause && place >= 0 &&
-           fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->job->rotor);
+           fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->states.state[c->home].job.rotor);
 }
 
 /* Two zones, six numbers, follow a wave of the stiffness along a group within the noise. */
