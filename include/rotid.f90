@@ -842,6 +842,7 @@ module rotid
     integer(c_int) :: ntests = 0
     type(c_ptr) :: tests = c_null_ptr ! rotid_suggested_test
     real(c_double) :: set_up_cost = 0
+    type(c_ptr) :: state = c_null_ptr ! text
     type(c_ptr) :: sentence = c_null_ptr ! text
     type(c_ptr) :: geometry = c_null_ptr ! rotid_geometry
     integer(c_int) :: nmessage = 0

@@ -952,6 +952,7 @@ typedef struct rotid_suggestion {
     int ntests;
     rotid_suggested_test *tests; /* by chance, then by cost */
     double set_up_cost;          /* of a set-up, in points [1] */
+    const char *state;           /* of a deck with states: the one that plans and tests are made like; NULL of others */
     const char *sentence;        /* what to do next */
     rotid_geometry *geometry;    /* the model that all of this holds for */
     int nmessage;

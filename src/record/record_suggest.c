@@ -79,6 +79,7 @@ static const struct field suggestion_fields[] = {
     STRUCTS(rotid_suggestion, rivals, 0, rival_record),
     STRUCTS(rotid_suggestion, tests, 0, test_record),
     NUMBER(rotid_suggestion, set_up_cost, FROM_0),
+    TEXT(rotid_suggestion, state, MAY_BE_NULL),
     TEXT(rotid_suggestion, sentence, 0),
     STRUCT(rotid_suggestion, geometry, BEHIND_POINTER, geometry_record),
     {0},

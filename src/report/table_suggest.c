@@ -158,6 +158,8 @@ void table_suggest(FILE *out, const struct result *result, int all)
     wrap_text(out, 2, WIDTH, "  ", s->sentence);
     if (s->verdict)
         wrap_text(out, 2, WIDTH, "  diagnosis: ", s->verdict);
+    if (s->state)
+        (void)fprintf(out, "  state: plans and tests are made like %s\n", s->state);
     (void)fprintf(out, "  noise: %.3g %% of frequencies%s, %.3g %% of shapes%s\n", 100 * s->noise.frequency,
                   s->noise.frequency_assumed ? " (assumed)" : "", 100 * s->noise.shape,
                   s->noise.shape_assumed ? " (assumed)" : "");
