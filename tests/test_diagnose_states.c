@@ -94,6 +94,35 @@ static void what_states_share_is_possible_in_each(void **state)
     rotid_deck_free(deck);
 }
 
+static rotid_diagnosis *diagnose_text(const char *text)
+{
+    const rotid_diagnose_options options = {.size = sizeof options, .replicates = 200, .threads = 2};
+    rotid_deck *deck = read_text(text, NULL);
+    rotid_diagnosis *d;
+    assert_status(rotid_diagnose(deck, &options, NULL, NULL, &d), ROTID_OK);
+    rotid_deck_free(deck);
+    return d;
+}
+
+/* A deck with one *STATE is that deck without it. */
+static void one_state_is_a_deck_without_states(void **state)
+{
+    (void)state;
+    const struct hide_request r = request(5, 10, 7);
+    const struct hidden_state only[] = {{"only", "", 1, zone}};
+    char message[300], *text = hidden_states_deck(&r, 1, only, NULL, message, sizeof message), *card = strstr(text, "*STATE");
+    rotid_diagnosis *with = diagnose_text(text);
+    memcpy(card, "** no such card     \n", strcspn(card, "\n"));
+    rotid_diagnosis *without = diagnose_text(text);
+    assert_int_equal(with->verdict.ncauses, 1);
+    assert_string_equal(with->verdict.sentence, without->verdict.sentence);
+    for (int p = 0; p < 3; p++)
+        assert_true(with->verdict.causes[0].parameters[p].value == without->verdict.causes[0].parameters[p].value);
+    rotid_diagnosis_free(with);
+    rotid_diagnosis_free(without);
+    free(text);
+}
+
 static double value_of(const rotid_cause *cause, const char *name, double *lower, double *upper)
 {
     for (int p = 0; p < cause->nparameters; p++)
@@ -374,6 +403,7 @@ int main(void)
         cmocka_unit_test(a_cause_of_both_is_named_where_each_alone_is_ambiguous),
         cmocka_unit_test(a_cause_in_one_state_is_named_with_it),
         cmocka_unit_test(nothing_hidden_is_adequate),
+        cmocka_unit_test(one_state_is_a_deck_without_states),
         cmocka_unit_test(a_fault_of_a_channel_goes_with_its_state),
         cmocka_unit_test(a_state_held_out_is_evidence),
         cmocka_unit_test(what_changed_is_named_and_what_stays_is_not),

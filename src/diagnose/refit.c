@@ -182,7 +182,7 @@ int states_with_effect(struct pool *pool, const struct states *from, const doubl
         status = job_with_effect(pool, job, NULL, effect, cause, fixed, job);
         added = job->unknowns.nparameter - before;
         acts[nacts++] = &to->state[s];
-        if (!status && states.nstate > 1)
+        if (!status && (states.nstate > 1 || to->state[s].unknown))
             status = map_unknowns(pool, added, states.nparameter, &to->state[s]);
     }
     if (status || states.nstate == 1) {
