@@ -104,6 +104,33 @@ static rotid_diagnosis *diagnose_text(const char *text)
     return d;
 }
 
+/* Two effects of which one or both are in one state: what one cause in one state leaves is more than noise. */
+static void two_causes_are_named_with_their_states(void **state)
+{
+    (void)state;
+    static const char *const left[] = {"stiffness:group=left,factor=0.9"}, *const mass[] = {"added_mass:mass=0.8,z=0.9"},
+                             *const both[] = {"density:group=right,factor=1.1", "stiffness:group=left,factor=0.9"};
+    static const struct {
+        struct hidden_state states[2];
+        const char *id[2], *in[2];
+    } pair[] = {{{{"bare", "", 1, left}, {"disc", DISC, 1, mass}}, {"stiffness", "added_mass"}, {"bare", "disc"}},
+                {{{"bare", "", 1, both}, {"disc", DISC, 2, both}}, {"density", "stiffness"}, {NULL, "disc"}}};
+    const struct hide_request r = request(5, 12, 3);
+    for (int p = 0; p < 2; p++) {
+        rotid_diagnosis *d = diagnose(&r, pair[p].states, NULL, NULL, NULL);
+        assert_int_equal(d->verdict.kind, ROTID_NAMED);
+        assert_int_equal(d->verdict.ncauses, 2);
+        for (int i = 0; i < 2; i++) {
+            const rotid_cause *c = &d->verdict.causes[strcmp(d->verdict.causes[0].id, pair[p].id[i]) ? 1 : 0];
+            assert_string_equal(c->id, pair[p].id[i]);
+            assert_int_equal(c->state != NULL, pair[p].in[i] != NULL);
+            if (c->state)
+                assert_string_equal(c->state, pair[p].in[i]);
+        }
+        rotid_diagnosis_free(d);
+    }
+}
+
 /* A deck with one *STATE is that deck without it. */
 static void one_state_is_a_deck_without_states(void **state)
 {
@@ -403,6 +430,7 @@ int main(void)
         cmocka_unit_test(a_cause_of_both_is_named_where_each_alone_is_ambiguous),
         cmocka_unit_test(a_cause_in_one_state_is_named_with_it),
         cmocka_unit_test(nothing_hidden_is_adequate),
+        cmocka_unit_test(two_causes_are_named_with_their_states),
         cmocka_unit_test(one_state_is_a_deck_without_states),
         cmocka_unit_test(a_fault_of_a_channel_goes_with_its_state),
         cmocka_unit_test(a_state_held_out_is_evidence),

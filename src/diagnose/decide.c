@@ -89,14 +89,14 @@ static const char *bound_met(struct pool *pool, const struct candidate *c)
 static int is_one_place(const struct engine *engine, const struct candidate *c)
 {
     int place = c->cause->place;
-    return c->cause == c->with->cause && place >= 0 &&
+    return c->cause == c->with->cause && place >= 0 && states_meet(engine->states.nstate, c->in, c->with->in) &&
            fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->states.state[c->home].job.rotor);
 }
 
 /* Two zones, six numbers, follow a wave of the stiffness along a group within the noise. */
-static int is_pattern(const struct candidate *c)
+static int is_pattern(const struct engine *engine, const struct candidate *c)
 {
-    return c->cause == c->with->cause && c->cause->width >= 0;
+    return c->cause == c->with->cause && c->cause->width >= 0 && states_meet(engine->states.nstate, c->in, c->with->in);
 }
 
 /* What speaks against a candidate by itself. Not its p-value: the threshold asks whether the best of the family is more than
@@ -116,7 +116,7 @@ static const char *reason(const struct engine *engine, const struct before *befo
         return bound_met(pool, c->with && c->with->result.at_bound ? c->with : c);
     if (c->with && is_one_place(engine, c))
         return "two of one cause at one place are one";
-    if (c->with && is_pattern(c))
+    if (c->with && is_pattern(engine, c))
         return "two zones imitate any pattern of the stiffness along the rotor";
     if (c->with && !c->explains)
         return "two causes that still leave more than noise";
