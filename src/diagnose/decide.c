@@ -71,6 +71,21 @@ static double frequency_noise(const struct states *states)
     return noise;
 }
 
+/* chi2 of the frequencies held out with the cause less that without it, by their stated noise. */
+static double predicted_worse(const struct states *states, const struct before *before, const struct candidate *c)
+{
+    double noise = 0, count = 0, worse = c->result.holdout_rms * c->result.holdout_rms - before->holdout_rms * before->holdout_rms;
+    for (int s = 0; s < states->nstate; s++) {
+        const struct job_measurement *m = &states->state[s].job.measurement;
+        for (int k = 0; k < m->nmode; k++)
+            if (m->holdout[k]) {
+                noise += 1e4 * m->frequency_std[k] * m->frequency_std[k];
+                count++;
+            }
+    }
+    return noise > 0 ? worse * count * count / noise : INFINITY;
+}
+
 static const char *chance(struct pool *pool, const struct candidate *c)
 {
     return isfinite(c->result.p_value) ? pool_format(pool, "gains no more than chance (p = %.2g)", c->result.p_value)
@@ -125,7 +140,8 @@ static const char *reason(const struct engine *engine, const struct before *befo
     double most = fmax(0, engine->moving.mass) + SURE * engine->moving.std;
     if (engine->moving.usable && is_moving_accelerometer(&c->effect) && c->effect.value[0] > most)
         return pool_format(pool, "the frequencies at single sensors allow no more than %.2g kg", most);
-    if (isfinite(c->result.holdout_rms) && c->result.holdout_rms > WORSE * before->holdout_rms)
+    if (isfinite(c->result.holdout_rms) && c->result.holdout_rms > WORSE * before->holdout_rms &&
+        predicted_worse(&engine->states, before, c) > LEAST_MARGIN) /* a true cause does so by noise once in a hundred at most */
         return pool_format(pool, "the prediction of held-out modes gets worse: %.2g %% after %.2g %%", c->result.holdout_rms,
                            before->holdout_rms);
     return NULL;
