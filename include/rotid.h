@@ -949,6 +949,7 @@ typedef struct rotid_suggestion {
     const char *verdict;          /* of the diagnosis in a sentence; NULL where nothing is measured */
     int nrivals;
     rotid_rival *rivals; /* best first; empty where nothing is open. The last is the model as it is */
+    double among;        /* how likely the true cause is one of them; NaN without rivals */
     int ntests;
     rotid_suggested_test *tests; /* by chance, then by cost */
     double set_up_cost;          /* of a set-up, in points [1] */

@@ -448,6 +448,31 @@ static void a_lead_that_is_promised_is_found(void **state)
     }
 }
 
+/* Rivals that leave no more than noise hold the truth but for what was not taken as a rival; where even the best leaves far more, no
+ * test can be promised a name. */
+static void a_chance_allows_for_a_truth_that_is_no_rival(void **state)
+{
+    const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};
+    struct suggestion sound, spoilt;
+    struct message_list notes;
+    struct job job;
+    (void)state;
+    make_job(shaft, ambiguous[0].effect, ambiguous[0].noise, ambiguous[0].seed, &job);
+    message_open(&notes, &test_pool);
+    assert_int_equal(suggest_run(&test_pool, &job, &options, NULL, &notes, &sound), 0);
+    for (int k = 0; k < job.measurement.nmode; k++)
+        job.measurement.frequency_std[k] /= 5;
+    assert_int_equal(suggest_run(&test_pool, &job, &options, NULL, &notes, &spoilt), 0);
+    print_message("%.3f, %.3g\n", sound.result.among, spoilt.result.among);
+    assert_true(sound.result.among > 0.5 && sound.result.among < 1);
+    assert_true(spoilt.result.among < sound.result.among / 3);
+    for (int t = 0; t < sound.result.ntests; t++)
+        assert_true(sound.result.tests[t].chance <= sound.result.among + 1e-12);
+    assert_true(spoilt.result.ntests > 0);
+    suggest_free(&sound);
+    suggest_free(&spoilt);
+}
+
 /* The modes of a job shared out to two states of the same structure. */
 static struct states shared_out(const struct job *job)
 {
@@ -606,6 +631,7 @@ int main(void)
         TEST(no_choice_of_three_places_is_much_better),
         TEST(effective_independence_keeps_the_determinant),
         TEST(a_lead_that_is_promised_is_found),
+        TEST(a_chance_allows_for_a_truth_that_is_no_rival),
         TEST(states_that_share_out_the_modes_say_the_same),
         TEST(the_deck_of_a_test_is_the_deck_and_a_state),
         TEST(the_deck_of_a_test_like_a_state_has_its_cards),

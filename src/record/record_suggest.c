@@ -77,6 +77,7 @@ static const struct field suggestion_fields[] = {
     STRUCTS(rotid_suggestion, detectable, 0, detectable_record),
     TEXT(rotid_suggestion, verdict, MAY_BE_NULL),
     STRUCTS(rotid_suggestion, rivals, 0, rival_record),
+    NUMBER(rotid_suggestion, among, MAY_BE_NULL | PROBABILITY),
     STRUCTS(rotid_suggestion, tests, 0, test_record),
     NUMBER(rotid_suggestion, set_up_cost, FROM_0),
     TEXT(rotid_suggestion, state, MAY_BE_NULL),

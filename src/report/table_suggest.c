@@ -103,6 +103,7 @@ static void print_rivals(FILE *out, const rotid_suggestion *s)
         name_cell(out, 1, s->rivals[i].label);
         (void)fputc('\n', out);
     }
+    (void)fprintf(out, "the true one is among them with a chance of %.2f; the chances of the tests allow for it\n", s->among);
 }
 
 /* Of the best rival, were it true: the other one that a test tells from it least, the model as it is where there is no other. */

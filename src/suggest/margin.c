@@ -262,8 +262,8 @@ static int judge_truth(struct pool *pool, const struct rivals *rivals, const str
     make_spread(a, spread);
     status = draw_all(pool, rivals, truth, side, spread, draws, seed, &count, won);
     const struct rival *true_one = &rivals->rival[truth];
-    out->chance += true_one->share * count.named / draws;
-    out->wrong += true_one->share * count.wrong / draws;
+    out->chance += rivals->among * true_one->share * count.named / draws;
+    out->wrong += rivals->among * true_one->share * count.wrong / draws;
     for (int b = 0; b < n && !status; b++) {
         double before = rivals->rival[b].score - true_one->score;
         if (b != truth)

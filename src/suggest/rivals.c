@@ -5,6 +5,7 @@
 
 #include "diagnose/decide.h"
 #include "diagnose/refit.h"
+#include "fit/quantile.h"
 #include "linalg/product.h"
 
 #define SAME_CHI2  1.0 /* of a fit on a mesh that may be finer */
@@ -156,6 +157,35 @@ static void share(struct rivals *rivals)
         }
 }
 
+static int is_rival(const struct rivals *rivals, const struct candidate *c)
+{
+    for (int i = 0; i + 1 < rivals->n; i++) {
+        const struct candidate *r = rivals->rival[i].cause;
+        int pair = rivals->rival[i].ncause > 1;
+        if (r->cause == c->cause && r->effect.target == c->effect.target && r->state == c->state && pair == (c->with != NULL) &&
+            (!pair || (r[1].cause == c->with->cause && r[1].effect.target == c->with->effect.target && r[1].state == c->with->state)))
+            return 1;
+    }
+    return 0;
+}
+
+/* The share of the rivals in all that was fitted and not refused in the round, the model before it included; times p/(p + JUDGED) with
+ * the chance p that a true model misfits like the best of them: where that is no noise, none of them may be true. */
+static double share_among(const struct rivals *rivals, const struct diagnosis_round *round)
+{
+    const struct rival *best = rivals->rival;
+    double inside = 0, all = exp(-(rivals->rival[rivals->n - 1].score - best->score) / 2),
+           p = best->fit->dof > 0 ? chi_square_tail(best->fit->chi2, best->fit->dof) : 1;
+    for (int i = 0; i + 1 < rivals->n; i++)
+        inside += exp(-(rivals->rival[i].score - best->score) / 2);
+    for (int i = 0; i < round->ncandidate; i++) {
+        const struct candidate *c = &round->candidate[i];
+        if (c->result.refitted && !c->refused && isfinite(c->result.chi2) && !is_rival(rivals, c))
+            all += exp(-fmax(0, candidate_score(c) - best->score) / 2);
+    }
+    return inside / (inside + all) * p / (p + JUDGED);
+}
+
 int rivals_home(const struct states *states)
 {
     int home = 0, most = -1;
@@ -217,6 +247,8 @@ int rivals_find(struct pool *pool, const struct diagnosis *d, const rotid_enviro
         rivals_free(rivals);
     else
         share(rivals);
+    if (rivals->n)
+        rivals->among = share_among(rivals, last);
     return status;
 }
 

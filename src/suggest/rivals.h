@@ -5,6 +5,7 @@
 #include "diagnose/diagnose.h"
 
 #define MOST_RIVALS 6 /* causes or pairs; the model as it is comes on top */
+#define JUDGED      0.01 /* a misfit that noise exceeds less often is no noise */
 
 struct rival {
     const char *label;
@@ -27,6 +28,7 @@ struct rivals {
     double margin;      /* lead over another rival that is needed for a name */
     double base_margin; /* the same over the model as it is */
     int left_out;       /* of the set: no causes of the rotor, as solids, or beyond the most */
+    double among;       /* how likely the true one is one of them, by what is measured */
 };
 
 /* What a diagnosis leaves as alternatives, beside the causes that it names, each fitted anew: n is 0 where it leaves none that is

@@ -16,7 +16,6 @@
 #define SENSORS         8
 #define MODES           5
 #define REPLICATES      1000
-#define JUDGED          0.01 /* a misfit that noise exceeds less often is no noise */
 
 /* Median of those that are finite; 0 without any. */
 static double median(struct pool *pool, ptrdiff_t n, const double *value)
@@ -142,6 +141,7 @@ static int list_rivals(struct pool *pool, struct suggestion *out)
 {
     rotid_suggestion *r = &out->result;
     int n = POOL_LIST(pool, r->rivals, out->rivals.n);
+    r->among = n ? out->rivals.among : (double)NAN;
     for (int i = 0; i < n; i++) {
         const struct rival *rival = &out->rivals.rival[i];
         r->rivals[r->nrivals++] =
