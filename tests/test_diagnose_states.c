@@ -74,8 +74,8 @@ static rotid_diagnosis *diagnose(const struct hide_request *r, const struct hidd
 static void what_states_share_is_possible_in_each(void **state)
 {
     (void)state;
-    static const char text[] = ROTOR "*NOISE, FREQUENCY=0.001\n*STATE, NAME=long\n*MODES\n1, 300\n2, 800\n*STATE, NAME=short\n"
-                                     "*SET\nleft.length, 0.12\ncore.length, 0.3\nright.length, 0.08\n*MODES\n1, 900\n2, 2000\n";
+    static const char text[] = ROTOR "*NOISE, FREQUENCY=0.001\n*STATE, NAME=short\n*SET\nleft.length, 0.12\ncore.length, 0.3\n"
+                                     "right.length, 0.08\n*MODES\n1, 900\n2, 2000\n*STATE, NAME=long\n*MODES\n1, 300\n2, 800\n";
     rotid_deck *deck = read_text(text, NULL);
     const struct states *states = deck_states_of(deck);
     const struct cause_kind *zone_kind = catalogue_find("stiffness_local");

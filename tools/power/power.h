@@ -61,7 +61,8 @@ int power_run(const struct power_options *options, const volatile sig_atomic_t *
 int power_interrupted(void *context);
 
 /* The same rotors measured before and after an effect came, with another one in both: what the diagnosis says of the change, a
- * pair a paragraph, and how often it is right. 0 where it is in nine of ten, 1 where not, 3 memory or interrupted. */
+ * pair a paragraph, and how often it is right, of what is finished where it is interrupted. 0 where it is in nine of ten, 1
+ * where not, 3 memory. */
 int power_changed(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
 
 /* Of cases with one physical effect, or of the kind `only`, those that stay ambiguous: makes the test that `rotid suggest` ranks

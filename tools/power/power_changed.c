@@ -17,6 +17,7 @@
 #define ASKED   0.9
 
 struct pair {
+    int done;
     enum hidden_outcome outcome;
     double worth, seconds;
     double lead; /* of the change over every other explanation of the data without noise; NaN where that was not asked */
@@ -200,6 +201,7 @@ static int run_pair(void *context, int index, int worker)
     free(text);
     free(quiet);
     free(c.deck);
+    pair->done = !status;
     return status;
 }
 
@@ -229,11 +231,14 @@ static int is_right(const struct pair *p)
 static int report(FILE *out, int count, int first, const struct pair *pair)
 {
     static const char *const what[KINDS] = {"nothing changed", "worth less than 60 of chi2", "worth 60 or more"};
-    int all[KINDS] = {0}, right[KINDS] = {0}, outcome[KINDS][HIDDEN_OUTCOMES] = {{0}}, twins = 0, sum = 0;
+    int all[KINDS] = {0}, right[KINDS] = {0}, outcome[KINDS][HIDDEN_OUTCOMES] = {{0}}, twins = 0, sum = 0, done = 0;
     double seconds = 0;
     for (int i = 0; i < count; i++) {
         const struct pair *p = &pair[i];
         enum kind kind = kind_of(p);
+        if (!p->done)
+            continue;
+        done++;
         fprintf(out, "%3d %-12s %s %9.3g %9.3g %5.1f s  stays %s, comes %s\n    %s\n", first + i, hidden_outcome_name(p->outcome),
                 is_right(p) ? "right" : "NOT  ", p->worth, p->lead, p->seconds, p->stays, p->comes[0] ? p->comes : "nothing", p->said);
         seconds += p->seconds;
@@ -243,7 +248,7 @@ static int report(FILE *out, int count, int first, const struct pair *pair)
         sum += is_right(p);
         twins += kind == VISIBLE_ONE && p->outcome == HIDDEN_IN_SET && is_right(p);
     }
-    fprintf(out, "%d pairs, %.2f s each\n%-28s pairs  right", count, count ? seconds / count : 0, "");
+    fprintf(out, "%d pairs, %.2f s each\n%-28s pairs  right", done, done ? seconds / done : 0, "");
     for (int o = 0; o < HIDDEN_OUTCOMES; o++)
         fprintf(out, "  %11s", o == HIDDEN_RIGHT ? "named" : hidden_outcome_name((enum hidden_outcome)o));
     for (int k = 0; k < KINDS; k++) {
@@ -254,15 +259,15 @@ static int report(FILE *out, int count, int first, const struct pair *pair)
     fprintf(out,
             "\nright: %d of %d, %.0f %%; in %d of the sets the truth leads by less than %g without noise, so no data of this kind "
             "could name it\n",
-            sum, count, count ? 100.0 * sum / count : 0, twins, LEAST_MARGIN);
-    return !(sum >= ASKED * count);
+            sum, done, done ? 100.0 * sum / done : 0, twins, LEAST_MARGIN);
+    return !(sum >= ASKED * done);
 }
 
 int power_changed(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out)
 {
     struct pairs pairs = {options, interrupted, calloc((size_t)options->cases, sizeof(struct pair))};
     int status = pairs.pair ? parallel_for(options->jobs, options->cases, run_pair, &pairs) : ROTID_ERROR_MEMORY;
-    int code = status ? 3 : report(out, options->cases, options->first, pairs.pair);
+    int code = status == ROTID_ERROR_MEMORY ? 3 : report(out, options->cases, options->first, pairs.pair);
     free(pairs.pair);
     return code;
 }
