@@ -214,7 +214,8 @@ static enum kind kind_of(const struct pair *p)
 }
 
 /* Nothing came: quiet. What comes and is worth little: quiet as well, or what is said holds it. What is visible has a name, or is in a
- * set with something that explains the data as well even without their noise: then a name would be luck. */
+ * set with something that explains the data as well even without their noise: then a name would be luck. Where the truth explains these
+ * worse than something else, the method is at fault. */
 static int is_right(const struct pair *p)
 {
     int quiet = p->outcome == HIDDEN_SILENT, named = p->outcome == HIDDEN_RIGHT, holds = named || p->outcome == HIDDEN_IN_SET;
@@ -224,7 +225,7 @@ static int is_right(const struct pair *p)
     case UNSEEN:
         return quiet || holds;
     default:
-        return named || (holds && p->lead < LEAST_MARGIN);
+        return named || (holds && fabs(p->lead) < LEAST_MARGIN);
     }
 }
 
@@ -257,7 +258,7 @@ static int report(FILE *out, int count, int first, const struct pair *pair)
             fprintf(out, "  %11d", outcome[k][o]);
     }
     fprintf(out,
-            "\nright: %d of %d, %.0f %%; in %d of the sets the truth leads by less than %g without noise, so no data of this kind "
+            "\nright: %d of %d, %.0f %%; in %d of the sets truth and another one are within %g without noise, so no data of this kind "
             "could name it\n",
             sum, done, done ? 100.0 * sum / done : 0, twins, LEAST_MARGIN);
     return !(sum >= ASKED * done);
