@@ -879,7 +879,7 @@ module rotid
   end type rotid_matrix
 
   type, bind(C) :: rotid_model
-    integer(c_size_t) :: size = 80
+    integer(c_size_t) :: size = 96
     integer(c_int) :: n = 0, kd = 0, nfar = 0
     type(c_ptr) :: far = c_null_ptr    ! integer [nfar], from 0; rotid_fit_model takes it as an array
     integer(c_int) :: nparam = 0
@@ -889,6 +889,8 @@ module rotid
     type(c_funptr) :: matrices = c_null_funptr    ! rotid_model_matrices
     type(c_funptr) :: derivatives = c_null_funptr ! rotid_model_derivatives
     type(c_ptr) :: user = c_null_ptr
+    integer(c_int) :: nmodes = 0
+    type(c_ptr) :: modes = c_null_ptr  ! real [n, nmodes]: vectors near the lowest modes, to begin with
   end type rotid_model
 
   type, bind(C) :: rotid_measured
@@ -910,7 +912,7 @@ module rotid
   end type rotid_state
 
   type, bind(C) :: rotid_fit_options
-    integer(c_size_t) :: size = 64
+    integer(c_size_t) :: size = 72
     integer(c_int) :: functional = 0, reduction = 0, derivative = 0
     integer(c_int) :: baseline = 0
     integer(c_int) :: max_iterations = 0
@@ -918,6 +920,7 @@ module rotid
     real(c_double) :: step_tolerance = 0
     real(c_double) :: bijection_chi = 0
     real(c_double) :: decrease_tolerance = 0
+    real(c_double) :: objective_tolerance = 0
   end type rotid_fit_options
 
   type, bind(C) :: rotid_fit_iteration

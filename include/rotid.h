@@ -1059,6 +1059,10 @@ typedef struct rotid_model {
      * ones */
     int (*derivatives)(void *user, const double *x, int p, rotid_matrix *stiffness, rotid_matrix *mass);
     void *user;
+    int nmodes;          /* vectors in modes, 0 for none */
+    const double *modes; /* [n * nmodes] vectors near the lowest modes, rigid ones included, from which the first solution of the full
+                            model begins where they are as many as it needs: of a model nearby, say. The result is the same but for
+                            rounding. NULL: none */
 } rotid_model;
 
 /* The measured modes. Shapes are optional; their scale and sign are free, each mode is scaled to a largest component of 1
@@ -1097,7 +1101,7 @@ typedef struct rotid_fit_options {
     double step_tolerance;     /* [1e-12] relative step */
     double bijection_chi;      /* [0.05] 1e-50 ... 1e6: chi of x = alpha + (beta - alpha)/(1 + exp(chi y)), variables scaled by
                                   their start */
-    double decrease_tolerance; /* [0] as in rotid_lm_options */
+    double decrease_tolerance, objective_tolerance; /* [0], [1e-16] as in rotid_lm_options */
 } rotid_fit_options;
 
 /* *options := ROTID_LIKELIHOOD without reduction, the defaults in brackets; size is sizeof *options of the host. */
@@ -1273,7 +1277,7 @@ typedef struct rotid_lm_options {
     int max_iterations;                                            /* [1000] */
     double gradient_tolerance;                                     /* [1e-10] on that cosine */
     double step_tolerance;                                         /* [1e-12] |dx_j| <= eps (|x_j| + eps) for every j */
-    double objective_tolerance;                                    /* [1e-16] predicted decrease over the objective */
+    double objective_tolerance;                                    /* [1e-16] what an undamped step promises over the objective */
     double initial_damping;                                        /* [1e-14] */
     int (*trace)(void *user, const rotid_lm_iteration *iteration); /* NULL, or told of every accepted point; nonzero cancels */
     void *trace_user;

@@ -286,7 +286,7 @@ static void no_memory_is_reported_at_every_allocation_of_a_build(void **state)
         pool_open(&own, &failing.allocator);
         status = discrete_build(&own, AS_BEAM, rotor, 0, NULL, 1, &beam, &failed);
         if (!status)
-            status = discrete_count_rigid(&own, &beam, NULL, &nrigid);
+            status = discrete_count_rigid(&own, &beam, NULL, 0, NULL, &nrigid);
         pool_close(&own);
         assert_int_equal(failing.in_use, 0);
         if (status)

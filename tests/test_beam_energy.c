@@ -322,7 +322,7 @@ static int count_rigid(const struct rotor *rotor)
     int nrigid = -1;
     assemble(rotor, 0, NULL, NULL);
     struct discrete discrete = {.as = AS_BEAM, .beam = beam};
-    assert_status(discrete_count_rigid(&test_pool, &discrete, NULL, &nrigid), ROTID_OK);
+    assert_status(discrete_count_rigid(&test_pool, &discrete, NULL, 0, NULL, &nrigid), ROTID_OK);
     return nrigid;
 }
 

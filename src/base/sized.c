@@ -30,10 +30,10 @@ static const struct sized_struct table[] = {
 ENDS_WITH(rotid_environment, context);
 ENDS_WITH(rotid_diagnose_options, after);
 ENDS_WITH(rotid_suggest_options, seed);
-ENDS_WITH(rotid_model, user);
+ENDS_WITH(rotid_model, modes);
 ENDS_WITH(rotid_measured, holdout);
 ENDS_WITH(rotid_state, parameter);
-ENDS_WITH(rotid_fit_options, decrease_tolerance);
+ENDS_WITH(rotid_fit_options, objective_tolerance);
 ENDS_WITH(rotid_lm_options, decrease_tolerance);
 
 int sized_copy(const struct sized_struct *structure, const void *given, char *failure, void *copy)

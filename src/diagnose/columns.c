@@ -24,7 +24,11 @@ static int solve_adjoints(struct columns *c, struct nelson_band *nelson, const d
     memset(unit, 0, (size_t)n * (size_t)mode->sensors * sizeof *unit);
     for (int i = 0; i < mode->sensors; i++)
         unit[c->model.equations.master[mode->sensor[i]] + (ptrdiff_t)i * n] = 1;
-    nelson_band_solve(nelson, mode->sensors, mode->members, phi, m_phi, unit, zero, mode->adjoint);
+    double *solution = unit + (ptrdiff_t)n * mode->sensors;
+    nelson_band_solve(nelson, mode->sensors, mode->members, phi, m_phi, unit, zero, solution);
+    for (int s = 0; s < mode->sensors; s++)
+        for (int i = 0; i < n; i++)
+            mode->adjoint[s + (ptrdiff_t)i * mode->sensors] = solution[i + (ptrdiff_t)s * n];
     return ROTID_OK;
 }
 
@@ -125,7 +129,7 @@ int columns_prepare(struct columns *c)
     size_t images = (size_t)n * (size_t)c->nmode;
     double *vectors = POOL_ARRAY(pool, double, 3 * images + (size_t)n),
            *zero = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)most),
-           *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n), *unit = POOL_ARRAY(pool, double, (size_t)n *(size_t)most);
+           *m_phi = POOL_ARRAY(pool, double, CLUSTER_MOST *(size_t)n), *unit = POOL_ARRAY(pool, double, 2 * (size_t)n *(size_t)most);
     c->dphi = POOL_ARRAY(pool, double, most);
     if (!c->dphi || !vectors || !zero || !m_phi || !unit)
         return ROTID_ERROR_MEMORY;
@@ -209,8 +213,7 @@ static double mode_derivative(struct columns *c, const struct columns_mode *mode
     double lambda = prediction->lambda[mode->pair];
     for (int i = 0; i < length; i++)
         c->right[i] = dk_phi[i] - lambda * dm_phi[i];
-    for (int i = 0; i < mode->sensors; i++)
-        dphi[i] = -product_dot(length, mode->adjoint + i * n + from, c->right);
+    product_combine(mode->sensors, length, -1, mode->adjoint + (ptrdiff_t)from * mode->sensors, c->right, dphi);
     for (int j = mode->first; j < mode->first + mode->members; j++) {
         const double *member = prediction->phi + j * n;
         double along = -0.5 * product_dot(length, member + from, dm_phi);

@@ -14,7 +14,7 @@ struct columns_mode {
     const int *sensor;    /* [sensors] indices */
     double scale;         /* a: predicted shape times a is the best fit to the measured one */
     int first, members;   /* pairs of its cluster (modal/eigenvector_derivative.h) */
-    double *adjoint;      /* [n * sensors] */
+    double *adjoint;      /* [sensors * n] */
     double *weighted;     /* [sensors] phi_s/s_s: the direction of the scale */
     double square;        /* its squared length */
 };

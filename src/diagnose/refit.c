@@ -223,6 +223,7 @@ int refit_states(struct pool *pool, const struct states *states, const int *numb
     options.gradient_tolerance = REFIT_GRADIENT;
     options.step_tolerance = REFIT_STEP;
     options.decrease_tolerance = REFIT_DECREASE;
+    options.objective_tolerance = REFIT_OBJECTIVE;
     struct pool scratch; /* the model of a fit is not needed behind it */
     pool_open(&scratch, pool->allocator);
     int status = identify_fit_states(&scratch, states, number, holdout, &options, &quiet, fit);

@@ -9,6 +9,7 @@
 /* Tolerances of the fits of a diagnosis: enough for chi2 to 1e-6 but in a valley; the final model is fitted to the end. */
 #define REFIT_GRADIENT 1e-5
 #define REFIT_STEP     1e-7
+#define REFIT_OBJECTIVE 1e-6 /* what another step would gain: sizes are good to a hundredth of their standard deviation */
 #define REFIT_DECREASE 1e-4 /* a tenth of a unit of chi2 is worth nothing beside margins of some */
 /* Of chi2, well beyond those: so far above the model without its cause, a fit did not find what it contains. */
 #define REFIT_WORSE 0.01

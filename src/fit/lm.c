@@ -191,7 +191,7 @@ static int what_is_left(struct lm *lm)
     double promise = predicted_decrease(lm, mu, lm->scratch);
     if (negligible(lm, lm->scratch))
         return ROTID_STOP_STEP;
-    return promise <= FLAT * lm->objective || 2 * promise <= rounded * rounded || lm->result->cosine * lm->result->cosine <= FLAT
+    return promise <= fmax(FLAT, lm->options.objective_tolerance) * lm->objective || 2 * promise <= rounded * rounded || lm->result->cosine * lm->result->cosine <= FLAT
                ? ROTID_STOP_OBJECTIVE
                : ROTID_STOP_STALLED;
 }

@@ -31,6 +31,7 @@ void eigen_dense_inverse(struct eigen_dense *e, int columns, double *y);
 
 struct eigen_band {
     int n, count, block, depth;
+    int from, to;          /* pairs from ... to - 1 are polished; the others have to be near alone */
     int started;           /* ritz holds the pairs of the call before */
     int plain;             /* without polishing, in this attempt */
     int failures;          /* of polishing from a cold start */
@@ -59,6 +60,13 @@ int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_band_solve(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
+/* Only pairs from ... to - 1 of the count are wanted to the last digit; the others may be off by a part in a hundred of their length,
+ * and by the square of that in lambda. None is missed all the same. */
+void eigen_band_want(struct eigen_band *e, int from, int to);
+
+/* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
+void eigen_band_begin(struct eigen_band *e, const double *phi);
+
 /* ---- whichever is the fastest one: dense, of narrow bands, of wide ones (eigen_wide.h), on the matrices of the full model */
 
 struct eigen_full {
@@ -75,6 +83,12 @@ struct eigen_full {
 int eigen_full_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e);
 /* The dense one in any case. */
 int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_full *e);
+
+/* As eigen_band_want, where that makes a difference. */
+void eigen_full_want(struct eigen_full *e, int from, int to);
+
+/* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale; the dense solver needs none. */
+void eigen_full_begin(struct eigen_full *e, const double *phi);
 
 /* As eigen_band_solve. The dense solver is followed by one step of inverse iteration and Rayleigh-Ritz with K and M as they are:
  * the reduction to standard form costs the lowest pairs of a fine mesh some digits. */

@@ -31,7 +31,7 @@ static int is_narrow(const rotid_matrix *structure, int count)
 int eigen_band_new(struct pool *pool, const rotid_matrix *structure, int count, struct eigen_band *e)
 {
     int n = structure->n, block = count + GUARDS < n ? count + GUARDS : n;
-    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH};
+    *e = (struct eigen_band){.n = n, .count = count, .block = block, .depth = DEPTH, .to = count};
     e->failures = is_narrow(structure, count) ? 0 : FAILURES;
     int width = block * DEPTH;
     e->all = POOL_ARRAY(pool, int, n);
@@ -148,6 +148,15 @@ static int converge(struct eigen_band *e, const rotid_matrix *k, const rotid_mat
 /* A first shift far below the first mode and yet well above rounding, then, knowing the third eigenvalue (the first two may be
  * rigid-body modes at zero) or the first above it that is not zero, one of its size: the iteration then converges about as fast
  * as with none. */
+static int choose_shift(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int j = e->block < 3 ? e->block - 1 : 2;
+    while (j + 1 < e->count && e->value[j] < ZERO * e->largest)
+        j++;
+    e->shift = -0.1 * fabs(e->value[j]);
+    return e->value[j] >= ZERO * e->largest ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
+}
+
 static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
     struct random_stream stream = {20240229};
@@ -164,13 +173,7 @@ static int start(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix
     int watched = e->block < 3 ? e->block : 3, status = refactor(e, k, m);
     if (!status)
         status = converge(e, k, m, watched, 1e-3);
-    if (status)
-        return status;
-    int j = e->block < 3 ? e->block - 1 : 2;
-    while (j + 1 < e->block && e->value[j] < ZERO * e->largest)
-        j++;
-    e->shift = -0.1 * fabs(e->value[j]);
-    return e->value[j] >= ZERO * e->largest ? refactor(e, k, m) : ROTID_ERROR_STIFFNESS;
+    return status ? status : choose_shift(e, k, m);
 }
 
 /* Refuses what no beam has, the same way whatever was solved before. */
@@ -197,20 +200,29 @@ static int none_missed(struct eigen_band *e, const rotid_matrix *k, const rotid_
     return factor_negative_count(&e->inertia, &e->shifted) == expected;
 }
 
-/* The old vectors with the new matrices */
-static int warm(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+/* Ritz pairs of the vectors that are there. */
+static int project(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
-    int status = refactor(e, k, m), size = 0;
+    int size = 0;
     if (!e->plain) {
         memcpy(e->image, e->ritz, (size_t)e->n * (size_t)e->count * sizeof(double));
-        return status ? status : eigen_ritz_pairs(e, k, m) ? ROTID_ERROR_EIGEN : ROTID_OK;
+        return eigen_ritz_pairs(e, k, m) ? ROTID_ERROR_EIGEN : ROTID_OK;
     }
-    memset(e->image, 0, (size_t)e->n * (size_t)e->block * sizeof(double));
-    for (int j = 0; j < e->block && !status; j++) {
+    for (int j = 0; j < e->block; j++) {
         size = append(e, m, size, e->ritz + (ptrdiff_t)j * e->n);
-        status = size < 0 ? size : ROTID_OK;
+        if (size < 0)
+            return size;
     }
-    return status ? status : rayleigh_ritz(e, k, size);
+    return rayleigh_ritz(e, k, size);
+}
+
+/* The vectors of the call before, or those that eigen_band_begin was given, with the new matrices */
+static int warm(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
+{
+    int status = project(e, k, m);
+    if (status)
+        return status;
+    return e->shift < 0 ? refactor(e, k, m) : choose_shift(e, k, m);
 }
 
 /* From warm or cold to pairs of which none is missed. */
@@ -223,6 +235,20 @@ static int attempt(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
         status = ROTID_ERROR_EIGEN;
     e->known = e->plain ? e->block : e->count;
     return status || none_missed(e, k, m) ? status : ROTID_ERROR_EIGEN;
+}
+
+void eigen_band_want(struct eigen_band *e, int from, int to)
+{
+    e->from = from;
+    e->to = to;
+}
+
+void eigen_band_begin(struct eigen_band *e, const double *phi)
+{
+    size_t known = (size_t)e->n * (size_t)e->count;
+    memcpy(e->ritz, phi, known * sizeof *phi);
+    memset(e->ritz + known, 0, (size_t)e->n * (size_t)(e->block - e->count) * sizeof *phi);
+    e->started = 1;
 }
 
 /* Warm and polished; if that fails cold and polished; if that fails cold and plain. */

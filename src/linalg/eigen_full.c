@@ -39,6 +39,20 @@ int eigen_full_new_dense(struct pool *pool, const rotid_matrix *structure, int c
     return eigen_dense_new(pool, structure->n, count, &e->solver);
 }
 
+void eigen_full_want(struct eigen_full *e, int from, int to)
+{
+    if (!e->dense && !e->wide)
+        eigen_band_want(&e->band, from, to);
+}
+
+void eigen_full_begin(struct eigen_full *e, const double *phi)
+{
+    if (e->wide)
+        eigen_wide_begin(&e->panels, phi);
+    else if (!e->dense)
+        eigen_band_begin(&e->band, phi);
+}
+
 int eigen_full_solve(struct eigen_full *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
 {
     int n = k->n, count = e->solver.count;

@@ -11,6 +11,7 @@
 #define ROUNDS    4     /* the error is cubed in each */
 #define TOLERANCE 1e-12 /* of the residual */
 #define CLUSTER   1e-3  /* eigenvalues nearer than this share a shift: one of its own would turn both vectors into one */
+#define NEAR      1e-2 /* of the residual of a pair that is not wanted */
 #define OFFSET    1e-7  /* of that shift below the lowest of them */
 
 double eigen_rounding(const struct eigen_band *e)
@@ -67,18 +68,36 @@ static double solve_shifted(struct eigen_band *e, const rotid_matrix *k, const r
     return NAN;
 }
 
-/* Inverse iteration on all pairs whose residual is above the tolerance, then Rayleigh-Ritz. expected [count] := what is left of
- * the residual of each, (lambda - sigma)/(distance from sigma to the rest of the spectrum) of it. Returns 0, or 1 on failure. */
+/* expected [count] := residual that is left of each pair, whose shift and distance to the rest of the spectrum were sigma and gap
+ * (NaN: it was not iterated): the angle by which the vector has turned out of its cluster, the pairs with the same shift, times
+ * |lambda - sigma|/gap. M times the vectors before is in mass_basis. */
+static void expect(struct eigen_band *e, const double *sigma, const double *gap, double *expected)
+{
+    for (int j = 0; j < e->count; j++) {
+        if (isnan(sigma[j]))
+            continue;
+        double inside = 0;
+        for (int i = 0; i < e->count; i++)
+            if (sigma[i] == sigma[j]) {
+                double cosine = cblas_ddot(e->n, e->ritz + (ptrdiff_t)j * e->n, 1, e->mass_basis + (ptrdiff_t)i * e->n, 1);
+                inside += cosine * cosine;
+            }
+        expected[j] = sqrt(fmax(1 - inside, 4 * DBL_EPSILON)) * fabs(e->value[j] - sigma[j]) / gap[j];
+    }
+}
+
+/* Inverse iteration on all pairs of which more than the tolerance is expected, then Rayleigh-Ritz. Returns 0, or 1 on failure. */
 static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m, double *expected)
 {
     int n = e->n, count = e->count;
     double *sigma = e->shifts, *gap = sigma + count;
+    matrix_multiply(m, count, e->ritz, e->mass_basis);
     memcpy(e->image, e->mass_basis, (size_t)n * (size_t)count * sizeof(double));
     for (int begin = 0, end; begin < count; begin = end) {
         int good = 1;
         end = cluster_end(e, begin);
         for (int j = begin; j < end; j++)
-            good &= e->residual[j] <= TOLERANCE;
+            good &= expected[j] <= TOLERANCE;
         double at = NAN, distance = INFINITY;
         if (good)
             memcpy(e->image + (ptrdiff_t)begin * n, e->ritz + (ptrdiff_t)begin * n,
@@ -96,25 +115,44 @@ static int iterate(struct eigen_band *e, const rotid_matrix *k, const rotid_matr
     }
     if (eigen_ritz_pairs(e, k, m))
         return 1;
-    for (int j = 0; j < count; j++)
-        expected[j] = isnan(sigma[j]) ? e->residual[j] : e->residual[j] * fabs(e->value[j] - sigma[j]) / gap[j];
+    expect(e, sigma, gap, expected);
     return 0;
+}
+
+static int is_wanted(const struct eigen_band *e, int pair)
+{
+    return pair >= e->from && pair < e->to;
+}
+
+/* Pairs that are not at the tolerance, nor at the rounding with no more to expect: they are open again. */
+static int count_open(struct eigen_band *e, double rounding, double *expected)
+{
+    int open = 0;
+    for (int j = 0; j < e->count; j++) {
+        if (e->residual[j] <= (is_wanted(e, j) ? TOLERANCE : NEAR) || (expected[j] <= TOLERANCE && e->residual[j] <= rounding))
+            continue;
+        expected[j] = INFINITY;
+        open++;
+    }
+    return open;
 }
 
 int eigen_polish(struct eigen_band *e, const rotid_matrix *k, const rotid_matrix *m)
 {
-    double rounding = eigen_rounding(e) / 100, *expected = e->shifts + 2 * (ptrdiff_t)e->count;
-    for (int j = 0; j < e->count; j++)
-        expected[j] = INFINITY;
-    for (int round = 0;; round++) {
+    double rounding = eigen_rounding(e) / 100, *expected = e->shifts + 2 * (ptrdiff_t)e->count, worst;
+    memset(expected, 0, (size_t)e->count * sizeof *expected);
+    for (int round = 0; round <= ROUNDS;) {
         if (!isfinite(eigen_residuals(e, m, e->count, e->count)))
             return 1;
-        int open = 0;
-        for (int j = 0; j < e->count; j++)
-            open += !(e->residual[j] <= TOLERANCE || (expected[j] <= TOLERANCE && e->residual[j] <= rounding));
-        if (!open)
+        if (!count_open(e, round ? rounding : 0, expected))
             return 0;
-        if (round == ROUNDS || iterate(e, k, m, expected))
-            return 1;
+        do { /* the residuals are asked again when all are expected to be small */
+            if (round++ == ROUNDS || iterate(e, k, m, expected))
+                return 1;
+            worst = 0;
+            for (int j = 0; j < e->count; j++)
+                worst = fmax(worst, expected[j]);
+        } while (worst > TOLERANCE && round < ROUNDS);
     }
+    return 1;
 }

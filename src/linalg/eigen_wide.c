@@ -147,12 +147,32 @@ static void give(struct eigen_wide *e, double *lambda, double *phi)
     }
 }
 
+void eigen_wide_begin(struct eigen_wide *e, const double *phi)
+{
+    memcpy(e->ritz, phi, (size_t)e->n * (size_t)e->count * sizeof *phi);
+    e->started = 1;
+}
+
+/* Of the vectors in ritz: their Rayleigh quotients, the sizes of the eigenvalues */
+static int choose_first_shift(struct eigen_wide *e)
+{
+    int n = e->n;
+    double *image = e->lanczos.image;
+    pencil_multiply_mass(&e->pencil, e->count, e->ritz, image);
+    for (int j = 0; j < e->block; j++)
+        e->value[j] = j < e->count ? 1 / cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1) : (double)INFINITY;
+    pencil_multiply_stiffness(&e->pencil, e->count, e->ritz, image);
+    for (int j = 0; j < e->count; j++)
+        e->value[j] *= cblas_ddot(n, e->ritz + (ptrdiff_t)j * n, 1, image + (ptrdiff_t)j * n, 1);
+    return choose_shift(e);
+}
+
 int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi)
 {
     int status = check(e, k, m);
     if (status)
         return status;
-    int warm = e->started;
+    int warm = e->started && (e->shift < 0 || choose_first_shift(e));
     e->started = 0;
     status = warm ? attempt(e) : ROTID_ERROR_EIGEN;
     if (status) {

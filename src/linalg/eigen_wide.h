@@ -26,4 +26,7 @@ int eigen_wide_new(struct pool *pool, const rotid_matrix *structure, int count, 
  * ROTID_ERROR_STIFFNESS, ROTID_ERROR_MASS or ROTID_ERROR_EIGEN. */
 int eigen_wide_solve(struct eigen_wide *e, const rotid_matrix *k, const rotid_matrix *m, double *lambda, double *phi);
 
+/* The next solution begins with phi [n * count], vectors near the lowest pairs, in any scale. */
+void eigen_wide_begin(struct eigen_wide *e, const double *phi);
+
 #endif

@@ -10,6 +10,8 @@
 #include "linalg/band.h"
 #include "linalg/factor_gather.h"
 
+#define WIDE_COLUMNS 8 /* right-hand sides that are solved together, of wide bands */
+
 int factor_is_wide(const rotid_matrix *structure)
 {
     return structure->kd >= FACTOR_WIDE;
@@ -43,14 +45,17 @@ int factor_new(struct pool *pool, enum factor_kind kind, const rotid_matrix *str
     f->x = POOL_ARRAY(pool, double, (size_t)n *outer);
     f->schur = POOL_ARRAY(pool, double, outer *outer);
     f->schur_work = POOL_ARRAY(pool, double, 4 * outer);
-    f->work = POOL_ARRAY(pool, double, BAND_LANES *(size_t)n);
-    f->outer_work = POOL_ARRAY(pool, double, BAND_LANES *outer);
+    f->work = POOL_ARRAY(pool, double, WIDE_COLUMNS *(size_t)n);
+    f->outer_work = POOL_ARRAY(pool, double, WIDE_COLUMNS *outer); /* >= 2 BAND_LANES */
+    f->same = POOL_ARRAY(pool, int, n);
     f->first = POOL_ARRAY(pool, int, outer);
     f->last = POOL_ARRAY(pool, int, outer);
     f->schur_pivot = POOL_ARRAY(pool, int, outer);
-    if (!f->position || !f->inner || !f->outer || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work ||
+    if (!f->position || !f->inner || !f->outer || !f->coupling || !f->x || !f->schur || !f->schur_work || !f->work || !f->same ||
         !f->outer_work || !f->first || !f->last || !f->schur_pivot)
         return ROTID_ERROR_MEMORY;
+    for (int i = 0; i < n; i++)
+        f->same[i] = i;
     factor_keep(f, structure, n, kept);
     return f->is_wide ? new_wide(pool, n, kd, f) : new_narrow(pool, n, f);
 }
@@ -67,7 +72,7 @@ static void inner_solve(struct factor *f, int lanes, double *b)
 /* columns left to solve, rounded up to what the kernels have */
 static int lanes_for(int columns)
 {
-    return columns >= 5 ? BAND_LANES : columns >= 3 ? 4 : columns;
+    return columns >= 3 ? BAND_LANES : columns;
 }
 
 /* S := A_ff - A_fr X */
@@ -101,14 +106,10 @@ static void solve_coupling(struct factor *f)
     }
     for (int q = 0; q < f->nf; q += BAND_LANES) {
         int columns = f->nf - q < BAND_LANES ? f->nf - q : BAND_LANES, lanes = lanes_for(columns);
-        memset(f->work, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
-        for (int c = 0; c < columns; c++)
-            for (int i = 0; i < f->nr; i++)
-                f->work[(ptrdiff_t)i * lanes + c] = f->coupling[i + (ptrdiff_t)(q + c) * f->nr];
+        ptrdiff_t at = (ptrdiff_t)q * f->nr;
+        band_gather(f->nr, f->same, columns, f->nr, f->coupling + at, lanes, f->work);
         inner_solve(f, lanes, f->work);
-        for (int c = 0; c < columns; c++)
-            for (int i = 0; i < f->nr; i++)
-                f->x[i + (ptrdiff_t)(q + c) * f->nr] = f->work[(ptrdiff_t)i * lanes + c];
+        band_scatter(f->nr, f->same, columns, f->nr, lanes, f->work, f->x + at);
     }
 }
 
@@ -173,10 +174,10 @@ static void outer_solve(struct factor *f, int columns, double *b)
         (void)LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', f->nf, columns, f->schur, f->nf, f->schur_pivot, b, f->nf);
 }
 
-/* outer [nf * columns] := A_ff part of b less A_fr inner, solved; inner := inner - X outer */
+/* outer rows of b [n * columns] := A_ff^-1 of those less A_fr inner; inner := inner - X outer */
 static void solve_border(struct factor *f, int columns, int lanes, double *b)
 {
-    double *inner = f->work, *outer = f->outer_work;
+    double *inner = f->work, *outer = f->outer_work, *row = outer + BAND_LANES * (ptrdiff_t)f->nf;
     for (int c = 0; c < columns; c++)
         for (int p = 0; p < f->nf; p++) {
             const double *coupling = f->coupling + (ptrdiff_t)p * f->nr;
@@ -186,33 +187,24 @@ static void solve_border(struct factor *f, int columns, int lanes, double *b)
             outer[p + c * f->nf] = sum;
         }
     outer_solve(f, columns, outer);
-    for (int p = 0; p < f->nf; p++) {
-        const double *restrict x = f->x + (ptrdiff_t)p * f->nr;
-        double row[BAND_LANES] = {0};
-        for (int c = 0; c < columns; c++)
-            b[f->outer[p] + (ptrdiff_t)c * f->n] = row[c] = outer[p + c * f->nf];
-        for (int i = 0; i < f->nr; i++)
-            for (int c = 0; c < lanes; c++)
-                inner[(ptrdiff_t)i * lanes + c] -= x[i] * row[c];
-    }
+    for (int p = 0; p < f->nf; p++)
+        for (int c = 0; c < lanes; c++) {
+            row[p * lanes + c] = c < columns ? outer[p + c * f->nf] : 0;
+            if (c < columns)
+                b[f->outer[p] + (ptrdiff_t)c * f->n] = row[p * lanes + c];
+        }
+    band_subtract(f->nr, f->nf, f->x, lanes, row, inner);
 }
 
 /* `columns` columns of b, at most BAND_LANES */
 static void solve_together(struct factor *f, int columns, double *b)
 {
     int lanes = lanes_for(columns);
-    double *inner = f->work;
-    if (columns < lanes)
-        memset(inner, 0, (size_t)f->nr * (size_t)lanes * sizeof(double));
-    for (int c = 0; c < columns; c++)
-        for (int i = 0; i < f->nr; i++)
-            inner[(ptrdiff_t)i * lanes + c] = b[f->inner[i] + (ptrdiff_t)c * f->n];
-    inner_solve(f, lanes, inner);
+    band_gather(f->nr, f->inner, columns, f->n, b, lanes, f->work);
+    inner_solve(f, lanes, f->work);
     if (f->nf)
         solve_border(f, columns, lanes, b);
-    for (int c = 0; c < columns; c++)
-        for (int i = 0; i < f->nr; i++)
-            b[f->inner[i] + (ptrdiff_t)c * f->n] = inner[(ptrdiff_t)i * lanes + c];
+    band_scatter(f->nr, f->inner, columns, f->n, lanes, f->work, b);
 }
 
 /* As solve_together, by level 3 */
@@ -247,9 +239,9 @@ void factor_solve(struct factor *f, int columns, double *b)
         wide_solve(&f->wide, columns, f->n, b);
         return;
     }
-    for (int c = 0; c < columns; c += BAND_LANES)
-        (f->is_wide ? solve_wide : solve_together)(f, columns - c < BAND_LANES ? columns - c : BAND_LANES,
-                                                   b + (ptrdiff_t)c * f->n);
+    int together = f->is_wide ? WIDE_COLUMNS : BAND_LANES;
+    for (int c = 0; c < columns; c += together)
+        (f->is_wide ? solve_wide : solve_together)(f, columns - c < together ? columns - c : together, b + (ptrdiff_t)c * f->n);
 }
 
 /* LDL' of the inner band in its own storage (unit lower L below, D on the diagonal); returns the number of negative pivots. A

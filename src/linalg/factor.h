@@ -25,6 +25,7 @@ struct factor {
     int nr, nf, kd, lda;
     int is_wide;
     int *position;      /* [full n] place among the inner ones >= 0, -1 - place among the outer ones, or INT_MIN: not kept */
+    int *same;          /* [nr] 0 ... nr - 1 */
     int *inner;         /* [nr] place in `kept` of each inner degree of freedom */
     int *outer;         /* [nf] of each far one */
     double *band;       /* [lda * nr]; of narrow bands */

@@ -3,8 +3,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "linalg/machine.h"
+
 #define WIDE    20 /* half band from which zeros are looked for: a finite element couples few of the rows between */
 #define STRETCH MATRIX_STRETCH
+#define BLOCK   64 /* rows whose diagonals are laid out at once */
+#define INLINE  static inline __attribute__((always_inline))
 
 int matrix_new(struct pool *pool, int n, int kd, int nfar, const int *far, rotid_matrix *a)
 {
@@ -87,6 +91,30 @@ static void multiply_rows(const rotid_matrix *a, int begin, int end, const doubl
         y[i] = row_product(a->band + (ptrdiff_t)i * ld, ld, kd < n - 1 - i ? kd : n - 1 - i, kd < i ? kd : i, x + i);
 }
 
+/* Rows begin ... begin + count - 1 of `columns` columns, count <= BLOCK, of a band with kd = 3, rows 3 and more from both ends. The
+ * diagonals are laid out first, so that the rows are elements of vectors: diagonal[d] holds A(i, i + d) from row begin - 3 on. */
+INLINE void multiply_block(const rotid_matrix *a, int begin, int count, int columns, const double *x, double *y)
+{
+    double diagonal[4][BLOCK + 3];
+    const double *band = a->band + 4 * (ptrdiff_t)(begin - 3);
+    for (int i = 0; i < count + 3; i++)
+        for (int d = 0; d < 4; d++)
+            diagonal[d][i] = band[4 * i + d];
+    for (int c = 0; c < columns; c++) {
+        const double *restrict in = x + begin + (ptrdiff_t)c * a->n;
+        double *restrict out = y + begin + (ptrdiff_t)c * a->n;
+        int i = 0;
+        for (; i + 4 <= count; i += 4) {
+            *(four *)(out + i) = FOUR(diagonal[0] + 3 + i) * FOUR(in + i) + FOUR(diagonal[1] + 3 + i) * FOUR(in + i + 1) +
+                                        FOUR(diagonal[2] + 3 + i) * FOUR(in + i + 2) + FOUR(diagonal[3] + 3 + i) * FOUR(in + i + 3) +
+                                        FOUR(diagonal[1] + 2 + i) * FOUR(in + i - 1) + FOUR(diagonal[2] + 1 + i) * FOUR(in + i - 2) +
+                                        FOUR(diagonal[3] + i) * FOUR(in + i - 3);
+        }
+        for (; i < count; i++)
+            out[i] = row_product(a->band + 4 * (ptrdiff_t)(begin + i), 4, 3, 3, in + i);
+    }
+}
+
 /* y += the part of column j in rows j + d ... of the lower triangle, and of the same row in the upper one, times x */
 static inline __attribute__((always_inline)) void multiply_stretch(int length, const double *restrict a, double xj,
                                                                    const double *restrict x, double *restrict y,
@@ -128,16 +156,23 @@ static void add_block_product(const rotid_matrix *a, const double *x, double *y)
             y[a->far[f]] += a->block[f + g * a->nfar] * x[a->far[g]];
 }
 
+EACH_MACHINE static void multiply_chain(const rotid_matrix *a, int columns, const double *x, double *y)
+{
+    for (int begin = 3; begin < a->n - 3; begin += BLOCK)
+        multiply_block(a, begin, a->n - 3 - begin < BLOCK ? a->n - 3 - begin : BLOCK, columns, x, y);
+}
+
 void matrix_multiply(const rotid_matrix *a, int columns, const double *x, double *y)
 {
     int n = a->n;
+    int chain = a->kd == 3 && n > 6; /* of beam elements */
     if (a->kd >= WIDE)
         multiply_wide(a, columns, x, y);
+    if (chain)
+        multiply_chain(a, columns, x, y);
     for (int c = 0; c < columns; c++, x += n, y += n) {
-        if (a->kd == 3 && n > 6) { /* chains of beam elements: the loops of a row unrolled */
+        if (chain) {
             multiply_rows(a, 0, 3, x, y);
-            for (int i = 3; i < n - 3; i++)
-                y[i] = row_product(a->band + 4 * (ptrdiff_t)i, 4, 3, 3, x + i);
             multiply_rows(a, n - 3, n, x, y);
         } else if (a->kd < WIDE) {
             multiply_rows(a, 0, n, x, y);

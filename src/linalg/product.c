@@ -4,12 +4,20 @@
 #include <math.h>
 #include <stddef.h>
 
-double product_dot(int n, const double *a, const double *b)
+#include "linalg/machine.h"
+
+EACH_MACHINE double product_dot(int n, const double *a, const double *b)
 {
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
+    four sum[2] = {0};
+    double rest = 0;
+    int i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (int s = 0; s < 2; s++)
+            sum[s] += FOUR(a + i + 4 * s) * FOUR(b + i + 4 * s);
+    for (; i < n; i++)
+        rest += a[i] * b[i];
+    sum[0] += sum[1];
+    return (sum[0][0] + sum[0][2]) + (sum[0][1] + sum[0][3]) + rest;
 }
 
 int basis_extend(int n, int count, double least, double *basis)
@@ -46,4 +54,12 @@ void product_gram(int n, int k, const double *a, double *c)
     for (int j = 0; j < n; j++)
         for (int i = j + 1; i < n; i++)
             c[j + (ptrdiff_t)i * n] = c[i + (ptrdiff_t)j * n];
+}
+
+void product_combine(int m, int k, double part, const double *a, const double *x, double *y)
+{
+    for (int i = 0; i < m; i++)
+        y[i] = 0;
+    if (m && k)
+        cblas_dgemv(CblasColMajor, CblasNoTrans, m, k, part, a, m, x, 1, 0, y, 1);
 }

@@ -16,5 +16,7 @@ void product_transposed(int m, int n, int k, const double *a, const double *b, d
 void product_gram(int n, int k, const double *a, double *c);
 /* C [m * n] := C - A B, A [m * k], B [k * n]. */
 void product_subtract(int m, int n, int k, const double *a, const double *b, double *c);
+/* y [m] := part A x, A [m * k], x [k]; nothing where m is 0. */
+void product_combine(int m, int k, double part, const double *a, const double *x, double *y);
 
 #endif

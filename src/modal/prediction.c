@@ -8,6 +8,8 @@
 #include "linalg/matrix_check.h"
 #include "linalg/product.h"
 
+#define FAR 0.1 /* squared change of a vector, of its length squared, from which its first order is not trusted */
+
 static int new_matrices(struct pool *pool, const rotid_model *model, struct prediction *p)
 {
     rotid_matrix *all[] = {&p->k, &p->m, &p->dk, &p->dm, &p->other_k, &p->other_m};
@@ -68,11 +70,19 @@ int prediction_new(struct pool *pool, const rotid_model *model, int reduction, i
     p->dk_is_zero = p->dm_is_zero = 1; /* as the pool gives them */
     p->x = POOL_ARRAY(pool, double, nparam);
     p->work = POOL_ARRAY(pool, double, 6 * (size_t)model->n);
+    p->turned = POOL_ARRAY(pool, int, p->count);
+    p->here = POOL_ARRAY(pool, double, nparam);
     if (!p->lambda || !p->phi || !p->dlambda || !p->dphi || !p->right || !p->constant || !p->m_phi || !p->kx || !p->mx ||
-        !p->below || !p->image || !p->x || !p->work)
+        !p->below || !p->image || !p->x || !p->work || !p->turned || !p->here)
         return ROTID_ERROR_MEMORY;
     int status = new_matrices(pool, model, p);
-    return status ? status : new_solvers(pool, model, with_vectors, p);
+    if (!status)
+        status = new_solvers(pool, model, with_vectors, p);
+    if (!status && full && with_vectors) /* rigid motions have no number, and the neighbour is looked at from afar */
+        eigen_full_want(&p->full, model->nrigid < count ? model->nrigid : 0, count);
+    if (!status && full && model->modes && model->nmodes >= p->count)
+        eigen_full_begin(&p->full, model->modes);
+    return status;
 }
 
 static int evaluate(struct prediction *p, const double *x, rotid_matrix *k, rotid_matrix *m)
@@ -87,13 +97,43 @@ static int evaluate(struct prediction *p, const double *x, rotid_matrix *k, roti
     return status ? status : matrix_check_entries("the mass of model->matrices", m, p->failure);
 }
 
+/* phi := phi + sum dphi_q (x_q - here_q) for the pairs whose derivatives are known, as a beginning of the solution at x: its error
+ * is of second order then. A vector that would turn far is left as it is. */
+static void extrapolate(struct prediction *p, const double *x)
+{
+    int n = p->size, any = 0;
+    for (int k = 0; k < p->count; k++) {
+        double *phi = p->phi + (ptrdiff_t)k * n, *turn = p->work;
+        if (!p->turned[k])
+            continue;
+        p->turned[k] = 0;
+        memset(turn, 0, (size_t)n * sizeof *turn);
+        for (int q = 0; q < p->model->nparam; q++) {
+            const double *dphi = p->dphi + prediction_place(p, k, q), step = x[q] - p->here[q];
+            for (int i = 0; i < n; i++)
+                turn[i] += step * dphi[i];
+        }
+        if (!(product_dot(n, turn, turn) < FAR * product_dot(n, phi, phi)))
+            continue;
+        any = 1;
+        for (int i = 0; i < n; i++)
+            phi[i] += turn[i];
+    }
+    if (any)
+        eigen_full_begin(&p->full, p->phi);
+}
+
 int prediction_compute(struct prediction *p, const double *x)
 {
     int status = evaluate(p, x, &p->k, &p->m);
     if (status)
         return status;
-    if (p->reduction == ROTID_REDUCTION_NONE)
-        return eigen_full_solve(&p->full, &p->k, &p->m, p->lambda, p->phi);
+    if (p->reduction == ROTID_REDUCTION_NONE) {
+        extrapolate(p, x);
+        status = eigen_full_solve(&p->full, &p->k, &p->m, p->lambda, p->phi);
+        memcpy(p->here, x, (size_t)p->model->nparam * sizeof *x);
+        return status;
+    }
     status = reduction_compute(&p->condensed, &p->k, &p->m);
     return status ? status : eigen_dense_solve(&p->dense, p->condensed.kc, p->condensed.mc, p->lambda, p->phi);
 }
@@ -312,8 +352,10 @@ static int differentiate_vectors(struct prediction *p, const double *x, const in
     if (full)
         nelson_band_begin(&p->nelson_band, &p->k, &p->m);
     for (int k = 0; k < p->count && !status; k++)
-        if (wanted[k])
+        if (wanted[k]) {
             status = solve_vectors(p, k);
+            p->turned[k] = full && !status;
+        }
     return status;
 }
 

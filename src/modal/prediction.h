@@ -33,6 +33,8 @@ struct prediction {
     double *below;    /* [size * nparam]: of a cluster that goes on, dphi with an eigenvalue below */
     double *image;    /* [2 size * count] dK phi and dM phi of the full matrices */
     double *x, *work;
+    int *turned;   /* [count] pairs whose dphi is that of the last prediction_compute; none where vectors are not differentiated */
+    double *here;  /* [nparam] x of that */
 };
 
 /* count <= nmaster (condensed) or n. with_vectors: room for dphi. ROTID_OK, ROTID_ERROR_MEMORY, ROTID_ERROR_ARGUMENT. */

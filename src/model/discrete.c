@@ -83,7 +83,7 @@ static int new_matrix(struct pool *pool, const rotid_matrix *structure, rotid_ma
     return matrix_new(pool, structure->n, structure->kd, structure->nfar, structure->far, a);
 }
 
-int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int *nrigid)
+int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const double *x, int nmodes, const double *modes, int *nrigid)
 {
     rotid_matrix structure, k, m;
     discrete_structure(discrete, &structure);
@@ -98,6 +98,8 @@ int discrete_count_rigid(struct pool *pool, struct discrete *discrete, const dou
         status = eigen_full_new(pool, &k, wanted, &eigen);
     if (status)
         return status;
+    if (nmodes >= wanted)
+        eigen_full_begin(&eigen, modes);
     discrete_assemble(discrete, x, &k, &m);
     status = eigen_full_solve(&eigen, &k, &m, lambda, phi);
     if (status)

@@ -48,7 +48,13 @@ static int count_rigid(struct pool *pool, struct models *models, const struct ro
         x[p] = *parameter_value(model->rotor, model->parameter[p]);
     if (coarse.as == AS_SOLID)
         status = models_discretise(pool, models, rotor, nparameter, model->parameter, COARSE_MESH, &coarse, &known, &failed);
-    return status ? status : discrete_count_rigid(pool, &coarse, x, &model->equations.nrigid);
+    if (status)
+        return status;
+    rotid_matrix structure;
+    int nmodes;
+    discrete_structure(&coarse, &structure);
+    const double *modes = models_modes(models, structure.n, &nmodes);
+    return discrete_count_rigid(pool, &coarse, x, nmodes, modes, &model->equations.nrigid);
 }
 
 int model_open(struct pool *pool, struct models *models, const struct rotor *rotor, int nparameter,
@@ -69,6 +75,7 @@ int model_open(struct pool *pool, struct models *models, const struct rotor *rot
                                      .matrices = matrices,
                                      .derivatives = derivatives,
                                      .user = model};
+    model->equations.modes = models_modes(models, structure.n, &model->equations.nmodes);
     model->rotor = discrete_rotor(&model->discrete);
     model->parameter = parameter;
     model->naxis = discrete_places(&model->discrete);

@@ -16,6 +16,12 @@ struct held {
     struct held_modes modes;
 };
 
+struct near {
+    struct near *next;
+    int n, count;
+    const double *phi;
+};
+
 struct models {
     struct pool pool;
     pthread_mutex_t lock; /* of the pool and the list */
@@ -25,6 +31,7 @@ struct models {
     struct models *solids; /* of the same run */
     struct entry *first;
     struct held *held; /* the newest first */
+    struct near *near; /* the same */
 };
 
 /* The entry with this shape, if possible with these values. */
@@ -231,4 +238,33 @@ const struct held_modes *models_held(struct models *models, const struct rotor *
         ;
     (void)pthread_mutex_unlock(&models->lock);
     return held ? &held->modes : NULL;
+}
+
+int models_keep_modes(struct models *models, int n, int count, const double *phi)
+{
+    int known, status = ROTID_OK;
+    if (!models || !models->takes_up || (models_modes(models, n, &known) && known >= count))
+        return ROTID_OK;
+    (void)pthread_mutex_lock(&models->lock);
+    struct near *near = POOL_NEW(&models->pool, struct near);
+    if (near) {
+        *near = (struct near){models->near, n, count, copied(&models->pool, n * count, phi, &status)};
+        models->near = status ? models->near : near;
+    }
+    (void)pthread_mutex_unlock(&models->lock);
+    return near ? status : ROTID_ERROR_MEMORY;
+}
+
+const double *models_modes(struct models *models, int n, int *count)
+{
+    const struct near *near = NULL;
+    *count = 0;
+    if (!models || !models->takes_up)
+        return NULL;
+    (void)pthread_mutex_lock(&models->lock);
+    for (near = models->near; near && near->n != n; near = near->next)
+        ;
+    (void)pthread_mutex_unlock(&models->lock);
+    *count = near ? near->count : 0;
+    return near ? near->phi : NULL;
 }

@@ -57,4 +57,12 @@ int models_hold(struct models *models, const struct rotor *rotor, const struct h
 /* What is held for rotors of this shape, whatever causes are in them; NULL: nothing. */
 const struct held_modes *models_held(struct models *models, const struct rotor *rotor);
 
+/* Keeps a copy of vectors phi [n * count] near the lowest modes, for models of that size to begin with; those kept before stay where
+ * they are as many. From one thread alone: which vectors are met must not depend on who comes first. With models that take up no
+ * others nothing happens. ROTID_OK or ROTID_ERROR_MEMORY. */
+int models_keep_modes(struct models *models, int n, int count, const double *phi);
+
+/* Those kept for models with n degrees of freedom, *count of them; NULL: none. */
+const double *models_modes(struct models *models, int n, int *count);
+
 #endif

@@ -19,7 +19,11 @@ static int full_model(struct pool *pool, struct pool *scratch, struct models *mo
     if (!status)
         status = prediction_new(scratch, &model->equations, ROTID_REDUCTION_NONE, ROTID_NELSON, model->equations.nrigid + *count,
                                 0, prediction);
-    return status ? status : prediction_compute(prediction, x);
+    if (!status)
+        status = prediction_compute(prediction, x);
+    if (!status && !rotor->neffect) /* before candidates are tried, one after the other */
+        status = models_keep_modes(models, model->equations.n, prediction->count, prediction->phi);
+    return status;
 }
 
 static void keep_shapes(const struct rotor_model *model, const struct prediction *p, int count, double *shapes)
