@@ -35,7 +35,8 @@ static struct scan_candidate *add_candidate(const char *id, int target)
     struct scan_candidate *c = &candidate[scan.ncandidate++];
     const struct cause_kind *cause = catalogue_find(id);
     assert_non_null(cause);
-    *c = (struct scan_candidate){.state = -1, .in = in_all, .cause = cause, .effect = {.kind = cause->effect, .target = target}, .first = scan.nitem};
+    *c = (struct scan_candidate){
+        .state = -1, .in = in_all, .cause = cause, .effect = {.kind = cause->effect, .target = target}, .first = scan.nitem};
     return c;
 }
 
@@ -211,8 +212,8 @@ static int choose_of_two(struct scan_set *set)
     return count;
 }
 
-/* Behind the pairs of common causes stand those with a cause in one state: not the same one that acts there anyway, but the same one
- * in two states. */
+/* Behind the pairs of common causes stand those with a cause in one state: not the same one that acts there anyway, but the same
+ * one in two states. */
 static void causes_in_one_state_make_pairs_of_their_own(void **state)
 {
     (void)state;

@@ -130,18 +130,19 @@ static void a_run_names_the_state_of_its_modes(void **state)
 
 #define ROTOR                                                                                                                    \
     "*MATERIAL, NAME=steel\n*ELASTIC, TYPE=SHEAR\n2.1e11, 8.1e10, 0.3\n*DENSITY\n7850\n*SHAFT, NAME=core, MATERIAL=steel\n"      \
-    "0.6, 0.08, 0, 12\n*SHAFT, NAME=end, MATERIAL=steel\n0.4, 0.06, 0, 8\n*SENSORS\n1, 0\n2, 0.1\n3, 0.2\n4, 0.3\n5, 0.4\n"       \
+    "0.6, 0.08, 0, 12\n*SHAFT, NAME=end, MATERIAL=steel\n0.4, 0.06, 0, 8\n*SENSORS\n1, 0\n2, 0.1\n3, 0.2\n4, 0.3\n5, 0.4\n"      \
     "6, 0.5\n7, 0.7\n8, 0.8\n9, 0.9\n10, end\n*IDENTIFY\ncore.E, 1e11, 3e11, 2e11\n"
 #define FOUR "*MODES\n1, 250\n2, 680\n3, 1300\n4, 2000\n"
 
-/* A heavier end, in the data of all states: named once for all, also where one of them is held out; what is held out is predicted,
- * and its modes name it. */
+/* A heavier end, in the data of all states: named once for all, also where one of them is held out; what is held out is
+ * predicted, and its modes name it. */
 static void all_states_are_diagnosed_together(void **state)
 {
     (void)state;
     static const char *const fit[] = {"", "*FIT, HOLDOUT=STATE:disc\n"};
-    static const char plan[] = "*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\nheavy.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n"
-                               "*HIDE, TYPE=density, GROUP=end\nfactor, 1.2\n";
+    static const char plan[] =
+        "*STUDY, COMMAND=DIAGNOSE, BOOTSTRAP=100\n*DECKS\nheavy.inp\n*DATA, SOURCE=MODEL\n*NOISE\n0.001, 0.02\n"
+        "*HIDE, TYPE=density, GROUP=end\nfactor, 1.2\n";
     for (int held = 0; held < 2; held++) {
         struct message_list messages;
         char *text;

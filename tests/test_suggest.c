@@ -448,8 +448,8 @@ static void a_lead_that_is_promised_is_found(void **state)
     }
 }
 
-/* Rivals that leave no more than noise hold the truth but for what was not taken as a rival; where even the best leaves far more, no
- * test can be promised a name. */
+/* Rivals that leave no more than noise hold the truth but for what was not taken as a rival; where even the best leaves far more,
+ * no test can be promised a name. */
 static void a_chance_allows_for_a_truth_that_is_no_rival(void **state)
 {
     const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};
@@ -500,8 +500,8 @@ static int rival_called(const struct rivals *rivals, const char *label)
     return -1;
 }
 
-/* Two states of one structure that share out its modes say what one state with all of them says: of causes that act in both the same
- * chi2, and for the same test the same distances between them. */
+/* Two states of one structure that share out its modes say what one state with all of them says: of causes that act in both the
+ * same chi2, and for the same test the same distances between them. */
 static void states_that_share_out_the_modes_say_the_same(void **state)
 {
     const rotid_suggest_options options = {.size = sizeof options, .replicates = 300};

@@ -1,5 +1,5 @@
-/* The worked cases of docs/diagnosis.md over states: their commands are run, and every line that is printed there is one that they
- * print, in that order. */
+/* The worked cases of docs/diagnosis.md over states: their commands are run, and every line that is printed there is one that
+ * they print, in that order. */
 #include <string.h>
 
 #include "folder.h"

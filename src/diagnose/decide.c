@@ -74,7 +74,8 @@ static double frequency_noise(const struct states *states)
 /* chi2 of the frequencies held out with the cause less that without it, by their stated noise. */
 static double predicted_worse(const struct states *states, const struct before *before, const struct candidate *c)
 {
-    double noise = 0, count = 0, worse = c->result.holdout_rms * c->result.holdout_rms - before->holdout_rms * before->holdout_rms;
+    double noise = 0, count = 0,
+           worse = c->result.holdout_rms * c->result.holdout_rms - before->holdout_rms * before->holdout_rms;
     for (int s = 0; s < states->nstate; s++) {
         const struct job_measurement *m = &states->state[s].job.measurement;
         for (int k = 0; k < m->nmode; k++)
@@ -105,7 +106,8 @@ static int is_one_place(const struct engine *engine, const struct candidate *c)
 {
     int place = c->cause->place;
     return c->cause == c->with->cause && place >= 0 && states_meet(engine->states.nstate, c->in, c->with->in) &&
-           fabs(c->effect.value[place] - c->with->effect.value[place]) < ONE_PLACE * rotor_length(&engine->states.state[c->home].job.rotor);
+           fabs(c->effect.value[place] - c->with->effect.value[place]) <
+               ONE_PLACE * rotor_length(&engine->states.state[c->home].job.rotor);
 }
 
 /* Two zones, six numbers, follow a wave of the stiffness along a group within the noise. */

@@ -217,8 +217,8 @@ static int add_diagnosis(struct pool *pool, const struct experiment *experiment,
     };
     for (int i = 0; i < d->result.ndata_findings && out->data_findings; i++) {
         const rotid_data_finding *finding = &d->result.data_findings[i];
-        out->data_findings[out->ndata_findings++] =
-            (struct run_finding){finding->id, finding->state, finding->nsensors, finding->sensors, finding->block, finding->value};
+        out->data_findings[out->ndata_findings++] = (struct run_finding){finding->id,      finding->state, finding->nsensors,
+                                                                         finding->sensors, finding->block, finding->value};
     }
     return out->verdict.causes && out->verdict.alternatives && out->data_findings;
 }
@@ -259,9 +259,8 @@ char *line_diagnosed(const struct line *line, const struct experiment *experimen
         truth[p] = extended_truth(experiment, d, final->bounds[p].name);
     for (int s = 0; s < final->nstate && fitted; s++)
         fitted[s] = (struct fitted){final->nstate > 1 ? final->state[s].name : NULL, &final->state[s].job, &of[s].compared};
-    int whole =
-        fit && truth && fitted &&
-        add_fit(&pool, experiment, final->nstate, fitted, final->bounds, fit, experiment->made_by ? truth : NULL, &run) &&
-        (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) && add_diagnosis(&pool, experiment, d, &run);
+    int whole = fit && truth && fitted &&
+                add_fit(&pool, experiment, final->nstate, fitted, final->bounds, fit, experiment->made_by ? truth : NULL, &run) &&
+                (run.warnings = message_warnings(notes, &pool, &run.nwarnings)) && add_diagnosis(&pool, experiment, d, &run);
     return end(&pool, &run, whole, clock_seconds() - line->begin);
 }

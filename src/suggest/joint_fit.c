@@ -22,8 +22,8 @@ int joint_measurement(struct pool *pool, const struct rival *a, const double *x,
     return status;
 }
 
-/* The state of the test behind those of the rival, its unknowns those of the rival's home but for the ones of its own, which follow
- * in states->bounds. */
+/* The state of the test behind those of the rival, its unknowns those of the rival's home but for the ones of its own, which
+ * follow in states->bounds. */
 static int open_state(struct pool *pool, const struct rival *b, const struct test *test, const struct job_measurement *measured,
                       struct states *states)
 {

@@ -12,9 +12,9 @@
 #define SAME_MODEL 2.0 /* times chi2: beyond that the fit did not find what the diagnosis had found */
 #define CLEAR      2.0 /* times the threshold of the scan: the drop that a name needs, as in decide.c */
 
-struct sources {               /* of rivals */
-    const struct states *base; /* the model with what is named */
-    const double *x;           /* [nparameter] its values */
+struct sources {                 /* of rivals */
+    const struct states *base;   /* the model with what is named */
+    const double *x;             /* [nparameter] its values */
     int home, *number, *holdout; /* of the modes of all states */
     const rotid_environment *environment;
 };
@@ -163,14 +163,15 @@ static int is_rival(const struct rivals *rivals, const struct candidate *c)
         const struct candidate *r = rivals->rival[i].cause;
         int pair = rivals->rival[i].ncause > 1;
         if (r->cause == c->cause && r->effect.target == c->effect.target && r->state == c->state && pair == (c->with != NULL) &&
-            (!pair || (r[1].cause == c->with->cause && r[1].effect.target == c->with->effect.target && r[1].state == c->with->state)))
+            (!pair ||
+             (r[1].cause == c->with->cause && r[1].effect.target == c->with->effect.target && r[1].state == c->with->state)))
             return 1;
     }
     return 0;
 }
 
-/* The share of the rivals in all that was fitted and not refused in the round, the model before it included; times p/(p + JUDGED) with
- * the chance p that a true model misfits like the best of them: where that is no noise, none of them may be true. */
+/* The share of the rivals in all that was fitted and not refused in the round, the model before it included; times p/(p + JUDGED)
+ * with the chance p that a true model misfits like the best of them: where that is no noise, none of them may be true. */
 static double share_among(const struct rivals *rivals, const struct diagnosis_round *round)
 {
     const struct rival *best = rivals->rival;

@@ -43,9 +43,9 @@ struct power_result {
 /* d and truth are NULL where there was no diagnosis. To be freed. */
 char *power_line(const struct power_case *c, const struct diagnosis *d, const cJSON *truth, const struct hidden_score *score);
 
-/* Opens a log to go on with it: each whole line goes to `take`, which says by a nonzero that it is not of this run (NULL: no JSON).
- * A line that is not whole, which a power cut may leave, is cut off. NULL where the file cannot be opened, or is of another run:
- * then standard error says so. */
+/* Opens a log to go on with it: each whole line goes to `take`, which says by a nonzero that it is not of this run (NULL: no
+ * JSON). A line that is not whole, which a power cut may leave, is cut off. NULL where the file cannot be opened, or is of
+ * another run: then standard error says so. */
 FILE *power_lines(const char *path, int (*take)(void *context, const cJSON *line), void *context);
 
 /* Opens the log to go on with it, and takes what it holds of these cases into result[options->cases]. NULL likewise. */
@@ -66,8 +66,8 @@ int power_interrupted(void *context);
 int power_changed(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
 
 /* Of cases with one physical effect, or of the kind `only`, those that stay ambiguous: makes the test that `rotid suggest` ranks
- * first, the same test again, and that with twice the sensors, diagnoses each with what was measured as two states, and counts names
- * beside what was promised. 0, or 3: a file or memory. */
+ * first, the same test again, and that with twice the sensors, diagnoses each with what was measured as two states, and counts
+ * names beside what was promised. 0, or 3: a file or memory. */
 int power_suggest(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out);
 
 /* Tables and requirements of what is done; 0 where all of these hold. */

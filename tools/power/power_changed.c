@@ -213,9 +213,9 @@ static enum kind kind_of(const struct pair *p)
     return !p->comes[0] ? NOTHING_COMES : p->worth < VISIBLE ? UNSEEN : VISIBLE_ONE;
 }
 
-/* Nothing came: quiet. What comes and is worth little: quiet as well, or what is said holds it. What is visible has a name, or is in a
- * set with something that explains the data as well even without their noise: then a name would be luck. Where the truth explains these
- * worse than something else, the method is at fault. */
+/* Nothing came: quiet. What comes and is worth little: quiet as well, or what is said holds it. What is visible has a name, or is
+ * in a set with something that explains the data as well even without their noise: then a name would be luck. Where the truth
+ * explains these worse than something else, the method is at fault. */
 static int is_right(const struct pair *p)
 {
     int quiet = p->outcome == HIDDEN_SILENT, named = p->outcome == HIDDEN_RIGHT, holds = named || p->outcome == HIDDEN_IN_SET;
@@ -241,7 +241,8 @@ static int report(FILE *out, int count, int first, const struct pair *pair)
             continue;
         done++;
         fprintf(out, "%3d %-12s %s %9.3g %9.3g %5.1f s  stays %s, comes %s\n    %s\n", first + i, hidden_outcome_name(p->outcome),
-                is_right(p) ? "right" : "NOT  ", p->worth, p->lead, p->seconds, p->stays, p->comes[0] ? p->comes : "nothing", p->said);
+                is_right(p) ? "right" : "NOT  ", p->worth, p->lead, p->seconds, p->stays, p->comes[0] ? p->comes : "nothing",
+                p->said);
         seconds += p->seconds;
         all[kind]++;
         right[kind] += is_right(p);
@@ -258,7 +259,8 @@ static int report(FILE *out, int count, int first, const struct pair *pair)
             fprintf(out, "  %11d", outcome[k][o]);
     }
     fprintf(out,
-            "\nright: %d of %d, %.0f %%; in %d of the sets truth and another one are within %g without noise, so no data of this kind "
+            "\nright: %d of %d, %.0f %%; in %d of the sets truth and another one are within %g without noise, so no data of this "
+            "kind "
             "could name it\n",
             sum, done, done ? 100.0 * sum / done : 0, twins, LEAST_MARGIN);
     return !(sum >= ASKED * done);

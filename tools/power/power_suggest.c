@@ -1,5 +1,5 @@
-/* What becomes of the promises of `rotid suggest`: the first of its tests and two blind choices are made, of the true structure, and
- * diagnosed together with what was measured before. */
+/* What becomes of the promises of `rotid suggest`: the first of its tests and two blind choices are made, of the true structure,
+ * and diagnosed together with what was measured before. */
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -312,7 +312,8 @@ static void report(FILE *out, const struct promises *run)
     }
     fprintf(out, "power --suggest --seed %llu: of %d cases %d are ambiguous, of these %d with the true cause among the rivals\n",
             (unsigned long long)run->options->seed, done, ambiguous, among);
-    fprintf(out, "%-24s cases  named  promised  wrong  promised | with the true one among the rivals: cases  named  promised\n", "");
+    fprintf(out, "%-24s cases  named  promised  wrong  promised | with the true one among the rivals: cases  named  promised\n",
+            "");
     for (int m = 0; m < MADE; m++) {
         int count[2] = {0}, named[2] = {0}, wrong = 0;
         double promised[2] = {0}, promised_wrong = 0;
@@ -329,17 +330,16 @@ static void report(FILE *out, const struct promises *run)
             wrong += made->outcome == HIDDEN_WRONG;
             promised_wrong += isfinite(made->wrong) ? made->wrong : 0;
         }
-        fprintf(out, "%-24s %5d  %5d  %8.1f  %5d  %8.1f | %41d  %5d  %8.1f\n", made_text[m], count[0], named[0], promised[0], wrong,
-                promised_wrong, count[1], named[1], promised[1]);
+        fprintf(out, "%-24s %5d  %5d  %8.1f  %5d  %8.1f | %41d  %5d  %8.1f\n", made_text[m], count[0], named[0], promised[0],
+                wrong, promised_wrong, count[1], named[1], promised[1]);
     }
 }
 
 int power_suggest(const struct power_options *options, const volatile sig_atomic_t *interrupted, FILE *out)
 {
     struct power_options physical = *options;
-    struct promises run = {.options = &physical,
-                           .interrupted = interrupted,
-                           .followed = calloc((size_t)options->cases, sizeof *run.followed)};
+    struct promises run = {
+        .options = &physical, .interrupted = interrupted, .followed = calloc((size_t)options->cases, sizeof *run.followed)};
     physical.only = options->only ? options->only : "physical";
     run.log = options->log && run.followed ? power_lines(options->log, take_line, &run) : NULL;
     if (!run.followed || (options->log && !run.log)) {

@@ -295,7 +295,8 @@ static double chi2_of(const struct candidate *c)
     return c->result.chi2;
 }
 
-/* How far the best of the candidates that are true leads the best other one. A pair of which one is true neither leads nor is led. */
+/* How far the best of the candidates that are true leads the best other one. A pair of which one is true neither leads nor is
+ * led. */
 static double lead(const struct diagnosis *d, const cJSON *truth, double (*value)(const struct candidate *))
 {
     for (int r = 0; r < d->nround; r++) {

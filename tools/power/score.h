@@ -65,8 +65,8 @@ struct hidden_score hidden_score_none(void);
 /* The outcome alone, of physical effects. */
 enum hidden_outcome hidden_outcome_of(const struct diagnosis *diagnosis, const cJSON *truth);
 
-/* By how much the true effect leads every other candidate of its round, in the score of the decision; NaN where it was not fitted. Of
- * data without noise: below the margin of a name nobody could tell it apart. */
+/* By how much the true effect leads every other candidate of its round, in the score of the decision; NaN where it was not
+ * fitted. Of data without noise: below the margin of a name nobody could tell it apart. */
 double hidden_lead(const struct diagnosis *diagnosis, const cJSON *truth);
 
 /* The number of the true physical effect that a candidate is, or -1. */
